@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that insonify needs and this machine lacks; says which and why. Run by apps/demo.sh and
+# tests/run.sh. With --tests also what the tests need. Uses sudo when not root.
+set -euo pipefail
+
+declare -A why=(
+  [build-essential]="compiler" [cmake]="build system" [ninja-build]="build system" [pkg-config]="finds FFTW and EGL"
+  [ca-certificates]="certificates" [libpcl-dev]="point clouds, normals (PCL)" [libvtk9-dev]="pictures, mesh readers (VTK)"
+  [libflann-dev]="KD-trees (FLANN)" [liblz4-dev]="FLANN's headers ask for it" [libeigen3-dev]="linear algebra (Eigen)"
+  [libfftw3-dev]="Fourier transforms (FFTW)" [libhdf5-dev]="ping cubes (HDF5)" [librandom123-dev]="counter-based random numbers"
+  [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
+  [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
+  [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
+)
+if [[ "${1:-}" == --tests ]]; then
+  why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [git]="tests of the repository itself" [python3]="independent readers in tests")
+fi
+
+missing=()
+for package in "${!why[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  command -v sudo >/dev/null || { echo "insonify: need root or sudo to install: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+mapfile -t missing < <(printf '%s\n' "${missing[@]}" | sort)
+echo "insonify: installing ${#missing[@]} missing Debian packages:"
+for package in "${missing[@]}"; do printf '  %-24s %s\n' "$package" "${why[$package]}"; done
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,50 @@
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace insonify {
+
+/// Number of threads meant by `threads`: itself if positive, else all cores.
+inline int thread_count(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// Calls body(i) once for every i in [0, n), on up to `threads` threads (0: all cores).
+/// body(i) may write only what belongs to i, so the result does not depend on `threads`.
+/// If a call throws, calls not yet started are dropped and the first exception is rethrown here.
+template <typename Body>
+void parallel_for(std::size_t n, int threads, Body&& body) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr first;
+  std::mutex first_guard;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < n; i = next++) body(i);
+    } catch (...) {
+      const std::scoped_lock lock(first_guard);
+      if (!first) first = std::current_exception();
+      next = n;
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const std::size_t wanted = std::min(n, static_cast<std::size_t>(thread_count(threads)));
+    for (std::size_t w = 1; w < wanted; ++w) helpers.emplace_back(work);
+    work();
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+/// Calls body(begin, end) for the fixed blocks of `block` indices that tile [0, n); see parallel_for.
+template <typename Body>
+void parallel_blocks(std::size_t n, std::size_t block, int threads, Body&& body) {
+  parallel_for((n + block - 1) / block, threads,
+               [&](std::size_t b) { body(b * block, std::min(n, (b + 1) * block)); });
+}
+
+}  // namespace insonify

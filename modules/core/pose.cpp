@@ -1,0 +1,34 @@
+#include "core/pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonify {
+
+Pose pose_from_yaw_pitch_roll(const Eigen::Vector3d& position, double yaw, double pitch, double roll) {
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  Pose pose = Pose::Identity();
+  pose.linear() = (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
+                   AngleAxisd(roll, Vector3d::UnitX()))
+                      .toRotationMatrix();
+  pose.translation() = position;
+  return pose;
+}
+
+Pose pose_from_ned(const Eigen::Vector3d& position, double yaw, double pitch, double roll) {
+  // Half a turn about x maps (x, y, z) to (x, -y, -z); on both sides it turns yaw and pitch round, keeps roll.
+  return pose_from_yaw_pitch_roll({position.x(), -position.y(), -position.z()}, -yaw, -pitch, roll);
+}
+
+Eigen::Vector3d unit_vector(Direction direction) {
+  const double c = std::cos(direction.elevation);
+  return {c * std::cos(direction.azimuth), c * std::sin(direction.azimuth), std::sin(direction.elevation)};
+}
+
+Direction direction_of(const Eigen::Vector3d& v) {
+  const double r = v.norm();
+  if (v.x() == 0 && v.y() == 0) return {0, v.z() < 0 ? -M_PI_2 : M_PI_2};
+  return {std::atan2(v.y(), v.x()), std::asin(std::clamp(v.z() / r, -1.0, 1.0))};
+}
+
+}  // namespace insonify
