@@ -1,0 +1,18 @@
+#pragma once
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+namespace insonify {
+
+/// Arrivals at the array, structure of arrays. A direct echo of scatterer i stands at index i.
+struct Echoes {
+  std::vector<double> delay;                    ///< [s], two way; absorption follows from its length
+  std::vector<double> u;                        ///< direction cosine along the array (+port): cos(el) sin(az)
+  std::vector<std::complex<double>> amplitude;  ///< [Pa], peak of the analytic signal before absorption; carries the
+                                                ///< two-way carrier phase exp(2 i k r)
+
+  std::size_t size() const { return delay.size(); }
+};
+
+}  // namespace insonify

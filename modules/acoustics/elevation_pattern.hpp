@@ -1,0 +1,20 @@
+#pragma once
+#include "sampling/beam_fan.hpp"
+
+namespace insonify {
+
+enum class ElevationShape {
+  gaussian,  ///< main lobe only: -3 dB at half the width, -12 dB at the width, no side lobes
+  line,      ///< uniform line aperture of that -3 dB width: sinc with side lobes from -13 dB
+  sector     ///< 1 inside the width, 0 outside
+};
+
+/// Two-way pressure response in elevation (transmit times receive), 1 at `elevation` - `centre` = 0 (E14); `width`
+/// is the full -3 dB width of the two-way intensity [rad].
+double elevation_response(ElevationShape shape, double width, double elevation_off_centre);
+
+/// Half-angle [rad] beyond which the pattern stays below `floor_db` (gaussian), or the whole half space (line);
+/// surfels farther off need not be sampled.
+double elevation_half_extent(ElevationShape shape, double width, double floor_db);
+
+}  // namespace insonify

@@ -1,0 +1,49 @@
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <span>
+
+#include "acoustics/echoes.hpp"
+#include "acoustics/elevation_pattern.hpp"
+#include "acoustics/pulse.hpp"
+#include "acoustics/water.hpp"
+#include "sampling/scatterers.hpp"
+#include "scene/material.hpp"
+
+namespace insonify {
+
+enum class SurfaceAmplitude {
+  complex_normal,  ///< Rayleigh speckle, bound to the scatterer id (E9)
+  random_phase,    ///< unit amplitude, random phase
+  coherent         ///< 1: calibrated targets and closed forms
+};
+
+struct HearingOptions {
+  SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
+  ElevationShape elevation_shape = ElevationShape::gaussian;
+  double elevation_width = 0;   ///< [rad]; 0: no elevation pattern
+  double elevation_centre = 0;  ///< [rad]
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: all cores
+};
+
+/// Backscattering cross-section of a Lambert patch [m^2] (E4): mu cos_incidence projected_area. Because the
+/// projected area already holds one cosine this is mu cos^2 dS for surfels and mu cos r^2 dOmega for rays.
+double lambert_cross_section(double lambert_mu, double cos_incidence, double projected_area);
+
+/// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E exp(2 i k_c r) / r^2.
+///
+/// materials   looked up by scatterers.material
+/// returns     one echo per scatterer, in order; delay = 2 r / c. The phase is reduced to one cycle in double.
+///
+/// Throws Error if an invalid pulse, medium or material index is met, or a range is not > 0.
+Echoes hear_scatterers(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
+                       const Medium& medium, const HearingOptions& options = {});
+
+/// The same for targets with known cross-sections sigma [m^2] and amplitudes xi (calibrated targets, other
+/// simulators' scatterers): only range, azimuth and elevation of `scatterers` are used.
+Echoes hear_targets(const Scatterers& scatterers, std::span<const double> sigma,
+                    std::span<const std::complex<double>> xi, const Pulse& pulse, const Medium& medium,
+                    const HearingOptions& options = {});
+
+}  // namespace insonify

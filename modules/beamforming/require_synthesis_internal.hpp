@@ -1,0 +1,15 @@
+#pragma once
+#include <vector>
+
+#include "beamforming/synthesize.hpp"
+
+namespace insonify {
+
+/// Throws Error unless head, medium, echoes and options can be synthesized; a NaN is named by its echo.
+void require_synthesis(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                       const SynthesisOptions& options, const char* who);
+
+/// Direction cosine along the array of every beam: cos(elevation) sin(azimuth).
+std::vector<double> beam_cosines(const BeamFan& fan);
+
+}  // namespace insonify

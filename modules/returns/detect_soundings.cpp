@@ -1,0 +1,142 @@
+#include "returns/detect_soundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+/// A detected sample of one beam.
+struct Cell {
+  std::uint32_t bin;
+  float level_db;
+};
+
+/// Bins of beam b that count as detections.                                                            (E19)
+std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const std::vector<float>& strongest,
+                                 const DetectionOptions& options) {
+  std::vector<Cell> cells;
+  const Eigen::Index bins = level.cols();
+  const auto threshold = static_cast<float>(options.noise_floor_db + options.threshold_db);
+  const auto margin = static_cast<float>(options.side_lobe_margin_db);
+  const auto above = static_cast<float>(options.above_db);
+  for (Eigen::Index n = 0; n < bins; ++n) {
+    const float here = level(b, n);
+    const bool found = options.all_bins
+                           ? here >= above && here > -200
+                           : here > threshold && here >= strongest[static_cast<std::size_t>(n)] - margin &&
+                                 (n == 0 || here > level(b, n - 1)) && (n + 1 == bins || here >= level(b, n + 1));
+    if (found) cells.push_back({static_cast<std::uint32_t>(n), here});
+  }
+  return cells;
+}
+
+/// Echoes sorted by range bin and, inside a bin, by direction cosine: finds what a sample heard.
+class ContributorTable {
+ public:
+  ContributorTable(const Echoes& echoes, const Scatterers& scatterers, const RangeGate& gate)
+      : echoes_(echoes), begin_(gate.bins() + 1, 0) {
+    std::vector<std::uint32_t> bin(echoes.size());
+    const auto bins = static_cast<double>(gate.bins());
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const double n = std::floor((scatterers.range[i] - gate.min_range) / gate.bin_size);
+      bin[i] = n >= 0 && n < bins ? static_cast<std::uint32_t>(n) : outside;
+      if (bin[i] != outside) ++begin_[bin[i] + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    order_.resize(begin_.back());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t i = 0; i < echoes.size(); ++i)
+      if (bin[i] != outside) order_[next[bin[i]]++] = static_cast<std::uint32_t>(i);
+    for (std::size_t n = 0; n + 1 < begin_.size(); ++n)
+      std::sort(order_.begin() + begin_[n], order_.begin() + begin_[n + 1],
+                [&](std::uint32_t a, std::uint32_t b) { return echoes.u[a] < echoes.u[b] || (echoes.u[a] == echoes.u[b] && a < b); });
+  }
+
+  /// The strongest echo of bins bin-1 .. bin+1 within half_width of direction u, or `none`.
+  std::uint32_t strongest(std::uint32_t bin, double u, double half_width) const {
+    std::uint32_t best = none;
+    double best_power = 0;
+    const std::size_t first = bin > 0 ? bin - 1 : 0, last = std::min<std::size_t>(bin + 2, begin_.size() - 1);
+    for (std::size_t n = first; n < last; ++n) {
+      const auto end = order_.begin() + begin_[n + 1];
+      auto at = std::lower_bound(order_.begin() + begin_[n], end, u - half_width,
+                                 [&](std::uint32_t i, double value) { return echoes_.u[i] < value; });
+      for (; at != end && echoes_.u[*at] <= u + half_width; ++at) {
+        const double power = std::norm(echoes_.amplitude[*at]);
+        if (power > best_power) best_power = power, best = *at;
+      }
+    }
+    return best;
+  }
+
+  static constexpr std::uint32_t none = 0xffffffff;
+
+ private:
+  static constexpr std::uint32_t outside = 0xffffffff;
+  const Echoes& echoes_;
+  std::vector<std::uint32_t> begin_, order_;
+};
+
+void append(Soundings& all, const Soundings& part) {
+  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join(all.position, part.position);
+  join(all.level_db, part.level_db);
+  join(all.range, part.range);
+  join(all.azimuth, part.azimuth);
+  join(all.elevation, part.elevation);
+  join(all.ping, part.ping);
+  join(all.beam, part.beam);
+  join(all.bin, part.bin);
+  join(all.material, part.material);
+}
+
+/// The point of one detection: direction of its strongest contributor, range of its bin.
+void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const Scatterers& scatterers,
+                  std::uint32_t contributor) {
+  const double range = ping.gate.centre(cell.bin);
+  const Direction direction{scatterers.azimuth[contributor], scatterers.elevation[contributor]};
+  s.position.push_back(ping.world_from_head * (range * unit_vector(direction)));
+  s.level_db.push_back(cell.level_db);
+  s.range.push_back(static_cast<float>(range));
+  s.azimuth.push_back(static_cast<float>(ping.fan.azimuth[beam]));
+  s.elevation.push_back(static_cast<float>(direction.elevation));
+  s.ping.push_back(static_cast<std::uint32_t>(ping.number));
+  s.beam.push_back(static_cast<std::uint32_t>(beam));
+  s.bin.push_back(cell.bin);
+  s.material.push_back(scatterers.material[contributor]);
+}
+
+}  // namespace
+
+Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
+                           const DetectionOptions& options) {
+  if (scatterers.size() != echoes.size())
+    fail(ErrorKind::argument, "detect_soundings: ", scatterers.size(), " scatterers, but ", echoes.size(), " echoes");
+  const std::size_t beams = ping.fan.beams();
+  const Grid<float> level = level_db(ping);
+  std::vector<float> strongest(ping.gate.bins(), -200);
+  for (Eigen::Index n = 0; n < level.cols(); ++n) strongest[static_cast<std::size_t>(n)] = level.col(n).maxCoeff();
+
+  // Beams are independent; their soundings are joined in beam order.
+  const ContributorTable contributors(echoes, scatterers, ping.gate);
+  std::vector<Soundings> of_beam(beams);
+  parallel_for(beams, options.threads, [&](std::size_t b) {
+    const double u = std::cos(ping.fan.elevation[b]) * std::sin(ping.fan.azimuth[b]);
+    const double half_width = std::sin(std::min(ping.fan.beam_width / 2, pi / 2));
+    for (const Cell cell : detect_in_beam(level, static_cast<Eigen::Index>(b), strongest, options)) {
+      const std::uint32_t contributor = contributors.strongest(cell.bin, u, half_width);
+      if (contributor != ContributorTable::none) add_sounding(of_beam[b], ping, b, cell, scatterers, contributor);
+    }
+  });
+  Soundings all;
+  for (const Soundings& part : of_beam) append(all, part);
+  return all;
+}
+
+}  // namespace insonify

@@ -1,0 +1,40 @@
+#include "returns/ping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+
+namespace insonify {
+
+Grid<float> level_db(const Ping& ping, double floor_db) {
+  return ping.pressure.unaryExpr([&](const std::complex<float>& p) {
+    const double level = pressure_level_db(std::abs(std::complex<double>(p)));  // (E6)
+    return static_cast<float>(std::max(level, floor_db));
+  });
+}
+
+Grid<float> range_compensated_level_db(const Ping& ping, double absorption_db_per_m, double floor_db) {
+  Grid<float> level = level_db(ping, floor_db);
+  for (Eigen::Index n = 0; n < level.cols(); ++n) {
+    const double r = ping.gate.centre(static_cast<std::size_t>(n));
+    const double gain = 40 * std::log10(r) + 2 * absorption_db_per_m * r;  // (E20)
+    for (Eigen::Index b = 0; b < level.rows(); ++b)
+      if (level(b, n) > static_cast<float>(floor_db)) level(b, n) += static_cast<float>(gain);
+  }
+  return level;
+}
+
+double mean_level_db(const Ping& ping, double min_range, double max_range) {
+  double power = 0;
+  std::size_t samples = 0;
+  for (Eigen::Index n = 0; n < ping.pressure.cols(); ++n) {
+    const double r = ping.gate.centre(static_cast<std::size_t>(n));
+    if (r < min_range || r > max_range) continue;
+    for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b) power += std::norm(std::complex<double>(ping.pressure(b, n)));
+    samples += static_cast<std::size_t>(ping.pressure.rows());
+  }
+  return pressure_level_db(std::sqrt(power / static_cast<double>(std::max<std::size_t>(samples, 1))));
+}
+
+}  // namespace insonify

@@ -1,0 +1,35 @@
+#pragma once
+#include "sampling/direction_index.hpp"
+#include "sampling/find_scatterers.hpp"
+#include "sampling/gate_surfels.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace insonify {
+
+/// The part of the insonified sector that one beam's rays cover.
+struct BeamShare {
+  double min_azimuth = 0, max_azimuth = 0;      ///< [rad]
+  double min_elevation = 0, max_elevation = 0;  ///< [rad]
+};
+
+/// Shares of all beams: they tile `sector` in azimuth, cut at the midpoints between neighbouring beams. Beams
+/// of one azimuth share its elevations in the same way, from elevation_half_extent below the lowest to as
+/// much above.
+std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector, double elevation_half_extent);
+
+struct CastResult {
+  Scatterers scatterers;
+  std::size_t missed = 0;       ///< rays that met nothing
+  std::size_t met_surfels = 0;  ///< different surfels that gave an echo
+};
+
+/// rays_per_beam rays in each beam's share: one per equal interval of elevation, jittered in it, spread in
+/// azimuth by the golden ratio. Each ray's cell is its part of the share: r^2 cos(elevation) dtheta dphi.
+CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels,
+                     const DirectionIndex& index, const std::vector<BeamShare>& shares, const RangeGate& gate,
+                     const SamplingOptions& options);
+
+}  // namespace insonify

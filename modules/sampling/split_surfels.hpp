@@ -1,0 +1,34 @@
+#pragma once
+#include "sampling/gate_surfels.hpp"
+#include "sampling/scatterers.hpp"
+#include "scene/scene_cloud.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace insonify {
+
+struct SplitOptions {
+  double scatterers_per_cell = 10;  ///< 0: never split
+  double range_resolution = 0;      ///< length of a cell [m]
+  double beam_width = 0;            ///< its width [rad]
+  std::uint64_t seed = 1;
+  int threads = 0;
+};
+
+/// Number of parts that put `scatterers_per_cell` of them in one resolution cell (E17):
+///
+///   parts = ceil(scatterers_per_cell area / (length width)), 1 .. 4096
+///   width = range beam_width, length = min(dr / sin(incidence), 2 sqrt(2 range dr))
+///
+/// The second length is what a plane at normal incidence shows within dr.
+std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options);
+
+/// Scatterers of the given surfels (indices in the scene), in order. Part 0 is the surfel's centre; part k
+/// stands where the k-th point of a low-discrepancy sequence over the surfel's disc (of its area, in its
+/// tangent plane) falls, turned by a number bound to (seed, surfel id): at the same place in the scene for
+/// every pose.
+Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head,
+                         const std::vector<std::uint32_t>& surfels, const SplitOptions& options);
+
+}  // namespace insonify

@@ -1,0 +1,15 @@
+#pragma once
+#include "sampling/direction_index.hpp"
+#include "sampling/gate_surfels.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace insonify {
+
+/// For each gated surfel 1 if another one hides it, else 0. Only those that could give an echo (in the gate
+/// and facing the head) are looked at; the others stay 0.
+std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+                                      int threads);
+
+}  // namespace insonify

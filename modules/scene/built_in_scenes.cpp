@@ -1,0 +1,81 @@
+#include "scene/built_in_scenes.hpp"
+
+#include "core/error.hpp"
+#include "scene/harbour_scene.hpp"
+#include "scene/sample_patches.hpp"
+
+#include <algorithm>
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Patch> plane_patches(const BuiltInSceneOptions& options) {
+  const double x = options.size.x(), y = options.size.y();
+  return {rectangle({0, -y / 2, 0}, {x, 0, 0}, {0, y, 0})};
+}
+
+std::vector<Patch> sphere_patches(const BuiltInSceneOptions& options) {
+  return {ellipsoid({5, 0, 0}, Vector3d::Constant(options.radius))};
+}
+
+// A part of the plane x = const that faces the head: y from low to high, z from bottom to top.
+Patch facing_wall(double x, double low, double high, double bottom, double top) {
+  return rectangle({x, low, bottom}, {0, 0, top - bottom}, {0, high - low, 0});
+}
+
+std::vector<Patch> wall_patches(const BuiltInSceneOptions& options) {
+  const double w = options.size.x() / 2, h = options.size.y() / 2, hole = 0.5;
+  if (w <= 2 * hole || h <= 2 * hole) return {facing_wall(5, -w, w, -h, h)};
+  return {facing_wall(5, -w, w, -h, -hole), facing_wall(5, -w, w, hole, h),
+          facing_wall(5, -w, -hole, -hole, hole), facing_wall(5, hole, w, -hole, hole)};
+}
+
+std::vector<Patch> pole_patches() {
+  std::vector<Patch> patches = {facing_wall(7, -3, 3, -2, 2)};
+  for (const double y : {-1.0, 0.0, 1.0}) patches.push_back(cylinder({4, y, -2}, {0, 0, 4}, 0.1));
+  return patches;
+}
+
+void require_valid(const std::string& name, const BuiltInSceneOptions& options) {
+  const std::vector<std::string> names = built_in_scene_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    std::string known;
+    for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
+    fail(ErrorKind::argument, "make_built_in_scene: no scene '", name, "', must be one of: ", known);
+  }
+  if (options.points == 0) fail(ErrorKind::argument, "make_built_in_scene: points = 0, must be at least 1");
+  if (!(options.size.minCoeff() > 0) || !options.size.allFinite())
+    fail(ErrorKind::argument, "make_built_in_scene: size = ", options.size.x(), " x ", options.size.y(),
+         " m, must be positive");
+  if (!(options.radius > 0) || !std::isfinite(options.radius))
+    fail(ErrorKind::argument, "make_built_in_scene: radius = ", options.radius, " m, must be positive");
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_scene_names() { return {"harbour", "plane", "sphere", "wall", "poles"}; }
+
+SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOptions& options) {
+  require_valid(name, options);
+  SceneCloud scene;
+  scene.materials = {{name, options.lambert_mu}};
+  std::vector<Patch> patches;
+  if (name == "harbour") {
+    scene.materials = harbour_materials();
+    patches = harbour_patches(options.seed);
+  } else if (name == "plane") {
+    patches = plane_patches(options);
+  } else if (name == "sphere") {
+    patches = sphere_patches(options);
+  } else if (name == "wall") {
+    patches = wall_patches(options);
+  } else {
+    patches = pole_patches();
+  }
+  sample_patches(scene, patches, options.points, options.seed);
+  return scene;
+}
+
+}  // namespace insonify

@@ -1,0 +1,96 @@
+#include "scene/scene_cloud.hpp"
+
+#include "core/error.hpp"
+
+#include <cmath>
+
+namespace insonify {
+namespace {
+
+void require_length(std::size_t length, std::size_t points, const char* name, const char* who) {
+  if (length != points)
+    fail(ErrorKind::argument, who, ": scene.", name, " has ", length, " entries, must have one per point (",
+         points, ")");
+}
+
+void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* who) {
+  const auto at = [&](const Eigen::Vector3f& v) {
+    std::ostringstream text;
+    text << "(" << v.x() << ", " << v.y() << ", " << v.z() << ")";
+    return text.str();
+  };
+  if (!scene.point[i].allFinite())
+    fail(ErrorKind::content, who, ": scene.point[", i, "] = ", at(scene.point[i]),
+         " m, must be finite; drop such points");
+  if (!(std::abs(scene.normal[i].squaredNorm() - 1.0f) <= 2e-3f))
+    fail(ErrorKind::content, who, ": scene.normal[", i, "] = ", at(scene.normal[i]),
+         ", must be a unit vector; normalise the normals or estimate them");
+  if (!(scene.area[i] >= 0 && std::isfinite(scene.area[i])))
+    fail(ErrorKind::content, who, ": scene.area[", i, "] = ", scene.area[i], " m^2, must be finite and >= 0");
+  if (scene.material[i] >= scene.materials.size())
+    fail(ErrorKind::content, who, ": scene.material[", i, "] = ", scene.material[i],
+         ", must be below the number of materials, ", scene.materials.size());
+}
+
+}  // namespace
+
+void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal,
+                double area, std::uint16_t material) {
+  if (material >= scene.materials.size())
+    fail(ErrorKind::argument, "add_surfel: material = ", material,
+         ", must be below the number of materials, ", scene.materials.size());
+  scene.point.push_back((world_position - scene.origin).cast<float>());
+  scene.normal.push_back(normal.cast<float>());
+  scene.area.push_back(static_cast<float>(area));
+  scene.material.push_back(material);
+  scene.id.push_back(scene.id.empty() ? 0 : scene.id.back() + 1);
+}
+
+void require_valid(const SceneCloud& scene, const char* who) {
+  require_length(scene.normal.size(), scene.size(), "normal", who);
+  require_length(scene.area.size(), scene.size(), "area", who);
+  require_length(scene.material.size(), scene.size(), "material", who);
+  require_length(scene.id.size(), scene.size(), "id", who);
+  if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
+  for (const Material& material : scene.materials)
+    if (!(material.lambert_mu >= 0 && std::isfinite(material.lambert_mu)))
+      fail(ErrorKind::content, who, ": lambert_mu of material '", material.name, "' = ", material.lambert_mu,
+           " 1/sr, must be finite and >= 0");
+  for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
+}
+
+SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep) {
+  SceneCloud part;
+  part.origin = scene.origin;
+  part.materials = scene.materials;
+  part.normals_oriented = scene.normals_oriented;
+  for (const std::uint32_t i : keep)
+    if (i >= scene.size())
+      fail(ErrorKind::argument, "subset: keep holds ", i, ", must be below the number of surfels, ",
+           scene.size());
+  const auto gather = [&keep](const auto& from, auto& to) {
+    to.reserve(keep.size());
+    for (const std::uint32_t i : keep) to.push_back(from[i]);
+  };
+  gather(scene.point, part.point);
+  gather(scene.normal, part.normal);
+  gather(scene.area, part.area);
+  gather(scene.material, part.material);
+  gather(scene.id, part.id);
+  return part;
+}
+
+Bounds bounds(const SceneCloud& scene) {
+  Bounds box;
+  if (scene.size() == 0) return box;
+  Eigen::Vector3f low = scene.point[0], high = scene.point[0];
+  for (const Eigen::Vector3f& p : scene.point) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  box.min = scene.origin + low.cast<double>();
+  box.max = scene.origin + high.cast<double>();
+  return box;
+}
+
+}  // namespace insonify

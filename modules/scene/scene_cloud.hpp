@@ -1,0 +1,45 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/material.hpp"
+
+namespace insonify {
+
+/// The captured scene: surfels (small oriented patches) as structure of arrays, one entry per surfel in every
+/// array. World frame; coordinates are stored relative to `origin`, which was subtracted in double.
+struct SceneCloud {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; world position = origin + point
+  std::vector<Eigen::Vector3f> point;                ///< [m], relative to origin
+  std::vector<Eigen::Vector3f> normal;               ///< unit vectors
+  std::vector<float> area;                           ///< true surface area [m^2]
+  std::vector<std::uint16_t> material;               ///< index into `materials`
+  std::vector<std::uint32_t> id;                     ///< unique; speckle is bound to it
+  std::vector<Material> materials = {Material{}};
+  bool normals_oriented = true;  ///< false: the sign of a normal means nothing and both sides reflect
+
+  std::size_t size() const { return point.size(); }
+};
+
+/// Adds one surfel with the next free id. Throws Error if `material` is not in scene.materials.
+void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal, double area,
+                std::uint16_t material = 0);
+
+/// Throws Error unless all arrays have one length, points are finite, normals are unit vectors within 1e-3, areas
+/// are finite and >= 0, materials exist, and every lambert_mu is finite and >= 0. `who` names the caller.
+void require_valid(const SceneCloud& scene, const char* who);
+
+/// The surfels listed in `keep`, in that order, with their ids.
+SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep);
+
+/// Axis-aligned box of the points in world coordinates [m]; empty scene: min > max.
+struct Bounds {
+  Eigen::Vector3d min = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d max = Eigen::Vector3d::Constant(-1e300);
+};
+Bounds bounds(const SceneCloud& scene);
+
+}  // namespace insonify

@@ -1,0 +1,106 @@
+#include "scene/scene_index.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <flann/flann.hpp>
+
+namespace insonify {
+namespace {
+
+using Index = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
+
+// Writes hits straight into the caller's vector, so that a query allocates nothing of its own.
+class WithinRadius final : public flann::ResultSet<float> {
+ public:
+  WithinRadius(float squared_radius, std::vector<Neighbour>& hits)
+      : squared_radius_(squared_radius), hits_(hits) {}
+  bool full() const override { return true; }
+  float worstDist() const override { return squared_radius_; }
+  void addPoint(float squared_distance, std::size_t index) override {
+    if (squared_distance < squared_radius_)
+      hits_.push_back({static_cast<std::uint32_t>(index), squared_distance});
+  }
+
+ private:
+  float squared_radius_;
+  std::vector<Neighbour>& hits_;
+};
+
+// Keeps the k nearest hits sorted, equal distances by index.
+class Nearest final : public flann::ResultSet<float> {
+ public:
+  Nearest(std::size_t k, std::vector<Neighbour>& hits) : k_(k), hits_(hits) { hits_.reserve(k + 1); }
+  bool full() const override { return hits_.size() == k_; }
+  float worstDist() const override { return worst_; }
+  void addPoint(float squared_distance, std::size_t index) override {
+    if (squared_distance >= worst_) return;
+    const Neighbour hit{static_cast<std::uint32_t>(index), squared_distance};
+    const auto before = [](const Neighbour& a, const Neighbour& b) {
+      return a.squared_distance < b.squared_distance ||
+             (a.squared_distance == b.squared_distance && a.index < b.index);
+    };
+    hits_.insert(std::upper_bound(hits_.begin(), hits_.end(), hit, before), hit);
+    if (hits_.size() > k_) hits_.pop_back();
+    if (hits_.size() == k_) worst_ = hits_.back().squared_distance;
+  }
+
+ private:
+  std::size_t k_;
+  float worst_ = std::numeric_limits<float>::max();
+  std::vector<Neighbour>& hits_;
+};
+
+// Slightly negative: FLANN prunes by box distances summed in float; the slack keeps the search exact.
+flann::SearchParams exact_search() { return {flann::FLANN_CHECKS_UNLIMITED, -1e-5f, false}; }
+
+}  // namespace
+
+struct SceneIndex::Tree {
+  explicit Tree(std::span<const Eigen::Vector3f> points) : size(points.size()) {
+    if (points.empty()) return;
+    // FLANN takes a mutable pointer, reads from it while building, and keeps its own reordered copy.
+    const flann::Matrix<float> matrix(const_cast<float*>(points.front().data()), points.size(), 3);
+    index = std::make_unique<Index>(matrix, flann::KDTreeSingleIndexParams(leaf_points, true));
+    index->buildIndex();
+  }
+
+  static constexpr int leaf_points = 12;
+  std::size_t size;
+  std::unique_ptr<Index> index;
+};
+
+SceneIndex::SceneIndex(std::span<const Eigen::Vector3f> points) {
+  if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    fail(ErrorKind::argument, "SceneIndex: ", points.size(), " points, must be below 2^31; divide the scene");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
+      fail(ErrorKind::content, "SceneIndex: point ", i, " is not finite; drop such points");
+  tree_ = std::make_unique<Tree>(points);
+}
+
+SceneIndex::~SceneIndex() = default;
+SceneIndex::SceneIndex(SceneIndex&&) noexcept = default;
+SceneIndex& SceneIndex::operator=(SceneIndex&&) noexcept = default;
+
+std::size_t SceneIndex::size() const { return tree_->size; }
+
+void SceneIndex::find_nearest(const Eigen::Vector3f& query, std::size_t k,
+                              std::vector<Neighbour>& result) const {
+  result.clear();
+  if (k == 0 || !tree_->index) return;
+  Nearest nearest(std::min(k, tree_->size), result);
+  tree_->index->findNeighbors(nearest, query.data(), exact_search());
+}
+
+void SceneIndex::find_within(const Eigen::Vector3f& query, float radius,
+                             std::vector<Neighbour>& result) const {
+  result.clear();
+  if (!(radius > 0) || !tree_->index) return;
+  WithinRadius within(radius * radius, result);
+  tree_->index->findNeighbors(within, query.data(), exact_search());
+}
+
+}  // namespace insonify

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "returns/ping.hpp"
+
+namespace insonify {
+
+/// One or many pings of one sonar as they stand in cube.h5.
+struct Cube {
+  std::vector<Ping> pings;         ///< all with the same fan and gate
+  double sound_speed = 0;          ///< [m/s]
+  double absorption_db_per_m = 0;  ///< at the centre frequency
+  double centre_frequency = 0;     ///< [Hz]
+  double bandwidth = 0;            ///< [Hz]
+  double source_level_db = 0;      ///< dB re 1 uPa at 1 m
+  std::uint64_t seed = 0;
+  double tolerance = 0;
+  std::string sonar;  ///< name of the head
+  std::string insonify_version;
+};
+
+/// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth
+/// and /elevation [rad], /pose (pings x 4 x 4, world_from_head, row by row), /time [s], /ping (numbers) and,
+/// as root attributes, schema, the members above, beam_width, elevation_width [rad], min_range, max_range,
+/// bin_size [m]. Byte-identical for identical input (no time stamps). Written to a temporary name, then
+/// renamed. Throws Error(argument) if there is no ping or they differ in fan, gate or extent; Error(file) if
+/// it cannot write.
+void write_cube(const std::string& path, const Cube& cube);
+
+/// Every field of what write_cube was given, bit for bit.
+/// Throws Error(file) if missing, Error(content) if it is not a cube, has another schema or lacks a part,
+/// naming it.
+Cube read_cube(const std::string& path);
+
+}  // namespace insonify

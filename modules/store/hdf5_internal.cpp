@@ -1,0 +1,138 @@
+#include "store/hdf5_internal.hpp"
+
+namespace insonify::hdf5 {
+namespace {
+
+// H5Ewalk visits the innermost function first: its words are the cause.
+herr_t take_first_reason(unsigned n, const H5E_error2_t* error, void* reason) {
+  if (n == 0 && error->desc) *static_cast<std::string*>(reason) = error->desc;
+  return 0;
+}
+
+void write_scalar(const Place& place, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
+                  const void* value) {
+  const std::string what = std::string("attribute '") + name + "' cannot be written";
+  const Handle space(place.checked(H5Screate(H5S_SCALAR), what), H5Sclose);
+  const Handle attribute(
+      place.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose);
+  place.checked(H5Awrite(attribute, memory_type, value), what);
+}
+
+Handle open_attribute(const Place& place, hid_t where, const char* name) {
+  if (H5Aexists(where, name) <= 0) fail(place.kind, place.path, ": attribute '", name, "' is missing");
+  Handle attribute(place.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"),
+                   H5Aclose);
+  const Handle space(place.checked(H5Aget_space(attribute), name), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) != 1)
+    fail(place.kind, place.path, ": attribute '", name, "' must hold one value");
+  return attribute;
+}
+
+template <typename T>
+T read_scalar(const Place& place, hid_t where, const char* name, hid_t memory_type) {
+  const Handle attribute = open_attribute(place, where, name);
+  T value{};
+  place.checked(H5Aread(attribute, memory_type, &value),
+                std::string("attribute '") + name + "' is not a number");
+  return value;
+}
+
+Handle text_type(const Place& place) {
+  Handle type(place.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
+  place.checked(H5Tset_size(type, H5T_VARIABLE), "text type");
+  place.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
+  return type;
+}
+
+}  // namespace
+
+QuietErrors::QuietErrors() {
+  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+
+void Place::fail_here(const std::string& what) const {
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_reason, &reason);
+  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", reason);
+}
+
+Handle complex_type(const Place& place, hid_t real_type) {
+  const std::size_t size = H5Tget_size(real_type);
+  Handle type(place.checked(H5Tcreate(H5T_COMPOUND, 2 * size), "complex type"), H5Tclose);
+  place.checked(H5Tinsert(type, "r", 0, real_type), "complex type");
+  place.checked(H5Tinsert(type, "i", size, real_type), "complex type");
+  return type;
+}
+
+Extent extent_of(const Place& place, hid_t dataset, const std::string& name, std::size_t rank) {
+  const Handle space(place.checked(H5Dget_space(dataset), name), H5Sclose);
+  const int dimensions = place.checked(H5Sget_simple_extent_ndims(space), name);
+  if (static_cast<std::size_t>(dimensions) != rank)
+    fail(place.kind, place.path, ": ", name, " has ", dimensions, " dimensions, must have ", rank);
+  Extent extent(rank);
+  place.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
+  return extent;
+}
+
+Handle select_row(const Place& place, hid_t dataset, const Extent& extent, hsize_t first) {
+  Handle space(place.checked(H5Dget_space(dataset), "selection"), H5Sclose);
+  Extent start(extent.size(), 0), count = extent;
+  start[0] = first, count[0] = 1;
+  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+                "selection");
+  return space;
+}
+
+void write_attribute(const Place& place, hid_t where, const char* name, double value) {
+  write_scalar(place, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+void write_attribute(const Place& place, hid_t where, const char* name, std::int64_t value) {
+  write_scalar(place, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+}
+
+void write_attribute(const Place& place, hid_t where, const char* name, std::uint64_t value) {
+  write_scalar(place, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
+}
+
+void write_attribute(const Place& place, hid_t where, const char* name, const std::string& value) {
+  const Handle type = text_type(place);
+  const char* text = value.c_str();
+  write_scalar(place, where, name, type, type, &text);
+}
+
+double read_number(const Place& place, hid_t where, const char* name) {
+  return read_scalar<double>(place, where, name, H5T_NATIVE_DOUBLE);
+}
+
+std::int64_t read_integer(const Place& place, hid_t where, const char* name) {
+  return read_scalar<std::int64_t>(place, where, name, H5T_NATIVE_INT64);
+}
+
+std::uint64_t read_unsigned(const Place& place, hid_t where, const char* name) {
+  return read_scalar<std::uint64_t>(place, where, name, H5T_NATIVE_UINT64);
+}
+
+// Text of fixed length (as other programs write it) or of variable length.
+std::string read_text(const Place& place, hid_t where, const char* name) {
+  const Handle attribute = open_attribute(place, where, name);
+  const Handle stored(place.checked(H5Aget_type(attribute), name), H5Tclose);
+  if (H5Tget_class(stored) != H5T_STRING)
+    fail(place.kind, place.path, ": attribute '", name, "' must be text");
+  if (H5Tis_variable_str(stored) <= 0) {
+    std::string text(H5Tget_size(stored), '\0');
+    place.checked(H5Aread(attribute, stored, text.data()), name);
+    return text.substr(0, text.find('\0'));
+  }
+  const Handle type = text_type(place);
+  char* text = nullptr;
+  place.checked(H5Aread(attribute, type, &text), name);
+  const std::string result = text ? text : "";
+  H5free_memory(text);
+  return result;
+}
+
+}  // namespace insonify::hdf5

@@ -1,0 +1,142 @@
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "store/cube.hpp"
+#include "store/cube_layout.hpp"
+#include "store/hdf5_internal.hpp"
+
+namespace insonify {
+
+using namespace hdf5;
+
+namespace {
+
+Handle open_file(const Place& place) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(place.path, ignored)) fail(ErrorKind::file, place.path, ": no such file");
+  if (std::filesystem::is_directory(place.path, ignored))
+    fail(ErrorKind::file, place.path, ": is a folder, must be a file");
+  const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
+  if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
+  if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");
+  return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"),
+          H5Fclose};
+}
+
+void require_schema(const Place& place, hid_t file) {
+  if (H5Aexists(file, "schema") <= 0)
+    fail(place.kind, place.path, ": is not a cube of insonify: attribute 'schema' is missing");
+  const std::int64_t schema = read_integer(place, file, "schema");
+  if (schema != cube_schema)
+    fail(place.kind, place.path, ": has cube schema ", schema, ", this insonify reads schema ", cube_schema);
+}
+
+Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
+  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
+    fail(place.kind, place.path, ": dataset ", name.path, " is missing");
+  return {place.checked(H5Dopen2(file, name.path, H5P_DEFAULT), name.path), H5Dclose};
+}
+
+// The whole of a dataset that must have this extent.
+template <typename T>
+std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name, const Extent& expected,
+                        hid_t type) {
+  const Handle dataset = open_dataset(place, file, name);
+  const Extent extent = extent_of(place, dataset, name.path, expected.size());
+  std::size_t values = 1;
+  for (std::size_t d = 0; d < extent.size(); ++d) {
+    if (extent[d] != expected[d])
+      fail(place.kind, place.path, ": ", name.path, " has ", extent[d], " entries, ", expected[d],
+           " expected from /pressure");
+    values *= extent[d];
+  }
+  std::vector<T> result(values);
+  place.checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()), name.path);
+  return result;
+}
+
+// What all pings share. Bad numbers in a file are the file's fault.
+Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
+  Ping ping;
+  ping.fan.azimuth = read_all<double>(place, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
+  ping.fan.elevation = read_all<double>(place, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
+  ping.fan.beam_width = read_number(place, file, "beam_width");
+  ping.fan.elevation_width = read_number(place, file, "elevation_width");
+  ping.gate = {read_number(place, file, "min_range"), read_number(place, file, "max_range"),
+               read_number(place, file, "bin_size")};
+  try {
+    require_valid(ping.fan, "cube");
+    require_valid(ping.gate, "cube");
+  } catch (const Error& error) {
+    fail(place.kind, place.path, ": ", error.what());
+  }
+  if (ping.gate.bins() != extent[2])
+    fail(place.kind, place.path, ": /pressure has ", extent[2],
+         " bins, min_range, max_range and bin_size make ", ping.gate.bins());
+  read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
+  return ping;
+}
+
+void read_pressure(const Place& place, hid_t dataset, const Extent& extent, std::vector<Ping>& pings) {
+  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+  const Extent one_ping = {1, extent[1], extent[2]};
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path),
+                      H5Sclose);
+  for (std::size_t p = 0; p < pings.size(); ++p) {
+    pings[p].pressure.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
+    const Handle row = select_row(place, dataset, extent, p);
+    place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, pings[p].pressure.data()),
+                  "/pressure cannot be read as {r, i}");
+  }
+}
+
+void require_complex(const Place& place, hid_t dataset) {
+  const Handle type(place.checked(H5Dget_type(dataset), pressure_name.path), H5Tclose);
+  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 ||
+      H5Tget_member_index(type, "i") < 0)
+    fail(place.kind, place.path, ": /pressure must be compound {r, i}");
+}
+
+std::vector<Ping> read_pings(const Place& place, hid_t file) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
+  require_complex(place, dataset);
+  const auto pose = read_all<double>(place, file, pose_name, {extent[0], 4, 4}, H5T_NATIVE_DOUBLE);
+  const auto time = read_all<double>(place, file, time_name, {extent[0]}, H5T_NATIVE_DOUBLE);
+  const auto number = read_all<std::int64_t>(place, file, ping_name, {extent[0]}, H5T_NATIVE_INT64);
+
+  std::vector<Ping> pings(extent[0], read_axes(place, file, extent));
+  for (std::size_t p = 0; p < pings.size(); ++p) {
+    pings[p].time = time[p];
+    pings[p].number = number[p];
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        pings[p].world_from_head.matrix()(row, column) =
+            pose[16 * p + static_cast<std::size_t>(4 * row + column)];
+  }
+  read_pressure(place, dataset, extent, pings);
+  return pings;
+}
+
+}  // namespace
+
+Cube read_cube(const std::string& path) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  require_schema(place, file);
+  Cube cube;
+  cube.insonify_version = read_text(place, file, "insonify_version");
+  cube.sonar = read_text(place, file, "sonar");
+  cube.sound_speed = read_number(place, file, "sound_speed");
+  cube.absorption_db_per_m = read_number(place, file, "absorption_db_per_m");
+  cube.centre_frequency = read_number(place, file, "centre_frequency");
+  cube.bandwidth = read_number(place, file, "bandwidth");
+  cube.source_level_db = read_number(place, file, "source_level_db");
+  cube.seed = read_unsigned(place, file, "seed");
+  cube.tolerance = read_number(place, file, "tolerance");
+  cube.pings = read_pings(place, file);
+  return cube;
+}
+
+}  // namespace insonify

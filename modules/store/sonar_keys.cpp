@@ -1,0 +1,201 @@
+#include "store/sonar_keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+// Keys that hold one number of the spec as it is, or in degrees.
+struct NumberKey {
+  const char* name;
+  double SonarSpec::*field;
+  bool in_degrees;
+};
+constexpr std::array number_keys = {
+    NumberKey{"centre_frequency_hz", &SonarSpec::centre_frequency, false},
+    NumberKey{"bandwidth_hz", &SonarSpec::bandwidth, false},
+    NumberKey{"source_level_db", &SonarSpec::source_level_db, false},
+    NumberKey{"field_of_view_deg", &SonarSpec::field_of_view, true},
+    NumberKey{"beam_width_deg", &SonarSpec::beam_width, true},
+    NumberKey{"elevation_width_deg", &SonarSpec::elevation_width, true},
+    NumberKey{"elevation_deg", &SonarSpec::elevation, true},
+    NumberKey{"side_lobe_db", &SonarSpec::side_lobe_db, false},
+    NumberKey{"min_range_m", &SonarSpec::min_range, false},
+    NumberKey{"max_range_m", &SonarSpec::max_range, false},
+};
+
+struct ShapeName {
+  const char* name;
+  ElevationShape shape;
+};
+constexpr std::array shape_names = {ShapeName{"gaussian", ElevationShape::gaussian},
+                                    ShapeName{"line", ElevationShape::line},
+                                    ShapeName{"sector", ElevationShape::sector}};
+
+const NumberKey* find_number_key(const std::string& key) {
+  for (const NumberKey& candidate : number_keys)
+    if (key == candidate.name) return &candidate;
+  return nullptr;
+}
+
+// Degrees that read back to the very same radians; the shortest text of the nearest ones. Every angle that
+// came from a file has them; one that was computed in radians may be off by its last bit.
+double degrees_of(double angle) {
+  const double straight = degrees(angle);
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::array<char, 40> text{};
+    const auto end =
+        std::to_chars(text.begin(), text.end(), straight, std::chars_format::general, digits).ptr;
+    double rounded = 0;
+    std::from_chars(text.begin(), end, rounded);
+    if (radians(rounded) == angle) return rounded;
+  }
+  for (const double towards :
+       {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}) {
+    double near = straight;
+    for (int step = 0; step < 4; ++step)
+      if (near = std::nextafter(near, towards); radians(near) == angle) return near;
+  }
+  return straight;
+}
+
+[[noreturn]] void fail_value(const std::string& key, const SonarValue& value, const char* rule) {
+  fail(ErrorKind::argument, key, " = ", toml_text_of(value), ", must be ", rule);
+}
+
+double number_of(const std::string& key, const SonarValue& value) {
+  const double* number = std::get_if<double>(&value);
+  if (!number || !std::isfinite(*number)) fail_value(key, value, "a number");
+  return *number;
+}
+
+void set_beams(SonarSpec& spec, const SonarValue& value) {
+  const double beams = number_of("beams", value);
+  if (beams != std::floor(beams) || beams < 1 || beams > 65536)
+    fail_value("beams", value, "a whole number within 1 and 65536");
+  spec.beams = static_cast<std::size_t>(beams);
+  spec.azimuths.clear();
+}
+
+void set_shape(SonarSpec& spec, const SonarValue& value) {
+  const std::string* text = std::get_if<std::string>(&value);
+  for (const ShapeName& shape : shape_names)
+    if (text && *text == shape.name) {
+      spec.elevation_shape = shape.shape;
+      return;
+    }
+  fail_value("elevation_shape", value, "gaussian, line or sector");
+}
+
+// Beams at given places: the field of view takes in half a mean spacing beyond the outermost ones, as an even
+// fan does, and at least one beam width.
+double field_of_view_of(const std::vector<double>& azimuths, double beam_width) {
+  const auto [low, high] = std::minmax_element(azimuths.begin(), azimuths.end());
+  const double n = static_cast<double>(azimuths.size());
+  return std::clamp((*high - *low) * n / std::max(n - 1, 1.0), std::min(beam_width, 2 * pi), 2 * pi);
+}
+
+void set_azimuths(SonarSpec& spec, const SonarValue& value) {
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  const auto is_angle = [](double azimuth) { return std::abs(azimuth) <= 180; };
+  if (!list || list->empty() || !std::all_of(list->begin(), list->end(), is_angle))
+    fail_value("azimuths_deg", value, "a list of numbers within -180 and 180");
+  spec.azimuths.clear();
+  for (const double azimuth : *list) spec.azimuths.push_back(radians(azimuth));
+  spec.beams = list->size();
+}
+
+// The shortest digits that give the same bits back; no exponent for numbers of everyday size.
+std::string text_of_number(double value) {
+  const double size = std::abs(value);
+  const bool everyday = value == 0 || (size >= 1e-5 && size < 1e15);
+  std::array<char, 40> text{};
+  const auto end = everyday
+                       ? std::to_chars(text.begin(), text.end(), value, std::chars_format::fixed).ptr
+                       : std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific).ptr;
+  std::string digits(text.begin(), end);
+  if (digits.find_first_not_of("-0123456789") == std::string::npos) digits += ".0";
+  return digits;
+}
+
+}  // namespace
+
+std::vector<std::string> sonar_key_names() {
+  return {"centre_frequency_hz", "bandwidth_hz",  "range_resolution_m",
+          "source_level_db",     "beams",         "field_of_view_deg",
+          "beam_width_deg",      "azimuths_deg",  "side_lobe_db",
+          "elevation_width_deg", "elevation_deg", "elevation_shape",
+          "min_range_m",         "max_range_m",   "bin_size_m"};
+}
+
+std::vector<std::string> required_sonar_keys() {
+  return {"centre_frequency_hz", "source_level_db", "beam_width_deg",
+          "elevation_width_deg", "min_range_m",     "max_range_m"};
+}
+
+void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& value) {
+  if (const NumberKey* number = find_number_key(key)) {
+    const double x = number_of(key, value);
+    spec.*(number->field) = number->in_degrees ? radians(x) : x;
+    if (key == "field_of_view_deg") spec.azimuths.clear();
+  } else if (key == "range_resolution_m") {
+    const double resolution = number_of(key, value);
+    if (!(resolution > 0)) fail_value(key, value, "> 0");
+    spec.bandwidth = nominal_sound_speed / (2 * resolution);
+  } else if (key == "beams") {
+    set_beams(spec, value);
+  } else if (key == "elevation_shape") {
+    set_shape(spec, value);
+  } else if (key == "azimuths_deg") {
+    set_azimuths(spec, value);
+  } else if (key == "bin_size_m") {
+    spec.bin_size = number_of(key, value);
+  } else {
+    fail(ErrorKind::runtime, "set_sonar_key: no key '", key, "'");
+  }
+  if (!spec.azimuths.empty()) spec.field_of_view = field_of_view_of(spec.azimuths, spec.beam_width);
+}
+
+std::optional<std::string> sonar_key_text(const SonarSpec& spec, const std::string& key) {
+  if (const NumberKey* number = find_number_key(key)) {
+    if (key == "field_of_view_deg" && !spec.azimuths.empty()) return std::nullopt;
+    const double x = spec.*(number->field);
+    return text_of_number(number->in_degrees ? degrees_of(x) : x);
+  }
+  if (key == "beams" && spec.azimuths.empty()) return std::to_string(spec.beams);
+  if (key == "bin_size_m" && spec.bin_size) return text_of_number(*spec.bin_size);
+  if (key == "elevation_shape")
+    for (const ShapeName& shape : shape_names)
+      if (shape.shape == spec.elevation_shape) return toml_text_of(std::string(shape.name));
+  if (key == "azimuths_deg" && !spec.azimuths.empty()) {
+    std::vector<double> list;
+    for (const double azimuth : spec.azimuths) list.push_back(degrees_of(azimuth));
+    return toml_text_of(list);
+  }
+  return std::nullopt;
+}
+
+std::string toml_text_of(const SonarValue& value) {
+  if (const double* number = std::get_if<double>(&value)) return text_of_number(*number);
+  if (const std::string* text = std::get_if<std::string>(&value)) {
+    std::string quoted = "\"";
+    for (const char c : *text) {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    return quoted + "\"";
+  }
+  std::string list = "[";
+  for (const double x : std::get<std::vector<double>>(value))
+    list += (list.size() > 1 ? ", " : "") + text_of_number(x);
+  return list + "]";
+}
+
+}  // namespace insonify

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "store/nearest_word.hpp"
+#include "store/sonar_file.hpp"
+
+namespace insonify {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_data_folder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "sonars", ignored);
+}
+
+// Names of all presets, sorted.
+std::vector<std::string> preset_names() {
+  const fs::path folder = fs::path(data_folder()) / "sonars";
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string preset_path(const std::string& name) {
+  return (fs::path(data_folder()) / "sonars" / (name + ".toml")).string();
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// The names that contain the word ("oculus" means six presets), else the one nearest by spelling.
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  const std::string wanted = lower_case(word);
+  std::string list;
+  for (const std::string& name : names)
+    if (!wanted.empty() && name.find(wanted) != std::string::npos) list += (list.empty() ? "" : ", ") + name;
+  if (list.empty()) list = nearest_word(wanted, names);
+  return list.empty() ? "." : "; did you mean " + list + "?";
+}
+
+}  // namespace
+
+std::string data_folder() {
+  if (const char* chosen = std::getenv("INSONIFY_DATA"); chosen && *chosen) {
+    if (!is_data_folder(chosen))
+      fail(ErrorKind::file, "INSONIFY_DATA = ", chosen, ": is not a folder with sonars/ in it");
+    return chosen;
+  }
+  // Beside the program: an installed one has ../share/insonify, one in build/<preset>/bin the source tree.
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const fs::path& folder : {program / "../share/insonify", program / "../../../data",
+                                 fs::path(INSONIFY_INSTALL_DATA), fs::path(INSONIFY_SOURCE_DATA)})
+    if (is_data_folder(folder)) return folder.lexically_normal().string();
+  fail(ErrorKind::file, "data files (sonars/, materials.toml) found neither beside the program nor in ",
+       INSONIFY_INSTALL_DATA, "; set INSONIFY_DATA to their folder");
+}
+
+SonarFile find_sonar(const std::string& name_or_path) {
+  if (fs::path(name_or_path).extension() == ".toml") return load_sonar_file(name_or_path);
+  const std::vector<std::string> names = preset_names();
+  if (std::find(names.begin(), names.end(), name_or_path) == names.end())
+    fail(ErrorKind::argument, "sonar '", name_or_path, "' is not a preset", suggestion(name_or_path, names),
+         " `insonify sonars` lists all; a path ending in .toml is read as a file");
+  return load_sonar_file(preset_path(name_or_path));
+}
+
+std::vector<SonarFile> list_sonars() {
+  std::vector<SonarFile> sonars;
+  for (const std::string& name : preset_names()) sonars.push_back(load_sonar_file(preset_path(name)));
+  return sonars;
+}
+
+}  // namespace insonify

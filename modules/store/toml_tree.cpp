@@ -1,0 +1,91 @@
+#include "store/toml_tree.hpp"
+
+#include <algorithm>
+
+#include <toml++/toml.h>
+
+#include "store/nearest_word.hpp"
+#include "store/run_directory.hpp"
+
+namespace insonify {
+namespace {
+
+int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+TomlValue copied(const toml::node& node) {
+  using Kind = TomlValue::Kind;
+  TomlValue value;
+  value.line = line_of(node);
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, child] : *table) {
+      value.keys.emplace_back(key.str());
+      value.items.push_back(copied(child));
+    }
+  } else if (const toml::array* array = node.as_array()) {
+    value.kind = Kind::array;
+    for (const toml::node& child : *array) value.items.push_back(copied(child));
+  } else if (const auto* text = node.as_string()) {
+    value.kind = Kind::text;
+    value.text = text->get();
+  } else if (const auto* number = node.as_floating_point()) {
+    value.kind = Kind::number;
+    value.number = number->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.kind = Kind::integer;
+    value.number = static_cast<double>(integer->get());
+  } else if (const auto* boolean = node.as_boolean()) {
+    value.kind = Kind::boolean;
+    value.number = boolean->get() ? 1 : 0;
+  } else {
+    value.kind = Kind::date;
+  }
+  return value;
+}
+
+const TomlValue& required(const std::string& path, const TomlValue& table, const std::string& key) {
+  const TomlValue* value = table.find(key);
+  if (!value) fail_in_file(path, table.line, "missing key '", key, "'");
+  return *value;
+}
+
+}  // namespace
+
+const TomlValue* TomlValue::find(const std::string& key) const {
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (keys[i] == key) return &items[i];
+  return nullptr;
+}
+
+TomlValue load_toml(const std::string& path) {
+  const std::string text = read_text_file(path);
+  try {
+    return copied(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    fail_in_file(path, static_cast<int>(error.source().begin.line), error.description());
+  }
+}
+
+void require_known_keys(const std::string& path, const TomlValue& table,
+                        const std::vector<std::string>& known) {
+  for (std::size_t i = 0; i < table.keys.size(); ++i) {
+    const std::string& key = table.keys[i];
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const std::string nearest = nearest_word(key, known);
+    fail_in_file(path, table.items[i].line, "unknown key '", key, "'",
+                 nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+  }
+}
+
+std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key) {
+  const TomlValue& value = required(path, table, key);
+  if (value.kind != TomlValue::Kind::text) fail_in_file(path, value.line, key, " must be text in quotes");
+  return value.text;
+}
+
+double toml_number(const std::string& path, const TomlValue& table, const std::string& key) {
+  const TomlValue& value = required(path, table, key);
+  if (!value.is_number()) fail_in_file(path, value.line, key, " must be a number");
+  return value.number;
+}
+
+}  // namespace insonify

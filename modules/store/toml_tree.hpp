@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace insonify {
+
+/// A TOML document as the rest of this module sees it: plain values that know their line.
+struct TomlValue {
+  enum class Kind { boolean, integer, number, text, array, table, date };
+  Kind kind = Kind::table;
+  int line = 1;
+  double number = 0;              ///< of boolean (0, 1), integer, number
+  std::string text;               ///< of text
+  std::vector<TomlValue> items;   ///< of array and table
+  std::vector<std::string> keys;  ///< of table: keys[i] names items[i]
+
+  bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
+  /// The value of `key`, or nullptr.
+  const TomlValue* find(const std::string& key) const;
+};
+
+/// Throws Error(file) if missing, Error(content) "path:line: ..." if it is not TOML.
+TomlValue load_toml(const std::string& path);
+
+/// Throws Error(content) "path:line: ...".
+template <typename... Parts>
+[[noreturn]] void fail_in_file(const std::string& path, int line, const Parts&... parts) {
+  fail(ErrorKind::content, path, ":", line, ": ", parts...);
+}
+
+/// Throws Error(content) at the first key of `table` that is not in `known`, with the nearest known one.
+void require_known_keys(const std::string& path, const TomlValue& table,
+                        const std::vector<std::string>& known);
+
+/// The text or number of a key; Error(content) with line if it is missing or of another type.
+std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key);
+double toml_number(const std::string& path, const TomlValue& table, const std::string& key);
+
+}  // namespace insonify

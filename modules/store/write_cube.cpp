@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <complex>
+
+#include "core/error.hpp"
+#include "store/cube.hpp"
+#include "store/cube_layout.hpp"
+#include "store/hdf5_internal.hpp"
+#include "store/pending_file.hpp"
+
+namespace insonify {
+
+using namespace hdf5;
+
+namespace {
+
+// All pings must fit one set of axes.
+void require_writable(const Cube& cube, const std::string& path) {
+  if (cube.pings.empty()) fail(ErrorKind::argument, "write_cube: ", path, ": no pings, must be at least one");
+  const Ping& first = cube.pings.front();
+  if (first.fan.azimuth.size() != first.fan.elevation.size())
+    fail(ErrorKind::argument, "write_cube: ", path, ": fan has ", first.fan.azimuth.size(), " azimuths and ",
+         first.fan.elevation.size(), " elevations, must be as many");
+  require_valid(first.fan, "write_cube");
+  require_valid(first.gate, "write_cube");
+  for (const Ping& ping : cube.pings) {
+    const auto rows = static_cast<std::size_t>(ping.pressure.rows());
+    const auto columns = static_cast<std::size_t>(ping.pressure.cols());
+    if (rows != first.fan.beams() || columns != first.gate.bins())
+      fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has ", rows, " beams x ",
+           columns, " bins, must have ", first.fan.beams(), " x ", first.gate.bins());
+    if (ping.fan.azimuth != first.fan.azimuth || ping.fan.elevation != first.fan.elevation ||
+        ping.gate.min_range != first.gate.min_range || ping.gate.bin_size != first.gate.bin_size)
+      fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number,
+           " has another fan or gate than ping ", first.number, "; write it to a cube of its own");
+  }
+}
+
+Handle create_file(const Place& place, const std::string& name) {
+  const Handle properties(place.checked(H5Pcreate(H5P_FILE_CREATE), "file"), H5Pclose);
+  place.checked(H5Pset_obj_track_times(properties, false), "file");  // same input, same bytes
+  return {place.checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), "cannot be written"),
+          H5Fclose};
+}
+
+// A dataset without time stamps; with `chunk` if not empty.
+Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type,
+                      const Extent& extent, const Extent& chunk = {}) {
+  const Handle space(
+      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path),
+      H5Sclose);
+  const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
+  place.checked(H5Pset_obj_track_times(properties, false), name.path);
+  if (!chunk.empty()) {
+    place.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
+    place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
+                  name.path);  // no chance bytes in edge chunks
+  }
+  Handle dataset(place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+                               name.path),
+                 H5Dclose);
+  if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
+  return dataset;
+}
+
+void write_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
+                   const std::vector<double>& values) {
+  const Handle dataset = create_dataset(place, file, name, H5T_IEEE_F64LE, extent);
+  place.checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                name.path);
+}
+
+// Chunks of one ping, all bins and up to 64 beams, fewer if that were more than 64 MiB.
+hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
+  const hsize_t bytes_per_beam = bins * sizeof(std::complex<float>);
+  return std::clamp<hsize_t>((hsize_t{64} << 20) / bytes_per_beam, 1, std::min<hsize_t>(beams, 64));
+}
+
+void write_pressure(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+  const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
+  const Extent extent = {pings.size(), beams, bins};
+  const Handle stored = complex_type(place, H5T_IEEE_F32LE), here = complex_type(place, H5T_NATIVE_FLOAT);
+  const Handle dataset =
+      create_dataset(place, file, pressure_name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
+  const Extent one_ping = {1, beams, bins};
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path),
+                      H5Sclose);
+  for (std::size_t p = 0; p < pings.size(); ++p) {
+    const Handle row = select_row(place, dataset, extent, p);
+    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, pings[p].pressure.data()),
+                  pressure_name.path);
+  }
+}
+
+void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
+  std::vector<double> range(gate.bins());
+  for (std::size_t n = 0; n < range.size(); ++n) range[n] = gate.centre(n);
+  write_numbers(place, file, range_name, {range.size()}, range);
+  write_numbers(place, file, azimuth_name, {fan.beams()}, fan.azimuth);
+  write_numbers(place, file, elevation_name, {fan.beams()}, fan.elevation);
+}
+
+void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+  std::vector<double> pose, time;
+  std::vector<std::int64_t> number;
+  for (const Ping& ping : pings) {
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) pose.push_back(ping.world_from_head.matrix()(row, column));
+    time.push_back(ping.time);
+    number.push_back(ping.number);
+  }
+  write_numbers(place, file, pose_name, {pings.size(), 4, 4}, pose);
+  write_numbers(place, file, time_name, {pings.size()}, time);
+  const Handle dataset = create_dataset(place, file, ping_name, H5T_STD_I64LE, {pings.size()});
+  place.checked(H5Dwrite(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, number.data()),
+                ping_name.path);
+}
+
+void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
+  write_attribute(place, file, "schema", cube_schema);
+  write_attribute(place, file, "insonify_version", cube.insonify_version);
+  write_attribute(place, file, "sonar", cube.sonar);
+  write_attribute(place, file, "sound_speed", cube.sound_speed);
+  write_attribute(place, file, "absorption_db_per_m", cube.absorption_db_per_m);
+  write_attribute(place, file, "centre_frequency", cube.centre_frequency);
+  write_attribute(place, file, "bandwidth", cube.bandwidth);
+  write_attribute(place, file, "source_level_db", cube.source_level_db);
+  write_attribute(place, file, "seed", cube.seed);
+  write_attribute(place, file, "tolerance", cube.tolerance);
+  const Ping& ping = cube.pings.front();
+  write_attribute(place, file, "beam_width", ping.fan.beam_width);
+  write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
+  write_attribute(place, file, "min_range", ping.gate.min_range);
+  write_attribute(place, file, "max_range", ping.gate.max_range);
+  write_attribute(place, file, "bin_size", ping.gate.bin_size);
+}
+
+}  // namespace
+
+void write_cube(const std::string& path, const Cube& cube) {
+  require_writable(cube, path);
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::file};
+  PendingFile pending(path);
+  Handle file = create_file(place, pending.temporary());
+  write_root_attributes(place, file, cube);
+  write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
+  write_track(place, file, cube.pings);
+  write_pressure(place, file, cube.pings);
+  place.checked(file.close(), "cannot be written");  // a full disk shows here
+  pending.commit();
+}
+
+}  // namespace insonify

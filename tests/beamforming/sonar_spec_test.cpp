@@ -1,0 +1,84 @@
+#include "beamforming/sonar_spec.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+using namespace insonify;
+
+namespace {
+
+SonarSpec spec() {
+  SonarSpec s;
+  s.name = "test";
+  s.centre_frequency = 750e3;
+  s.bandwidth = 150e3;
+  s.beams = 64;
+  s.field_of_view = radians(60);
+  s.beam_width = radians(1);
+  s.elevation_width = radians(20);
+  s.side_lobe_db = 0;
+  s.min_range = 0.5;
+  s.max_range = 9;
+  return s;
+}
+
+void expect_refused(const SonarSpec& s, const std::string& part) {
+  try {
+    make_head(s, 1490);
+    FAIL() << "accepted although " << part;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::argument);
+    EXPECT_THAT(error.what(), testing::HasSubstr(part));
+  }
+}
+
+}  // namespace
+
+// 1 degree needs 0.8859 / (0.5 sin 1 deg) = 101.5 half-wavelength elements.
+TEST(MakeHead, builds_the_array_that_the_beam_width_asks_for) {
+  const SonarHead head = make_head(spec(), 1490);
+  EXPECT_NEAR(static_cast<double>(head.array.elements()), 101.5, 0.6);
+  EXPECT_NEAR(degrees(array_beam_width(head.array, 1500 / 750e3)), 1, 0.006);
+}
+
+TEST(MakeHead, lengthens_a_shaded_array_to_keep_the_beam_width) {
+  SonarSpec s = spec();
+  s.side_lobe_db = -30;
+  const SonarHead head = make_head(s, 1490);
+  EXPECT_GT(head.array.elements(), 115U);
+  EXPECT_NEAR(degrees(array_beam_width(head.array, 1500 / 750e3)), 1, 0.006);
+}
+
+TEST(MakeHead, samples_the_pulse_unless_told_finer) {
+  EXPECT_NEAR(make_head(spec(), 1490).gate.bin_size, 0.44 * 1490 / 300e3, 1e-12);
+  SonarSpec fine = spec();
+  fine.bin_size = 0.001;
+  EXPECT_EQ(make_head(fine, 1490).gate.bin_size, 0.001);
+  SonarSpec coarse = spec();
+  coarse.bin_size = 0.01;
+  expect_refused(coarse, "would under-sample the pulse");
+}
+
+TEST(MakeHead, takes_given_beams) {
+  SonarSpec s = spec();
+  s.azimuths = {-0.3, 0.1, 0.15};
+  EXPECT_EQ(make_head(s, 1490).fan.azimuth, s.azimuths);
+}
+
+TEST(MakeHead, names_key_value_unit_and_rule) {
+  SonarSpec s = spec();
+  s.max_range = 0.1;
+  expect_refused(s, "max_range_m = 0.1 m, must be above min_range_m");
+  s = spec();
+  s.bandwidth = 2e6;
+  expect_refused(s, "bandwidth_hz = 2000000 Hz");
+  s = spec();
+  s.beam_width = 0;
+  expect_refused(s, "beam_width_deg = 0 deg");
+  s = spec();
+  s.side_lobe_db = -5;
+  expect_refused(s, "side_lobe_db = -5 dB");
+}

@@ -1,0 +1,173 @@
+#include "beamforming/synthesize.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acoustics/hear_scatterers.hpp"
+#include "beamforming/shading.hpp"
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+
+using namespace insonify;
+
+namespace {
+
+constexpr double c = 1490;
+
+SonarHead head_of(std::size_t beams, std::size_t elements, double max_range = 3) {
+  SonarHead head;
+  head.pulse = {750e3, 60e3, 220};
+  head.fan = make_fan(beams, radians(90), radians(2), radians(20));
+  head.gate = {1, max_range, default_bin_size(head.pulse, c)};
+  head.array = {0.5 * c / 750e3, elements > 4 ? taylor_shading(elements, -30) : uniform_shading(elements)};
+  return head;
+}
+
+/// Random echoes in and around the gate of `head`, amplitudes over 40 dB.
+Echoes random_echoes(std::size_t n, double min_range, double max_range, std::uint64_t seed = 3) {
+  Echoes e;
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const auto x = random_uniform(seed, RandomStage::scene_points, {i, 0, 0});
+    e.delay.push_back(2 * (min_range + (max_range - min_range) * x[0]) / c);
+    e.u.push_back(-0.9 + 1.8 * x[1]);
+    e.amplitude.push_back(std::polar(std::pow(10, -2 * x[2]), 2 * pi * x[3]));
+  }
+  return e;
+}
+
+Medium medium(int order = 0) { return {c, absorption_about({}, 750e3, order)}; }
+
+double relative_error(const ComplexGrid& a, const ComplexGrid& b) { return std::sqrt((a - b).abs2().sum() / b.abs2().sum()); }
+
+using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&, const SynthesisOptions&);
+
+}  // namespace
+
+// One scatterer on axis at a bin centre: the peak is the sonar equation, SL - 2 TL + TS, in every method.
+TEST(Synthesize, peak_of_one_scatterer_is_the_sonar_equation) {
+  const SonarHead head = head_of(1, 32);
+  const double r = head.gate.centre(200), ts = -20;
+  Scatterers s;
+  s.range = {r}, s.azimuth = {0}, s.elevation = {0};
+  const std::vector<double> sigma{power_from_db(ts)};
+  const std::vector<std::complex<double>> xi{1};
+  const Echoes echoes = hear_targets(s, sigma, xi, head.pulse, medium());
+  const double loss = 20 * std::log10(r) + medium().absorption.a0 / nepers_per_db * r;
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum}) {
+    const ComplexGrid p = synthesize(echoes, head, medium(), {});
+    Eigen::Index beam, bin;
+    const double peak = p.abs().maxCoeff(&beam, &bin);
+    EXPECT_EQ(bin, 200);
+    EXPECT_NEAR(pressure_level_db(peak), 220 - 2 * loss + ts, 1e-9);
+  }
+}
+
+// 154.0107 dB re 1 uPa: SL 220, r 10 m, alpha 0.2994626 dB/m, TS -20 (70.97 Pa peak).
+TEST(Synthesize, worked_example_of_the_sonar_equation) {
+  SonarHead head = head_of(1, 1, 12);
+  head.pulse.centre_frequency = 900e3;
+  head.gate.min_range = 10 - 100.5 * head.gate.bin_size;
+  Scatterers s;
+  s.range = {head.gate.centre(100)}, s.azimuth = {0}, s.elevation = {0};
+  ASSERT_NEAR(s.range[0], 10, 1e-12);
+  const std::vector<double> sigma{0.01};
+  const std::vector<std::complex<double>> xi{1};
+  const Medium m{c, {0.2994626 * nepers_per_db, 0, 0}};
+  const double peak = synthesize_direct(hear_targets(s, sigma, xi, head.pulse, m), head, m).abs().maxCoeff();
+  EXPECT_NEAR(pressure_level_db(peak), 154.0107, 5e-5);
+  EXPECT_NEAR(peak, 70.97, 0.005);
+}
+
+TEST(Synthesize, stamped_keeps_its_tolerance_against_the_referee) {
+  for (const std::size_t beams : {1, 17, 64})
+    for (const std::size_t n : {1, 10, 1000}) {
+      const SonarHead head = head_of(beams, 37);
+      const Echoes echoes = random_echoes(n, 0.9, 3.1);
+      for (const int order : {0, 2}) {
+        const ComplexGrid reference = synthesize_direct(echoes, head, medium(order));
+        for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
+          EXPECT_LT(relative_error(synthesize_stamped(echoes, head, medium(order), {tolerance, 0}), reference), tolerance)
+              << beams << " beams, " << n << " echoes, order " << order;
+      }
+    }
+}
+
+// An independent road: sum over frequencies, one FFT, no closed form of the pulse.
+TEST(Synthesize, spectrum_form_agrees_with_the_referee) {
+  const SonarHead head = head_of(5, 16, 2);
+  const Echoes echoes = random_echoes(40, 1.0, 2.0);
+  for (const int order : {0, 1, 2})
+    EXPECT_LT(relative_error(synthesize_spectrum(echoes, head, medium(order)), synthesize_direct(echoes, head, medium(order))), 1e-11)
+        << "absorption order " << order;
+}
+
+TEST(Synthesize, is_linear_in_the_echoes) {
+  const SonarHead head = head_of(9, 16);
+  const Echoes a = random_echoes(30, 1, 3, 1), b = random_echoes(30, 1, 3, 2);
+  Echoes both = a;
+  both.delay.insert(both.delay.end(), b.delay.begin(), b.delay.end());
+  both.u.insert(both.u.end(), b.u.begin(), b.u.end());
+  for (const auto& z : b.amplitude) both.amplitude.push_back(2.0 * z);
+  const ComplexGrid sum = synthesize_stamped(a, head, medium()) + 2 * synthesize_stamped(b, head, medium());
+  EXPECT_LT(relative_error(synthesize_stamped(both, head, medium()), sum), 1e-13);
+}
+
+TEST(Synthesize, gives_the_same_bits_for_any_number_of_threads) {
+  const SonarHead head = head_of(33, 20);
+  const Echoes echoes = random_echoes(500, 1, 3);
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped}) {
+    const ComplexGrid one = synthesize(echoes, head, medium(), {1e-6, 1});
+    for (const int threads : {2, 7}) EXPECT_TRUE((synthesize(echoes, head, medium(), {1e-6, threads}) == one).all());
+  }
+}
+
+TEST(Synthesize, does_not_wrap_echoes_from_outside_the_gate) {
+  const SonarHead head = head_of(3, 8, 2);
+  for (const double r : {0.5, 2.5, 3.0, 100.0}) {
+    Echoes e;
+    e.delay = {2 * r / c}, e.u = {0}, e.amplitude = {1e6};
+    EXPECT_EQ(synthesize_stamped(e, head, medium()).abs().maxCoeff(), 0) << r << " m";
+    EXPECT_LT(synthesize_direct(e, head, medium()).abs().maxCoeff(), 1e-300) << r << " m";
+  }
+}
+
+TEST(Synthesize, of_nothing_is_silence) {
+  const SonarHead head = head_of(3, 8);
+  const ComplexGrid p = synthesize_stamped({}, head, medium());
+  EXPECT_EQ(p.rows(), 3);
+  EXPECT_EQ(p.cols(), static_cast<Eigen::Index>(head.gate.bins()));
+  EXPECT_EQ(p.abs().maxCoeff(), 0);
+  EXPECT_EQ(synthesize_direct({}, head, medium()).abs().maxCoeff(), 0);
+}
+
+// The beam pattern along the fan is the array's: noiseless single echo, slice = B(u).
+TEST(Synthesize, slice_across_beams_is_the_array_response) {
+  const SonarHead head = head_of(101, 24);
+  Echoes e;
+  e.delay = {2 * head.gate.centre(100) / c}, e.u = {0.2}, e.amplitude = {1};
+  const Medium lossless{c, {}};
+  const ComplexGrid p = synthesize_stamped(e, head, lossless, {1e-12, 0});
+  for (std::size_t b = 0; b < 101; ++b) {
+    const double expected = array_response(head.array, c / 750e3, 0.2, std::sin(head.fan.azimuth[b]));
+    EXPECT_LT(std::abs(p(static_cast<Eigen::Index>(b), 100) - expected), 1e-12);
+  }
+}
+
+TEST(Synthesize, names_the_echo_that_is_not_finite) {
+  const SonarHead head = head_of(3, 8);
+  Echoes e = random_echoes(5, 1, 3);
+  e.amplitude[3] = {std::nan(""), 0};
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum}) try {
+      synthesize(e, head, medium(), {});
+      FAIL() << "accepted a NaN";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("echo 3"));
+    }
+  EXPECT_THROW(synthesize_stamped({}, head, medium(), {0, 0}), Error);
+  EXPECT_THROW(synthesize_stamped({}, head, Medium{-1, {}}, {}), Error);
+}

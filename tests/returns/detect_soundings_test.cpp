@@ -1,0 +1,105 @@
+#include "returns/detect_soundings.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+using namespace insonify;
+
+namespace {
+
+/// A fan of 5 beams, 10 degrees apart, 100 bins of 10 cm, and two scatterers: ahead at 3.05 m, 10 degrees to port
+/// and 20 degrees down at 6.05 m.
+struct Scene {
+  Ping ping;
+  Scatterers scatterers;
+  Echoes echoes;
+
+  Scene() {
+    ping.number = 7;
+    ping.fan = make_fan(5, radians(50), radians(10), radians(40));
+    ping.gate = {0.5, 10.5, 0.1};
+    ping.pressure = ComplexGridF::Zero(5, 100);
+    add(3.05, 0, 0, 4);
+    add(6.05, radians(10), radians(-20), 9);
+    mark(2, 25, 100);
+    mark(3, 55, 100);
+  }
+  void add(double range, double azimuth, double elevation, std::uint16_t material) {
+    scatterers.range.push_back(range), scatterers.azimuth.push_back(azimuth), scatterers.elevation.push_back(elevation);
+    scatterers.material.push_back(material), scatterers.id.push_back(range > 4), scatterers.surfel.push_back(0);
+    scatterers.cos_incidence.push_back(1), scatterers.projected_area.push_back(1);
+    echoes.delay.push_back(2 * range / 1500), echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)), echoes.amplitude.emplace_back(1, 0);
+  }
+  /// A pulse of three bins with its peak at `level` dB.
+  void mark(int beam, int bin, double level) {
+    const auto peak = static_cast<float>(std::sqrt(2) * 1e-6 * amplitude_from_db(level));
+    ping.pressure(beam, bin) = peak;
+    ping.pressure(beam, bin - 1) = ping.pressure(beam, bin + 1) = 0.3F * peak;
+  }
+  Soundings detect(DetectionOptions options = {.noise_floor_db = 40}) { return detect_soundings(ping, scatterers, echoes, options); }
+};
+
+}  // namespace
+
+TEST(DetectSoundings, puts_one_point_on_each_target) {
+  Scene scene;
+  scene.ping.world_from_head = pose_from_yaw_pitch_roll({100, 0, -5}, radians(90), 0, 0);
+  const Soundings s = scene.detect();
+  ASSERT_EQ(s.size(), 2U);
+  EXPECT_EQ(s.beam[0], 2U);
+  EXPECT_EQ(s.bin[0], 25U);
+  EXPECT_EQ(s.ping[0], 7U);
+  EXPECT_EQ(s.material[0], 4U);
+  EXPECT_NEAR(s.level_db[0], 100, 1e-3);
+  EXPECT_LT((s.position[0] - Eigen::Vector3d(100, 3.05, -5)).norm(), 1e-9);  // head looks along +y
+  EXPECT_EQ(s.beam[1], 3U);
+  EXPECT_EQ(s.material[1], 9U);
+  EXPECT_NEAR(s.elevation[1], radians(-20), 1e-6);
+  const Eigen::Vector3d head = 6.05 * unit_vector({radians(10), radians(-20)});
+  EXPECT_LT((s.position[1] - scene.ping.world_from_head * head).norm(), 1e-9);
+}
+
+TEST(DetectSoundings, stays_silent_below_the_noise_floor_and_its_threshold) {
+  Scene scene;
+  EXPECT_EQ(scene.detect({.noise_floor_db = 88}).size(), 2U);
+  EXPECT_EQ(scene.detect({.noise_floor_db = 89}).size(), 0U);  // 100 < 89 + 11.4
+}
+
+TEST(DetectSoundings, takes_side_lobes_for_what_they_are) {
+  Scene scene;
+  scene.mark(1, 25, 74);  // leakage at the range of the target in beam 2, 26 dB down
+  scene.add(3.05, radians(-10), 0, 1);
+  EXPECT_EQ(scene.detect().size(), 2U);
+  EXPECT_EQ(scene.detect({.noise_floor_db = 40, .side_lobe_margin_db = 30}).size(), 3U);
+}
+
+TEST(DetectSoundings, gives_no_point_where_nothing_lies_in_the_beam) {
+  Scene scene;
+  scene.mark(0, 80, 100);  // no scatterer there
+  EXPECT_EQ(scene.detect().size(), 2U);
+}
+
+TEST(DetectSoundings, of_all_bins_keeps_the_flanks_too) {
+  Scene scene;
+  EXPECT_EQ(scene.detect({.all_bins = true, .above_db = 80}).size(), 6U);
+  EXPECT_EQ(scene.detect({.all_bins = true, .above_db = 95}).size(), 2U);
+}
+
+TEST(DetectSoundings, does_not_depend_on_threads) {
+  Scene scene;
+  for (const int threads : {1, 2, 7}) {
+    const Soundings s = scene.detect({.noise_floor_db = 40, .threads = threads});
+    ASSERT_EQ(s.size(), 2U);
+    EXPECT_EQ(s.beam, (std::vector<std::uint32_t>{2, 3}));
+  }
+}
+
+TEST(DetectSoundings, refuses_echoes_of_another_ping) {
+  Scene scene;
+  scene.echoes.delay.pop_back();
+  EXPECT_THROW(scene.detect(), Error);
+}

@@ -1,0 +1,40 @@
+#include "returns/ping.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using namespace insonify;
+
+namespace {
+Ping small_ping() {
+  Ping ping;
+  ping.fan = make_fan(2, 0.2, 0.1, 0.3);
+  ping.gate = {1, 4, 1};
+  ping.pressure = ComplexGridF::Zero(2, 3);
+  ping.pressure(0, 1) = {0, 70.97F};
+  return ping;
+}
+}  // namespace
+
+// 70.97 Pa peak is 154.01 dB re 1 uPa rms; silence is the floor, never -inf or NaN.
+TEST(LevelDb, is_rms_re_1_micropascal_and_finite_for_silence) {
+  const Grid<float> level = level_db(small_ping());
+  EXPECT_NEAR(level(0, 1), 154.011, 0.001);
+  EXPECT_EQ(level(1, 2), -200);
+  EXPECT_EQ(level_db(small_ping(), -50)(1, 2), -50);
+}
+
+// At 2.5 m: 40 log 2.5 + 2 * 0.3 * 2.5.
+TEST(RangeCompensatedLevel, takes_spreading_and_absorption_back_and_leaves_silence) {
+  const Grid<float> level = range_compensated_level_db(small_ping(), 0.3);
+  EXPECT_NEAR(level(0, 1), 154.011 + 40 * std::log10(2.5) + 1.5, 0.001);
+  EXPECT_EQ(level(1, 2), -200);
+}
+
+TEST(MeanLevel, averages_intensity_inside_the_ranges) {
+  const Ping ping = small_ping();
+  EXPECT_NEAR(mean_level_db(ping, 2, 3), 154.011 - 10 * std::log10(2), 0.001);  // one of two samples
+  EXPECT_NEAR(mean_level_db(ping, 1, 4), 154.011 - 10 * std::log10(6), 0.001);
+  EXPECT_TRUE(std::isinf(mean_level_db(ping, 50, 60)));
+}

@@ -1,0 +1,86 @@
+#include "sampling/beam_fan.hpp"
+
+#include "sampling/cast_rays.hpp"
+#include "sampling_scenes.hpp"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace insonify;
+using testing::HasSubstr;
+
+TEST(BeamFan, spreads_beams_evenly_inside_the_field_of_view) {
+  const BeamFan fan = make_fan(4, 0.8, 0.1, 0.3, -0.2);
+  EXPECT_THAT(fan.azimuth, testing::Pointwise(testing::DoubleNear(1e-12), {-0.3, -0.1, 0.1, 0.3}));
+  EXPECT_THAT(fan.elevation, testing::Each(-0.2));
+  EXPECT_EQ(make_fan(1, 2, 0.1, 0.3).azimuth, std::vector<double>{0});
+}
+
+TEST(BeamFan, says_what_is_wrong_with_it) {
+  const auto message = [](const std::function<void(BeamFan&)>& damage) {
+    BeamFan fan = make_fan(3, 0.8, 0.1, 0.3);
+    damage(fan);
+    return message_of([&] { require_valid(fan, "someone"); });
+  };
+  EXPECT_EQ(message([](BeamFan&) {}), "no error");
+  EXPECT_THAT(message([](BeamFan& f) { f.azimuth.clear(); }), HasSubstr("someone: fan has no beams"));
+  EXPECT_THAT(message([](BeamFan& f) { f.elevation.pop_back(); }), HasSubstr("fan.elevation has 2 entries"));
+  EXPECT_THAT(message([](BeamFan& f) { f.azimuth[1] = 3.2; }), HasSubstr("fan.azimuth[1] = 3.2 rad"));
+  EXPECT_THAT(message([](BeamFan& f) { f.azimuth[1] = std::numeric_limits<double>::quiet_NaN(); }),
+              HasSubstr("fan.azimuth[1]"));
+  EXPECT_THAT(message([](BeamFan& f) { f.elevation[2] = -1.6; }), HasSubstr("fan.elevation[2] = -1.6 rad"));
+  EXPECT_THAT(message([](BeamFan& f) { f.beam_width = 0; }),
+              HasSubstr("fan.beam_width = 0 rad, must be > 0"));
+  EXPECT_THAT(message([](BeamFan& f) { f.elevation_width = -1; }), HasSubstr("fan.elevation_width = -1 rad"));
+  EXPECT_THAT(message_of([] { make_fan(0, 1, 0.1, 0.1); }), HasSubstr("beams = 0"));
+  EXPECT_THAT(message_of([] { make_fan(3, 7, 0.1, 0.1); }), HasSubstr("field_of_view = 7 rad"));
+}
+
+TEST(Sector, is_the_fan_and_a_beam_width_on_either_side) {
+  const Sector s = insonified_sector(make_fan(4, 0.8, 0.1, 0.3, -0.2), 0.25);
+  EXPECT_NEAR(s.min_azimuth, -0.4, 1e-12);
+  EXPECT_NEAR(s.max_azimuth, 0.4, 1e-12);
+  EXPECT_NEAR(s.min_elevation, -0.45, 1e-12);
+  EXPECT_NEAR(s.max_elevation, 0.05, 1e-12);
+}
+
+TEST(Sector, of_a_fan_that_looks_astern_crosses_the_seam) {
+  BeamFan fan{{3.0, 3.1, -3.1, -3.0}, {0, 0, 0, 0}, 0.05, 0.3};
+  const Sector s = insonified_sector(fan, 0.3);
+  EXPECT_NEAR(s.min_azimuth, 2.95, 1e-12);
+  EXPECT_NEAR(s.max_azimuth, 2 * pi - 3.0 + 0.05, 1e-12);
+}
+
+TEST(Sector, of_a_full_circle_is_the_circle) {
+  const Sector s = insonified_sector(make_fan(360, 2 * pi, radians(2), 0.3), 2);
+  EXPECT_NEAR(s.max_azimuth - s.min_azimuth, 2 * pi, 1e-12);
+  EXPECT_NEAR(s.max_elevation, pi / 2, 1e-12);
+}
+
+TEST(BeamShares, tile_the_sector) {
+  const BeamFan irregular{{0.3, -0.2, 0.25, 0.0}, {0, 0, 0, 0}, 0.1, 0.3};
+  for (const BeamFan& fan :
+       {make_fan(5, 1, 0.1, 0.3), irregular, make_fan(1, 1, 0.1, 0.3), make_fan(36, 2 * pi, 0.2, 0.3)}) {
+    const Sector sector = insonified_sector(fan, 0.3);
+    double sum = 0;
+    const auto shares = beam_shares(fan, sector, 0.3);
+    for (std::size_t b = 0; b < fan.beams(); ++b) {
+      sum += shares[b].max_azimuth - shares[b].min_azimuth;
+      const double off =
+          std::remainder(fan.azimuth[b] - (shares[b].min_azimuth + shares[b].max_azimuth) / 2, 2 * pi);
+      EXPECT_LE(std::abs(off), (shares[b].max_azimuth - shares[b].min_azimuth) / 2 + 1e-12);
+    }
+    EXPECT_NEAR(sum, sector.max_azimuth - sector.min_azimuth, 1e-12);
+  }
+}
+
+TEST(BeamShares, of_beams_in_a_column_share_its_elevations) {
+  const BeamFan grid{{0, 0, 0.1, 0.1}, {-0.1, 0.1, -0.1, 0.1}, 0.1, 0.2};
+  const auto shares = beam_shares(grid, insonified_sector(grid, 0.2), 0.2);
+  EXPECT_NEAR(shares[0].min_elevation, -0.3, 1e-12);
+  EXPECT_NEAR(shares[0].max_elevation, 0.0, 1e-12);
+  EXPECT_NEAR(shares[1].max_elevation, 0.3, 1e-12);
+  EXPECT_NEAR(shares[3].min_azimuth, 0.05, 1e-12);
+}

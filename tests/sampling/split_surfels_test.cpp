@@ -1,0 +1,115 @@
+#include "sampling/split_surfels.hpp"
+
+#include "sampling_scenes.hpp"
+
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+using namespace insonify;
+using Eigen::Vector3d;
+
+namespace {
+
+const BeamFan fan = make_fan(64, radians(60), radians(1), radians(40));
+const RangeGate gate{0.1, 50, 0.01};
+
+SceneCloud small_wall() {
+  SceneCloud scene;
+  add_wall(scene, 5, 1, 1, 0.05, 0.3);
+  return scene;
+}
+
+double total(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float v : values) sum += v;
+  return sum;
+}
+
+Vector3d world_position(const Scatterers& s, std::size_t i, const Pose& pose) {
+  return pose * (s.range[i] * unit_vector({s.azimuth[i], s.elevation[i]}));
+}
+
+}  // namespace
+
+TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell) {
+  // At 45 degrees, range 10 m: a cell is 0.02 sqrt(2) m by 0.2 m, so 1 m^2 holds 176.8 cells (E17).
+  const SplitOptions options{.scatterers_per_cell = 10, .range_resolution = 0.02, .beam_width = 0.02};
+  EXPECT_EQ(parts_of(1, 10, std::sqrt(0.5), options), 1768u);
+  // At normal incidence a plane within dr is 2 sqrt(2 r dr) = 1.2649 m long.
+  EXPECT_EQ(parts_of(1, 10, 1, options), 40u);
+  EXPECT_EQ(parts_of(1e-6, 10, 0.5, options), 1u);
+  EXPECT_EQ(parts_of(1e6, 10, 0.5, options), 4096u);
+  EXPECT_EQ(parts_of(1, 10, 0.5, {.scatterers_per_cell = 0}), 1u);
+}
+
+TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {
+  const SceneCloud scene = small_wall();
+  const Scatterers whole = find_scatterers(scene, at(0, 0, 0), fan, gate, unsplit()).scatterers;
+  const Scatterers parts =
+      find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 200}).scatterers;
+  EXPECT_EQ(whole.size(), scene.size());
+  EXPECT_GT(parts.size(), 5 * whole.size());
+  EXPECT_NEAR(total(parts.projected_area), total(whole.projected_area), 1e-4 * total(whole.projected_area));
+  EXPECT_EQ(std::set(parts.id.begin(), parts.id.end()).size(), parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) ASSERT_EQ(parts.id[i] >> 32, scene.id[parts.surfel[i]]);
+}
+
+TEST(Splitting, leaves_an_unsplit_surfel_at_its_centre) {
+  const SceneCloud scene = small_wall();
+  const Pose pose = at(0.5, 0.2, -0.1, 3, -2);
+  const Scatterers s = find_scatterers(scene, pose, fan, gate, unsplit()).scatterers;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    ASSERT_LT((world_position(s, i, pose) - scene.point[s.surfel[i]].cast<double>()).norm(), 1e-12);
+}
+
+TEST(Splitting, puts_every_part_at_the_same_place_for_every_pose) {
+  const SceneCloud scene = small_wall();
+  const SamplingOptions options{.scatterers_per_cell = 300};
+  const Pose poses[] = {at(0, 0, 0), at(-20, 3, 1, -7, 4), at(2, -1, 0.5, 15, 0)};
+  std::map<std::uint64_t, Vector3d> places;
+  std::size_t shared = 0;
+  std::set<std::size_t> sizes;
+  for (const Pose& pose : poses) {
+    const Scatterers s = find_scatterers(scene, pose, fan, gate, options).scatterers;
+    sizes.insert(s.size());
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const auto [place, is_new] = places.emplace(s.id[i], world_position(s, i, pose));
+      if (is_new) continue;
+      ++shared;
+      ASSERT_LT((place->second - world_position(s, i, pose)).norm(), 1e-9);
+    }
+  }
+  EXPECT_EQ(sizes.size(), 3u);  // split into different numbers of parts
+  EXPECT_GT(shared, 10000u);
+}
+
+TEST(Splitting, spreads_parts_evenly_over_the_disc_of_the_surfel) {
+  SceneCloud scene;
+  add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, pi);  // a disc of radius 1 m
+  const Scatterers s =
+      find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 1e4}).scatterers;
+  ASSERT_EQ(s.size(), 4096u);
+  Vector3d mean = Vector3d::Zero();
+  double inner = 0, port = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const Vector3d p = world_position(s, i, Pose::Identity()) - Vector3d(5, 0, 0);
+    ASSERT_NEAR(p.x(), 0, 1e-9);
+    ASSERT_LE(p.norm(), 1 + 1e-9);
+    mean += p / 4096;
+    inner += p.norm() < std::sqrt(0.5);
+    port += p.y() > 0;
+  }
+  EXPECT_LT(mean.norm(), 0.005);
+  EXPECT_NEAR(inner, 2048, 20);  // half the area
+  EXPECT_NEAR(port, 2048, 20);
+}
+
+TEST(Splitting, follows_the_seed) {
+  const SceneCloud scene = small_wall();
+  SamplingOptions options{.scatterers_per_cell = 100};
+  const auto range = find_scatterers(scene, at(0, 0, 0), fan, gate, options).scatterers.range;
+  options.seed = 2;
+  EXPECT_NE(find_scatterers(scene, at(0, 0, 0), fan, gate, options).scatterers.range, range);
+}

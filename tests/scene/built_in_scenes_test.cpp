@@ -1,0 +1,117 @@
+#include "scene/built_in_scenes.hpp"
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace insonify;
+using Eigen::Vector3d, Eigen::Vector3f;
+
+namespace {
+
+double area_of(const SceneCloud& scene) { return std::accumulate(scene.area.begin(), scene.area.end(), 0.0); }
+
+std::string message_of(const std::string& name, const BuiltInSceneOptions& options) {
+  try {
+    make_built_in_scene(name, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST(BuiltInScenes, are_valid_and_have_the_points_asked_for) {
+  for (const std::string& name : built_in_scene_names())
+    for (const std::size_t points : {1000u, 20000u}) {
+      const SceneCloud scene = make_built_in_scene(name, {.points = points});
+      EXPECT_NO_THROW(require_valid(scene, name.c_str()));
+      EXPECT_NEAR(static_cast<double>(scene.size()), static_cast<double>(points),
+                  0.02 * static_cast<double>(points))
+          << name;
+      EXPECT_EQ(std::set(scene.id.begin(), scene.id.end()).size(), scene.size()) << name;
+    }
+}
+
+TEST(BuiltInScenes, have_the_areas_of_their_surfaces) {
+  EXPECT_NEAR(area_of(make_built_in_scene("plane", {.points = 3000, .size = {20, 7}})), 140, 140 * 1e-3);
+  EXPECT_NEAR(area_of(make_built_in_scene("sphere", {.points = 3000, .radius = 0.3})), 4 * pi * 0.09,
+              4 * pi * 0.09 * 1e-3);
+  EXPECT_NEAR(area_of(make_built_in_scene("wall", {.points = 3000, .size = {6, 4}})), 23, 23 * 1e-3);
+  EXPECT_NEAR(area_of(make_built_in_scene("wall", {.points = 3000, .size = {2, 2}})), 4, 4e-3);
+  EXPECT_NEAR(area_of(make_built_in_scene("poles", {.points = 3000})), 24 + 3 * 2 * pi * 0.1 * 4, 0.05);
+}
+
+TEST(BuiltInScenes, lie_where_they_are_said_to) {
+  const Bounds plane = bounds(make_built_in_scene("plane", {.points = 20000, .size = {40, 40}}));
+  EXPECT_NEAR((plane.min - Vector3d(0, -20, 0)).norm(), 0, 0.3);
+  EXPECT_NEAR((plane.max - Vector3d(40, 20, 0)).norm(), 0, 0.3);
+  for (const Vector3f& p : make_built_in_scene("sphere", {.radius = 0.3}).point)
+    ASSERT_NEAR((p - Vector3f(5, 0, 0)).norm(), 0.3, 1e-5);
+  for (const Vector3f& p : make_built_in_scene("wall", {.size = {6, 4}}).point) {
+    ASSERT_EQ(p.x(), 5);
+    ASSERT_FALSE(std::abs(p.y()) < 0.5 && std::abs(p.z()) < 0.5);
+  }
+}
+
+TEST(BuiltInScenes, have_outward_normals) {
+  const SceneCloud sphere = make_built_in_scene("sphere", {.points = 5000, .radius = 0.3});
+  for (std::size_t i = 0; i < sphere.size(); ++i)
+    ASSERT_GT(sphere.normal[i].dot((sphere.point[i] - Vector3f(5, 0, 0)).normalized()), 0.9999);
+  for (const Vector3f& n : make_built_in_scene("plane").normal) ASSERT_EQ(n, Vector3f(0, 0, 1));
+  for (const Vector3f& n : make_built_in_scene("wall").normal)
+    ASSERT_LT((n - Vector3f(-1, 0, 0)).norm(), 1e-6);
+  const SceneCloud poles = make_built_in_scene("poles", {.points = 5000});
+  for (std::size_t i = 0; i < poles.size(); ++i)
+    if (poles.point[i].x() < 5) {
+      const Vector3f axis(4, std::round(poles.point[i].y()), poles.point[i].z());
+      ASSERT_GT(poles.normal[i].dot((poles.point[i] - axis).normalized()), 0.9999);
+    }
+}
+
+TEST(BuiltInScenes, are_reproducible_and_follow_the_seed) {
+  for (const std::string& name : built_in_scene_names()) {
+    const SceneCloud a = make_built_in_scene(name, {.points = 3000}),
+                     b = make_built_in_scene(name, {.points = 3000});
+    EXPECT_EQ(a.point, b.point) << name;
+    EXPECT_EQ(a.area, b.area) << name;
+    EXPECT_NE(a.point, make_built_in_scene(name, {.points = 3000, .seed = 2}).point) << name;
+  }
+}
+
+TEST(Harbour, fills_its_box_under_water_and_faces_the_head) {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 50000});
+  const Bounds box = bounds(scene);
+  EXPECT_GT(box.min.x(), -1e-3);
+  EXPECT_LT(box.max.x(), 60.001);
+  EXPECT_NEAR(box.min.y(), -30, 0.5);
+  EXPECT_NEAR(box.max.y(), 30, 0.5);
+  EXPECT_LT(box.max.z(), 0);
+  EXPECT_GT(box.min.z(), -9.5);  // the wreck's keel lies in the bed
+  std::vector<double> area(scene.materials.size(), 0.0), upward(scene.materials.size(), 0.0);
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    area[scene.material[i]] += scene.area[i];
+    const std::string& name = scene.materials[scene.material[i]].name;
+    ASSERT_TRUE(name != "sand" || scene.normal[i].z() > 0.5);
+    ASSERT_TRUE(name != "concrete" || scene.normal[i].y() < 0);
+  }
+  EXPECT_GT(area[0], 3600);  // a rippled bed is larger than its plan
+  EXPECT_LT(area[0], 3600 * 1.05);
+  for (std::size_t m = 0; m < area.size(); ++m) EXPECT_GT(area[m], 0.5) << scene.materials[m].name;
+  for (const Material& m : scene.materials) EXPECT_LT(m.lambert_mu, 1 / pi) << m.name;
+}
+
+TEST(BuiltInScenes, refuse_bad_options) {
+  using testing::HasSubstr;
+  EXPECT_THAT(message_of("harbor", {}), HasSubstr("no scene 'harbor', must be one of: harbour, plane"));
+  EXPECT_THAT(message_of("plane", {.points = 0}), HasSubstr("points = 0"));
+  EXPECT_THAT(message_of("plane", {.size = {0, 1}}), HasSubstr("size = 0 x 1 m"));
+  EXPECT_THAT(message_of("sphere", {.radius = -1}), HasSubstr("radius = -1 m"));
+}

@@ -1,0 +1,116 @@
+// Mean levels against closed forms. Random amplitudes make single levels scatter; every tolerance states how much.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/hear_scatterers.hpp"
+#include "beamforming/shading.hpp"
+#include "beamforming/sonar_spec.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "simulate/simulate_ping.hpp"
+
+using namespace insonify;
+
+namespace {
+
+/// A head without an elevation pattern worth speaking of (sector over the whole half space) and a uniform array.
+SonarHead bottom_sonar(double min_range, double max_range) {
+  SonarSpec s;
+  s.name = "bottom";
+  s.centre_frequency = 900e3;
+  s.bandwidth = 29.5e3;
+  s.source_level_db = 220;
+  s.beams = 41;
+  s.field_of_view = radians(40);
+  s.beam_width = radians(1);
+  s.elevation_width = radians(170);
+  s.elevation_shape = ElevationShape::sector;
+  s.side_lobe_db = 0;
+  s.min_range = min_range;
+  s.max_range = max_range;
+  return make_head(s, sound_speed({}));
+}
+
+/// Flat Lambert bottom at height h (one-way line pattern, Gaussian pulse of energy length tau_e = 0.469719 / B):
+/// RL = SL - 40 log r - 2 a r + 10 log mu + 20 log(h / r) + 10 log[(lambda / L) r^2 / sqrt(r^2 - h^2) c tau_e / 2].
+double bottom_level_db(const SonarHead& head, double r, double h, double mu) {
+  const double c = sound_speed({}), wavelength = c / head.pulse.centre_frequency;
+  const double length = head.array.spacing * static_cast<double>(head.array.elements());
+  const double cell = wavelength / length * r * r / std::sqrt(r * r - h * h) * 0.5 * c * 0.469719 / head.pulse.bandwidth;
+  return head.pulse.source_level_db - 40 * std::log10(r) - 2 * absorption_db_per_m({}, head.pulse.centre_frequency) * r +
+         db_from_power(mu) + 20 * std::log10(h / r) + db_from_power(cell);
+}
+
+SimulatedPing ping_plane(const SonarHead& head, double h, std::size_t points, const SimulationOptions& options) {
+  const SceneCloud scene = make_built_in_scene("plane", {.points = points, .size = {14, 16}});
+  return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, h}, 0, 0, 0), {}, options);
+}
+
+/// Mean level less the closed form over a strip of range around r [dB], beams within 10 degrees of ahead: farther out
+/// the cone of a beam leaves the insonified sector before it meets the bottom.
+double bottom_excess_db(const SimulatedPing& p, const SonarHead& head, double r, double h) {
+  double excess = 0, samples = 0;
+  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
+    if (std::abs(head.fan.azimuth[b]) > radians(10)) continue;
+    for (std::size_t n = 0; n < head.gate.bins(); ++n) {
+      const double range = head.gate.centre(n);
+      if (std::abs(range - r) > 0.25) continue;
+      const double level = pressure_level_db(std::abs(std::complex<double>(p.ping.pressure(static_cast<int>(b), static_cast<int>(n)))));
+      excess += power_from_db(level - bottom_level_db(head, range, h, power_from_db(-27)));
+      ++samples;
+    }
+  }
+  return db_from_power(excess / samples);
+}
+
+}  // namespace
+
+// A strip of 0.5 m holds 20 beams x 0.5 m / 1.1 cm = 900 cells: one standard deviation is 0.15 dB.
+TEST(LevelLaws, flat_lambert_bottom_has_the_closed_form_level) {
+  const SonarHead head = bottom_sonar(4, 11);
+  const SimulatedPing p = ping_plane(head, 3, 300000, {});
+  for (const double r : {5.0, 7.0, 10.0}) EXPECT_NEAR(bottom_excess_db(p, head, r, 3), 0, 0.4) << r << " m";
+}
+
+TEST(LevelLaws, level_does_not_depend_on_cloud_density_or_splitting) {
+  const SonarHead head = bottom_sonar(4, 8);
+  for (const std::size_t points : {50000, 100000, 400000})
+    EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, points, {}), head, 6, 3), 0, 0.4) << points << " points";
+  for (const double per_cell : {3.0, 30.0})
+    EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, 100000, {.scatterers_per_cell = per_cell}), head, 6, 3), 0, 0.4) << per_cell;
+}
+
+TEST(LevelLaws, level_does_not_depend_on_the_number_of_rays) {
+  const SonarHead head = bottom_sonar(4, 8);
+  for (const int rays : {2000, 4000}) {
+    const SimulatedPing p = ping_plane(head, 3, 200000, {.sampling = SamplingKind::rays, .rays_per_beam = rays});
+    EXPECT_NEAR(bottom_excess_db(p, head, 6, 3), 0, 0.5) << rays << " rays per beam";
+  }
+}
+
+// A convex Lambert sphere: sigma = 2 pi mu a^2 / 3 (-21.76 dB for mu = 1 / pi, a = 0.1 m), not the rigid a^2 / 4.
+TEST(LevelLaws, sphere_of_lambert_facets_converges_to_two_thirds_pi_mu_a_squared) {
+  const double a = 0.1, mu = 1 / pi;  // seen from 55 m: from 5 m perspective would hide 3 % of the projected area
+  const SceneCloud sphere = make_built_in_scene("sphere", {.points = 20000, .radius = a, .lambert_mu = mu});
+  const SonarHead head = bottom_sonar(50, 60);
+  SamplingOptions options;
+  options.scatterers_per_cell = 0;
+  options.elevation_half_extent = 1;
+  const Scatterers s = find_scatterers(sphere, pose_from_yaw_pitch_roll({-50, 0, 0}, 0, 0, 0), head.fan, head.gate, options).scatterers;
+  double sigma = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) sigma += lambert_cross_section(mu, s.cos_incidence[i], s.projected_area[i]);
+  EXPECT_NEAR(db_from_power(sigma), -21.76, 0.03);
+}
+
+// Each term of the sonar equation is in: what happens to the mean level of the bottom when it is taken out.
+TEST(LevelLaws, every_term_of_the_sonar_equation_moves_the_level) {
+  SonarHead head = bottom_sonar(4, 8);
+  const SimulatedPing p = ping_plane(head, 3, 100000, {});
+  head.pulse.source_level_db += 7;
+  EXPECT_NEAR(mean_level_db(ping_plane(head, 3, 100000, {}).ping, 5, 7) - mean_level_db(p.ping, 5, 7), 7, 1e-4);
+  head = bottom_sonar(4, 8);
+  head.fan.elevation_width = radians(20);  // gaussian, axis level: the bottom at 6 m is 30 degrees below
+  head.elevation_shape = ElevationShape::gaussian;
+  EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, 100000, {}), head, 6, 3), -10 * std::log10(2.0) * 9, 1);
+}

@@ -1,0 +1,123 @@
+#include "simulate/simulate_ping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/sonar_spec.hpp"
+#include "core/units.hpp"
+#include "returns/compare.hpp"
+#include "scene/built_in_scenes.hpp"
+
+using namespace insonify;
+
+namespace {
+
+SonarSpec small_sonar() {
+  SonarSpec s;
+  s.name = "test";
+  s.centre_frequency = 450e3;
+  s.bandwidth = 20e3;
+  s.beams = 48;
+  s.field_of_view = radians(60);
+  s.beam_width = radians(2);
+  s.elevation_width = radians(20);
+  s.min_range = 2;
+  s.max_range = 20;
+  return s;
+}
+
+SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
+  SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
+  scene.origin += shift;
+  const Water water;
+  const SonarHead head = make_head(small_sonar(), sound_speed(water));
+  return simulate_ping(scene, head, pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0), water, options);
+}
+
+ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<std::complex<double>>(); }
+
+/// The image times r^2: near and far cells weigh the same.
+ComplexGrid levelled(const SimulatedPing& p) {
+  ComplexGrid grid = image(p);
+  for (Eigen::Index n = 0; n < grid.cols(); ++n) grid.col(n) *= std::pow(p.ping.gate.centre(static_cast<std::size_t>(n)), 2);
+  return grid;
+}
+
+}  // namespace
+
+TEST(SimulatePing, hears_the_harbour) {
+  const SimulatedPing p = ping_harbour({});
+  EXPECT_GT(p.sampling.visible, 1000U);
+  EXPECT_GT(p.scatterers.size(), p.sampling.visible);
+  EXPECT_GT(p.soundings.size(), 1000U);
+  EXPECT_TRUE(p.ping.pressure.isFinite().all());
+  EXPECT_GT(p.ping.pressure.abs().maxCoeff(), 0);
+}
+
+TEST(SimulatePing, gives_the_same_bits_for_any_number_of_threads) {
+  const SimulatedPing one = ping_harbour({.threads = 1});
+  for (const int threads : {2, 7}) {
+    const SimulatedPing many = ping_harbour({.threads = threads});
+    EXPECT_TRUE((one.ping.pressure == many.ping.pressure).all());
+    EXPECT_EQ(one.soundings.bin, many.soundings.bin);
+  }
+}
+
+TEST(SimulatePing, changes_speckle_but_not_the_level_with_the_seed) {
+  const SimulatedPing a = ping_harbour({.seed = 1}), b = ping_harbour({.seed = 2});
+  EXPECT_LT(compare_images(levelled(a), levelled(b)).correlation, 0.05);
+  // Some thousands of independent cells of unequal weight: a few tenths of a dB.
+  EXPECT_NEAR(compare_images(levelled(a), levelled(b)).mean_level_db, 0, 0.4);
+}
+
+// World and head moved together by whole metres: the same relative geometry to the last bit of double.
+TEST(SimulatePing, does_not_change_when_world_and_head_move_together) {
+  const SimulatedPing here = ping_harbour({}), far = ping_harbour({}, {1e6, -2e6, 300});
+  EXPECT_EQ(here.scatterers.size(), far.scatterers.size());
+  EXPECT_LT(compare_images(image(far), image(here)).relative_l2, 1e-9);
+}
+
+TEST(SimulatePing, stamped_and_direct_agree_on_a_scene) {
+  const SimulatedPing fast = ping_harbour({.scatterers_per_cell = 0, .tolerance = 1e-6});
+  const SimulatedPing slow = ping_harbour({.scatterers_per_cell = 0, .method = SynthesisMethod::direct});
+  EXPECT_LT(compare_images(image(fast), image(slow)).relative_l2, 1e-6);
+}
+
+// A sounding lies on the tangent plane of the surface it came from: within half a bin and the pulse's length.
+TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
+  const SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {30, 30}});
+  const Water water;
+  const SonarHead head = make_head(small_sonar(), sound_speed(water));
+  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), water);
+  ASSERT_GT(p.soundings.size(), 500U);
+  std::vector<double> off;
+  for (const auto& x : p.soundings.position) off.push_back(std::abs(x.z()));
+  std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+  EXPECT_LT(off[off.size() / 2], head.gate.bin_size);
+  EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * head.gate.bin_size);
+}
+
+TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
+  const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
+  const Water water;
+  const SonarHead head = make_head(small_sonar(), sound_speed(water));
+  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), water);
+  EXPECT_EQ(p.scatterers.size(), 0U);
+  EXPECT_EQ(p.ping.pressure.abs().maxCoeff(), 0);
+  EXPECT_EQ(p.soundings.size(), 0U);
+}
+
+// Same place, same seed: same speckle in every ping. A move of half an aperture sideways decorrelates it.
+TEST(SimulatePing, locks_speckle_to_the_scene) {
+  const SceneCloud scene = make_built_in_scene("plane", {.points = 100000, .size = {30, 30}});
+  const Water water;
+  const SonarHead head = make_head(small_sonar(), sound_speed(water));
+  const auto at = [&](double y) { return image(simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, y, 3}, 0, radians(15), 0), water)); };
+  const ComplexGrid still = at(0);
+  EXPECT_EQ(compare_images(at(0), still).relative_l2, 0);
+  EXPECT_GT(compare_images(at(1e-5), still).correlation, 0.999);  // a hundredth of a wavelength
+  EXPECT_LT(compare_images(at(0.1), still).correlation, 0.2);
+}

@@ -1,0 +1,330 @@
+#include "store/cube.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include <hdf5.h>
+#include <malloc.h>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "store/run_directory.hpp"
+#include "store_testing.hpp"
+
+using namespace insonify;
+
+namespace {
+
+// 70 beams: more than one chunk of 64, the last one not full.
+Cube make_cube(std::size_t pings = 3, std::size_t beams = 70) {
+  Cube cube;
+  cube.sound_speed = 1489.8;
+  cube.absorption_db_per_m = 0.2994626;
+  cube.centre_frequency = 900e3;
+  cube.bandwidth = 29.5e3;
+  cube.source_level_db = 220;
+  cube.seed = 18446744073709551557u;  // does not fit into a signed number or a double
+  cube.tolerance = 1e-4;
+  cube.sonar = "p900-45";
+  cube.insonify_version = "0.1.0";
+  const BeamFan fan = make_fan(beams, radians(45), radians(1), radians(20), radians(-3));
+  const RangeGate gate = {2, 2.5, 0.011};
+  for (std::size_t p = 0; p < pings; ++p) {
+    Ping ping;
+    ping.number = static_cast<std::int64_t>(p) + 40;
+    ping.time = 0.1 * static_cast<double>(p);
+    ping.world_from_head = pose_from_yaw_pitch_roll({1.0 + static_cast<double>(p), 2, -3}, 0.3, 0.2, 0.1);
+    ping.fan = fan;
+    ping.gate = gate;
+    ping.pressure.resize(static_cast<Eigen::Index>(beams), static_cast<Eigen::Index>(gate.bins()));
+    for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b)
+      for (Eigen::Index n = 0; n < ping.pressure.cols(); ++n)
+        ping.pressure(b, n) = std::complex<float>(random_complex_normal(
+            1, RandomStage::noise, {p, static_cast<std::uint64_t>(b), static_cast<std::uint64_t>(n)}));
+    cube.pings.push_back(ping);
+  }
+  return cube;
+}
+
+std::string write(const Cube& cube, const std::string& name = "cube.h5") {
+  const std::string path = own_path(name);
+  write_cube(path, cube);
+  return path;
+}
+
+std::string error_of_reading(const std::string& path) {
+  return replaced(error_of([&] { read_cube(path); }), path, "cube.h5");
+}
+
+// Opens a file as another program would, to look at it or to damage it.
+class RawFile {
+ public:
+  explicit RawFile(const std::string& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)) {}
+  ~RawFile() { H5Fclose(file_); }
+  RawFile(const RawFile&) = delete;
+  RawFile& operator=(const RawFile&) = delete;
+  operator hid_t() const { return file_; }
+
+ private:
+  hid_t file_;
+};
+
+std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  H5Sclose(space);
+  H5Dclose(dataset);
+  return extent;
+}
+
+std::string raw_text(hid_t file, const char* object, const char* name) {
+  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT),
+              type = H5Aget_type(attribute);
+  char* text = nullptr;
+  H5Aread(attribute, type, &text);
+  const std::string result = text;
+  H5free_memory(text);
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return result;
+}
+
+double raw_number(hid_t file, const char* name) {
+  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+  double value = 0;
+  H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
+  H5Aclose(attribute);
+  return value;
+}
+
+}  // namespace
+
+TEST(Cube, comes_back_bit_for_bit) {
+  const Cube cube = make_cube();
+  const Cube back = read_cube(write(cube));
+  EXPECT_EQ(back.sound_speed, cube.sound_speed);
+  EXPECT_EQ(back.absorption_db_per_m, cube.absorption_db_per_m);
+  EXPECT_EQ(back.centre_frequency, cube.centre_frequency);
+  EXPECT_EQ(back.bandwidth, cube.bandwidth);
+  EXPECT_EQ(back.source_level_db, cube.source_level_db);
+  EXPECT_EQ(back.seed, cube.seed);
+  EXPECT_EQ(back.tolerance, cube.tolerance);
+  EXPECT_EQ(back.sonar, cube.sonar);
+  EXPECT_EQ(back.insonify_version, cube.insonify_version);
+  ASSERT_EQ(back.pings.size(), cube.pings.size());
+  for (std::size_t p = 0; p < back.pings.size(); ++p) {
+    const Ping &a = back.pings[p], &b = cube.pings[p];
+    EXPECT_EQ(a.number, b.number);
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.world_from_head.matrix(), b.world_from_head.matrix());
+    EXPECT_EQ(a.fan.azimuth, b.fan.azimuth);
+    EXPECT_EQ(a.fan.elevation, b.fan.elevation);
+    EXPECT_EQ(a.fan.beam_width, b.fan.beam_width);
+    EXPECT_EQ(a.fan.elevation_width, b.fan.elevation_width);
+    EXPECT_EQ(a.gate.min_range, b.gate.min_range);
+    EXPECT_EQ(a.gate.max_range, b.gate.max_range);
+    EXPECT_EQ(a.gate.bin_size, b.gate.bin_size);
+    ASSERT_EQ(a.pressure.rows(), b.pressure.rows());
+    EXPECT_TRUE((a.pressure == b.pressure).all());
+  }
+}
+
+TEST(Cube, of_one_ping_and_one_beam_comes_back) {
+  const Cube cube = make_cube(1, 1);
+  const Cube back = read_cube(write(cube));
+  ASSERT_EQ(back.pings.size(), 1u);
+  EXPECT_TRUE((back.pings[0].pressure == cube.pings[0].pressure).all());
+}
+
+// Memory that malloc hands out is filled with another byte each time: nothing uninitialised may reach the
+// file.
+TEST(Cube, has_the_same_bytes_a_second_later_and_whatever_memory_held_before) {
+  const Cube cube = make_cube();
+  mallopt(M_PERTURB, 0x55);
+  const std::string first = read_text_file(write(cube, "first.h5"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  mallopt(M_PERTURB, 0xA3);
+  const std::string second = read_text_file(write(cube, "second.h5"));
+  mallopt(M_PERTURB, 0);
+  EXPECT_TRUE(first == second);
+}
+
+TEST(Cube, has_the_documented_layout) {
+  const Cube cube = make_cube();
+  const RawFile file(write(cube));
+  const hsize_t bins = cube.pings[0].gate.bins();
+  EXPECT_EQ(raw_extent(file, "/pressure"), (std::vector<hsize_t>{3, 70, bins}));
+  EXPECT_EQ(raw_extent(file, "/range"), (std::vector<hsize_t>{bins}));
+  EXPECT_EQ(raw_extent(file, "/azimuth"), (std::vector<hsize_t>{70}));
+  EXPECT_EQ(raw_extent(file, "/elevation"), (std::vector<hsize_t>{70}));
+  EXPECT_EQ(raw_extent(file, "/pose"), (std::vector<hsize_t>{3, 4, 4}));
+  EXPECT_EQ(raw_extent(file, "/time"), (std::vector<hsize_t>{3}));
+  EXPECT_EQ(raw_extent(file, "/ping"), (std::vector<hsize_t>{3}));
+  EXPECT_EQ(raw_text(file, "/pressure", "units"), "Pa");
+  EXPECT_EQ(raw_text(file, "/range", "units"), "m");
+  EXPECT_EQ(raw_text(file, "/azimuth", "units"), "rad");
+  EXPECT_EQ(raw_text(file, "/elevation", "units"), "rad");
+  EXPECT_EQ(raw_text(file, "/time", "units"), "s");
+  EXPECT_EQ(raw_text(file, "/", "sonar"), "p900-45");
+  EXPECT_EQ(raw_text(file, "/", "insonify_version"), "0.1.0");
+  EXPECT_EQ(raw_number(file, "schema"), 1);
+  EXPECT_EQ(raw_number(file, "sound_speed"), 1489.8);
+  EXPECT_EQ(raw_number(file, "min_range"), 2);
+}
+
+// h5py and MATLAB take a compound {r, i} of two float32 for complex64.
+TEST(Cube, keeps_pressure_as_compound_r_i_of_float32_in_chunks_of_one_ping) {
+  const Cube cube = make_cube();
+  const RawFile file(write(cube));
+  const hid_t dataset = H5Dopen2(file, "/pressure", H5P_DEFAULT), type = H5Dget_type(dataset);
+  EXPECT_EQ(H5Tget_class(type), H5T_COMPOUND);
+  EXPECT_EQ(H5Tget_size(type), 8u);
+  ASSERT_EQ(H5Tget_nmembers(type), 2);
+  for (unsigned member = 0; member < 2; ++member) {
+    char* name = H5Tget_member_name(type, member);
+    EXPECT_STREQ(name, member == 0 ? "r" : "i");
+    H5free_memory(name);
+    const hid_t member_type = H5Tget_member_type(type, member);
+    EXPECT_GT(H5Tequal(member_type, H5T_IEEE_F32LE), 0);
+    EXPECT_EQ(H5Tget_member_offset(type, member), 4 * member);
+    H5Tclose(member_type);
+  }
+  const hid_t properties = H5Dget_create_plist(dataset);
+  hsize_t chunk[3] = {};
+  EXPECT_EQ(H5Pget_chunk(properties, 3, chunk), 3);
+  EXPECT_EQ(chunk[0], 1u);
+  EXPECT_EQ(chunk[1], 64u);
+  EXPECT_EQ(chunk[2], cube.pings[0].gate.bins());
+  EXPECT_EQ(H5Pget_nfilters(properties), 0);
+  std::vector<std::complex<float>> all(3 * 70 * chunk[2]);
+  H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data());
+  EXPECT_EQ(all[(2 * 70 + 69) * chunk[2] + 5], cube.pings[2].pressure(69, 5));
+  H5Pclose(properties);
+  H5Tclose(type);
+  H5Dclose(dataset);
+}
+
+TEST(Cube, has_bin_centres_as_range_and_poses_row_by_row) {
+  const Cube cube = make_cube();
+  const RawFile file(write(cube));
+  std::vector<double> range(cube.pings[0].gate.bins()), pose(3 * 16);
+  for (const auto& [name, values] : {std::pair{"/range", &range}, std::pair{"/pose", &pose}}) {
+    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data());
+    H5Dclose(dataset);
+  }
+  EXPECT_DOUBLE_EQ(range[0], 2.0055);
+  EXPECT_DOUBLE_EQ(range[10], 2.1155);
+  EXPECT_EQ(pose[16 + 3], 2);  // x of ping 1
+  EXPECT_EQ(pose[16 + 7], 2);  // y
+  EXPECT_EQ(pose[16 + 11], -3);
+  EXPECT_EQ(pose[16 + 15], 1);
+  EXPECT_EQ(pose[1], cube.pings[0].world_from_head.matrix()(0, 1));
+}
+
+TEST(Cube, names_the_dataset_that_is_missing) {
+  for (const char* name : {"/pressure", "/range", "/azimuth", "/elevation", "/pose", "/time", "/ping"}) {
+    const std::string path = write(make_cube());
+    { EXPECT_GE(H5Ldelete(RawFile(path), name, H5P_DEFAULT), 0); }
+    EXPECT_EQ(error_of_reading(path), "content: cube.h5: dataset " + std::string(name) + " is missing");
+  }
+}
+
+TEST(Cube, names_the_attribute_that_is_missing) {
+  for (const char* name : {"sound_speed", "absorption_db_per_m", "centre_frequency", "bandwidth",
+                           "source_level_db", "seed", "tolerance", "insonify_version", "sonar", "beam_width",
+                           "elevation_width", "min_range", "max_range", "bin_size"}) {
+    const std::string path = write(make_cube());
+    { EXPECT_GE(H5Adelete(RawFile(path), name), 0); }
+    EXPECT_EQ(error_of_reading(path), "content: cube.h5: attribute '" + std::string(name) + "' is missing");
+  }
+}
+
+TEST(Cube, of_another_schema_names_both_versions) {
+  const std::string path = write(make_cube());
+  {
+    const RawFile file(path);
+    const hid_t attribute = H5Aopen(file, "schema", H5P_DEFAULT);
+    const std::int64_t schema = 7;
+    H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
+    H5Aclose(attribute);
+  }
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: has cube schema 7, this insonify reads schema 1");
+}
+
+TEST(Cube, that_contradicts_itself_is_refused) {
+  const std::string path = write(make_cube());
+  const auto set = [&](const char* name, double value) {
+    const RawFile file(path);
+    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+    H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
+    H5Aclose(attribute);
+  };
+  set("bin_size", 0.022);
+  EXPECT_EQ(error_of_reading(path),
+            "content: cube.h5: /pressure has 46 bins, min_range, max_range and bin_size make 23");
+  set("bin_size", -1);
+  EXPECT_EQ(error_of_reading(path).substr(0, 17), "content: cube.h5:");
+  {
+    const RawFile file(path);
+    H5Ldelete(file, "/time", H5P_DEFAULT);
+    H5Lcreate_hard(file, "/azimuth", file, "/time", H5P_DEFAULT, H5P_DEFAULT);
+  }
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /time has 70 entries, 3 expected from /pressure");
+}
+
+TEST(Cube, refuses_foreign_missing_and_truncated_files) {
+  const std::string text = own_file("text.h5", "this is not HDF5\n");
+  EXPECT_EQ(error_of([&] { read_cube(text); }), "content: " + text + ": is not an HDF5 file");
+  const std::string empty = own_file("empty.h5", "");
+  EXPECT_EQ(error_of([&] { read_cube(empty); }), "content: " + empty + ": is not an HDF5 file");
+  const std::string missing = own_path("missing.h5");
+  EXPECT_EQ(error_of([&] { read_cube(missing); }), "file: " + missing + ": no such file");
+  const std::string whole = read_text_file(write(make_cube()));
+  const std::string cut = own_file("cut.h5", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(
+      error_of([&] { read_cube(cut); }).find("content: " + cut + ": is damaged or cut short: truncated file"),
+      std::string::npos);
+}
+
+TEST(Cube, foreign_hdf5_is_not_a_cube) {
+  const std::string path = own_path("foreign.h5");
+  H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_EQ(error_of([&] { read_cube(path); }),
+            "content: " + path + ": is not a cube of insonify: attribute 'schema' is missing");
+}
+
+TEST(Cube, without_pings_or_with_unlike_ones_is_not_written) {
+  const std::string path = own_path("cube.h5");
+  const auto error_of_writing = [&](const Cube& cube) {
+    return replaced(error_of([&] { write_cube(path, cube); }), path, "cube.h5");
+  };
+  EXPECT_EQ(error_of_writing(make_cube(0)), "argument: write_cube: cube.h5: no pings, must be at least one");
+  Cube cube = make_cube();
+  cube.pings[1].fan.azimuth[3] += 1e-3;
+  EXPECT_EQ(error_of_writing(cube),
+            "argument: write_cube: cube.h5: ping 41 has another fan or gate than ping 40; "
+            "write it to a cube of its own");
+  cube = make_cube();
+  cube.pings[2].pressure.resize(69, 46);
+  EXPECT_EQ(error_of_writing(cube),
+            "argument: write_cube: cube.h5: ping 42 has 69 beams x 46 bins, must have 70 x 46");
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Cube, that_cannot_be_written_leaves_an_old_one_alone) {
+  const std::string path = own_path("no/cube.h5");
+  EXPECT_EQ(error_of([&] { write_cube(path, make_cube()); }),
+            "file: " + path + ": folder " + own_path("no") + " does not exist; create it first");
+  const std::string old = own_file("old.h5", "old");
+  EXPECT_THROW(write_cube(old, make_cube(0)), Error);
+  EXPECT_EQ(read_text_file(old), "old");
+  write_cube(old, make_cube());
+  EXPECT_EQ(read_cube(old).pings.size(), 3u);
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(old).parent_path()))
+    ++files;
+  EXPECT_EQ(files, 1u);
+}

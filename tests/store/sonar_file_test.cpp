@@ -1,0 +1,288 @@
+#include "store/sonar_file.hpp"
+
+#include <map>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "store_testing.hpp"
+
+using namespace insonify;
+
+namespace {
+
+const std::string plain =
+    "schema = 1\n"                     // line 1
+    "name = \"mine\"\n"                // 2
+    "centre_frequency_hz = 900_000\n"  // 3
+    "bandwidth_hz = 30e3\n"            // 4
+    "source_level_db = 210\n"          // 5
+    "beams = 128\n"                    // 6
+    "field_of_view_deg = 90\n"         // 7
+    "beam_width_deg = 1.5\n"           // 8
+    "elevation_width_deg = 20\n"       // 9
+    "min_range_m = 0.5\n"              // 10
+    "max_range_m = 30\n";              // 11
+
+SonarFile load(const std::string& text) { return load_sonar_file(own_file("s.toml", text)); }
+
+std::string error_of_sonar(const std::string& text) {
+  const std::string path = own_file("s.toml", text);
+  return replaced(error_of([&] { load_sonar_file(path); }), path, "s.toml");
+}
+
+void expect_same_bits(const SonarSpec& a, const SonarSpec& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.centre_frequency, b.centre_frequency);
+  EXPECT_EQ(a.bandwidth, b.bandwidth);
+  EXPECT_EQ(a.source_level_db, b.source_level_db);
+  EXPECT_EQ(a.beams, b.beams);
+  EXPECT_EQ(a.field_of_view, b.field_of_view);
+  EXPECT_EQ(a.beam_width, b.beam_width);
+  EXPECT_EQ(a.elevation, b.elevation);
+  EXPECT_EQ(a.elevation_width, b.elevation_width);
+  EXPECT_EQ(a.elevation_shape, b.elevation_shape);
+  EXPECT_EQ(a.side_lobe_db, b.side_lobe_db);
+  EXPECT_EQ(a.min_range, b.min_range);
+  EXPECT_EQ(a.max_range, b.max_range);
+  EXPECT_EQ(a.bin_size, b.bin_size);
+  EXPECT_EQ(a.azimuths, b.azimuths);
+}
+
+}  // namespace
+
+TEST(SonarFile, reads_plain_keys_in_si_and_radians) {
+  const SonarSpec s = load(plain).spec;
+  EXPECT_EQ(s.name, "mine");
+  EXPECT_EQ(s.centre_frequency, 900e3);
+  EXPECT_EQ(s.bandwidth, 30e3);
+  EXPECT_EQ(s.source_level_db, 210);
+  EXPECT_EQ(s.beams, 128u);
+  EXPECT_EQ(s.field_of_view, radians(90));
+  EXPECT_EQ(s.beam_width, radians(1.5));
+  EXPECT_EQ(s.elevation_width, radians(20));
+  EXPECT_EQ(s.min_range, 0.5);
+  EXPECT_EQ(s.max_range, 30);
+  EXPECT_EQ(s.elevation, 0);
+  EXPECT_EQ(s.side_lobe_db, -30);
+  EXPECT_EQ(s.elevation_shape, ElevationShape::gaussian);
+  EXPECT_FALSE(s.bin_size.has_value());
+  EXPECT_TRUE(s.azimuths.empty());
+}
+
+TEST(SonarFile, reads_the_optional_keys) {
+  const SonarSpec s = load(plain +
+                           "elevation_deg = -10\nelevation_shape = \"sector\"\nside_lobe_db = 0\n"
+                           "bin_size_m = 0.01\ndescription = \"x\"\n")
+                          .spec;
+  EXPECT_EQ(s.elevation, radians(-10));
+  EXPECT_EQ(s.elevation_shape, ElevationShape::sector);
+  EXPECT_EQ(s.side_lobe_db, 0);
+  EXPECT_EQ(s.bin_size, 0.01);
+}
+
+TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
+  const SonarFile file =
+      load(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
+  std::map<std::string, SonarNumber> numbers;
+  for (const auto& number : file.numbers) numbers[number.key] = number;
+  EXPECT_EQ(file.spec.source_level_db, 221);
+  EXPECT_EQ(numbers["source_level_db"].value, "221.0");
+  EXPECT_EQ(numbers["source_level_db"].status, "recalled");
+  EXPECT_EQ(numbers["source_level_db"].source, "a talk");
+  EXPECT_EQ(numbers["centre_frequency_hz"].value, "900000.0");
+  EXPECT_EQ(numbers["centre_frequency_hz"].status, "user");
+  EXPECT_EQ(numbers["elevation_shape"].value, "gaussian");
+  EXPECT_EQ(numbers["elevation_shape"].status, "assumed");
+  EXPECT_EQ(numbers["side_lobe_db"].source, "not in the file: default of insonify");
+}
+
+// B = c / 2 dr with the nominal 1500 m/s: one inch is 29.53 kHz.
+TEST(SonarFile, takes_range_resolution_for_bandwidth_but_not_both) {
+  EXPECT_DOUBLE_EQ(load(replaced(plain, "bandwidth_hz = 30e3", "range_resolution_m = 0.0254")).spec.bandwidth,
+                   1500 / 0.0508);
+  EXPECT_EQ(error_of_sonar(plain + "range_resolution_m = 0.0254\n"),
+            "content: s.toml:12: bandwidth_hz and range_resolution_m say the same thing; leave one out");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "bandwidth_hz = 30e3\n", "")),
+            "content: s.toml:1: missing key 'bandwidth_hz' (or 'range_resolution_m')");
+}
+
+// Three beams at -20, 0, 30 deg: mean spacing 25 deg, half of it beyond either end makes 75 deg.
+TEST(SonarFile, takes_beams_at_given_azimuths) {
+  const std::string text =
+      replaced(plain, "beams = 128\nfield_of_view_deg = 90\n", "azimuths_deg = [-20, 0, 30.0]\n");
+  const SonarSpec s = load(text).spec;
+  EXPECT_EQ(s.azimuths, (std::vector<double>{radians(-20), 0, radians(30)}));
+  EXPECT_EQ(s.beams, 3u);
+  EXPECT_NEAR(s.field_of_view, radians(75), 1e-15);
+  EXPECT_EQ(error_of_sonar(text + "beams = 3\n"),
+            "content: s.toml:11: beams follows from azimuths_deg; leave it out");
+  EXPECT_EQ(error_of_sonar(replaced(text, "[-20, 0, 30.0]", "[]")),
+            "content: s.toml:6: azimuths_deg = [], must be a list of numbers within -180 and 180");
+  EXPECT_EQ(
+      error_of_sonar(replaced(text, "30.0", "300")),
+      "content: s.toml:6: azimuths_deg = [-20.0, 0.0, 300.0], must be a list of numbers within -180 and 180");
+  EXPECT_EQ(error_of_sonar(replaced(text, "30.0", "\"x\"")),
+            "content: s.toml:6: azimuths_deg must be a list of numbers");
+}
+
+TEST(SonarFile, unknown_keys_are_errors_with_line_and_suggestion) {
+  EXPECT_EQ(error_of_sonar(plain + "\n# a comment\nelevaton_deg = 3\n"),
+            "content: s.toml:14: unknown key 'elevaton_deg'; did you mean 'elevation_deg'?");
+  EXPECT_EQ(error_of_sonar(plain + "colour = 3\n"), "content: s.toml:12: unknown key 'colour'");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "210", "{ value = 1, status = \"sourced\", sources = \"a\" }")),
+            "content: s.toml:5: unknown key 'sources'; did you mean 'source'?");
+}
+
+TEST(SonarFile, missing_keys_are_named) {
+  for (const char* line :
+       {"centre_frequency_hz = 900_000\n", "source_level_db = 210\n", "beam_width_deg = 1.5\n",
+        "elevation_width_deg = 20\n", "min_range_m = 0.5\n", "max_range_m = 30\n"}) {
+    const std::string key = std::string(line).substr(0, std::string(line).find(' '));
+    EXPECT_EQ(error_of_sonar(replaced(plain, line, "")), "content: s.toml:1: missing key '" + key + "'");
+  }
+  EXPECT_EQ(error_of_sonar(replaced(plain, "beams = 128\n", "")),
+            "content: s.toml:1: missing key 'beams' (or 'azimuths_deg')");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "name = \"mine\"\n", "")),
+            "content: s.toml:1: missing key 'name'");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "schema = 1\n", "")), "content: s.toml:1: missing key 'schema'");
+}
+
+TEST(SonarFile, wrong_types_are_errors_with_line) {
+  EXPECT_EQ(error_of_sonar(replaced(plain, "210", "\"loud\"")),
+            "content: s.toml:5: source_level_db = \"loud\", must be a number");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "210", "true")),
+            "content: s.toml:5: source_level_db must be a number, text or list, or a table {value, status, "
+            "source}");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "128", "12.5")),
+            "content: s.toml:6: beams = 12.5, must be a whole number within 1 and 65536");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "128", "0")),
+            "content: s.toml:6: beams = 0.0, must be a whole number within 1 and 65536");
+  EXPECT_EQ(error_of_sonar(plain + "elevation_shape = \"round\"\n"),
+            "content: s.toml:12: elevation_shape = \"round\", must be gaussian, line or sector");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "210", "{ status = \"sourced\" }")),
+            "content: s.toml:5: source_level_db: missing key 'value'");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "210", "{ value = 210, status = \"certain\" }")),
+            "content: s.toml:5: source_level_db: status = \"certain\", must be sourced, recalled, derived, "
+            "assumed, "
+            "unknown or user");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "210", "nan")),
+            "content: s.toml:5: source_level_db = nan, must be a number");
+}
+
+TEST(SonarFile, values_that_make_no_sonar_are_errors_with_line) {
+  EXPECT_EQ(error_of_sonar(replaced(plain, "max_range_m = 30", "max_range_m = 0.25")),
+            "content: s.toml:11: max_range_m = 0.25 m, must be above min_range_m");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "900_000", "-9")).substr(0, 47),
+            "content: s.toml:3: centre_frequency_hz = -9 Hz,");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "bandwidth_hz = 30e3", "range_resolution_m = 1e-6")).substr(0, 32),
+            "content: s.toml:4: bandwidth_hz ");
+}
+
+TEST(SonarFile, other_schemas_and_broken_toml_are_errors_with_line) {
+  EXPECT_EQ(error_of_sonar(replaced(plain, "schema = 1", "schema = 2")),
+            "content: s.toml:1: schema = 2, this insonify reads schema 1");
+  EXPECT_EQ(error_of_sonar(plain + "beams = = 3\n").substr(0, 19), "content: s.toml:12:");
+  EXPECT_EQ(error_of_sonar(plain + "beams = 3\n").substr(0, 19), "content: s.toml:12:");  // given twice
+}
+
+TEST(SonarFile, every_preset_survives_being_written_and_read_bit_for_bit) {
+  for (const auto& sonar : list_sonars()) expect_same_bits(load(sonar_as_toml(sonar.spec)).spec, sonar.spec);
+}
+
+// Every angle that came from degrees has degrees that lead back to it, whatever the last bit.
+TEST(SonarFile, random_angles_and_numbers_survive_bit_for_bit) {
+  SonarSpec spec = load(plain).spec;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto r = random_uniform(5, RandomStage::scene_points, {i, 0, 0});
+    spec.name = "n\"" + std::to_string(i) + "\\";
+    spec.centre_frequency = 1e6 * (0.2 + r[0]);
+    spec.bandwidth = 1e4 * r[1];
+    spec.source_level_db = 200 + r[2];
+    spec.field_of_view = radians(180 * r[3]);
+    spec.beam_width = radians(r[0]);
+    spec.elevation_width = radians(20 * r[1]);
+    spec.elevation = radians(90 * (2 * r[2] - 1));
+    spec.side_lobe_db = -20 - 30 * r[3];
+    spec.min_range = r[0];
+    spec.max_range = 1 + 100 * r[1];
+    spec.bin_size = i % 2 ? std::optional<double>(r[2] * 1e-3) : std::nullopt;
+    spec.elevation_shape = static_cast<ElevationShape>(i % 3);
+    expect_same_bits(load(sonar_as_toml(spec)).spec, spec);
+  }
+}
+
+TEST(SonarFile, given_azimuths_survive_bit_for_bit) {
+  SonarSpec spec = load(plain).spec;
+  set_sonar_value(spec, "azimuths_deg", "[-33.3, -7.1, 0, 12.34567890123]");
+  expect_same_bits(load(sonar_as_toml(spec)).spec, spec);
+  set_sonar_value(spec, "azimuths_deg", "12.5");
+  EXPECT_EQ(spec.beams, 1u);
+  EXPECT_EQ(spec.field_of_view, spec.beam_width);
+  set_sonar_value(spec, "beam_width_deg", "2.5");
+  EXPECT_EQ(spec.field_of_view, radians(2.5));
+  expect_same_bits(load(sonar_as_toml(spec)).spec, spec);
+}
+
+TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
+  const SonarSpec spec = load(plain).spec;
+  expect_same_bits(load("seed = 3\n[sonar]\n" + sonar_as_toml(spec) + "[water]\nsalinity_psu = 35\n").spec,
+                   spec);
+  EXPECT_EQ(error_of_sonar("seed = 3\n[sonar]\nschema = 1\n"),
+            "content: s.toml:2: missing key 'centre_frequency_hz'");
+}
+
+TEST(SetSonarValue, sets_every_key_that_files_know) {
+  SonarSpec s = load(plain).spec;
+  set_sonar_value(s, "centre_frequency_hz", "700e3");
+  set_sonar_value(s, "range_resolution_m", "0.01");
+  set_sonar_value(s, "source_level_db", "+215.5");
+  set_sonar_value(s, "beams", "64");
+  set_sonar_value(s, "field_of_view_deg", "60");
+  set_sonar_value(s, "beam_width_deg", "2");
+  set_sonar_value(s, "elevation_width_deg", "12");
+  set_sonar_value(s, "elevation_deg", "-5");
+  set_sonar_value(s, "elevation_shape", "line");
+  set_sonar_value(s, "side_lobe_db", "-25");
+  set_sonar_value(s, "min_range_m", "1");
+  set_sonar_value(s, "max_range_m", "40");
+  set_sonar_value(s, "bin_size_m", "2e-3");
+  set_sonar_value(s, "name", "other");
+  EXPECT_EQ(s.name, "other");
+  EXPECT_EQ(s.centre_frequency, 700e3);
+  EXPECT_EQ(s.bandwidth, 75e3);
+  EXPECT_EQ(s.source_level_db, 215.5);
+  EXPECT_EQ(s.beams, 64u);
+  EXPECT_EQ(s.field_of_view, radians(60));
+  EXPECT_EQ(s.beam_width, radians(2));
+  EXPECT_EQ(s.elevation_width, radians(12));
+  EXPECT_EQ(s.elevation, radians(-5));
+  EXPECT_EQ(s.elevation_shape, ElevationShape::line);
+  EXPECT_EQ(s.side_lobe_db, -25);
+  EXPECT_EQ(s.min_range, 1);
+  EXPECT_EQ(s.max_range, 40);
+  EXPECT_EQ(s.bin_size, 2e-3);
+  set_sonar_value(s, "azimuths_deg", "-1,0,1");
+  EXPECT_EQ(s.azimuths.size(), 3u);
+  EXPECT_EQ(s.beams, 3u);
+  set_sonar_value(s, "beams", "16");  // an even fan again
+  EXPECT_TRUE(s.azimuths.empty());
+  EXPECT_EQ(s.beams, 16u);
+}
+
+TEST(SetSonarValue, names_the_nearest_key_and_the_rule) {
+  SonarSpec s;
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range", "3"); }),
+            "argument: sonar: unknown key 'max_range'; did you mean 'max_range_m'?");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "pressure", "3"); }),
+            "argument: sonar: unknown key 'pressure'");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "beams", "many"); }),
+            "argument: sonar: beams = \"many\", must be a number");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", "30 m"); }),
+            "argument: sonar: max_range_m = \"30 m\", must be a number");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", ""); }),
+            "argument: sonar: max_range_m = \"\", must be a number");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", "1,2"); }),
+            "argument: sonar: max_range_m = [1.0, 2.0], must be a number");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "elevation_shape", "3"); }),
+            "argument: sonar: elevation_shape = 3.0, must be gaussian, line or sector");
+}
