@@ -1,11 +1,11 @@
 #pragma once
-#include "sampling/direction_index.hpp"
-#include "sampling/find_scatterers.hpp"
-#include "sampling/gate_surfels.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "sampling/direction_index.hpp"
+#include "sampling/find_scatterers.hpp"
+#include "sampling/gate_surfels.hpp"
 
 namespace insonify {
 

@@ -1,12 +1,12 @@
 #pragma once
-#include "sampling/find_scatterers.hpp"
-#include "sampling/gate_surfels.hpp"
-#include "scene/scene_index.hpp"
-
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "sampling/find_scatterers.hpp"
+#include "sampling/gate_surfels.hpp"
+#include "scene/scene_index.hpp"
 
 namespace insonify {
 

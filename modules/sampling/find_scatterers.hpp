@@ -55,11 +55,12 @@ struct Sampling {
 /// counts, and the range is where the direction meets the tangent plane of its angularly nearest member.
 /// A surfel is visible when no surfel's disc stands before it by more than the roughness of one surface.
 ///
-/// rays  tile the insonified sector: a beam's share goes to the midpoints between neighbours, the outermost ones' to
-///       the edge of the sector. The cell of a ray is r^2 cos(elevation) times its share.
+/// Rays tile the insonified sector: a beam's share goes to the midpoints between neighbours, the outermost ones' to
+/// the edge of the sector. The cell of a ray is r^2 cos(elevation) times its share.
 ///
 /// Depends on relative position only: world and head moved together give the same scatterers (turned together, the
-/// parts of split surfels turn within their surfels). The result does not depend on `threads`. Throws Error for an invalid scene, fan, gate or option. Nothing in view: no scatterers.
+/// parts of split surfels turn within their surfels). The result does not depend on `threads`. Throws Error for an
+/// invalid scene, fan, gate, pose or option. Nothing in view: no scatterers.
 Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
                          const RangeGate& gate, const SamplingOptions& options = {});
 

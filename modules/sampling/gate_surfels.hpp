@@ -1,13 +1,13 @@
 #pragma once
-#include "core/pose.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
-#include "scene/scene_cloud.hpp"
-
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "core/pose.hpp"
+#include "sampling/beam_fan.hpp"
+#include "sampling/range_gate.hpp"
+#include "scene/scene_cloud.hpp"
 
 namespace insonify {
 

@@ -1,22 +1,23 @@
 #pragma once
-#include "sampling/gate_surfels.hpp"
-
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "sampling/gate_surfels.hpp"
+
 namespace insonify {
 
-/// True if `front` stands between the head and `behind` (E16): the way to `behind` passes through its disc, or within
-/// half a spacing of its centre (the normal of a rough surface may show the disc edge-on, and sound must not leak
-/// through), and `behind` lies deeper under its tangent plane than the roughness of one surface, half the larger
-/// spacing. So a grazing or rough surface does not hide itself.
+/// True if `front` stands between the head and `behind` (E16): the way to `behind` passes through its disc,
+/// or within half a spacing of its centre (the normal of a rough surface may show the disc edge-on, and sound
+/// must not leak through), and `behind` lies deeper under its tangent plane than the roughness of one
+/// surface, the larger of the two spacings. So a grazing or rough surface does not hide itself.
 inline bool hides(const GatedSurfel& front, const GatedSurfel& behind) {
   const float depth = front.away.dot(behind.position);  // of `behind`, along the normal of `front`
-  const float roughness = 0.5f * (front.spacing > behind.spacing ? front.spacing : behind.spacing);
+  const float roughness = std::max(front.spacing, behind.spacing);
   if (!(depth - front.plane_distance > roughness)) return false;
-  // The way meets the plane at position x plane_distance / depth; multiplied by depth > 0, nothing is divided.
+  // The way meets the plane at position x plane_distance / depth; multiplied by depth > 0, nothing is
+  // divided.
   const Eigen::Vector3f miss = behind.position * front.plane_distance - front.position * depth;
   if (miss.squaredNorm() <= front.radius * front.radius * depth * depth) return true;
   const float along = front.position.dot(behind.position) / (behind.range * behind.range);  // 1: at `behind`

@@ -1,10 +1,10 @@
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include "sampling/gate_surfels.hpp"
 #include "sampling/scatterers.hpp"
 #include "scene/scene_cloud.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace insonify {
 

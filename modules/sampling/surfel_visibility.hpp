@@ -1,9 +1,9 @@
 #pragma once
-#include "sampling/direction_index.hpp"
-#include "sampling/gate_surfels.hpp"
-
 #include <cstdint>
 #include <vector>
+
+#include "sampling/direction_index.hpp"
+#include "sampling/gate_surfels.hpp"
 
 namespace insonify {
 

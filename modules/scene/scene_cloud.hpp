@@ -24,7 +24,8 @@ struct SceneCloud {
   std::size_t size() const { return point.size(); }
 };
 
-/// Adds one surfel with the next free id. Throws Error if `material` is not in scene.materials.
+/// Adds one surfel whose id is one more than the last one's: free as long as ids ascend. Throws Error if `material` is
+/// not in scene.materials.
 void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal, double area,
                 std::uint16_t material = 0);
 

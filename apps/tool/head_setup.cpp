@@ -1,0 +1,90 @@
+#include "tool/head_setup.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "store/materials_file.hpp"
+#include "store/nearest_word.hpp"
+#include "tool/parse_values.hpp"
+
+namespace insonify::tool {
+namespace {
+
+void set_water(Water& water, const Setting& setting) {
+  const double value = parse_number("--set water." + setting.key, setting.value);
+  if (setting.key == "temperature_c") water.temperature_c = value;
+  else if (setting.key == "salinity_psu") water.salinity_psu = value;
+  else if (setting.key == "depth_m") water.depth = value;
+  else if (setting.key == "ph") water.ph = value;
+  else fail(ErrorKind::argument, "--set water.", setting.key, ": unknown key; known are temperature_c, salinity_psu, ",
+            "depth_m, ph");
+}
+
+/// Index of the material called `name`; Error(argument) with the nearest name.
+std::uint16_t material_index(const std::vector<Material>& materials, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Material& m : materials) names.push_back(m.name);
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) {
+    const std::string near = nearest_word(name, names);
+    fail(ErrorKind::argument, "--material = '", name, "' is unknown",
+         near.empty() ? "; see data/materials.toml" : "; did you mean '" + near + "'?");
+  }
+  return static_cast<std::uint16_t>(at - names.begin());
+}
+
+}  // namespace
+
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
+  HeadSetup setup;
+  const SonarFile file = find_sonar(run.sonar);
+  setup.spec = file.spec;
+  for (const SonarNumber& n : file.numbers)
+    if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
+  for (const std::string& text : common.settings) {
+    const Setting setting = parse_setting(text);
+    if (setting.section == "sonar") set_sonar_value(setup.spec, setting.key, setting.value);
+    else if (setting.section == "water") set_water(setup.water, setting);
+    else fail(ErrorKind::argument, "--set ", text, ": section '", setting.section, "' is unknown; use sonar or water");
+  }
+  if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
+  setup.medium = medium_of(setup.water, setup.spec.centre_frequency);
+  setup.head = make_head(setup.spec, setup.medium.sound_speed);
+  return setup;
+}
+
+LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene) {
+  LoadOptions options;
+  options.seed = common.seed;
+  options.threads = common.threads;
+  options.unit = parse_unit(scene.unit);
+  options.mesh_spacing = scene.mesh_spacing;
+  if (!scene.viewpoint.empty()) {
+    const auto v = parse_numbers("--viewpoint", scene.viewpoint, 3, "x,y,z in metres");
+    options.viewpoint = Eigen::Vector3d(v[0], v[1], v[2]);
+  }
+  if (!scene.materials_file.empty() || !scene.material.empty()) {
+    const std::string path = scene.materials_file.empty() ? data_folder() + "/materials.toml" : scene.materials_file;
+    options.materials = materials_by_label(load_materials(path));
+  }
+  if (!scene.material.empty()) options.material = material_index(options.materials, scene.material);
+  return options;
+}
+
+std::vector<std::string> loading_notes(const LoadReport& r) {
+  std::vector<std::string> notes;
+  const auto count = [&](std::size_t n, const char* what) {
+    if (n > 0) notes.push_back(fmt::format("{}: {} {}", r.path, n, what));
+  };
+  count(r.dropped_not_finite, "points with NaN or infinite coordinates dropped");
+  count(r.dropped_duplicates, "duplicate points dropped");
+  count(r.dropped_degenerate, "degenerate triangles dropped");
+  count(r.repaired_normals, "zero or NaN normals replaced by estimates");
+  count(r.dropped_without_normal, "points without neighbours for a normal dropped");
+  for (const std::string& note : r.notes) notes.push_back(r.path + ": " + note);
+  return notes;
+}
+
+}  // namespace insonify::tool

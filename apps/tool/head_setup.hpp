@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "acoustics/water.hpp"
+#include "beamforming/sonar_spec.hpp"
+#include "scene_io/load_scene.hpp"
+#include "store/sonar_file.hpp"
+#include "tool/options.hpp"
+
+namespace insonify::tool {
+
+/// Sonar and water of a run: preset or file, then --set, then --range.
+struct HeadSetup {
+  SonarSpec spec;
+  SonarHead head;
+  Water water;
+  Medium medium;
+  std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
+};
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run);
+
+/// Materials named by the options: the table given, else the one that comes with insonify when --material asks for
+/// it; `material` is the index of --material.
+LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene);
+
+/// One sentence per thing that was dropped, repaired or assumed on loading.
+std::vector<std::string> loading_notes(const LoadReport& report);
+
+}  // namespace insonify::tool

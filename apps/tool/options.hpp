@@ -1,0 +1,96 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace insonify::tool {
+
+/// What every verb understands.
+struct CommonOptions {
+  bool quiet = false;
+  bool verbose = false;
+  bool json = false;
+  int threads = 0;  ///< 0: all cores
+  std::uint64_t seed = 1;
+  std::vector<std::string> settings;  ///< --set sonar.beams=256 ...
+};
+
+/// How a cloud is read and completed.
+struct SceneOptions {
+  std::string path;
+  std::string viewpoint;       ///< "x,y,z" [m] or empty
+  std::string materials_file;  ///< TOML table
+  std::string material;        ///< name for every surfel, or empty
+  std::string unit = "m";
+  double mesh_spacing = 0;
+};
+
+struct InfoOptions {
+  std::vector<std::string> files;
+};
+
+struct PrepareOptions {
+  SceneOptions scene;
+  std::string output;
+  bool force = false;
+};
+
+struct MakeSceneOptions {
+  std::string name;
+  std::string output;
+  std::size_t points = 200000;
+  std::string size = "40,40";
+  double radius = 0.5;
+  double lambert_mu_db = -27;
+  bool force = false;
+};
+
+struct SonarsOptions {
+  std::string name;
+};
+
+/// What a run of the acoustics needs beside a scene.
+struct RunOptions {
+  std::string sonar;
+  std::string range;  ///< "min:max" [m] or empty: the sonar's own
+  std::string output;
+  double tolerance = 1e-4;
+  std::string method = "stamped";
+  bool force = false;
+  bool no_picture = false;
+};
+
+struct PingOptions {
+  SceneOptions scene;
+  RunOptions run;
+  std::string pose;
+  std::string world = "z-up";
+  std::string sampling = "surfels";
+  std::string amplitude = "speckle";
+  double scatterers_per_cell = 10;
+  int rays_per_beam = 64;
+  double threshold_db = 11.4;
+  std::string all_bins_above;  ///< dB re 1 uPa, or empty
+};
+
+struct SynthesizeOptions {
+  RunOptions run;
+  std::string scatterers;
+};
+
+struct ImageOptions {
+  std::string run;
+  std::string output;
+  std::string view = "fan";
+  std::string colour_map = "copper";
+  std::string size = "1400x1050";
+  std::string title;
+  double window_db = 45;
+  std::string max_db;  ///< or empty: automatic
+  std::size_t ping = 0;
+  int beam = -1;  ///< -1: the middle one
+  bool raw = false;
+  bool dark = false;
+};
+
+}  // namespace insonify::tool

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+
+#include "tool/options.hpp"
+
+namespace insonify::tool {
+
+/// Thrown at the next step after Ctrl-C.
+struct Interrupted {};
+
+/// Ctrl-C and SIGTERM are noted and acted on between steps, so that nothing is left half-written.
+void catch_interrupts();
+
+/// Tells the user what is going on: a bar on a terminal, plain lines with -v, nothing with -q. Only on stderr.
+class Progress {
+ public:
+  Progress(const CommonOptions& common, int steps);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Starts the next step. Throws Interrupted after Ctrl-C.
+  void step(const std::string& what);
+  /// A sentence for the user, shown unless quiet.
+  void note(const std::string& sentence);
+
+ private:
+  void clear_bar();
+  bool quiet_, verbose_, bar_, bar_shown_ = false;
+  int steps_, done_ = 0;
+};
+
+}  // namespace insonify::tool

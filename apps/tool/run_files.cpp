@@ -1,0 +1,98 @@
+#include "tool/run_files.hpp"
+
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/show_fan.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string run_toml(const CommonOptions& common, const RunOptions& run, const HeadSetup& setup, const std::string& head) {
+  return fmt::format("# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
+                     "tolerance = {}\nmethod = \"{}\"\n{}\n[water]\ntemperature_c = {}\nsalinity_psu = {}\ndepth_m = {}\n"
+                     "ph = {}\n\n[sonar]\n{}",
+                     INSONIFY_VERSION, common.seed, run.tolerance, run.method, head, setup.water.temperature_c,
+                     setup.water.salinity_psu, setup.water.depth, setup.water.ph, sonar_as_toml(setup.spec));
+}
+
+Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
+  Cube cube;
+  cube.pings = {ping};
+  cube.sound_speed = setup.medium.sound_speed;
+  cube.absorption_db_per_m = setup.medium.absorption.a0 / nepers_per_db;
+  cube.centre_frequency = setup.head.pulse.centre_frequency;
+  cube.bandwidth = setup.head.pulse.bandwidth;
+  cube.source_level_db = setup.head.pulse.source_level_db;
+  cube.seed = common.seed;
+  cube.tolerance = run.tolerance;
+  cube.sonar = setup.head.name;
+  cube.insonify_version = INSONIFY_VERSION;
+  return cube;
+}
+
+ordered_json sonar_json(const HeadSetup& setup) {
+  ordered_json doubtful = ordered_json::array();
+  for (const SonarNumber& n : setup.doubtful)
+    doubtful.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
+  const SonarHead& head = setup.head;
+  return {{"name", head.name},
+          {"beams", head.fan.beams()},
+          {"elements", head.array.elements()},
+          {"bins", head.gate.bins()},
+          {"min_range_m", head.gate.min_range},
+          {"max_range_m", head.gate.max_range},
+          {"bin_size_m", head.gate.bin_size},
+          {"centre_frequency_hz", head.pulse.centre_frequency},
+          {"bandwidth_hz", head.pulse.bandwidth},
+          {"source_level_db", head.pulse.source_level_db},
+          {"not_sourced", doubtful}};
+}
+
+}  // namespace
+
+void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup,
+               const Ping& ping, const std::string& run_toml_head, ordered_json& manifest, Progress& progress) {
+  write_cube(directory.file("cube.h5"), cube_of(ping, common, run, setup));
+  write_text_file(directory.file("run.toml"), run_toml(common, run, setup, run_toml_head));
+
+  const double absorption = setup.medium.absorption.a0 / nepers_per_db;
+  if (!run.no_picture) try {
+      PictureOptions options;
+      options.title = picture_title(setup.head.name, ping);
+      show_fan(level_image(ping, absorption, false), options, directory.file("fan.png"));
+    } catch (const Error& error) {  // a machine without GL still gets its data
+      progress.note(std::string("no fan.png: ") + error.what());
+      manifest["notes"].push_back(std::string("no fan.png: ") + error.what());
+    }
+
+  manifest["sonar"] = sonar_json(setup);
+  manifest["water"] = {{"temperature_c", setup.water.temperature_c}, {"salinity_psu", setup.water.salinity_psu},
+                       {"depth_m", setup.water.depth},               {"ph", setup.water.ph},
+                       {"sound_speed", setup.medium.sound_speed},    {"absorption_db_per_m", absorption}};
+  manifest["peak_memory_mib"] = peak_memory_mib();
+}
+
+LevelImage level_image(const Ping& ping, double absorption_db_per_m, bool raw) {
+  return {ping.fan, ping.gate, raw ? level_db(ping) : range_compensated_level_db(ping, absorption_db_per_m),
+          raw ? "dB re 1 µPa" : "dB re 1 µPa at 1 m, range compensated"};
+}
+
+std::string picture_title(const std::string& sonar, const Ping& ping) {
+  return fmt::format("{}, ping {}, {:g} to {:g} m", sonar, ping.number, ping.gate.min_range, ping.gate.max_range);
+}
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::string toml_text(const std::string& text) { return nlohmann::json(text).dump(); }
+
+}  // namespace insonify::tool

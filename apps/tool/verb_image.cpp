@@ -1,0 +1,56 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "store/cube.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/run_files.hpp"
+#include "tool/verbs.hpp"
+#include "view/show_ascan.hpp"
+#include "view/show_fan.hpp"
+#include "view/show_rect.hpp"
+
+namespace insonify::tool {
+namespace {
+
+/// The cube of a run directory, or the path itself if it is a file.
+std::string cube_path(const std::string& run) {
+  if (!std::filesystem::exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
+  if (!std::filesystem::is_directory(run)) return run;
+  const std::string path = run + "/cube.h5";
+  if (!std::filesystem::exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
+  return path;
+}
+
+}  // namespace
+
+void image(const CommonOptions& common, const ImageOptions& o) {
+  Progress progress(common, 2);
+  PictureOptions picture;
+  std::tie(picture.width, picture.height) = parse_size(o.size);
+  picture.colour_map = o.colour_map;
+  picture.window_db = o.window_db;
+  picture.dark = o.dark;
+  if (!(o.window_db > 0)) fail(ErrorKind::argument, "--window = ", o.window_db, " dB, must be > 0");
+  if (!o.max_db.empty()) picture.max_db = parse_number("--max", o.max_db);
+
+  progress.step("reading " + o.run);
+  const Cube cube = read_cube(cube_path(o.run));
+  if (o.ping >= cube.pings.size())
+    fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ", o.run);
+  const Ping& ping = cube.pings[o.ping];
+  const auto beams = static_cast<int>(ping.fan.beams());
+  const int beam = o.beam < 0 ? beams / 2 : o.beam;
+  if (beam >= beams) fail(ErrorKind::argument, "--beam = ", beam, ", must be below ", beams, ", the number of beams");
+
+  progress.step("drawing " + o.output);
+  const LevelImage levels = level_image(ping, cube.absorption_db_per_m, o.raw);
+  picture.title = o.title.empty() ? picture_title(cube.sonar, ping) : o.title;
+  if (o.view == "fan") show_fan(levels, picture, o.output);
+  if (o.view == "rect") show_rect(levels, picture, o.output);
+  if (o.view == "ascan") show_ascan(levels, static_cast<std::size_t>(beam), picture, o.output);
+  fmt::print("{}\n", o.output);
+}
+
+}  // namespace insonify::tool

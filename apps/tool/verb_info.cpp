@@ -1,0 +1,113 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "scene_io/describe_file.hpp"
+#include "store/cube.hpp"
+#include "store/sonar_file.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json point(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+ordered_json cloud_json(const FileDescription& d) {
+  ordered_json fields = ordered_json::array();
+  for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
+  ordered_json json = {{"path", d.path},
+                       {"format", d.format},
+                       {"points", d.points},
+                       {"triangles", d.triangles},
+                       {"width", d.width},
+                       {"height", d.height},
+                       {"not_finite", d.not_finite},
+                       {"duplicates", d.duplicates},
+                       {"fields", fields},
+                       {"bounds", {{"min", point(d.min)}, {"max", point(d.max)}}},
+                       {"median_spacing", d.median_spacing},
+                       {"normals", d.has_normals},
+                       {"area", d.has_area},
+                       {"materials", d.has_materials},
+                       {"problems", d.problems}};
+  if (d.viewpoint) json["viewpoint"] = point(*d.viewpoint);
+  return json;
+}
+
+void print_cloud(const FileDescription& d) {
+  fmt::print("{}\n  format     {}\n  points     {}", d.path, d.format, d.points);
+  if (d.height > 1) fmt::print(" ({} x {}, organised)", d.width, d.height);
+  if (d.triangles > 0) fmt::print(", {} triangles", d.triangles);
+  fmt::print("\n  not finite {}\n  duplicates {}\n  fields    ", d.not_finite, d.duplicates);
+  for (const auto& f : d.fields) fmt::print(" {}:{}", f.name, f.type);
+  const Eigen::Vector3d size = d.max - d.min;
+  fmt::print("\n  bounds     x {:g}..{:g}  y {:g}..{:g}  z {:g}..{:g}\n  size       {:.4g} x {:.4g} x {:.4g}\n", d.min.x(),
+             d.max.x(), d.min.y(), d.max.y(), d.min.z(), d.max.z(), size.x(), size.y(), size.z());
+  fmt::print("  spacing    {:.4g} (median)\n  normals    {}\n  area       {}\n  materials  {}\n", d.median_spacing,
+             d.has_normals ? "yes" : "no", d.has_area ? "yes" : "no", d.has_materials ? "yes" : "no");
+  if (d.viewpoint) fmt::print("  viewpoint  {:g}, {:g}, {:g}\n", d.viewpoint->x(), d.viewpoint->y(), d.viewpoint->z());
+  for (const std::string& problem : d.problems) fmt::print("  note       {}\n", problem);
+}
+
+ordered_json cube_json(const std::string& path, const Cube& cube) {
+  const Ping& first = cube.pings.front();
+  return {{"path", path},
+          {"format", "insonify ping cube"},
+          {"sonar", cube.sonar},
+          {"pings", cube.pings.size()},
+          {"beams", first.fan.beams()},
+          {"bins", first.gate.bins()},
+          {"min_range_m", first.gate.min_range},
+          {"max_range_m", first.gate.max_range},
+          {"bin_size_m", first.gate.bin_size},
+          {"centre_frequency_hz", cube.centre_frequency},
+          {"bandwidth_hz", cube.bandwidth},
+          {"source_level_db", cube.source_level_db},
+          {"sound_speed", cube.sound_speed},
+          {"absorption_db_per_m", cube.absorption_db_per_m},
+          {"seed", cube.seed},
+          {"peak_level_db", level_db(first).maxCoeff()},
+          {"insonify_version", cube.insonify_version}};
+}
+
+void print_json_as_text(const ordered_json& json) {
+  for (const auto& [key, value] : json.items())
+    fmt::print("  {:<20} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+ordered_json sonar_summary(const SonarFile& f) {
+  return {{"path", f.path}, {"format", "insonify sonar"}, {"name", f.spec.name}, {"beams", f.spec.beams},
+          {"centre_frequency_hz", f.spec.centre_frequency}, {"bandwidth_hz", f.spec.bandwidth}};
+}
+
+}  // namespace
+
+void info(const CommonOptions& common, const InfoOptions& o) {
+  ordered_json all = ordered_json::array();
+  for (const std::string& path : o.files) {
+    const std::filesystem::path file(path);
+    const bool is_run = std::filesystem::is_directory(file);
+    if (is_run || file.extension() == ".h5") {
+      const std::string cube = is_run ? path + "/cube.h5" : path;
+      all.push_back(cube_json(cube, read_cube(cube)));
+    } else if (file.extension() == ".toml") {
+      all.push_back(sonar_summary(load_sonar_file(path)));
+    } else {
+      const FileDescription d = describe_file(path);
+      if (!common.json) {
+        print_cloud(d);
+        continue;
+      }
+      all.push_back(cloud_json(d));
+    }
+    if (!common.json) print_json_as_text(all.back());
+  }
+  if (common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "simulate/simulate_ping.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/run_files.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+SimulationOptions simulation_options(const CommonOptions& common, const PingOptions& o) {
+  SimulationOptions s;
+  s.seed = common.seed;
+  s.threads = common.threads;
+  s.sampling = o.sampling == "rays" ? SamplingKind::rays : SamplingKind::surfels;
+  s.scatterers_per_cell = o.scatterers_per_cell;
+  s.rays_per_beam = o.rays_per_beam;
+  s.amplitude = o.amplitude == "coherent"       ? SurfaceAmplitude::coherent
+                : o.amplitude == "random-phase" ? SurfaceAmplitude::random_phase
+                                                : SurfaceAmplitude::complex_normal;
+  s.method = o.run.method == "direct" ? SynthesisMethod::direct : SynthesisMethod::stamped;
+  s.tolerance = o.run.tolerance;
+  s.detection.threshold_db = o.threshold_db;
+  if (!o.all_bins_above.empty()) {
+    s.detection.all_bins = true;
+    s.detection.above_db = parse_number("--all-bins-above", o.all_bins_above);
+  }
+  return s;
+}
+
+/// Places of about 10 000 surfels, as seen from the head.
+std::vector<Eigen::Vector3d> glance(const SceneCloud& scene, const Pose& pose) {
+  std::vector<Eigen::Vector3d> places;
+  const std::size_t step = std::max<std::size_t>(1, scene.size() / 10000);
+  for (std::size_t i = 0; i < scene.size(); i += step)
+    places.push_back(pose.linear().transpose() * (scene.origin - pose.translation() + scene.point[i].cast<double>()));
+  return places;
+}
+
+/// Catches clouds in other units and poses elsewhere: the middle point must be within reach of the range gate.
+void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path) {
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::nth_element(places.begin(), middle, places.end(), [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+  const double range = middle->norm();
+  if (range > 10 * gate.max_range)
+    fail(ErrorKind::content, path, ": the middle point is ", range, " m from the head, more than ten times the max range of ",
+         gate.max_range, " m; is the cloud in millimetres (--unit mm), or the pose in another frame?");
+  if (range < gate.min_range / 10)
+    fail(ErrorKind::content, path, ": the middle point is ", range, " m from the head, less than a tenth of the min range of ",
+         gate.min_range, " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
+}
+
+/// What to tell a user whose ping is silent: where the scene is.
+std::string silence_note(const std::vector<Eigen::Vector3d>& places) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& p : places) centre += p / static_cast<double>(places.size());
+  const Direction d = direction_of(centre);
+  return fmt::format("nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
+                     "{:.0f} deg to {} and {:.0f} deg {} the head's axis",
+                     centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard",
+                     std::abs(degrees(d.elevation)), d.elevation > 0 ? "above" : "below");
+}
+
+ordered_json scene_json(const LoadedScene& loaded) {
+  const LoadReport& r = loaded.report;
+  return {{"path", r.path},
+          {"format", r.format},
+          {"points_read", r.points_read},
+          {"triangles_read", r.triangles_read},
+          {"surfels", loaded.scene.size()},
+          {"dropped_not_finite", r.dropped_not_finite},
+          {"dropped_duplicates", r.dropped_duplicates},
+          {"dropped_degenerate_triangles", r.dropped_degenerate},
+          {"dropped_without_normal", r.dropped_without_normal},
+          {"repaired_normals", r.repaired_normals},
+          {"normals", r.normals_estimated ? "estimated" : "from file"},
+          {"normals_oriented", loaded.scene.normals_oriented},
+          {"areas", r.areas_estimated ? "estimated" : "from file"},
+          {"origin", {loaded.scene.origin.x(), loaded.scene.origin.y(), loaded.scene.origin.z()}}};
+}
+
+ordered_json sampling_json(const SimulatedPing& p) {
+  const SamplingReport& s = p.sampling;
+  return {{"surfels", s.surfels},         {"in_fan_and_gate", s.in_gate}, {"back_facing", s.back_facing},
+          {"hidden", s.hidden},           {"visible", s.visible},         {"rays_missed", s.rays_missed},
+          {"scatterers", s.scatterers},   {"soundings", p.soundings.size()},
+          {"noise_floor_db", p.noise_floor_db}};
+}
+
+std::string run_toml_head(const PingOptions& o) {
+  return fmt::format("\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nviewpoint = {}\n\n[ping]\npose = {}\n"
+                     "world = {}\nsampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\n"
+                     "threshold_db = {}\nall_bins_above = {}\n",
+                     toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material),
+                     toml_text(o.scene.materials_file), toml_text(o.scene.viewpoint), toml_text(o.pose),
+                     toml_text(o.world), toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam,
+                     toml_text(o.amplitude), o.threshold_db, toml_text(o.all_bins_above));
+}
+
+void print_summary(const CommonOptions& common, const std::string& output, const ordered_json& manifest) {
+  if (common.json) {
+    fmt::print("{}\n", manifest.dump(2));
+    return;
+  }
+  fmt::print("{}: {} scatterers of {} visible surfels, {} soundings, peak {:.1f} dB re 1 uPa\n", output,
+             manifest["sampling"]["scatterers"].get<std::size_t>(), manifest["sampling"]["visible"].get<std::size_t>(),
+             manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
+}
+
+}  // namespace
+
+void ping(const CommonOptions& common, const PingOptions& o) {
+  // Everything that can be wrong on the command line is found before any work.
+  Progress progress(common, 4);
+  const Pose pose = parse_pose(o.pose, o.world);
+  const HeadSetup setup = set_up_head(common, o.run);
+  const SimulationOptions simulation = simulation_options(common, o);
+  const LoadOptions loading = load_options(common, o.scene);
+  RunDirectory directory(o.run.output, o.run.force);
+
+  progress.step("loading " + o.scene.path);
+  auto start = Clock::now();
+  const LoadedScene loaded = load_scene(o.scene.path, loading);
+  const double load_seconds = seconds_since(start);
+  const std::vector<Eigen::Vector3d> places = glance(loaded.scene, pose);
+  require_in_reach(places, setup.head.gate, o.scene.path);
+  ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"seed", common.seed},
+                           {"scene", scene_json(loaded)}, {"notes", ordered_json::array()}};
+  for (const std::string& note : loading_notes(loaded.report)) {
+    progress.note(note);
+    manifest["notes"].push_back(note);
+  }
+
+  progress.step("pinging");
+  const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.water, simulation);
+  if (result.scatterers.size() == 0) {
+    const std::string note = silence_note(places);
+    progress.note(note);
+    manifest["notes"].push_back(note);
+  }
+
+  progress.step("writing " + o.run.output);
+  start = Clock::now();
+  save_soundings(directory.file("returns.pcd"), result.soundings);
+  save_soundings(directory.file("returns.ply"), result.soundings);
+  manifest["sampling"] = sampling_json(result);
+  manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
+  write_run(directory, common, o.run, setup, result.ping, run_toml_head(o), manifest, progress);
+  manifest["seconds"] = {{"load", load_seconds},
+                         {"sampling", result.seconds.sampling},
+                         {"acoustics", result.seconds.acoustics},
+                         {"synthesis", result.seconds.synthesis},
+                         {"detection", result.seconds.detection},
+                         {"output", seconds_since(start)}};
+  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  progress.step("done");
+  directory.commit();
+  print_summary(common, o.run.output, manifest);
+}
+
+}  // namespace insonify::tool

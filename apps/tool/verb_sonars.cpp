@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/units.hpp"
+#include "store/sonar_file.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json sonar_json(const SonarFile& file) {
+  ordered_json numbers = ordered_json::array();
+  for (const SonarNumber& n : file.numbers)
+    numbers.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
+  return {{"name", file.spec.name}, {"description", file.description}, {"path", file.path}, {"numbers", numbers}};
+}
+
+void print_one(const SonarFile& file) {
+  fmt::print("{}: {}\n\n", file.spec.name, file.description);
+  for (const SonarNumber& n : file.numbers) fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
+}
+
+void print_table(const std::vector<SonarFile>& files) {
+  fmt::print("{:<20} {:>9} {:>9} {:>6} {:>6} {:>12}  {}\n", "name", "kHz", "fan deg", "beams", "deg", "range m", "description");
+  for (const SonarFile& f : files) {
+    const SonarSpec& s = f.spec;
+    fmt::print("{:<20} {:>9.4g} {:>5.3g}x{:<3.3g} {:>6} {:>6.3g} {:>12}  {}\n", s.name, s.centre_frequency * 1e-3,
+               degrees(s.field_of_view), degrees(s.elevation_width), s.beams, degrees(s.beam_width),
+               fmt::format("{:g}-{:g}", s.min_range, s.max_range), f.description);
+  }
+}
+
+}  // namespace
+
+void sonars(const CommonOptions& common, const SonarsOptions& o) {
+  if (!o.name.empty()) {
+    const SonarFile file = find_sonar(o.name);
+    if (common.json) fmt::print("{}\n", sonar_json(file).dump(2));
+    else print_one(file);
+    return;
+  }
+  const std::vector<SonarFile> files = list_sonars();
+  if (!common.json) return print_table(files);
+  ordered_json all = ordered_json::array();
+  for (const SonarFile& f : files) all.push_back(sonar_json(f));
+  fmt::print("{}\n", all.dump(2));
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,51 @@
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "acoustics/hear_scatterers.hpp"
+#include "beamforming/synthesize.hpp"
+#include "core/units.hpp"
+#include "store/scatterer_table.hpp"
+#include "tool/run_files.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+
+void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
+  using Clock = std::chrono::steady_clock;
+  Progress progress(common, 3);
+  const HeadSetup setup = set_up_head(common, o.run);
+  RunDirectory directory(o.run.output, o.run.force);
+
+  progress.step("reading " + o.scatterers);
+  const ScattererTable table = load_scatterer_table(o.scatterers);
+
+  // The same elevation pattern and beams as in a ping; amplitudes and cross-sections are the caller's.
+  progress.step("synthesizing");
+  const auto start = Clock::now();
+  const SonarHead& head = setup.head;
+  const HearingOptions hearing{SurfaceAmplitude::coherent, head.elevation_shape, head.fan.elevation_width,
+                               head.fan.elevation[0], common.seed, common.threads};
+  const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
+  const auto method = o.run.method == "direct" ? synthesize_direct : synthesize_stamped;
+  const ComplexGrid pressure = method(echoes, head, setup.medium, {o.run.tolerance, common.threads});
+  const Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, pressure.cast<std::complex<float>>()};
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+
+  progress.step("writing " + o.run.output);
+  nlohmann::ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"seed", common.seed},
+                                     {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
+                                     {"notes", nlohmann::ordered_json::array()}};
+  manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(pressure.abs().maxCoeff()));
+  write_run(directory, common, o.run, setup, ping, fmt::format("scatterers = {}\n", toml_text(o.scatterers)), manifest,
+            progress);
+  manifest["seconds"] = {{"synthesis", seconds}};
+  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  directory.commit();
+  if (common.json) fmt::print("{}\n", manifest.dump(2));
+  else
+    fmt::print("{}: {} scatterers, peak {:.4f} dB re 1 uPa\n", o.run.output, table.scatterers.size(),
+               manifest["peak_level_db"].get<double>());
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,15 @@
+#pragma once
+#include "tool/options.hpp"
+
+/// The verbs of the tool. Results go to stdout, everything else to stderr; errors are thrown as insonify::Error.
+namespace insonify::tool {
+
+void info(const CommonOptions& common, const InfoOptions& options);
+void prepare(const CommonOptions& common, const PrepareOptions& options);
+void make_scene(const CommonOptions& common, const MakeSceneOptions& options);
+void sonars(const CommonOptions& common, const SonarsOptions& options);
+void ping(const CommonOptions& common, const PingOptions& options);
+void synthesize(const CommonOptions& common, const SynthesizeOptions& options);
+void image(const CommonOptions& common, const ImageOptions& options);
+
+}  // namespace insonify::tool

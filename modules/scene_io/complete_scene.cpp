@@ -1,0 +1,236 @@
+#include "scene_io/complete_scene.hpp"
+
+#include "core/error.hpp"
+#include "scene/surfel_area.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace insonify {
+namespace {
+
+template <typename T>
+void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
+  if (column.empty()) return;
+  for (std::size_t i = 0; i < keep.size(); ++i) column[i] = column[keep[i]];
+  column.resize(keep.size());
+}
+
+/// Drops points that are not finite, and those at the place of an earlier one.
+void drop_unusable(RawCloud& raw, LoadReport& report) {
+  // A file that save_scene wrote has been searched already.
+  const bool search = !raw.tags.prepared;
+  if (!search && raw.not_finite == 0) return;
+  std::vector<std::uint32_t> first(raw.point.size());
+  std::iota(first.begin(), first.end(), 0u);
+  if (search) first = first_at_same_place(raw.point);
+  std::vector<std::uint32_t> keep;
+  keep.reserve(raw.point.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    if (!raw.point[i].allFinite()) continue;
+    if (first[i] == i)
+      keep.push_back(i);
+    else
+      ++report.dropped_duplicates;
+  }
+  keep_points(raw, keep);
+}
+
+/// True if no number occurs twice.
+bool unique(const std::vector<std::uint32_t>& ids) {
+  if (ids.empty()) return true;
+  const std::size_t largest = *std::max_element(ids.begin(), ids.end());
+  if (largest / 64 > ids.size()) {
+    std::vector<std::uint32_t> sorted = ids;
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  }
+  std::vector<bool> seen(largest + 1, false);
+  for (const std::uint32_t id : ids) {
+    if (seen[id]) return false;
+    seen[id] = true;
+  }
+  return true;
+}
+
+/// Ids of the file if they are unique, else the row numbers in the file: dropping a point renumbers no other.
+void complete_ids(RawCloud& raw, LoadReport& report) {
+  if (!raw.id.empty() && !unique(raw.id)) {
+    report.notes.push_back("the ids in the file are not unique: renumbered by row");
+    raw.id.clear();
+  }
+  if (!raw.id.empty()) return;
+  raw.id.resize(raw.point.size());
+  std::iota(raw.id.begin(), raw.id.end(), 0u);
+}
+
+/// Areas of the file where they are usable, else Voronoi areas (E15).
+void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  const auto bad = [](float area) { return !(std::isfinite(area) && area >= 0); };
+  const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));
+  if (!raw.area.empty() && wrong == 0) return;
+  std::vector<float> estimates = estimate_surfel_areas(raw.point, raw.normal, {.threads = options.threads});
+  report.areas_estimated = true;
+  if (raw.area.empty()) {
+    raw.area = std::move(estimates);
+    return;
+  }
+  report.notes.push_back(share(wrong, raw.area.size(), "areas") + " were negative or NaN: estimated");
+  for (std::size_t i = 0; i < raw.area.size(); ++i) {
+    if (bad(raw.area[i])) raw.area[i] = estimates[i];
+  }
+}
+
+/// The table of materials: the caller's, the file's, or a default one per label.
+void complete_materials(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
+  SceneCloud& scene = result.scene;
+  const std::vector<std::uint16_t>& labels = scene.material;
+  scene.materials = !options.materials.empty() ? options.materials : raw.tags.materials;
+  result.report.materials_found = !labels.empty() || !raw.tags.materials.empty();
+  if (options.material || labels.empty()) {
+    if (scene.materials.empty()) scene.materials = {Material{}};
+    const std::uint16_t index = options.material.value_or(0);
+    if (index >= scene.materials.size()) {
+      fail(ErrorKind::argument, "load_scene: options.material = ", index,
+           ", must be below the number of materials, ", scene.materials.size(),
+           "; give options.materials too");
+    }
+    scene.material.assign(scene.point.size(), index);
+    return;
+  }
+  const std::uint16_t largest = *std::max_element(labels.begin(), labels.end());
+  if (largest == no_label) {
+    fail(ErrorKind::content, raw.path,
+         ": a label is negative, above 65534 or no whole number; labels are indices of "
+         "materials from 0: correct them, or give one material for all");
+  }
+  if (scene.materials.empty()) {
+    for (std::size_t m = 0; m <= largest; ++m)
+      scene.materials.push_back({.name = "label " + std::to_string(m)});
+    if (largest > 0) {
+      result.report.notes.push_back(
+          "labels 0 to " + std::to_string(largest) +
+          " found, but no materials given: all have the default Lambert coefficient");
+    }
+  }
+  if (largest >= scene.materials.size()) {
+    fail(ErrorKind::content, raw.path, ": label ", largest, " found, but there are ", scene.materials.size(),
+         " materials (labels from 0); give a material for every label");
+  }
+}
+
+LoadReport begin_report(const RawCloud& raw) {
+  LoadReport report;
+  report.path = raw.path;
+  report.format = raw.format;
+  report.points_read = raw.points_in_file;
+  report.triangles_read = raw.triangles_in_file;
+  report.dropped_not_finite = raw.not_finite;
+  report.notes = raw.notes;
+  return report;
+}
+
+/// Typical distance between neighbours [m]: of a cloud by its surfels, of a mesh by its vertices.
+double typical_spacing(const RawCloud& raw, std::vector<float> areas) {
+  if (!raw.triangle.empty()) {
+    const double total = static_cast<double>(areas.front()) * static_cast<double>(areas.size());
+    return std::sqrt(total / static_cast<double>(raw.points_in_file));
+  }
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  return std::sqrt(*middle);
+}
+
+}  // namespace
+
+std::string share(std::size_t part, std::size_t whole, const char* noun) {
+  std::ostringstream text;
+  text.precision(2);
+  text << part << " of " << whole << " " << noun << " ("
+       << 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1)) << " %)";
+  return text.str();
+}
+
+void check_options(const LoadOptions& options, const char* who) {
+  if (!(options.unit > 0) || !std::isfinite(options.unit)) {
+    fail(ErrorKind::argument, who, ": unit = ", options.unit, " m, must be > 0; 0.001 for millimetres");
+  }
+  if (!(options.mesh_spacing >= 0) || !std::isfinite(options.mesh_spacing)) {
+    fail(ErrorKind::argument, who, ": mesh_spacing = ", options.mesh_spacing, " m, must be >= 0 (0: chosen)");
+  }
+  if (options.normal_neighbours < 3) {
+    fail(ErrorKind::argument, who, ": normal_neighbours = ", options.normal_neighbours,
+         ", must be at least 3");
+  }
+  if (options.viewpoint && !options.viewpoint->allFinite()) {
+    fail(ErrorKind::argument, who, ": viewpoint must be finite");
+  }
+}
+
+std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points) {
+  constexpr std::uint32_t empty = std::numeric_limits<std::uint32_t>::max();
+  const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
+  std::vector<std::uint32_t> table(slots, empty), first(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    first[i] = i;
+    if (!points[i].allFinite()) continue;
+    // Adding zero makes -0 the same as 0; the products mix all bits (Fibonacci hashing).
+    const auto bits = [&](int axis) {
+      return std::uint64_t{std::bit_cast<std::uint32_t>(points[i][axis] + 0.0f)};
+    };
+    std::uint64_t hash = (bits(0) | bits(1) << 32) * 0x9e3779b97f4a7c15ull;
+    hash = ((hash ^ hash >> 29) + bits(2)) * 0xbf58476d1ce4e5b9ull;
+    std::size_t slot = (hash ^ hash >> 32) & (slots - 1);
+    while (table[slot] != empty && points[table[slot]] != points[i]) slot = (slot + 1) & (slots - 1);
+    if (table[slot] == empty) table[slot] = i;
+    first[i] = table[slot];
+  }
+  return first;
+}
+
+void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
+  if (keep.size() == raw.point.size()) return;
+  keep_only(raw.point, keep);
+  keep_only(raw.normal, keep);
+  keep_only(raw.area, keep);
+  keep_only(raw.label, keep);
+  keep_only(raw.id, keep);
+}
+
+LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
+  LoadedScene result;
+  result.report = begin_report(raw);
+  SceneCloud& scene = result.scene;
+  if (raw.triangle.empty()) {
+    if (raw.bad_triangles > 0) {
+      fail(ErrorKind::content, raw.path, ": no usable triangle (", raw.bad_triangles,
+           " polygons, all with corners that do not exist); export the mesh again");
+    }
+    complete_ids(raw, result.report);
+    drop_unusable(raw, result.report);
+    complete_normals(raw, options, result);
+    complete_areas(raw, options, result.report);
+    scene.point = std::move(raw.point);
+    scene.normal = std::move(raw.normal);
+    scene.area = std::move(raw.area);
+    scene.material = std::move(raw.label);
+    scene.id = std::move(raw.id);
+  } else {
+    sample_mesh(raw, options, result);
+  }
+  scene.origin = raw.origin;
+  complete_materials(raw, options, result);
+  if (!raw.tags.prepared) {
+    for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area), options.unit)) {
+      result.report.notes.push_back(std::move(doubt));
+    }
+  }
+  require_valid(scene, "load_scene");
+  return result;
+}
+
+}  // namespace insonify

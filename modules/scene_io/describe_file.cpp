@@ -1,0 +1,97 @@
+#include "scene_io/describe_file.hpp"
+
+#include "core/parallel.hpp"
+#include "scene/scene_index.hpp"
+#include "scene_io/complete_scene.hpp"
+#include "scene_io/raw_cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t most_queries = 20000;
+
+/// Finite points, each place once.
+std::vector<Eigen::Vector3f> distinct_points(const RawCloud& raw, std::size_t& duplicates) {
+  const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
+  std::vector<Eigen::Vector3f> distinct;
+  distinct.reserve(first.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    if (!raw.point[i].allFinite()) continue;
+    if (first[i] == i)
+      distinct.push_back(raw.point[i]);
+    else
+      ++duplicates;
+  }
+  return distinct;
+}
+
+/// Median distance to the nearest neighbour, asked at up to 20 000 points spread over the cloud.
+double median_spacing(const std::vector<Eigen::Vector3f>& points) {
+  if (points.size() < 2) return 0;
+  const SceneIndex index(points);
+  const std::size_t queries = std::min(points.size(), most_queries);
+  std::vector<double> distance(queries);
+  parallel_blocks(queries, 256, 0, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> nearest;
+    for (std::size_t q = begin; q < end; ++q) {
+      index.find_nearest(points[q * points.size() / queries], 2, nearest);
+      distance[q] = std::sqrt(nearest.back().squared_distance);
+    }
+  });
+  std::nth_element(distance.begin(), distance.begin() + queries / 2, distance.end());
+  return distance[queries / 2];
+}
+
+/// What load_scene would drop, repair or assume.
+void add_problems(const RawCloud& raw, FileDescription& file) {
+  std::vector<std::string>& problems = file.problems;
+  problems = raw.notes;
+  if (raw.not_finite > 0)
+    problems.push_back(share(raw.not_finite, file.points, "points") + " are not finite: will be dropped");
+  if (file.duplicates > 0 && raw.triangle.empty()) {
+    problems.push_back(share(file.duplicates, file.points, "points") +
+                       " stand where an earlier one does: will be dropped");
+  }
+  if (raw.bad_triangles > 0) {
+    problems.push_back(share(raw.bad_triangles, file.triangles, "polygons") +
+                       " have corners that do not exist: will be dropped");
+  }
+  if (!file.has_normals && raw.triangle.empty()) {
+    problems.push_back(
+        raw.viewpoint
+            ? "no normals: will be estimated, towards the viewpoint in the file"
+            : "no normals and no viewpoint: estimated normals will have no sides; give a viewpoint");
+  }
+  if (!raw.tags.oriented) problems.push_back("the normals have no sides: both sides will reflect");
+  for (std::string& doubt : doubts_about(raw, file.median_spacing, 1)) problems.push_back(std::move(doubt));
+}
+
+}  // namespace
+
+FileDescription describe_file(const std::string& path) {
+  const RawCloud raw = read_any(path, {});
+  FileDescription file;
+  file.path = raw.path;
+  file.format = raw.format;
+  file.points = raw.points_in_file;
+  file.triangles = raw.triangles_in_file;
+  file.not_finite = raw.not_finite;
+  file.width = raw.width;
+  file.height = raw.height;
+  file.fields = raw.fields;
+  file.min = raw.box.min;
+  file.max = raw.box.max;
+  const std::vector<Eigen::Vector3f> distinct = distinct_points(raw, file.duplicates);
+  file.median_spacing = median_spacing(distinct);
+  file.has_normals = !raw.normal.empty();
+  file.has_area = !raw.area.empty();
+  file.has_materials = !raw.label.empty() || !raw.tags.materials.empty();
+  file.viewpoint = raw.viewpoint;
+  add_problems(raw, file);
+  return file;
+}
+
+}  // namespace insonify

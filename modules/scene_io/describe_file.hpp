@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace insonify {
+
+/// What is in a cloud or mesh file, without preparing it.
+struct FileDescription {
+  struct Field {
+    std::string name, type;  ///< e.g. "x", "float32"
+  };
+  std::string path, format;
+  std::size_t points = 0, triangles = 0, not_finite = 0, duplicates = 0;
+  std::size_t width = 0, height = 0;  ///< height > 1: organised
+  std::vector<Field> fields;
+  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of finite points [file units]
+  double median_spacing = 0;                                                    ///< nearest neighbours [file units]
+  bool has_normals = false, has_area = false, has_materials = false;
+  std::optional<Eigen::Vector3d> viewpoint;
+  std::vector<std::string> problems;  ///< what is wrong or doubtful, with a remedy each
+};
+
+/// Throws like load_scene.
+FileDescription describe_file(const std::string& path);
+
+}  // namespace insonify

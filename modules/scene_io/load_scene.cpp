@@ -1,0 +1,13 @@
+#include "scene_io/load_scene.hpp"
+
+#include "scene_io/complete_scene.hpp"
+#include "scene_io/raw_cloud.hpp"
+
+namespace insonify {
+
+LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
+  check_options(options, "load_scene");
+  return complete_scene(read_any(path, {options.unit, options.threads}), options);
+}
+
+}  // namespace insonify

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/scene_cloud.hpp"
+
+namespace insonify {
+
+struct LoadOptions {
+  std::optional<Eigen::Vector3d> viewpoint;  ///< where the capture stood [m, world]; orients normals without sides
+  int normal_neighbours = 16;                ///< for estimated normals
+  double mesh_spacing = 0;                   ///< [m] between surfels of a mesh; 0: about 200 000 surfels in all
+  double unit = 1;                           ///< metres per unit of the file, e.g. 0.001 for millimetres
+  std::vector<Material> materials;           ///< by label; empty: those in the file, else a default one per label
+  std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
+  std::uint64_t seed = 1;                    ///< of mesh sampling
+  int threads = 0;                           ///< 0: all cores
+};
+
+/// What was in the file and what was done to it. Everything dropped or repaired is counted here.
+struct LoadReport {
+  std::string path, format;                 ///< e.g. "PCD binary_compressed", "PLY binary_big_endian mesh"
+  std::size_t points_read = 0;
+  std::size_t triangles_read = 0;
+  std::size_t dropped_not_finite = 0;       ///< points with NaN, infinite or absurd (> 1e9 m) coordinates
+  std::size_t dropped_duplicates = 0;       ///< points at exactly the place of an earlier one
+  std::size_t dropped_degenerate = 0;       ///< triangles without area, polygons with bad indices
+  std::size_t repaired_normals = 0;         ///< zero or NaN normals replaced by estimates
+  std::size_t dropped_without_normal = 0;   ///< points whose normal could not be estimated
+  bool normals_estimated = false;
+  bool areas_estimated = false;
+  bool materials_found = false;
+  std::optional<Eigen::Vector3d> viewpoint; ///< used to orient the normals
+  std::vector<std::string> notes;           ///< sentences for the user: hints, assumptions, suspicions
+};
+
+struct LoadedScene {
+  SceneCloud scene;
+  LoadReport report;
+};
+
+/// Reads a cloud or mesh: .pcd, .ply, .obj, .stl, .vtk, .vtp, .xyz/.txt/.csv/.asc, by extension, fields by name and
+/// type. Clouds without normals get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else
+/// two-sided; without areas, Voronoi areas (E15). Meshes are sampled, area-preserving and stratified; their normals
+/// are the file's, else follow the winding, two-sided if more than 1 % of the shared edges contradict it. Ids are the
+/// file's if unique, else row numbers (meshes: sample numbers).
+/// Coordinates may be float or double; the centre of the bounding box, in whole metres, becomes the origin.
+/// Throws Error(file) if missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds
+/// no usable point: always naming the file and what to do.
+LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
+
+}  // namespace insonify

@@ -1,0 +1,81 @@
+#include "scene_io/packed_rows.hpp"
+
+#include "core/error.hpp"
+#include "scene_io/raw_cloud.hpp"
+
+namespace insonify {
+namespace {
+
+void put_position(char*& out, const Eigen::Vector3d& position, bool wide) {
+  for (const double coordinate : position) {
+    if (wide)
+      put(out, coordinate);
+    else
+      put(out, static_cast<float>(coordinate));
+  }
+}
+
+}  // namespace
+
+PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who) {
+  const std::size_t n = soundings.size();
+  for (const std::size_t length :
+       {soundings.level_db.size(), soundings.range.size(), soundings.azimuth.size(),
+        soundings.elevation.size(), soundings.ping.size(), soundings.beam.size(), soundings.bin.size(),
+        soundings.material.size()}) {
+    if (length != n) {
+      fail(ErrorKind::argument, who, ": soundings have ", n, " positions but a column of length ", length,
+           ", must be the same; fill every column");
+    }
+  }
+  PackedRows rows;
+  rows.rows = n;
+  for (const char* axis : {"x", "y", "z"})
+    rows.columns.push_back({axis, wide ? NumberType::float64 : NumberType::float32});
+  for (const char* name : {"level_db", "range", "azimuth", "elevation"}) {
+    rows.columns.push_back({prefix + name, NumberType::float32});
+  }
+  for (const char* name : {"ping", "beam", "bin", "material"})
+    rows.columns.push_back({prefix + name, NumberType::uint32});
+  rows.write_row = [&soundings, wide](std::size_t i, char* out) {
+    put_position(out, soundings.position[i], wide);
+    put(out, soundings.level_db[i]);
+    put(out, soundings.range[i]);
+    put(out, soundings.azimuth[i]);
+    put(out, soundings.elevation[i]);
+    put(out, soundings.ping[i]);
+    put(out, soundings.beam[i]);
+    put(out, soundings.bin[i]);
+    put(out, soundings.material[i]);
+  };
+  return rows;
+}
+
+PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
+  const bool ply = format == CloudFormat::ply;
+  const bool wide = ply && !scene.origin.isZero(0);
+  PackedRows rows;
+  rows.rows = scene.size();
+  rows.comments = tag_lines(scene);
+  for (const char* axis : {"x", "y", "z"})
+    rows.columns.push_back({axis, wide ? NumberType::float64 : NumberType::float32});
+  for (const char* axis : {"x", "y", "z"}) {
+    rows.columns.push_back({std::string(ply ? "n" : "normal_") + axis, NumberType::float32});
+  }
+  rows.columns.push_back({"area", NumberType::float32});
+  rows.columns.push_back({"material", ply ? NumberType::uint16 : NumberType::uint32});
+  rows.columns.push_back({"id", NumberType::uint32});
+  rows.write_row = [&scene, wide, ply](std::size_t i, char* out) {
+    put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
+    for (const float n : scene.normal[i]) put(out, n);
+    put(out, scene.area[i]);
+    if (ply)
+      put(out, scene.material[i]);
+    else
+      put(out, std::uint32_t{scene.material[i]});
+    put(out, scene.id[i]);
+  };
+  return rows;
+}
+
+}  // namespace insonify

@@ -1,0 +1,11 @@
+#pragma once
+#include "scene_io/packed_rows.hpp"
+
+#include <string>
+
+namespace insonify {
+
+/// Header of a binary PCD up to and with its DATA line (PCL writes it); comments stand as "# " lines.
+std::string pcd_header(const PackedRows& rows);
+
+}  // namespace insonify

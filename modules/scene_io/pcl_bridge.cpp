@@ -1,0 +1,125 @@
+#include "scene_io/pcl_bridge.hpp"
+
+#include "core/error.hpp"
+#include "scene_io/complete_scene.hpp"
+#include "scene_io/packed_rows.hpp"
+#include "scene_io/pcd_header.hpp"
+#include "scene_io/pcl_rows_internal.hpp"
+
+#include <pcl/conversions.h>
+#include <pcl/io/pcd_io.h>
+
+namespace insonify {
+namespace {
+
+std::uint8_t pcl_type(NumberType type) {
+  switch (type) {
+    case NumberType::float64:
+      return pcl::PCLPointField::FLOAT64;
+    case NumberType::float32:
+      return pcl::PCLPointField::FLOAT32;
+    case NumberType::uint16:
+      return pcl::PCLPointField::UINT16;
+    default:
+      return pcl::PCLPointField::UINT32;
+  }
+}
+
+/// An unorganised PCL cloud with the rows' fields and no data yet.
+pcl::PCLPointCloud2 empty_cloud(const PackedRows& rows) {
+  pcl::PCLPointCloud2 cloud;
+  cloud.height = 1;
+  cloud.width = static_cast<pcl::uindex_t>(rows.rows);
+  cloud.is_dense = true;
+  for (const PackedRows::Column& column : rows.columns) {
+    pcl::PCLPointField field;
+    field.name = column.name;
+    field.offset = cloud.point_step;
+    field.datatype = pcl_type(column.type);
+    field.count = 1;
+    cloud.fields.push_back(field);
+    cloud.point_step += static_cast<pcl::uindex_t>(size_of(column.type));
+  }
+  cloud.row_step = cloud.width * cloud.point_step;
+  return cloud;
+}
+
+RawCloud raw_from(const pcl::PCLPointCloud2& cloud, const LoadOptions& options) {
+  RawCloud raw;
+  raw.path = "from_pcl";
+  raw.format = "PCL cloud";
+  fill_cloud(raw, table_of(cloud, raw), {options.unit, options.threads});
+  return raw;
+}
+
+/// A typed cloud carries the pose of its sensor; the identity means unknown.
+template <typename Point>
+LoadedScene from_typed(const pcl::PointCloud<Point>& cloud, const LoadOptions& options) {
+  check_options(options, "from_pcl");
+  pcl::PCLPointCloud2 blob;
+  pcl::toPCLPointCloud2(cloud, blob);
+  RawCloud raw = raw_from(blob, options);
+  const bool posed = !cloud.sensor_origin_.template head<3>().isZero(0) ||
+                     !cloud.sensor_orientation_.coeffs().isApprox(Eigen::Quaternionf::Identity().coeffs());
+  if (posed) raw.viewpoint = options.unit * cloud.sensor_origin_.template head<3>().template cast<double>();
+  return complete_scene(std::move(raw), options);
+}
+
+}  // namespace
+
+LoadedScene from_pcl(const pcl::PointCloud<pcl::PointNormal>& cloud, const LoadOptions& options) {
+  return from_typed(cloud, options);
+}
+
+LoadedScene from_pcl(const pcl::PointCloud<pcl::PointXYZ>& cloud, const LoadOptions& options) {
+  return from_typed(cloud, options);
+}
+
+LoadedScene from_pcl(const pcl::PCLPointCloud2& cloud, const LoadOptions& options) {
+  check_options(options, "from_pcl");
+  return complete_scene(raw_from(cloud, options), options);
+}
+
+LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options) {
+  check_options(options, "from_pcl");
+  RawCloud raw = raw_from(mesh.cloud, options);
+  raw.format = "PCL mesh";
+  for (const pcl::Vertices& polygon : mesh.polygons) {
+    add_polygon(raw, {polygon.vertices.begin(), polygon.vertices.end()}, raw.point.size());
+  }
+  return complete_scene(std::move(raw), options);
+}
+
+pcl::PCLPointCloud2 to_pcl(const Soundings& soundings) {
+  const PackedRows rows = rows_of(soundings, false, "", "to_pcl");
+  pcl::PCLPointCloud2 cloud = empty_cloud(rows);
+  cloud.data.resize(rows.rows * rows.stride());
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    rows.write_row(i, reinterpret_cast<char*>(cloud.data.data()) + i * rows.stride());
+  }
+  return cloud;
+}
+
+pcl::PointCloud<pcl::PointNormal> to_pcl(const SceneCloud& scene) {
+  require_valid(scene, "to_pcl");
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  cloud.reserve(scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    pcl::PointNormal point;
+    point.getVector3fMap() = (scene.origin + scene.point[i].cast<double>()).cast<float>();
+    point.getNormalVector3fMap() = scene.normal[i];
+    cloud.push_back(point);
+  }
+  return cloud;
+}
+
+std::string pcd_header(const PackedRows& rows) {
+  std::string header = pcl::PCDWriter().generateHeaderBinary(empty_cloud(rows), Eigen::Vector4f::Zero(),
+                                                             Eigen::Quaternionf::Identity());
+  std::string comments;
+  for (const std::string& comment : rows.comments) comments += "# " + comment + "\n";
+  header.insert(header.find('\n') + 1, comments);
+  return header + "DATA binary\n";
+}
+
+}  // namespace insonify

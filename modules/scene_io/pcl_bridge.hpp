@@ -1,0 +1,25 @@
+#pragma once
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/PolygonMesh.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include "returns/soundings.hpp"
+#include "scene_io/load_scene.hpp"
+
+namespace insonify {
+
+/// In-memory doors for PCL programs. All behave as load_scene does after reading: clean, complete, count.
+LoadedScene from_pcl(const pcl::PointCloud<pcl::PointNormal>& cloud, const LoadOptions& options = {});
+LoadedScene from_pcl(const pcl::PointCloud<pcl::PointXYZ>& cloud, const LoadOptions& options = {});
+LoadedScene from_pcl(const pcl::PCLPointCloud2& cloud, const LoadOptions& options = {});
+LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options = {});
+
+/// Soundings as a PCL cloud with fields x y z level_db range azimuth elevation (float32) and ping beam bin material
+/// (uint32). PCL is float: world coordinates far from zero lose digits.
+pcl::PCLPointCloud2 to_pcl(const Soundings& soundings);
+
+/// Scene points and normals, world coordinates in float.
+pcl::PointCloud<pcl::PointNormal> to_pcl(const SceneCloud& scene);
+
+}  // namespace insonify

@@ -1,0 +1,27 @@
+#pragma once
+#include "scene_io/raw_cloud.hpp"
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/console/print.h>
+
+namespace insonify {
+
+/// While it lives, PCL prints nothing.
+class QuietPcl {
+ public:
+  QuietPcl() : before_(pcl::console::getVerbosityLevel()) {
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  }
+  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl& operator=(const QuietPcl&) = delete;
+
+ private:
+  pcl::console::VERBOSITY_LEVEL before_;
+};
+
+/// The rows of a PCL cloud, which must outlive the table; `raw` gets its fields, width and height. Throws
+/// Error(content) naming raw.path if the blob's sizes contradict each other.
+RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw);
+
+}  // namespace insonify

@@ -1,0 +1,138 @@
+#include "core/error.hpp"
+#include "scene_io/file_probe.hpp"
+#include "scene_io/raw_cloud.hpp"
+#include "scene_io/text_lines.hpp"
+
+#include <limits>
+#include <unordered_map>
+
+// An own reader, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
+namespace insonify {
+namespace {
+
+constexpr std::int64_t none = -1;
+
+struct Obj {
+  std::string path;
+  std::vector<double> positions, normals;                          ///< three numbers each
+  std::vector<std::vector<std::array<std::int64_t, 2>>> polygons;  ///< position and normal of each corner
+};
+
+void read_numbers(const Obj& obj, std::string_view rest, std::size_t line, std::vector<double>& numbers) {
+  for (int axis = 0; axis < 3; ++axis) {
+    double value = 0;
+    const std::string_view word = take_word(rest);
+    if (!to_number(word, value)) {
+      fail(ErrorKind::content, obj.path, ":", line, ": expected three numbers, found '", shown(word),
+           "'; correct the line, or export the file again if it is cut off");
+    }
+    numbers.push_back(value);
+  }
+}
+
+/// Index from 0 of an OBJ reference (from 1, or negative from the end); -2 if it points nowhere.
+std::int64_t resolve(std::int64_t reference, std::size_t held) {
+  const std::int64_t index = reference > 0 ? reference - 1 : static_cast<std::int64_t>(held) + reference;
+  return reference != 0 && index >= 0 ? index : -2;
+}
+
+/// A corner "v", "v/t", "v//n" or "v/t/n".
+std::array<std::int64_t, 2> read_corner(const Obj& obj, std::string_view word, std::size_t line) {
+  const std::size_t first = std::min(word.find('/'), word.size());
+  const std::size_t second = first < word.size() ? word.find('/', first + 1) : word.npos;
+  std::int64_t position = 0, normal = 0;
+  const bool has_normal = second != word.npos && second + 1 < word.size();
+  if (!to_number(word.substr(0, first), position) ||
+      (has_normal && !to_number(word.substr(second + 1), normal))) {
+    fail(ErrorKind::content, obj.path, ":", line, ": expected a corner such as 7 or 7/1/7, found '",
+         shown(word), "'; correct the line, or export the file again if it is cut off");
+  }
+  return {resolve(position, obj.positions.size() / 3),
+          has_normal ? resolve(normal, obj.normals.size() / 3) : none};
+}
+
+Obj parse(const std::string& path, const std::string& text) {
+  Obj obj;
+  obj.path = path;
+  LineReader lines(text);
+  std::string_view line;
+  while (lines.next_filled(line)) {
+    std::string_view rest = line;
+    const std::string_view key = take_word(rest);
+    if (key == "v") read_numbers(obj, rest, lines.number(), obj.positions);
+    if (key == "vn") read_numbers(obj, rest, lines.number(), obj.normals);
+    if (key != "f") continue;
+    auto& polygon = obj.polygons.emplace_back();
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+      polygon.push_back(read_corner(obj, word, lines.number()));
+    }
+  }
+  return obj;
+}
+
+/// One vertex per pair of position and normal that the faces use; a vertex without normal gets zeros.
+struct Corners {
+  std::vector<double> rows;  ///< x y z nx ny nz
+  std::unordered_map<std::uint64_t, std::int64_t> known;
+
+  std::int64_t vertex_of(const Obj& obj, const std::array<std::int64_t, 2>& corner) {
+    const std::size_t normals = obj.normals.size() / 3;
+    const std::int64_t n =
+        corner[1] >= 0 && corner[1] < static_cast<std::int64_t>(normals) ? corner[1] : none;
+    if (corner[0] < 0 || corner[0] >= static_cast<std::int64_t>(obj.positions.size() / 3)) return none;
+    const std::uint64_t key = static_cast<std::uint64_t>(corner[0]) << 32 | static_cast<std::uint32_t>(n);
+    const auto [entry, is_new] = known.try_emplace(key, static_cast<std::int64_t>(rows.size() / 6));
+    if (is_new) {
+      for (int axis = 0; axis < 3; ++axis) rows.push_back(obj.positions[3 * corner[0] + axis]);
+      for (int axis = 0; axis < 3; ++axis) rows.push_back(n == none ? 0.0 : obj.normals[3 * n + axis]);
+    }
+    return entry->second;
+  }
+};
+
+}  // namespace
+
+RawCloud read_obj(const std::string& path, const ReadOptions& options) {
+  const std::string text = read_whole_file(path);
+  const Obj obj = parse(path, text);
+  const std::size_t positions = obj.positions.size() / 3;
+  if (positions == 0) {
+    fail(ErrorKind::content, path,
+         ": not an OBJ file: expected vertex lines 'v x y z', found none; it looks like ",
+         what_it_looks_like(path));
+  }
+  RawCloud raw;
+  raw.path = path;
+  raw.format = obj.polygons.empty() ? "OBJ points" : "OBJ mesh";
+  raw.points_in_file = raw.width = positions;
+  raw.fields = {{"x", "text"}, {"y", "text"}, {"z", "text"}};
+  const bool normals =
+      !obj.normals.empty() && (!obj.polygons.empty() || obj.normals.size() == obj.positions.size());
+  if (normals) raw.fields.insert(raw.fields.end(), {{"nx", "text"}, {"ny", "text"}, {"nz", "text"}});
+
+  std::vector<std::string> names = {"x", "y", "z"};
+  if (obj.polygons.empty() && !normals) {
+    fill_cloud(raw, table_of_doubles(names, obj.positions), options);
+    return raw;
+  }
+  Corners corners;
+  if (obj.polygons.empty()) {
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(positions); ++i) corners.vertex_of(obj, {i, i});
+  }
+  std::vector<std::int64_t> polygon;
+  for (const auto& face : obj.polygons) {
+    polygon.clear();
+    for (const auto& corner : face) polygon.push_back(corners.vertex_of(obj, corner));
+    add_polygon(raw, polygon, std::numeric_limits<std::uint32_t>::max());
+  }
+  if (corners.rows.empty()) {
+    fail(ErrorKind::content, path, ": no face has corners that exist (", positions, " vertices, ",
+         obj.polygons.size(), " faces); export the mesh again");
+  }
+  names.insert(names.end(), {"nx", "ny", "nz"});
+  fill_cloud(raw, table_of_doubles(names, std::move(corners.rows)), options);
+  if (!normals) raw.normal.clear();
+  return raw;
+}
+
+}  // namespace insonify

@@ -1,0 +1,211 @@
+#include <algorithm>
+
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
+#include <vtkSTLReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include "core/error.hpp"
+#include "scene_io/file_probe.hpp"
+#include "scene_io/raw_cloud.hpp"
+#include "scene_io/text_lines.hpp"
+
+namespace insonify {
+namespace {
+
+/// Collects what VTK would print.
+class Messages : public vtkOutputWindow {
+ public:
+  static Messages* New() { return new Messages; }
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override { add(errors, text); }
+  void DisplayWarningText(const char* text) override { add(warnings, text); }
+  /// The legacy reader warns of missing numbers with a text that begins with Error.
+  void DisplayGenericWarningText(const char* text) override {
+    add(std::string_view(text).find("Error") == std::string_view::npos ? warnings : errors, text);
+  }
+  void DisplayDebugText(const char*) override {}
+  std::vector<std::string> errors, warnings;
+
+ private:
+  /// VTK's text is "ERROR: In file.cxx, line n\nvtkX (0x..): message\n\n": the message alone is kept.
+  void add(std::vector<std::string>& list, const char* text) {
+    std::string message = text;
+    message.erase(0, std::min(message.find('\n') + 1, message.size()));
+    const std::size_t head = message.find("): ");
+    if (head != message.npos) message.erase(0, head + 3);
+    list.push_back(shown(message.substr(0, message.find('\n'))));
+  }
+};
+
+/// Puts `messages` in the place of VTK's console and silences its log while it lives.
+class QuietVtk {
+ public:
+  explicit QuietVtk(vtkOutputWindow* messages) : before_(vtkOutputWindow::GetInstance()) {
+    vtkOutputWindow::SetInstance(messages);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~QuietVtk() {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+  }
+  QuietVtk(const QuietVtk&) = delete;
+  QuietVtk& operator=(const QuietVtk&) = delete;
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
+};
+
+void check_legacy(const std::string& path) {
+  const std::string head = read_beginning(path, 2048);
+  if (head.rfind("# vtk DataFile", 0) != 0) {
+    fail(ErrorKind::content, path,
+         ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
+         what_it_looks_like(path));
+  }
+  const std::size_t at = head.find("DATASET ");
+  const std::string kind =
+      at == head.npos ? "nothing" : head.substr(at + 8, head.find_first_of("\r\n", at) - at - 8);
+  if (kind != "POLYDATA") {
+    fail(ErrorKind::content, path, ": holds ", shown(kind),
+         ", expected DATASET POLYDATA; in ParaView apply 'Extract "
+         "Surface' and save again");
+  }
+}
+
+void check_xml(const std::string& path) {
+  if (read_beginning(path, 4096).find("<VTKFile") == std::string::npos) {
+    fail(ErrorKind::content, path, ": not a VTK XML file: expected '<VTKFile', found ",
+         what_it_looks_like(path));
+  }
+}
+
+/// A binary STL has 84 bytes and 50 per triangle; an ASCII one begins with solid and ends with endsolid.
+void check_stl(const std::string& path) {
+  const std::string bytes = read_whole_file(path);
+  std::size_t announced = 0;
+  if (bytes.size() >= 84) {
+    announced = read_as<std::uint32_t>(bytes.data() + 80, false);
+    if (84 + 50 * announced == bytes.size()) return;
+    const bool binary = what_it_looks_like(path) == "binary data";
+    if (binary && announced > 0 && 84 + 50 * announced < bytes.size()) return;
+  }
+  if (bytes.rfind("solid", 0) == 0 && bytes.find("facet") != bytes.npos) {
+    if (bytes.find("endsolid", bytes.size() - std::min<std::size_t>(bytes.size(), 400)) != bytes.npos) return;
+    fail(ErrorKind::content, path, ": cut off: an ASCII STL file ends with 'endsolid', found '",
+         shown(bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 40))),
+         "'; copy or export the file again");
+  }
+  if (bytes.size() >= 84 && what_it_looks_like(path) == "binary data") {
+    fail(ErrorKind::content, path, ": cut off or not an STL file: it announces ", announced, " triangles, ",
+         84 + 50 * announced, " bytes, and holds ", bytes.size(), "; copy or export the file again");
+  }
+  fail(ErrorKind::content, path,
+       ": not an STL file: expected 'solid ...' or a binary header of 84 bytes, found ",
+       what_it_looks_like(path));
+}
+
+template <typename Reader>
+void run(Reader* reader, const std::string& path, vtkPolyData* out) {
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (reader->GetOutput()) out->ShallowCopy(reader->GetOutput());
+}
+
+/// Polygons and triangle strips become triangles.
+void add_faces(vtkPolyData* data, RawCloud& raw) {
+  const std::size_t vertices = static_cast<std::size_t>(data->GetNumberOfPoints());
+  std::vector<std::int64_t> corners;
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  vtkCellArray* polygons = data->GetPolys();
+  for (polygons->InitTraversal(); polygons->GetNextCell(count, ids);) {
+    corners.assign(ids, ids + count);
+    add_polygon(raw, corners, vertices);
+  }
+  vtkCellArray* strips = data->GetStrips();
+  for (strips->InitTraversal(); strips->GetNextCell(count, ids);) {
+    for (vtkIdType i = 2; i < count; ++i) {
+      const vtkIdType odd = i % 2;
+      add_polygon(raw, {ids[i - 2], ids[i - 1 + odd], ids[i - odd]}, vertices);
+    }
+  }
+}
+
+/// Points, normals and one-component point arrays as rows of doubles.
+RowTable table_of(vtkPolyData* data, RawCloud& raw) {
+  std::vector<vtkDataArray*> arrays = {data->GetPoints()->GetData()};
+  std::vector<std::string> names = {"x", "y", "z"};
+  for (const std::string& name : names) raw.fields.push_back({name, arrays[0]->GetDataTypeAsString()});
+  if (vtkDataArray* normals = data->GetPointData()->GetNormals();
+      normals && normals->GetNumberOfComponents() == 3) {
+    arrays.push_back(normals);
+    for (const char* name : {"nx", "ny", "nz"}) {
+      names.push_back(name);
+      raw.fields.push_back({name, normals->GetDataTypeAsString()});
+    }
+  }
+  for (int a = 0; a < data->GetPointData()->GetNumberOfArrays(); ++a) {
+    vtkDataArray* array = data->GetPointData()->GetArray(a);
+    if (!array || array->GetNumberOfComponents() != 1 || !array->GetName()) continue;
+    arrays.push_back(array);
+    names.push_back(array->GetName());
+    raw.fields.push_back({array->GetName(), array->GetDataTypeAsString()});
+  }
+  std::vector<double> rows(static_cast<std::size_t>(data->GetNumberOfPoints()) * names.size());
+  double* out = rows.data();
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+    for (vtkDataArray* array : arrays) {
+      array->GetTuple(i, out);
+      out += array->GetNumberOfComponents();
+    }
+  }
+  return table_of_doubles(names, std::move(rows));
+}
+
+}  // namespace
+
+RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
+  const std::string extension = extension_of(path);
+  vtkNew<Messages> messages;
+  const QuietVtk quiet(messages);
+  vtkNew<vtkPolyData> data;
+  RawCloud raw;
+  raw.path = path;
+  if (extension == ".vtk") {
+    check_legacy(path);
+    raw.format = "VTK legacy polydata";
+    run(vtkNew<vtkPolyDataReader>().Get(), path, data);
+  } else if (extension == ".vtp") {
+    check_xml(path);
+    raw.format = "VTK XML polydata";
+    run(vtkNew<vtkXMLPolyDataReader>().Get(), path, data);
+  } else {
+    check_stl(path);
+    raw.format = "STL";
+    run(vtkNew<vtkSTLReader>().Get(), path, data);
+  }
+  if (!messages->errors.empty()) {
+    fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(),
+         "; the file is damaged or cut off: copy or export it again");
+  }
+  for (const std::string& warning : messages->warnings) raw.notes.push_back("VTK: " + warning);
+  if (data->GetNumberOfPoints() == 0) {
+    fail(ErrorKind::content, path, ": holds no point; export the ", raw.format, " again");
+  }
+  raw.width = static_cast<std::size_t>(data->GetNumberOfPoints());
+  raw.float_coordinates = data->GetPoints()->GetDataType() == VTK_FLOAT;
+  add_faces(data, raw);
+  if (!raw.triangle.empty() || raw.bad_triangles > 0) raw.format += " mesh";
+  fill_cloud(raw, table_of(data, raw), options);
+  return raw;
+}
+
+}  // namespace insonify

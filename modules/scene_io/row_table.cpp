@@ -1,0 +1,240 @@
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "scene_io/raw_cloud.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <string>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t block_rows = 1 << 16;
+
+/// An open file; closed with its last owner.
+struct OpenFile {
+  explicit OpenFile(const std::string& name)
+      : path(name), descriptor(open(name.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor < 0) fail(ErrorKind::file, path, ": cannot be opened for reading: ", std::strerror(errno));
+  }
+  ~OpenFile() { close(descriptor); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  void read_at(std::size_t offset, char* out, std::size_t count) const {
+    while (count > 0) {
+      const ssize_t got = pread(descriptor, out, count, static_cast<off_t>(offset));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) fail(ErrorKind::file, path, ": reading failed at byte ", offset, "; check the disk");
+      out += got;
+      offset += static_cast<std::size_t>(got);
+      count -= static_cast<std::size_t>(got);
+    }
+  }
+  std::string path;
+  int descriptor;
+};
+
+/// Column whose name is one of `names`, whatever its case and CloudCompare's prefix "scalar_"; null if none.
+const RowTable::Column* find_column(const RowTable& table, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    for (const RowTable::Column& column : table.columns) {
+      std::string plain = column.name;
+      std::transform(plain.begin(), plain.end(), plain.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      if (plain.rfind("scalar_", 0) == 0) plain.erase(0, 7);
+      if (plain == name) return &column;
+    }
+  }
+  return nullptr;
+}
+
+struct Columns {
+  std::array<const RowTable::Column*, 3> position, normal;
+  const RowTable::Column *area, *label, *id;
+};
+
+Columns find_columns(const RowTable& table, const std::string& path) {
+  Columns found;
+  found.position = {find_column(table, {"x"}), find_column(table, {"y"}), find_column(table, {"z"})};
+  found.normal = {find_column(table, {"nx", "normal_x"}), find_column(table, {"ny", "normal_y"}),
+                  find_column(table, {"nz", "normal_z"})};
+  found.area = find_column(table, {"area"});
+  found.label = find_column(table, {"label", "material", "class", "classification"});
+  found.id = find_column(table, {"id"});
+  if (!found.position[0] || !found.position[1] || !found.position[2]) {
+    std::string names;
+    for (const RowTable::Column& column : table.columns) names += (names.empty() ? "" : " ") + column.name;
+    fail(ErrorKind::content, path, ": expected fields x y z, found '", names,
+         "'; rename the coordinate fields");
+  }
+  return found;
+}
+
+/// Calls body(first, rows, bytes) for blocks of rows, in parallel.
+template <typename Body>
+void for_each_block(const RowTable& table, int threads, const Body& body) {
+  parallel_blocks(table.rows, block_rows, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<char> buffer;
+    const char* bytes = table.fetch(begin, end - begin, buffer);
+    body(begin, end - begin, bytes);
+  });
+}
+
+Eigen::Vector3d read_triple(const RowTable& table, const std::array<const RowTable::Column*, 3>& columns,
+                            const char* row) {
+  const auto number = [&](int axis) {
+    return read_number(row + columns[axis]->offset, columns[axis]->type, table.swap_bytes);
+  };
+  return {number(0), number(1), number(2)};
+}
+
+bool usable(const Eigen::Vector3d& position) {
+  return position.allFinite() && position.cwiseAbs().maxCoeff() <= farthest_coordinate;
+}
+
+/// Box and count of the usable points; the origin: the middle of the box in whole metres, or the one noted.
+void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
+  const std::size_t blocks = (table.rows + block_rows - 1) / block_rows;
+  std::vector<Bounds> boxes(blocks);
+  std::vector<std::size_t> unusable(blocks, 0);
+  for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
+    Bounds& box = boxes[first / block_rows];
+    for (std::size_t i = 0; i < rows; ++i) {
+      const Eigen::Vector3d p = options.unit * read_triple(table, found.position, bytes + i * table.stride);
+      if (!usable(p)) {
+        ++unusable[first / block_rows];
+        continue;
+      }
+      box.min = box.min.cwiseMin(p);
+      box.max = box.max.cwiseMax(p);
+    }
+  });
+  for (std::size_t b = 0; b < blocks; ++b) {
+    raw.box.min = raw.box.min.cwiseMin(boxes[b].min);
+    raw.box.max = raw.box.max.cwiseMax(boxes[b].max);
+    raw.not_finite += unusable[b];
+  }
+  if (raw.not_finite == table.rows) {
+    fail(ErrorKind::content, raw.path, ": holds no usable point (", table.rows,
+         " points, none with finite coordinates); export the cloud again");
+  }
+  if (raw.tags.origin && options.unit == 1) {
+    raw.origin = *raw.tags.origin;
+  } else {
+    raw.origin = (0.5 * (raw.box.min + raw.box.max) + Eigen::Vector3d::Constant(0.5)).array().floor();
+  }
+}
+
+std::uint16_t label_from(double number) {
+  return number >= 0 && number < no_label && number == std::floor(number) ? static_cast<std::uint16_t>(number)
+                                                                          : no_label;
+}
+
+/// True if every number of the column is a whole one that fits 32 bits.
+bool holds_ids(const RowTable& table, const RowTable::Column& column, int threads) {
+  std::atomic<bool> good{true};
+  for_each_block(table, threads, [&](std::size_t, std::size_t rows, const char* bytes) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double id = read_number(bytes + i * table.stride + column.offset, column.type, table.swap_bytes);
+      if (!(id >= 0 && id <= std::numeric_limits<std::uint32_t>::max() && id == std::floor(id))) good = false;
+    }
+  });
+  return good;
+}
+
+}  // namespace
+
+RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers) {
+  RowTable table;
+  for (const std::string& name : names) {
+    table.columns.push_back({name, NumberType::float64, 8 * table.columns.size()});
+  }
+  table.stride = 8 * names.size();
+  table.rows = names.empty() ? 0 : numbers.size() / names.size();
+  const auto held = std::make_shared<const std::vector<double>>(std::move(numbers));
+  table.fetch = [held, stride = table.stride](std::size_t first, std::size_t, std::vector<char>&) {
+    return reinterpret_cast<const char*>(held->data()) + first * stride;
+  };
+  return table;
+}
+
+RowTable table_in_file(const std::string& path, std::size_t offset, std::size_t rows, std::size_t stride) {
+  RowTable table;
+  table.rows = rows;
+  table.stride = stride;
+  const auto file = std::make_shared<const OpenFile>(path);
+  table.fetch = [file, offset, stride](std::size_t first, std::size_t count, std::vector<char>& buffer) {
+    buffer.resize(count * stride);
+    file->read_at(offset + first * stride, buffer.data(), buffer.size());
+    return static_cast<const char*>(buffer.data());
+  };
+  return table;
+}
+
+void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options) {
+  if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
+  if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1) {
+    fail(ErrorKind::content, raw.path, ": holds ", table.rows,
+         " points, at most 4294967294 can be numbered; split it");
+  }
+  const Columns found = find_columns(table, raw.path);
+  raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
+  if (raw.points_in_file == 0) raw.points_in_file = table.rows;
+  if (raw.viewpoint) *raw.viewpoint *= options.unit;
+  find_box(raw, table, found, options);
+
+  // Coordinates become relative to the origin in double, then float.
+  raw.point.resize(table.rows);
+  const bool normals = found.normal[0] && found.normal[1] && found.normal[2];
+  if (normals) raw.normal.resize(table.rows);
+  if (found.area) raw.area.resize(table.rows);
+  if (found.label) raw.label.resize(table.rows);
+  const bool ids = found.id && holds_ids(table, *found.id, options.threads);
+  if (ids) raw.id.resize(table.rows);
+  if (found.id && !ids)
+    raw.notes.push_back("field '" + found.id->name + "' holds no whole 32-bit numbers: ids renumbered");
+  for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      const char* row = bytes + i * table.stride;
+      const auto number = [&](const RowTable::Column& c) {
+        return read_number(row + c.offset, c.type, table.swap_bytes);
+      };
+      const Eigen::Vector3d p = options.unit * read_triple(table, found.position, row);
+      raw.point[first + i] = usable(p) ? Eigen::Vector3f((p - raw.origin).cast<float>())
+                                       : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+      if (normals) raw.normal[first + i] = read_triple(table, found.normal, row).cast<float>();
+      if (found.area)
+        raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
+      if (found.label) raw.label[first + i] = label_from(number(*found.label));
+      if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
+    }
+  });
+}
+
+void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices) {
+  ++raw.triangles_in_file;
+  const bool good = corners.size() >= 3 && std::all_of(corners.begin(), corners.end(), [&](std::int64_t c) {
+                      return c >= 0 && static_cast<std::size_t>(c) < vertices;
+                    });
+  if (!good) {
+    ++raw.bad_triangles;
+    return;
+  }
+  raw.triangles_in_file += corners.size() - 3;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    raw.triangle.push_back({static_cast<std::uint32_t>(corners[0]),
+                            static_cast<std::uint32_t>(corners[i - 1]),
+                            static_cast<std::uint32_t>(corners[i])});
+  }
+}
+
+}  // namespace insonify

@@ -1,0 +1,97 @@
+#include "scene_io/save_cloud.hpp"
+
+#include "core/error.hpp"
+#include "scene_io/file_probe.hpp"
+#include "scene_io/packed_rows.hpp"
+#include "scene_io/pcd_header.hpp"
+
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+static_assert(std::endian::native == std::endian::little,
+              "save_cloud.cpp writes numbers as they lie in memory");
+
+namespace insonify {
+namespace {
+
+constexpr double farthest_in_pcd = 2000;  ///< [m]; float32 steps are 0.12 mm there
+
+std::string ply_header(const PackedRows& rows) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : rows.comments) header += "comment " + comment + "\n";
+  header += "element vertex " + std::to_string(rows.rows) + "\n";
+  for (const PackedRows::Column& column : rows.columns) {
+    const char* type = column.type == NumberType::float64   ? "double"
+                       : column.type == NumberType::float32 ? "float"
+                       : column.type == NumberType::uint16  ? "ushort"
+                                                            : "uint";
+    header += std::string("property ") + type + " " + column.name + "\n";
+  }
+  return header + "end_header\n";
+}
+
+/// Writes header and rows to a temporary name beside `path`, then renames; leaves nothing behind on failure.
+void write_file(const std::string& path, const std::string& header, const PackedRows& rows, const char* who) {
+  const std::string temporary = path + ".tmp" + std::to_string(getpid());
+  errno = 0;
+  std::ofstream file(temporary, std::ios::binary);
+  file << header;
+  constexpr std::size_t block = 1 << 15;
+  const std::size_t stride = rows.stride();
+  std::vector<char> bytes(block * stride);
+  for (std::size_t first = 0; first < rows.rows && file; first += block) {
+    const std::size_t count = std::min(block, rows.rows - first);
+    for (std::size_t i = 0; i < count; ++i) rows.write_row(first + i, bytes.data() + i * stride);
+    file.write(bytes.data(), static_cast<std::streamsize>(count * stride));
+  }
+  file.close();
+  std::error_code error(file ? 0 : (errno != 0 ? errno : EIO), std::generic_category());
+  if (!error) std::filesystem::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  fail(ErrorKind::file, who, ": cannot write ", path, ": ", error.message(),
+       "; check the folder, its permissions and the "
+       "space on the disk");
+}
+
+CloudFormat format_of(const std::string& path, const char* who) {
+  const std::string extension = extension_of(path);
+  if (extension == ".ply") return CloudFormat::ply;
+  if (extension == ".pcd") return CloudFormat::pcd;
+  fail(ErrorKind::argument, who, ": ", path, " has extension '", extension, "', must be .ply or .pcd");
+}
+
+}  // namespace
+
+void save_scene(const std::string& path, const SceneCloud& scene) {
+  const CloudFormat format = format_of(path, "save_scene");
+  require_valid(scene, "save_scene");
+  if (scene.size() == 0)
+    fail(ErrorKind::content, "save_scene: ", path, ": the scene is empty, must hold a surfel");
+  if (format == CloudFormat::pcd) {
+    const Bounds box = bounds(scene);
+    const double farthest = std::max(box.max.cwiseAbs().maxCoeff(), box.min.cwiseAbs().maxCoeff());
+    if (farthest > farthest_in_pcd) {
+      fail(ErrorKind::argument, "save_scene: ", path, ": the scene reaches to ", farthest,
+           " m from zero; a PCD is float32 and would lose more than 0.1 mm: save it as .ply");
+    }
+  }
+  const PackedRows rows = rows_of(scene, format);
+  write_file(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows, "save_scene");
+}
+
+void save_soundings(const std::string& path, const Soundings& soundings) {
+  const CloudFormat format = format_of(path, "save_soundings");
+  const bool ply = format == CloudFormat::ply;
+  const PackedRows rows = rows_of(soundings, ply, ply ? "scalar_" : "", "save_soundings");
+  write_file(path, ply ? ply_header(rows) : pcd_header(rows), rows, "save_soundings");
+}
+
+}  // namespace insonify

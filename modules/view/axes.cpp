@@ -1,0 +1,81 @@
+#include "view/axes.hpp"
+
+#include <algorithm>
+
+#include "view/text.hpp"
+#include "view/ticks.hpp"
+
+namespace insonify {
+namespace {
+
+// In font sizes: length of a tick, from the frame to its label, from the label to the title.
+constexpr double tick = 0.4, to_label = 0.6, to_title = 0.25;
+
+double line_height(int font_size) { return text_size("0", font_size).height; }
+
+double widest_label(const AxisTicks& ticks, int font_size) {
+  double widest = 0;
+  for (const std::string& label : ticks.labels) widest = std::max(widest, text_size(label, font_size).width);
+  return widest;
+}
+
+}  // namespace
+
+AxisTicks round_ticks(double low, double high, double most) {
+  const double step = round_step((high - low) / std::max(most, 2.0));
+  AxisTicks ticks;
+  ticks.at = multiples(step, low, high);
+  for (const double value : ticks.at) ticks.labels.push_back(number_text(value, step));
+  return ticks;
+}
+
+Point2 Axes::at(double x, double y) const {
+  return {frame.left + frame.width() * (x - low_x) / (high_x - low_x),
+          frame.bottom + frame.height() * (y - low_y) / (high_y - low_y)};
+}
+
+Path Axes::outline() const {
+  return {{frame.left, frame.bottom},
+          {frame.right, frame.bottom},
+          {frame.right, frame.top},
+          {frame.left, frame.top},
+          {frame.left, frame.bottom}};
+}
+
+double room_below(int font_size) { return (to_label + to_title) * font_size + 2 * line_height(font_size); }
+
+double room_left(const AxisTicks& ticks, int font_size) {
+  return (to_label + to_title) * font_size + widest_label(ticks, font_size) + line_height(font_size);
+}
+
+void add_axis_across(Axes& axes, const AxisTicks& ticks, const std::string& title, int font_size) {
+  const Box& frame = axes.frame;
+  const double line = line_height(font_size), labels_top = frame.bottom - to_label * font_size;
+  for (std::size_t i = 0; i < ticks.at.size(); ++i) {
+    const double x = axes.at(ticks.at[i], 0).x;
+    axes.ticks.push_back({{x, frame.bottom - tick * font_size}, {x, frame.bottom}});
+    axes.grid.push_back({{x, frame.bottom}, {x, frame.top}});
+    axes.texts.push_back({ticks.labels[i], {x, labels_top - line / 2}, font_size});
+  }
+  const FittedText fitted = fit_text(title, font_size, frame.width());
+  axes.texts.push_back({fitted.text,
+                        {(frame.left + frame.right) / 2, labels_top - 1.5 * line - to_title * font_size},
+                        fitted.font_size});
+}
+
+void add_axis_upwards(Axes& axes, const AxisTicks& ticks, const std::string& title, int font_size) {
+  const Box& frame = axes.frame;
+  const double line = line_height(font_size), labels_right = frame.left - to_label * font_size;
+  for (std::size_t i = 0; i < ticks.at.size(); ++i) {
+    const double y = axes.at(0, ticks.at[i]).y, width = text_size(ticks.labels[i], font_size).width;
+    axes.ticks.push_back({{frame.left - tick * font_size, y}, {frame.left, y}});
+    axes.grid.push_back({{frame.left, y}, {frame.right, y}});
+    axes.texts.push_back({ticks.labels[i], {labels_right - width / 2, y}, font_size});
+  }
+  const double title_right = labels_right - widest_label(ticks, font_size) - to_title * font_size;
+  const FittedText fitted = fit_text(title, font_size, frame.height());
+  axes.texts.push_back(
+      {fitted.text, {title_right - line / 2, (frame.bottom + frame.top) / 2}, fitted.font_size, true});
+}
+
+}  // namespace insonify

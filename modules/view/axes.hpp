@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "view/placed_text.hpp"
+
+namespace insonify {
+
+/// Values along an axis and what is written at them.
+struct AxisTicks {
+  std::vector<double> at;
+  std::vector<std::string> labels;
+};
+
+/// Round values in [low, high], about `most` of them at most.
+AxisTicks round_ticks(double low, double high, double most);
+
+/// A frame with ticks and labels outside and grid lines inside.
+struct Axes {
+  Box frame;
+  double low_x = 0, high_x = 1, low_y = 0, high_y = 1;  ///< values at the sides of the frame
+  std::vector<Path> ticks, grid;
+  std::vector<PlacedText> texts;  ///< labels and axis titles
+
+  Point2 at(double x, double y) const;
+  Path outline() const;
+};
+
+/// Pixels that labels and title of an axis need below the frame, and left of it.
+double room_below(int font_size);
+double room_left(const AxisTicks& ticks, int font_size);
+
+void add_axis_across(Axes& axes, const AxisTicks& ticks, const std::string& title, int font_size);
+void add_axis_upwards(Axes& axes, const AxisTicks& ticks, const std::string& title, int font_size);
+
+}  // namespace insonify

@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTexture.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "view/canvas_internal.hpp"
+#include "view/fonts_internal.hpp"
+#include "view/write_file.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr int samples_per_pixel = 4;
+constexpr double cells_height = 0, lines_height = 1, eye_height = 10;  // above the picture plane
+
+// Actor that shows its own colours, unlit.
+vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(shape);
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  return actor;
+}
+
+// Points taken four by four as the corners of quads.
+vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, double height) {
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(static_cast<vtkIdType>(corners.size()));
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto id = static_cast<vtkIdType>(i);
+    points->SetPoint(id, corners[i].x, corners[i].y, height);
+    if (i % 4 == 0) cells->InsertNextCell({id, id + 1, id + 2, id + 3});
+  }
+  vtkNew<vtkPolyData> shape;
+  shape->SetPoints(points);
+  shape->SetPolys(cells);
+  return shape;
+}
+
+// Levels as colours, one pixel per cell, bins across. VTK would turn an image of one column on its side, so
+// there are two at least.
+vtkNew<vtkImageData> coloured(const Grid<float>& level_db, const ColourScale& scale) {
+  const Eigen::Index columns = std::max<Eigen::Index>(2, level_db.cols());
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(columns), static_cast<int>(level_db.rows()), 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* const bytes = static_cast<unsigned char*>(image->GetScalarPointer());
+  parallel_for(static_cast<std::size_t>(level_db.rows()), 0, [&](std::size_t r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    unsigned char* to = bytes + 3 * row * columns;
+    for (Eigen::Index column = 0; column < columns; ++column, to += 3) {
+      const Rgb colour = scale.colour(level_db(row, std::min(column, level_db.cols() - 1)));
+      std::copy(colour.begin(), colour.end(), to);
+    }
+  });
+  return image;
+}
+
+// Half width of a line at point i of a path, as a vector across it; corners are mitred.
+Point2 half_width_at(const Path& path, std::size_t i, double half_width) {
+  const bool closed = path.front().x == path.back().x && path.front().y == path.back().y;
+  const std::size_t last = path.size() - 1;
+  const auto normal = [&](std::size_t from, std::size_t to) {
+    const double dx = path[to].x - path[from].x, dy = path[to].y - path[from].y;
+    const double length = std::max(std::hypot(dx, dy), 1e-12);
+    return Point2{-dy / length, dx / length};
+  };
+  const Point2 before = i > 0 ? normal(i - 1, i) : closed ? normal(last - 1, last) : normal(0, 1);
+  const Point2 after = i < last ? normal(i, i + 1) : closed ? normal(0, 1) : normal(last - 1, last);
+  const double x = before.x + after.x, y = before.y + after.y;
+  const double stretch = half_width / std::max(0.2, (x * x + y * y) / 2);
+  return {x * stretch, y * stretch};
+}
+
+}  // namespace
+
+Theme theme(bool dark) {
+  if (dark) return {{0.055, 0.065, 0.085}, {0.86, 0.88, 0.90}, {0.55, 0.58, 0.62}};
+  return {{1, 1, 1}, {0.10, 0.11, 0.13}, {0.35, 0.37, 0.40}};
+}
+
+Canvas::Canvas(const PictureOptions& options, const char* who)
+    : who_(who),
+      width_(options.width),
+      height_(options.height),
+      theme_(theme(options.dark)),
+      window_(vtkSmartPointer<EglWindow>::New()) {
+  window_->SetMultiSamples(samples_per_pixel);
+  window_->SetDPI(72);  // one point of text is one pixel
+  window_->SetSize(width_, height_);
+  window_->open(who);
+  window_->AddRenderer(renderer_);
+  renderer_->SetBackground(theme_.background.data());
+
+  // One unit of the plane is one pixel.
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(width_ / 2.0, height_ / 2.0, 0);
+  camera->SetPosition(width_ / 2.0, height_ / 2.0, eye_height);
+  camera->SetParallelScale(height_ / 2.0);
+  camera->SetClippingRange(1, 2 * eye_height);
+}
+
+// Cells are drawn as one texture, a texel per cell, on a mesh with one column of quads per beam. Along a quad
+// the range is linear and the beam is constant, so every cell has its true place and edges, and a picture of
+// millions of cells costs a few hundred polygons and one upload.
+void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_edges,
+                       const ColourScale& scale, const Projection& projection, double largest_step) {
+  const vtkNew<vtkImageData> colours = coloured(patch.level_db, scale);
+  const double far = patch.columns / colours->GetDimensions()[0];
+  std::vector<Point2> corners, texture_points;
+  for (std::size_t beam = 0; beam + 1 < beam_edges.size(); ++beam) {
+    const double row = static_cast<double>(beam / patch.beams_per_row) + 0.5;
+    const double v = row / static_cast<double>(patch.level_db.rows());
+    const double width = beam_edges[beam + 1] - beam_edges[beam];
+    const int steps = std::max(1, static_cast<int>(std::ceil(width / largest_step)));
+    for (int step = 0; step < steps; ++step) {
+      const double from = beam_edges[beam] + width * step / steps;
+      const double to =
+          step + 1 == steps ? beam_edges[beam + 1] : beam_edges[beam] + width * (step + 1) / steps;
+      corners.insert(corners.end(), {projection(from, patch.min_range), projection(from, patch.max_range),
+                                     projection(to, patch.max_range), projection(to, patch.min_range)});
+      texture_points.insert(texture_points.end(), {{0, v}, {far, v}, {far, v}, {0, v}});
+    }
+  }
+  add_textured_strip(corners, texture_points, colours);
+}
+
+void Canvas::add_textured_strip(const std::vector<Point2>& points, const std::vector<Point2>& texture_points,
+                                vtkImageData* colours) {
+  const vtkNew<vtkPolyData> shape = quads(points, cells_height);
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  coordinates->SetNumberOfTuples(static_cast<vtkIdType>(texture_points.size()));
+  for (std::size_t i = 0; i < texture_points.size(); ++i)
+    coordinates->SetTuple2(static_cast<vtkIdType>(i), texture_points[i].x, texture_points[i].y);
+  shape->GetPointData()->SetTCoords(coordinates);
+
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(colours);
+  texture->InterpolateOff();
+  texture->MipmapOff();
+  texture->RepeatOff();
+  const vtkNew<vtkActor> actor = flat_actor(shape);
+  actor->SetTexture(texture);
+  renderer_->AddActor(actor);
+}
+
+void Canvas::add_lines(const std::vector<Path>& paths, double width, const Colour& colour, double opacity) {
+  std::vector<Point2> corners;
+  for (const Path& path : paths)
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Point2 a = path[i], b = path[i + 1];
+      const Point2 at_a = half_width_at(path, i, width / 2), at_b = half_width_at(path, i + 1, width / 2);
+      corners.insert(corners.end(), {{a.x + at_a.x, a.y + at_a.y},
+                                     {b.x + at_b.x, b.y + at_b.y},
+                                     {b.x - at_b.x, b.y - at_b.y},
+                                     {a.x - at_a.x, a.y - at_a.y}});
+    }
+  if (corners.empty()) return;
+  const vtkNew<vtkPolyData> shape = quads(corners, lines_height);
+  const vtkNew<vtkActor> actor = flat_actor(shape);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(colour[0], colour[1], colour[2]);
+  property->SetOpacity(opacity);
+  renderer_->AddActor(actor);
+}
+
+void Canvas::add_text(const PlacedText& text) {
+  const Box box = text.box();
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(readable_text(text.text).c_str());
+  vtkTextProperty* property = actor->GetTextProperty();
+  set_font(property, text.font_size);
+  property->SetColor(theme_.text[0], theme_.text[1], theme_.text[2]);
+  property->SetOrientation(text.turned ? 90 : 0);
+  if (text.on_plate) {
+    property->SetBackgroundColor(theme_.background[0], theme_.background[1], theme_.background[2]);
+    property->SetBackgroundOpacity(0.65);
+  }
+  // Anchored where its first letter stands, on whole pixels, where letters are sharp.
+  actor->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
+  actor->SetPosition(std::round(text.turned ? box.right : box.left), std::round(box.bottom));
+  property->SetJustificationToLeft();
+  property->SetVerticalJustificationToBottom();
+  renderer_->AddActor2D(actor);
+}
+
+void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width) {
+  // The 256 colours themselves, as a patch of one beam whose range runs along the bar.
+  vtkNew<vtkImageData> colours;
+  colours->SetDimensions(256, 1, 1);
+  colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* to = static_cast<unsigned char*>(colours->GetScalarPointer());
+  for (const Rgb& colour : scale.table) to = std::copy(colour.begin(), colour.end(), to);
+  const Box& box = bar.bar;
+  const Point2 low_left{box.left, box.bottom}, low_right{box.right, box.bottom};
+  const Point2 high_left{box.left, box.top}, high_right{box.right, box.top};
+  if (bar.lying)
+    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {1, 0.5}, {1, 0.5}, {0, 0.5}},
+                       colours);
+  else
+    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {0, 0.5}, {1, 0.5}, {1, 0.5}},
+                       colours);
+
+  std::vector<Path> lines = bar.ticks;
+  lines.push_back({low_left, low_right, high_right, high_left, low_left});
+  add_lines(lines, line_width, theme_.line, 1);
+  for (const PlacedText& text : bar.texts) add_text(text);
+}
+
+void Canvas::save_png(const std::string& path, const VtkMessages& messages) {
+  window_->Render();
+  vtkNew<vtkWindowToImageFilter> picture;
+  picture->SetInput(window_);
+  picture->SetInputBufferTypeToRGB();
+  picture->ReadFrontBufferOff();
+  picture->ShouldRerenderOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(picture->GetOutputPort());
+  writer->SetCompressionLevel(3);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* png = writer->GetResult();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
+    fail(ErrorKind::file, who_, ": cannot make the PNG for ", path, ": ",
+         vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  messages.throw_first_error(who_);
+  write_file_atomically(path, png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfTuples()), who_);
+}
+
+}  // namespace insonify

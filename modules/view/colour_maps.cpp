@@ -1,0 +1,125 @@
+#include "view/colour_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace insonify {
+namespace {
+
+// A stop of a colour map: position in [0, 1] and colour 0xRRGGBB; colours between stops are linear.
+struct ColourStop {
+  double at;
+  std::uint32_t rgb;
+};
+struct NamedMap {
+  const char* name;
+  std::vector<ColourStop> stops;
+};
+
+// Twenty equally spaced colours of viridis (S. van der Walt and N. Smith, CC0).
+std::vector<ColourStop> viridis_stops() {
+  constexpr std::uint32_t colours[] = {0x440154, 0x481567, 0x482677, 0x453781, 0x404788, 0x39568C, 0x33638D,
+                                       0x2D708E, 0x287D8E, 0x238A8D, 0x1F968B, 0x20A387, 0x29AF7F, 0x3CBB75,
+                                       0x55C667, 0x73D055, 0x95D840, 0xB8DE29, 0xDCE319, 0xFDE725};
+  std::vector<ColourStop> stops;
+  for (const std::uint32_t rgb : colours) stops.push_back({static_cast<double>(stops.size()) / 19.0, rgb});
+  return stops;
+}
+
+// Copper and jet as MATLAB defines them; amber is the screen of an analogue sonar: black, brown, orange, pale
+// yellow.
+std::vector<NamedMap> colour_maps() {
+  return {{"viridis", viridis_stops()},
+          {"copper", {{0, 0x000000}, {0.8, 0xFF9F65}, {1, 0xFFC77F}}},
+          {"amber", {{0, 0x000000}, {0.35, 0x6B3205}, {0.7, 0xF39A1B}, {0.9, 0xFFDF7A}, {1, 0xFFF8DC}}},
+          {"grey", {{0, 0x000000}, {1, 0xFFFFFF}}},
+          {"jet",
+           {{0, 0x000080},
+            {0.125, 0x0000FF},
+            {0.375, 0x00FFFF},
+            {0.625, 0xFFFF00},
+            {0.875, 0xFF0000},
+            {1, 0x800000}}}};
+}
+
+Rgb mix(const ColourStop& low, const ColourStop& high, double at) {
+  const double share = (at - low.at) / (high.at - low.at);
+  Rgb colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint32_t shift = 16 - 8 * static_cast<std::uint32_t>(c);
+    const double a = (low.rgb >> shift) & 0xFF, b = (high.rgb >> shift) & 0xFF;
+    colour[c] = static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+  }
+  return colour;
+}
+
+ColourTable expand(const std::vector<ColourStop>& stops) {
+  ColourTable table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double at = static_cast<double>(i) / 255.0;
+    std::size_t high = 1;
+    while (high + 1 < stops.size() && stops[high].at < at) ++high;
+    table[i] = mix(stops[high - 1], stops[high], at);
+  }
+  return table;
+}
+
+// If no level stands out, the maximum puts all of them into the lowest colour.
+double automatic_max_db(const Grid<float>& level_db, double window_db) {
+  float lowest = std::numeric_limits<float>::infinity();
+  for (const float level : level_db.reshaped())
+    if (std::isfinite(level)) lowest = std::min(lowest, level);
+  if (!std::isfinite(lowest)) return 0;
+
+  std::vector<float> above;
+  for (const float level : level_db.reshaped())
+    if (std::isfinite(level) && level > lowest) above.push_back(level);
+  if (above.empty()) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
+  const auto quantile =
+      above.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(above.size() - 1));
+  std::nth_element(above.begin(), quantile, above.end());
+  return 5.0 * std::ceil(static_cast<double>(*quantile) / 5.0);
+}
+
+}  // namespace
+
+std::vector<std::string> colour_map_names() {
+  std::vector<std::string> names;
+  for (const NamedMap& map : colour_maps()) names.emplace_back(map.name);
+  return names;
+}
+
+ColourTable colour_table(const std::string& name, const char* who) {
+  std::string names;
+  for (const NamedMap& map : colour_maps()) {
+    if (name == map.name) return expand(map.stops);
+    names += (names.empty() ? "" : ", ") + std::string(map.name);
+  }
+  fail(ErrorKind::argument, who, ": options.colour_map = \"", name, "\", must be one of ", names);
+}
+
+std::size_t ColourScale::index(double level_db) const {
+  const double step = 256.0 * (level_db - min_db) / (max_db - min_db);
+  if (!(step > 0)) return 0;
+  return static_cast<std::size_t>(std::min(step, 255.0));
+}
+
+ColourScale colour_scale(const Grid<float>& level_db, const PictureOptions& options, const char* who) {
+  ColourScale scale{colour_table(options.colour_map, who), options.min_db, options.max_db};
+  if (!(options.window_db > 0) || !std::isfinite(options.window_db))
+    fail(ErrorKind::argument, who, ": options.window_db = ", options.window_db, " dB, must be > 0");
+  if (std::isnan(scale.max_db))
+    scale.max_db = std::isnan(scale.min_db)
+                       ? automatic_max_db(level_db, options.window_db)
+                       : std::max(automatic_max_db(level_db, options.window_db), scale.min_db + 5.0);
+  if (std::isnan(scale.min_db)) scale.min_db = scale.max_db - options.window_db;
+  if (!(scale.max_db > scale.min_db) || !std::isfinite(scale.max_db - scale.min_db))
+    fail(ErrorKind::argument, who, ": options.max_db = ", scale.max_db,
+         " dB, must be finite and exceed min_db = ", scale.min_db, " dB");
+  return scale;
+}
+
+}  // namespace insonify

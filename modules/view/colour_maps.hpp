@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "view/picture.hpp"
+
+namespace insonify {
+
+using Rgb = std::array<std::uint8_t, 3>;
+using ColourTable = std::array<Rgb, 256>;
+
+/// The 256 entries of a named map, lowest level first. Throws Error(argument) that lists the names.
+ColourTable colour_table(const std::string& name, const char* who);
+
+/// Levels to colours: 256 equal steps from min_db to max_db; levels outside take the first or the last
+/// colour, levels that are not a number the first.
+struct ColourScale {
+  ColourTable table;
+  double min_db = 0;
+  double max_db = 1;
+
+  std::size_t index(double level_db) const;
+  Rgb colour(double level_db) const { return table[index(level_db)]; }
+};
+
+/// Scale for an image. Automatic maximum: the 99.9 % quantile of the levels above the lowest one (the floor
+/// of empty samples does not count), rounded up to 5 dB. Throws Error(argument) for an unknown map, a window
+/// that is not positive, or max_db <= min_db.
+ColourScale colour_scale(const Grid<float>& level_db, const PictureOptions& options, const char* who);
+
+}  // namespace insonify

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "view/picture.hpp"
+
+namespace insonify {
+
+/// Throws Error(argument) unless fan and gate are valid, level_db is beams x bins, and the picture has 240 to
+/// 8192 pixels either way.
+void require_drawable(const LevelImage& image, const PictureOptions& options, const char* who);
+
+/// The beams of an image in the order of their bearing, side by side.
+/// A bearing is -azimuth [rad], positive to starboard. The circle is cut in its widest gap, so that fans
+/// across the stern and full scans come out in one piece; bearings then ascend and may lie outside [-pi, pi].
+/// Beam b fills [edges[b], edges[b+1]]: edges halfway between neighbours, the outermost half a spacing
+/// beyond; a lone beam is as wide as fan.beam_width (2 degrees if that is 0). Beams of one bearing share a
+/// cell: their mean power.
+struct BeamCells {
+  std::vector<double> edges;  ///< beams + 1, ascending [rad]
+  Grid<float> level_db;       ///< beams x bins
+
+  double low() const { return edges.front(); }
+  double high() const { return edges.back(); }
+  double mean_width() const { return (high() - low()) / static_cast<double>(level_db.rows()); }
+};
+BeamCells order_beams(const LevelImage& image);
+
+/// A rectangle of cells in bearing and range, combined by mean power until none is much smaller than a pixel.
+struct CellPatch {
+  Grid<float> level_db;           ///< groups of beams x groups of bins
+  std::size_t beams_per_row = 1;  ///< row g holds beams [g, g+1) * beams_per_row
+  double min_range = 0;           ///< [m]
+  double max_range = 0;           ///< [m], of the last bin
+  double columns = 0;  ///< max_range in columns; below level_db.cols() if the last group is not full
+};
+
+/// Cells of a fan drawn at pixels_per_metre: bins are combined when there are more than two per pixel of
+/// radius, beams, near the apex, when they are narrower than half a pixel. Together the patches cover the
+/// whole fan.
+std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate, double pixels_per_metre);
+
+/// The same for a rectangle of so many pixels.
+CellPatch rect_patch(const BeamCells& cells, const RangeGate& gate, double width, double height);
+
+}  // namespace insonify

@@ -1,0 +1,207 @@
+#include "view/fan_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "view/text.hpp"
+#include "view/ticks.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double narrow_gap =
+    radians(40);  // behind a fan: too narrow for labels, so they go onto the picture
+
+// Everything that hangs on the fan, with the apex at (0, 0), for one trial scale.
+struct Trial {
+  std::vector<double> rings, spokes;
+  std::vector<PlacedText> texts;
+  Box extent;
+};
+
+Point2 polar(double bearing, double radius) {
+  return {radius * std::sin(bearing), radius * std::cos(bearing)};
+}
+
+void include(Box& box, const Box& more) {
+  box = {std::min(box.left, more.left), std::max(box.right, more.right), std::min(box.bottom, more.bottom),
+         std::max(box.top, more.top)};
+}
+
+// Bounding box of the sector, for a scale of 1.
+Box sector_box(const FanOutline& fan) {
+  Box box{1e300, -1e300, 1e300, -1e300};
+  const auto add = [&](double bearing) {
+    for (const double range : {fan.min_range, fan.max_range}) {
+      const Point2 p = polar(bearing, range);
+      include(box, {p.x, p.x, p.y, p.y});
+    }
+  };
+  add(fan.low);
+  add(fan.high);
+  for (const double quarter : multiples(pi / 2, fan.low, fan.high)) add(quarter);
+  return box;
+}
+
+bool inside_sector(const FanOutline& fan, double scale, Point2 p) {
+  const double radius = std::hypot(p.x, p.y) / scale;
+  if (radius < fan.min_range || radius > fan.max_range) return false;
+  const double bearing = std::atan2(p.x, p.y);
+  for (const double turn : {-2 * pi, 0.0, 2 * pi})
+    if (bearing + turn >= fan.low && bearing + turn <= fan.high) return true;
+  return false;
+}
+
+bool touches_sector(const FanOutline& fan, double scale, const Box& box) {
+  for (int i = 0; i <= 4; ++i)
+    for (int j = 0; j <= 4; ++j)
+      if (inside_sector(fan, scale, {box.left + i * box.width() / 4, box.bottom + j * box.height() / 4}))
+        return true;
+  return false;
+}
+
+Box grown(const Box& box, double by) {
+  return {box.left - by, box.right + by, box.bottom - by, box.top + by};
+}
+
+// Moves a label from `foot` along a unit vector until its box just clears `pad` from the line across that
+// vector.
+void push_out(PlacedText& label, Point2 foot, Point2 outwards, double pad) {
+  const TextSize& size = label.extent;
+  const double reach = pad + std::abs(outwards.x) * size.width / 2 + std::abs(outwards.y) * size.height / 2;
+  label.centre = {foot.x + reach * outwards.x, foot.y + reach * outwards.y};
+}
+
+// Adds a label unless it overlaps one that is there already.
+bool add_if_free(std::vector<PlacedText>& texts, const PlacedText& label, double gap) {
+  const Box box = grown(label.box(), gap);
+  for (const PlacedText& other : texts)
+    if (box.overlaps(other.box())) return false;
+  texts.push_back(label);
+  return true;
+}
+
+// Bearing labels outside the outer arc.
+void add_bearings(Trial& trial, const FanOutline& fan, double scale, int font) {
+  const double arc = (fan.high - fan.low) * fan.max_range * scale;
+  const double label_width = text_size("+180°", font).width;
+  const double most = std::clamp(arc / (1.5 * label_width), 1.0, fan.high - fan.low > 3.3 ? 12.0 : 8.0);
+  const BearingTicks ticks = bearing_ticks(degrees(fan.low), degrees(fan.high), most);
+  for (const double bearing_deg : ticks.at_deg) {
+    const double bearing = radians(bearing_deg);
+    PlacedText label{bearing_text(bearing_deg, ticks.step), {}, font};
+    push_out(label, polar(bearing, fan.max_range * scale), polar(bearing, 1), 0.6 * font);
+    if (add_if_free(trial.texts, label, 0)) trial.spokes.push_back(bearing);
+  }
+}
+
+// Range labels outside the starboard edge, or on the picture if the fan leaves no room behind itself.
+void add_ranges(Trial& trial, const FanOutline& fan, double scale, int font) {
+  const bool on_picture = 2 * pi - (fan.high - fan.low) < narrow_gap;
+  const double spoke = trial.spokes.size() > 1 ? trial.spokes[1] - trial.spokes[0] : radians(30);
+  const double bearing =
+      on_picture ? trial.spokes.front() +
+                       std::floor(0.55 * static_cast<double>(trial.spokes.size())) * spoke + spoke / 2
+                 : fan.high;
+  const TextSize widest = text_size(number_text(fan.max_range, 0.1) + " m", font);
+  const double needed = std::min((widest.width + 0.5 * font) / std::max(std::abs(std::sin(bearing)), 1e-6),
+                                 1.5 * widest.height / std::max(std::abs(std::cos(bearing)), 1e-6));
+  const double step = round_step(std::max(fan.max_range / 8, needed / scale));
+  for (const double ring : multiples(step, fan.min_range, fan.max_range)) {
+    if (ring <= 0) continue;
+    trial.rings.push_back(ring);
+    PlacedText label{number_text(ring, step) + " m", polar(bearing, ring * scale), font};
+    label.on_plate = on_picture;
+    if (!on_picture) push_out(label, label.centre, polar(bearing + pi / 2, 1), 0.5 * font);
+    const bool hidden = on_picture ? ring * scale + widest.height > fan.max_range * scale
+                                   : touches_sector(fan, scale, label.box());
+    if (!hidden) add_if_free(trial.texts, label, 0.15 * font);
+  }
+}
+
+Trial try_scale(const FanOutline& fan, double scale, int font) {
+  Trial trial;
+  add_bearings(trial, fan, scale, font);
+  add_ranges(trial, fan, scale, font);
+  const Box sector = sector_box(fan);
+  trial.extent = {sector.left * scale, sector.right * scale, sector.bottom * scale, sector.top * scale};
+  for (const PlacedText& text : trial.texts) include(trial.extent, text.box());
+  return trial;
+}
+
+// Largest scale at which the fan and its labels fit into the room. Which labels there are depends on the
+// scale, so the answer is a scale that was tried and fits, found by halving.
+double fitting_scale(const FanOutline& fan, const Box& room, int font) {
+  const Box sector = sector_box(fan);
+  double fits = 0, too_large = std::min(room.width() / sector.width(), room.height() / sector.height());
+  for (int round = 0; round < 14; ++round) {
+    const double scale = (fits + too_large) / 2;
+    const Box extent = try_scale(fan, scale, font).extent;
+    (extent.width() <= room.width() && extent.height() <= room.height() ? fits : too_large) = scale;
+  }
+  return fits > 0 ? fits : too_large / 4;
+}
+
+}  // namespace
+
+Point2 FanLayout::at(double bearing, double range) const {
+  const Point2 p = polar(bearing, range * pixels_per_metre);
+  return {apex.x + p.x, apex.y + p.y};
+}
+
+int font_size_for(int width, int height) {
+  return std::max(11, static_cast<int>(std::lround(std::sqrt(static_cast<double>(width) * height) / 68.0)));
+}
+
+double line_width_for(int font_size) { return std::max(1.0, font_size / 15.0); }
+
+std::optional<PlacedText> place_title(const PictureOptions& options) {
+  if (options.title.empty()) return {};
+  const int font = font_size_for(options.width, options.height);
+  const FittedText fitted = fit_text(options.title, (5 * font) / 4, options.width - 2.0 * font);
+  PlacedText title(fitted.text, {options.width / 2.0, 0}, fitted.font_size);
+  title.centre.y = options.height - 0.8 * font - title.extent.height / 2;
+  return title;
+}
+
+FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
+                      const std::string& unit) {
+  const int font = font_size_for(options.width, options.height);
+  FanLayout layout;
+  layout.low = fan.low;
+  layout.high = fan.high;
+  layout.min_range = fan.min_range;
+  layout.max_range = fan.max_range;
+  layout.font_size = font;
+  layout.title = place_title(options);
+
+  // Two candidates: the bar at the right, or below.
+  const double margin = font;
+  const double top = (layout.title ? layout.title->box().bottom : options.height) - margin;
+  const double right = options.width - margin;
+  const double inset = 0.08 * (top - margin);
+  const ColourBar upright = upright_colour_bar(scale, unit, font, right, margin + inset, top - inset);
+  const ColourBar lying =
+      lying_colour_bar(scale, unit, font, 0.2 * options.width, 0.8 * options.width, margin);
+  const Box beside{margin, upright.outer().left - 1.2 * font, margin, top};
+  const Box above{margin, right, lying.outer().top + 1.2 * font, top};
+  const double scale_beside = fitting_scale(fan, beside, font), scale_above = fitting_scale(fan, above, font);
+  const bool lie = scale_above > 1.05 * scale_beside;
+  layout.colour_bar = lie ? lying : upright;
+  layout.pixels_per_metre = lie ? scale_above : scale_beside;
+
+  // Centre what hangs on the fan in its room.
+  const Box room = lie ? above : beside;
+  Trial trial = try_scale(fan, layout.pixels_per_metre, font);
+  layout.apex = {(room.left + room.right - trial.extent.left - trial.extent.right) / 2,
+                 (room.bottom + room.top - trial.extent.bottom - trial.extent.top) / 2};
+  for (PlacedText& text : trial.texts)
+    text.centre = {text.centre.x + layout.apex.x, text.centre.y + layout.apex.y};
+  layout.rings = std::move(trial.rings);
+  layout.spokes = std::move(trial.spokes);
+  layout.texts = std::move(trial.texts);
+  return layout;
+}
+
+}  // namespace insonify

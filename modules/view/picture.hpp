@@ -1,0 +1,34 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "sampling/beam_fan.hpp"
+#include "sampling/range_gate.hpp"
+
+namespace insonify {
+
+/// Levels of one ping, ready to be drawn.
+struct LevelImage {
+  BeamFan fan;
+  RangeGate gate;
+  Grid<float> level_db;  ///< beams x bins
+  std::string unit;      ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
+};
+
+struct PictureOptions {
+  int width = 1400, height = 1050;  ///< [pixels]
+  std::string title;
+  std::string colour_map = "copper";                         ///< viridis, copper, amber, grey, jet
+  double min_db = std::numeric_limits<double>::quiet_NaN();  ///< NaN: max_db - window_db
+  double max_db = std::numeric_limits<double>::quiet_NaN();  ///< NaN: 99.9 % quantile of the levels above the
+                                                             ///< lowest, rounded up to 5
+  double window_db = 45;
+  bool dark = false;  ///< dark background
+};
+
+/// Names accepted as colour_map.
+std::vector<std::string> colour_map_names();
+
+}  // namespace insonify

@@ -1,0 +1,54 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "view/text.hpp"
+
+namespace insonify {
+
+/// Places in a picture are in pixels from its lower left corner.
+struct Point2 {
+  double x = 0;
+  double y = 0;
+};
+struct Box {
+  double left = 0, right = 0, bottom = 0, top = 0;
+
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+  bool overlaps(const Box& other) const {
+    return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+  }
+  bool contains(const Box& other) const {
+    return left <= other.left && other.right <= right && bottom <= other.bottom && other.top <= top;
+  }
+};
+
+/// A line of text by its middle. It is measured once, when it is made.
+struct PlacedText {
+  PlacedText(std::string line, Point2 middle, int size, bool reads_upwards = false)
+      : text(std::move(line)),
+        centre(middle),
+        font_size(size),
+        turned(reads_upwards),
+        extent(text_size(text, size)) {}
+
+  std::string text;
+  Point2 centre;
+  int font_size;
+  bool turned;            ///< reads upwards
+  bool on_plate = false;  ///< on a half transparent plate, to be readable on the data
+  TextSize extent;        ///< before it is turned
+
+  Box box() const {
+    const double x = (turned ? extent.height : extent.width) / 2,
+                 y = (turned ? extent.width : extent.height) / 2;
+    return {centre.x - x, centre.x + x, centre.y - y, centre.y + y};
+  }
+};
+
+/// A straight or curved line through points.
+using Path = std::vector<Point2>;
+
+}  // namespace insonify

@@ -1,0 +1,70 @@
+#include "view/show_fan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "view/canvas_internal.hpp"
+#include "view/fan_layout.hpp"
+#include "view/vtk_messages_internal.hpp"
+
+namespace insonify {
+namespace {
+
+// Points along the circle of radius `range`, from one edge of the fan to the other.
+Path arc(const FanLayout& layout, double range, double step) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((layout.high - layout.low) / step)));
+  Path path;
+  for (int i = 0; i <= steps; ++i)
+    path.push_back(layout.at(layout.low + (layout.high - layout.low) * i / steps, range));
+  return path;
+}
+
+void draw_grid(Canvas& canvas, const FanLayout& layout, double step) {
+  const double thin = line_width_for(layout.font_size);
+  std::vector<Path> grid;
+  for (const double ring : layout.rings) grid.push_back(arc(layout, ring, step));
+  for (const double spoke : layout.spokes)
+    grid.push_back({layout.at(spoke, layout.min_range), layout.at(spoke, layout.max_range)});
+  canvas.add_lines(grid, thin, grid_colour, grid_opacity);
+
+  // Outline, and a tick at every bearing label.
+  const Path outer = arc(layout, layout.max_range, step), inner = arc(layout, layout.min_range, step);
+  std::vector<Path> lines{outer, inner};
+  if (layout.high - layout.low < 6.28) {
+    lines.push_back({inner.front(), outer.front()});
+    lines.push_back({inner.back(), outer.back()});
+  }
+  const double tick = 0.35 * layout.font_size / layout.pixels_per_metre;
+  for (const double spoke : layout.spokes)
+    lines.push_back({layout.at(spoke, layout.max_range), layout.at(spoke, layout.max_range + tick)});
+  canvas.add_lines(lines, thin, canvas.colours().line, 1);
+}
+
+}  // namespace
+
+void show_fan(const LevelImage& image, const PictureOptions& options, const std::string& png_path) {
+  constexpr const char* who = "show_fan";
+  require_drawable(image, options, who);
+  const ColourScale scale = colour_scale(image.level_db, options, who);
+  const BeamCells cells = order_beams(image);
+  const double max_range =
+      image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
+
+  // Find a place for everything, then draw it.
+  const VtkMessages messages;
+  const FanLayout layout =
+      lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale, image.unit);
+  Canvas canvas(options, who);
+  const double step =
+      std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
+  for (const CellPatch& patch : fan_patches(cells, image.gate, layout.pixels_per_metre))
+    canvas.add_cells(
+        patch, cells.edges, scale, [&](double b, double r) { return layout.at(b, r); }, step);
+  draw_grid(canvas, layout, step);
+  for (const PlacedText& text : layout.texts) canvas.add_text(text);
+  if (layout.title) canvas.add_text(*layout.title);
+  canvas.add_colour_bar(layout.colour_bar, scale, line_width_for(layout.font_size));
+  canvas.save_png(png_path, messages);
+}
+
+}  // namespace insonify

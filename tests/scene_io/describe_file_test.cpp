@@ -1,0 +1,73 @@
+#include "scene_io/describe_file.hpp"
+
+#include "scene_io/save_cloud.hpp"
+#include "scene_io/test_files.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+bool has_problem(const FileDescription& file, const std::string& part) {
+  return std::any_of(file.problems.begin(), file.problems.end(),
+                     [&](const std::string& problem) { return problem.find(part) != std::string::npos; });
+}
+
+TEST(DescribeFile, counts_bounds_and_spacing_of_a_plate) {
+  const FileDescription file = describe_file(
+      write_file("a.xyz", plate_text(20, 0.25, 500000, 4600000) + "nan 0 0\n500000 4600000 0\n"));
+  EXPECT_EQ(file.format, "text");
+  EXPECT_EQ(file.points, 402u);
+  EXPECT_EQ(file.not_finite, 1u);
+  EXPECT_EQ(file.duplicates, 1u);
+  EXPECT_EQ(file.min, Eigen::Vector3d(500000, 4600000, 0));
+  EXPECT_EQ(file.max, Eigen::Vector3d(500004.75, 4600004.75, 0));
+  EXPECT_DOUBLE_EQ(file.median_spacing, 0.25);
+  EXPECT_FALSE(file.has_normals);
+  EXPECT_TRUE(has_problem(file, "1 of 402 points (0.25 %) are not finite"));
+  EXPECT_TRUE(has_problem(file, "no normals and no viewpoint"));
+}
+
+TEST(DescribeFile, fields_size_and_viewpoint_of_an_organised_pcd) {
+  const FileDescription file =
+      describe_file(write_file("a.pcd",
+                               "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 8 4\nTYPE F F F "
+                               "U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 3\n"
+                               "VIEWPOINT 1 2 3 1 0 0 0\nPOINTS 6\nDATA ascii\n0 0 0 1\n1 0 0 1\n0 1 0 1\n1 "
+                               "1 0 1\n0 2 0 1\n1 2 0 1\n"));
+  EXPECT_EQ(file.width, 2u);
+  EXPECT_EQ(file.height, 3u);
+  ASSERT_EQ(file.fields.size(), 4u);
+  EXPECT_EQ(file.fields[2].name + " " + file.fields[2].type, "z float64");
+  EXPECT_EQ(file.fields[3].name + " " + file.fields[3].type, "rgb uint32");
+  EXPECT_EQ(*file.viewpoint, Eigen::Vector3d(1, 2, 3));
+  EXPECT_TRUE(has_problem(file, "towards the viewpoint in the file"));
+}
+
+TEST(DescribeFile, a_prepared_scene_has_no_problem) {
+  SceneCloud scene;
+  for (int i = 0; i < 100; ++i) add_surfel(scene, {i / 10 * 0.1, i % 10 * 0.1, 0}, {0, 0, 1}, 0.01);
+  const std::string path = temporary("a.ply");
+  save_scene(path, scene);
+  const FileDescription file = describe_file(path);
+  EXPECT_TRUE(file.has_normals && file.has_area && file.has_materials);
+  EXPECT_TRUE(file.problems.empty()) << file.problems.front();
+  EXPECT_EQ(file.format, "PLY binary_little_endian");
+}
+
+TEST(DescribeFile, a_mesh_has_triangles) {
+  const FileDescription file =
+      describe_file(write_file("a.obj", "v 0 0 0\nv 3 0 0\nv 3 4 0\nv 0 4 0\nf 1 2 3 4\nf 1 2 9\n"));
+  EXPECT_EQ(file.format, "OBJ mesh");
+  EXPECT_EQ(file.points, 4u);
+  EXPECT_EQ(file.triangles, 3u);
+  EXPECT_TRUE(has_problem(file, "1 of 3 polygons"));
+}
+
+TEST(DescribeFile, millimetres_are_suspected) {
+  std::string text = plate_text(50, 20);
+  for (int i = 1; i < 50; ++i) text += "0 " + std::to_string(20 * i) + " " + std::to_string(15 * i) + "\n";
+  EXPECT_TRUE(has_problem(describe_file(write_file("a.xyz", text)), "looks like millimetres"));
+}
+
+}  // namespace

@@ -1,0 +1,224 @@
+#include "scene_io/save_cloud.hpp"
+
+#include <filesystem>
+
+#include <pcl/io/pcd_io.h>
+
+#include "scene_io/test_files.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+SceneCloud scene_at(const Eigen::Vector3d& origin, bool oriented = true) {
+  SceneCloud scene;
+  scene.origin = origin;
+  scene.materials = {{"fine sand", 0.1 + 1e-17}, {"rock, grey", 1.0 / 30}, {"", 0}};
+  scene.normals_oriented = oriented;
+  for (int i = 0; i < 50; ++i) {
+    scene.point.push_back({0.731f * static_cast<float>(i % 7) - 2.1f, 0.377f * static_cast<float>(i),
+                           -0.113f * static_cast<float>(i % 5)});
+    scene.normal.push_back(Eigen::Vector3f(0.1f * static_cast<float>(i % 3), 0.2f, 1).normalized());
+    scene.area.push_back(0.001f * static_cast<float>(i));
+    scene.material.push_back(static_cast<std::uint16_t>(i % 3));
+    scene.id.push_back(4000000000u - static_cast<std::uint32_t>(i));
+  }
+  return scene;
+}
+
+void expect_same_but_points(const LoadedScene& loaded, const SceneCloud& scene) {
+  EXPECT_EQ(loaded.scene.normal, scene.normal);
+  EXPECT_EQ(loaded.scene.area, scene.area);
+  EXPECT_EQ(loaded.scene.material, scene.material);
+  EXPECT_EQ(loaded.scene.id, scene.id);
+  EXPECT_EQ(loaded.scene.origin, scene.origin);
+  EXPECT_EQ(loaded.scene.normals_oriented, scene.normals_oriented);
+  ASSERT_EQ(loaded.scene.materials.size(), scene.materials.size());
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    EXPECT_EQ(loaded.scene.materials[m].name, scene.materials[m].name);
+    EXPECT_EQ(loaded.scene.materials[m].lambert_mu, scene.materials[m].lambert_mu);
+  }
+  EXPECT_FALSE(loaded.report.normals_estimated);
+  EXPECT_FALSE(loaded.report.areas_estimated);
+  EXPECT_TRUE(loaded.report.notes.empty()) << loaded.report.notes.front();
+}
+
+TEST(SaveScene, a_ply_gives_the_same_scene_back) {
+  for (const bool oriented : {true, false}) {
+    const SceneCloud scene = scene_at(Eigen::Vector3d::Zero(), oriented);
+    const std::string path = temporary("a.ply");
+    save_scene(path, scene);
+    const LoadedScene loaded = load_scene(path);
+    expect_same_but_points(loaded, scene);
+    EXPECT_EQ(loaded.scene.point, scene.point);
+  }
+}
+
+TEST(SaveScene, a_far_ply_gives_the_origin_back_and_points_within_a_nanometre) {
+  const SceneCloud scene = scene_at({500000, 4600000, -20});
+  const std::string path = temporary("a.ply");
+  save_scene(path, scene);
+  EXPECT_THAT(read_file(path), ::testing::HasSubstr("property double x"));
+  const LoadedScene loaded = load_scene(path);
+  expect_same_but_points(loaded, scene);
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    EXPECT_LT((loaded.scene.point[i] - scene.point[i]).norm(), 1e-9f);
+}
+
+TEST(SaveScene, saving_what_was_loaded_gives_the_same_bytes) {
+  const std::string first = temporary("a.ply"), second = temporary("b.ply");
+  save_scene(first, scene_at({500000, 4600000, -20}));
+  save_scene(second, load_scene(first).scene);
+  EXPECT_EQ(read_file(second), read_file(first));
+}
+
+TEST(SaveScene, a_pcd_gives_the_same_scene_back_and_opens_in_pcl) {
+  const SceneCloud scene = scene_at({4, 4, -3});
+  const std::string path = temporary("a.pcd");
+  save_scene(path, scene);
+  const LoadedScene loaded = load_scene(path);
+  expect_same_but_points(loaded, scene);
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
+  ASSERT_EQ(cloud.size(), scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    EXPECT_LT((loaded.scene.point[i] - scene.point[i]).norm(), 2e-6f);  // float32 steps at 22 m
+    EXPECT_EQ(cloud[i].getVector3fMap(), world(scene, i).cast<float>());
+    EXPECT_EQ(Eigen::Vector3f(cloud[i].getNormalVector3fMap()), scene.normal[i]);
+  }
+}
+
+TEST(SaveScene, unit_scales_a_saved_scene_too) {
+  const std::string path = temporary("a.ply");
+  save_scene(path, scene_at({1000, 0, 0}));
+  LoadOptions options;
+  options.unit = 0.5;
+  const LoadedScene loaded = load_scene(path, options);
+  EXPECT_LT((world(loaded.scene, 10) - 0.5 * world(scene_at({1000, 0, 0}), 10)).norm(), 1e-6);
+  EXPECT_FLOAT_EQ(loaded.scene.area[10], 0.25f * 0.01f);
+}
+
+TEST(SaveScene, a_viewpoint_orients_a_scene_saved_without_sides) {
+  const std::string path = temporary("a.ply");
+  save_scene(path, scene_at(Eigen::Vector3d::Zero(), false));
+  LoadOptions options;
+  options.viewpoint = Eigen::Vector3d(0, 0, -100);
+  const LoadedScene loaded = load_scene(path, options);
+  EXPECT_TRUE(loaded.scene.normals_oriented);
+  for (const auto& n : loaded.scene.normal) EXPECT_LT(n.z(), 0);
+}
+
+TEST(SaveScene, refuses_what_it_cannot_write) {
+  const SceneCloud scene = scene_at({500000, 4600000, 0});
+  expect_error(ErrorKind::argument, {"save_scene", "float32", "save it as .ply"},
+               [&] { save_scene(temporary("a.pcd"), scene); });
+  EXPECT_FALSE(std::filesystem::exists(temporary("a.pcd")));
+  expect_error(ErrorKind::argument, {"save_scene", "'.xyz'", ".ply or .pcd"},
+               [&] { save_scene(temporary("a.xyz"), scene); });
+  expect_error(ErrorKind::file, {"save_scene: cannot write", "No such file or directory"},
+               [&] { save_scene(::testing::TempDir() + "no/such/folder/a.ply", scene); });
+  expect_error(ErrorKind::content, {"save_scene", "empty"},
+               [&] { save_scene(temporary("b.ply"), SceneCloud{}); });
+  SceneCloud wrong = scene;
+  wrong.area.pop_back();
+  expect_error(ErrorKind::argument, {"save_scene", "area"}, [&] { save_scene(temporary("c.ply"), wrong); });
+}
+
+TEST(SaveScene, a_failed_rename_leaves_no_temporary_file) {
+  const std::string folder = temporary("folder.ply");
+  std::filesystem::create_directories(folder + "/full");
+  expect_error(ErrorKind::file, {"cannot write"},
+               [&] { save_scene(folder, scene_at(Eigen::Vector3d::Zero())); });
+  for (const auto& entry : std::filesystem::directory_iterator(temporary_folder())) {
+    EXPECT_THAT(entry.path().string(), ::testing::Not(::testing::HasSubstr("folder.ply.tmp")));
+  }
+}
+
+Soundings some_soundings() {
+  Soundings s;
+  for (int i = 0; i < 20; ++i) {
+    const float f = static_cast<float>(i);
+    const std::uint32_t u = static_cast<std::uint32_t>(i);
+    s.position.push_back({500000.125 + i, 4600000.5 - i, -i / 3.0});
+    s.level_db.push_back(100.5f + f);
+    s.range.push_back(5 + f / 8);
+    s.azimuth.push_back(-0.5f + f / 32);
+    s.elevation.push_back(0.01f * f);
+    s.ping.push_back(7);
+    s.beam.push_back(u * 3);
+    s.bin.push_back(u * 100);
+    s.material.push_back(u % 2);
+  }
+  return s;
+}
+
+/// An independent reader of what save_soundings promises: 3 doubles, 4 floats, 4 uints per row.
+TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare_knows) {
+  const Soundings s = some_soundings();
+  const std::string path = temporary("a.ply");
+  save_soundings(path, s);
+  const std::string bytes = read_file(path);
+  const std::string expected_header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 20\nproperty double x\nproperty double "
+      "y\nproperty double z\n"
+      "property float scalar_level_db\nproperty float scalar_range\nproperty float scalar_azimuth\nproperty "
+      "float "
+      "scalar_elevation\nproperty uint scalar_ping\nproperty uint scalar_beam\nproperty uint "
+      "scalar_bin\nproperty uint "
+      "scalar_material\nend_header\n";
+  ASSERT_EQ(bytes.substr(0, expected_header.size()), expected_header);
+  ASSERT_EQ(bytes.size(), expected_header.size() + 20 * 56);
+  const char* at = bytes.data() + expected_header.size();
+  for (std::size_t i = 0; i < 20; ++i, at += 56) {
+    double position[3];
+    float reals[4];
+    std::uint32_t whole[4];
+    std::memcpy(position, at, 24);
+    std::memcpy(reals, at + 24, 16);
+    std::memcpy(whole, at + 40, 16);
+    EXPECT_EQ(Eigen::Vector3d(position[0], position[1], position[2]), s.position[i]);
+    EXPECT_EQ((std::vector<float>(reals, reals + 4)),
+              (std::vector<float>{s.level_db[i], s.range[i], s.azimuth[i], s.elevation[i]}));
+    EXPECT_EQ((std::vector<std::uint32_t>(whole, whole + 4)),
+              (std::vector<std::uint32_t>{7, s.beam[i], s.bin[i], s.material[i]}));
+  }
+}
+
+TEST(SaveSoundings, a_pcd_opens_in_pcl_with_all_fields) {
+  const Soundings s = some_soundings();
+  const std::string path = temporary("a.pcd");
+  save_soundings(path, s);
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
+  ASSERT_EQ(cloud.width * cloud.height, 20u);
+  std::string names;
+  for (const auto& field : cloud.fields) names += field.name + " ";
+  EXPECT_EQ(names, "x y z level_db range azimuth elevation ping beam bin material ");
+  for (std::size_t i = 0; i < 20; ++i) {
+    float reals[7];
+    std::uint32_t whole[4];
+    std::memcpy(reals, cloud.data.data() + i * cloud.point_step, 28);
+    std::memcpy(whole, cloud.data.data() + i * cloud.point_step + 28, 16);
+    EXPECT_EQ(reals[2], static_cast<float>(s.position[i].z()));
+    EXPECT_EQ(reals[3], s.level_db[i]);
+    EXPECT_EQ(whole[2], s.bin[i]);
+  }
+}
+
+TEST(SaveSoundings, no_soundings_make_a_file_with_no_points) {
+  for (const char* name : {"a.ply", "a.pcd"}) {
+    const std::string path = temporary(name);
+    save_soundings(path, {});
+    EXPECT_THAT(read_file(path), ::testing::ContainsRegex("(element vertex|POINTS) 0"));
+  }
+}
+
+TEST(SaveSoundings, columns_of_different_lengths_are_refused) {
+  Soundings s = some_soundings();
+  s.beam.pop_back();
+  expect_error(ErrorKind::argument, {"save_soundings", "20 positions", "length 19"},
+               [&] { save_soundings(temporary("a.ply"), s); });
+}
+
+}  // namespace

@@ -1,0 +1,183 @@
+// One ping from the command line: what it writes, and that the same words give the same bytes.
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/units.hpp"
+#include "returns/compare.hpp"
+#include "scene_io/load_scene.hpp"
+#include "store/cube.hpp"
+#include "tool/tool_runner.hpp"
+
+using namespace insonify;
+
+namespace {
+
+const std::string head = " --sonar p900-45 --set sonar.beams=64 --pose=0,0,-3,0,10,0 --range 2:25";
+
+class PingRun : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene harbour -o harbour.ply --points 40000 -q");
+  }
+  ComplexGrid image(const std::string& run) const {
+    return read_cube(path(run + "/cube.h5")).pings.at(0).pressure.cast<std::complex<double>>();
+  }
+};
+
+/// A PLY reader of the test's own: columns of a little-endian binary file by name.
+std::map<std::string, std::vector<double>> read_ply_columns(const std::string& bytes) {
+  std::istringstream header(bytes);
+  std::vector<std::pair<std::string, std::string>> properties;
+  std::size_t count = 0;
+  for (std::string line; std::getline(header, line) && line != "end_header";) {
+    std::istringstream words(line);
+    std::string first, second, third;
+    words >> first >> second >> third;
+    if (first == "element" && second == "vertex") count = std::stoul(third);
+    if (first == "property") properties.emplace_back(second, third);
+    if (first == "format") {
+      EXPECT_EQ(second, "binary_little_endian");
+    }
+  }
+  std::map<std::string, std::vector<double>> columns;
+  const char* at = bytes.data() + header.tellg();
+  const auto take = [&](auto value) {
+    std::memcpy(&value, at, sizeof value);
+    at += sizeof value;
+    return static_cast<double>(value);
+  };
+  for (std::size_t i = 0; i < count; ++i)
+    for (const auto& [type, name] : properties)
+      columns[name].push_back(type == "double" ? take(0.0) : type == "float" ? take(0.0F) : take(std::uint32_t{0}));
+  EXPECT_EQ(at, bytes.data() + bytes.size());
+  return columns;
+}
+
+}  // namespace
+
+TEST_F(PingRun, writes_everything_and_says_what_it_did) {
+  succeed("ping harbour.ply -o out" + head);
+  for (const char* file : {"cube.h5", "returns.pcd", "returns.ply", "fan.png", "run.toml", "manifest.json"})
+    EXPECT_TRUE(std::filesystem::exists(path(std::string("out/") + file))) << file;
+  const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+  for (const char* stage : {"load", "sampling", "acoustics", "synthesis", "output"})
+    EXPECT_GT(manifest["seconds"][stage].get<double>(), 0) << stage;
+  EXPECT_GT(manifest["sampling"]["scatterers"].get<int>(), 10000);
+  EXPECT_GT(manifest["peak_memory_mib"].get<double>(), 1);
+  EXPECT_EQ(manifest["seed"], 1);
+  // Every line of run.toml's [sonar] makes a sonar file again.
+  EXPECT_NE(read("out/run.toml").find("[sonar]"), std::string::npos);
+}
+
+TEST_F(PingRun, same_seed_same_bytes_for_one_and_two_threads) {
+  succeed("ping harbour.ply -j1 -o one --no-picture" + head);
+  succeed("ping harbour.ply -j2 -o two --no-picture" + head);
+  EXPECT_EQ(read("one/cube.h5"), read("two/cube.h5"));
+  EXPECT_EQ(read("one/returns.pcd"), read("two/returns.pcd"));
+  EXPECT_EQ(read("one/returns.ply"), read("two/returns.ply"));
+}
+
+TEST_F(PingRun, another_seed_gives_other_speckle_of_the_same_level) {
+  succeed("make-scene plane -o plane.ply --points 60000 --size 25,25 -q");
+  const std::string over_plane = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:20 --no-picture";
+  succeed("ping plane.ply --seed 1 -o one" + over_plane);
+  succeed("ping plane.ply --seed 2 -o two" + over_plane);
+  ComplexGrid a = image("one"), b = image("two");
+  for (Eigen::Index n = 0; n < a.cols(); ++n) {  // near and far cells weigh the same: p falls about as r^-2.5
+    const double r = 4 + (static_cast<double>(n) + 0.5) * 16 / static_cast<double>(a.cols());
+    a.col(n) *= std::pow(r, 2.5), b.col(n) *= std::pow(r, 2.5);
+  }
+  const ImageDifference d = compare_images(a, b);
+  EXPECT_LT(d.correlation, 0.05);
+  EXPECT_NEAR(d.mean_level_db, 0, 0.4);
+}
+
+TEST_F(PingRun, returned_points_open_elsewhere_and_lie_on_the_scene) {
+  succeed("make-scene plane -o plane.ply --points 60000 --size 25,25 -q");
+  succeed("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:20 -o out --no-picture -q");
+  const auto columns = read_ply_columns(read("out/returns.ply"));
+  for (const char* name : {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_azimuth", "scalar_elevation", "scalar_ping",
+                           "scalar_beam", "scalar_bin", "scalar_material"})
+    ASSERT_TRUE(columns.count(name)) << name;
+  const auto& z = columns.at("z");
+  ASSERT_GT(z.size(), 1000U);
+  std::vector<double> off;
+  for (const double height : z) off.push_back(std::abs(height));
+  std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+  const double bin = read_cube(path("out/cube.h5")).pings[0].gate.bin_size;
+  EXPECT_LT(off[off.size() / 2], bin);
+  EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * bin);
+  // The PCD, read through PCL, holds the same points.
+  const auto pcd = load_scene(path("out/returns.pcd"));
+  EXPECT_EQ(pcd.report.points_read, z.size());
+}
+
+TEST_F(PingRun, moving_scene_and_head_by_a_million_metres_changes_nothing) {
+  // Coordinates in steps of 1/64 m are exact in double even at 10^6 m.
+  std::string near = "x y z\n", far = "x y z\n";
+  for (int i = 0; i < 200; ++i)
+    for (int j = -100; j < 100; ++j) {
+      const double x = i / 16.0, y = j / 16.0, z = ((i * 7 + j * 3) % 5) / 64.0;
+      std::ostringstream a, b;
+      a.precision(17), b.precision(17);
+      a << x << ' ' << y << ' ' << z << '\n';
+      b << x + 1e6 << ' ' << y - 2e6 << ' ' << z + 500 << '\n';
+      near += a.str(), far += b.str();
+    }
+  write("near.xyz", near);
+  write("far.xyz", far);
+  const std::string sonar = " --sonar p900-45 --set sonar.beams=32 --range 2:12 --no-picture -q";
+  succeed("ping near.xyz --viewpoint=0,0,10 --pose=0,0,2.5,0,15,0 -o near" + sonar);
+  succeed("ping far.xyz --viewpoint=1000000,-2000000,510 --pose=1000000,-2000000,502.5,0,15,0 -o far" + sonar);
+  EXPECT_LT(compare_images(image("far"), image("near")).relative_l2, 1e-9);
+}
+
+TEST_F(PingRun, a_view_of_nothing_is_silent_and_says_so) {
+  const ToolResult result = run("ping harbour.ply --sonar p900-45 --pose=30,0,-3,0,-90,0 --range 2:25 -o out");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("the ping is silent"), std::string::npos);
+  EXPECT_EQ(image("out").abs().maxCoeff(), 0);
+  EXPECT_TRUE(std::filesystem::exists(path("out/fan.png")));
+}
+
+TEST_F(PingRun, draws_each_view) {
+  succeed("ping harbour.ply -o out --no-picture -q" + head);
+  for (const std::string view : {"fan", "rect", "ascan"}) {
+    succeed("image out --view " + view + " -o " + view + ".png --size 600x500 -q");
+    EXPECT_EQ(read(view + ".png").substr(1, 3), "PNG");
+  }
+}
+
+TEST_F(PingRun, prepared_scene_gives_the_same_ping) {
+  succeed("prepare harbour.ply -o again.ply -q");
+  succeed("ping harbour.ply -o one --no-picture -q" + head);
+  succeed("ping again.ply -o two --no-picture -q" + head);
+  EXPECT_EQ(compare_images(image("one"), image("two")).relative_l2, 0);
+}
+
+TEST_F(PingRun, info_tells_machines_what_it_tells_people) {
+  const auto cloud = nlohmann::json::parse(succeed("info harbour.ply --json"));
+  EXPECT_NEAR(cloud["points"].get<double>(), 40000, 800);
+  EXPECT_TRUE(cloud["normals"].get<bool>());
+  EXPECT_LE(cloud["bounds"]["max"][2].get<double>(), 1e-3);
+  EXPECT_NE(succeed("info harbour.ply").find("bounds"), std::string::npos);
+  succeed("ping harbour.ply -o out --no-picture -q" + head);
+  EXPECT_EQ(nlohmann::json::parse(succeed("info out --json"))["beams"], 64);
+}
+
+TEST_F(PingRun, sonars_show_every_number_with_its_source) {
+  const auto all = nlohmann::json::parse(succeed("sonars --json"));
+  EXPECT_GT(all.size(), 20U);
+  for (const auto& sonar : all)
+    for (const auto& number : sonar["numbers"]) {
+      EXPECT_FALSE(number["status"].get<std::string>().empty()) << sonar["name"] << " " << number["key"];
+      EXPECT_FALSE(number["source"].get<std::string>().empty()) << sonar["name"] << " " << number["key"];
+    }
+  EXPECT_NE(succeed("sonars oculus-m750d").find("centre_frequency_hz"), std::string::npos);
+}

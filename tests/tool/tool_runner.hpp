@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+/// What a run of the tool left behind.
+struct ToolResult {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// Each test in an empty folder of its own, with the tool at hand.
+class ToolTest : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  /// Runs `insonify ARGUMENTS` in the folder through the shell.
+  ToolResult run(const std::string& arguments) const;
+  /// Runs and demands success; returns what came out on stdout.
+  std::string succeed(const std::string& arguments) const;
+  /// Demands an exit code, exactly one line on stderr holding every part, and no file beside those there before.
+  void expect_refused(const std::string& arguments, int exit_code, const std::vector<std::string>& parts) const;
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& content) const;
+  std::string read(const std::string& name) const;
+
+  std::filesystem::path folder_;
+};

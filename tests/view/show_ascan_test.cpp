@@ -1,0 +1,88 @@
+#include "view/show_ascan.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "view/test_pictures.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+class ShowAscan : public testing::Test {
+ protected:
+  void SetUp() override { unsetenv("DISPLAY"); }
+  void TearDown() override { std::filesystem::remove(path); }
+
+  LevelImage image = flat_image(3, 60, 300, -200);
+  PictureOptions options;
+  std::string path = picture_path("ascan.png");
+};
+
+// The line is blue on white, and the only thing that is.
+bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }
+
+// Height of the middle of the line between two shares of the picture's width; -1 if there is none.
+double line_height(const ReadPicture& picture, double from, double to) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = static_cast<int>(from * picture.width); x < to * picture.width; ++x)
+      if (is_line(picture.at(x, y))) {
+        sum += y;
+        ++count;
+      }
+  return count > 0 ? sum / count : -1;
+}
+
+}  // namespace
+
+// Thirds at 90, 100 and 120 dB: the steps between them are 10 and 20 dB high.
+TEST_F(ShowAscan, draws_level_upwards_over_range_to_the_right) {
+  image.level_db.row(1).head(100) = 90;
+  image.level_db.row(1).segment(100, 100) = 100;
+  image.level_db.row(1).tail(100) = 120;
+  options.min_db = 80;
+  options.max_db = 130;
+  show_ascan(image, 1, options, path);
+  const ReadPicture picture = read_png(path);
+  EXPECT_EQ(picture.width, 1400);
+  EXPECT_EQ(picture.height, 1050);
+  const double near = line_height(picture, 0.15, 0.3), middle = line_height(picture, 0.45, 0.6);
+  const double far = line_height(picture, 0.75, 0.9);
+  ASSERT_GT(near, 0);
+  EXPECT_GT(middle - near, 100);
+  EXPECT_NEAR((far - middle) / (middle - near), 2, 0.02);
+}
+
+TEST_F(ShowAscan, shows_the_beam_asked_for) {
+  image.level_db.row(2) = 100;
+  show_ascan(image, 2, options, path);
+  EXPECT_GT(line_height(read_png(path), 0.2, 0.9), 0);
+  options.min_db = 50;
+  options.max_db = 120;
+  show_ascan(image, 0, options, path);
+  EXPECT_EQ(line_height(read_png(path), 0.2, 0.9), -1) << "a beam of floor has no line inside the chart";
+}
+
+TEST_F(ShowAscan, is_the_same_bytes_every_time) {
+  image.level_db.row(1).setLinSpaced(60, 110);
+  show_ascan(image, 1, options, path);
+  const std::string first = file_bytes(path);
+  show_ascan(image, 1, options, path);
+  EXPECT_TRUE(first == file_bytes(path));
+}
+
+TEST_F(ShowAscan, refuses_a_beam_that_is_not_there) {
+  try {
+    show_ascan(image, 3, options, path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::argument);
+    EXPECT_STREQ(error.what(), "show_ascan: beam = 3, must be below the number of beams, 3");
+  }
+}

@@ -1,0 +1,85 @@
+#include "view/test_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include "core/units.hpp"
+
+namespace insonify::test {
+
+LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db,
+                      bool port_first) {
+  LevelImage image;
+  image.fan = make_fan(beams, radians(field_of_view_deg), radians(1), radians(20));
+  if (port_first) std::reverse(image.fan.azimuth.begin(), image.fan.azimuth.end());
+  image.gate = {1.0, 1.0 + 0.5 * static_cast<double>(bins), 0.5};
+  image.unit = "dB re 1 µPa";
+  image.level_db = Grid<float>::Constant(static_cast<Eigen::Index>(beams),
+                                         static_cast<Eigen::Index>(image.gate.bins()), level_db);
+  return image;
+}
+
+Rgb ReadPicture::at(double x, double y) const {
+  const auto column = static_cast<std::size_t>(std::clamp(x, 0.0, width - 1.0));
+  const auto row = static_cast<std::size_t>(std::clamp(y, 0.0, height - 1.0));
+  const std::size_t first = 3 * (row * static_cast<std::size_t>(width) + column);
+  return {bytes[first], bytes[first + 1], bytes[first + 2]};
+}
+
+ReadPicture read_png(const std::string& path) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  ReadPicture picture;
+  picture.width = image->GetDimensions()[0];
+  picture.height = image->GetDimensions()[1];
+  EXPECT_EQ(image->GetNumberOfScalarComponents(), 3);
+  const auto* first = static_cast<const std::uint8_t*>(image->GetScalarPointer());
+  picture.bytes.assign(first, first + 3 * picture.width * picture.height);
+  return picture;
+}
+
+int colour_difference(const Rgb& a, const Rgb& b) {
+  int largest = 0;
+  for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(int{a[c]} - int{b[c]}));
+  return largest;
+}
+
+Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom,
+                 double top) {
+  Blob blob;
+  for (int y = std::max(0, static_cast<int>(bottom)); y < std::min<double>(picture.height, top); ++y)
+    for (int x = std::max(0, static_cast<int>(left)); x < std::min<double>(picture.width, right); ++x)
+      if (colour_difference(picture.at(x, y), colour) <= 2) {
+        blob.x += x + 0.5;
+        blob.y += y + 0.5;
+        ++blob.pixels;
+      }
+  blob.x /= std::max(blob.pixels, 1);
+  blob.y /= std::max(blob.pixels, 1);
+  return blob;
+}
+
+std::string picture_path(const std::string& name) {
+  return ::testing::TempDir() + "insonify_view_" + std::to_string(getpid()) + "_" + name;
+}
+
+std::string file_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool file_exists(const std::string& path) { return std::filesystem::exists(path); }
+
+}  // namespace insonify::test
