@@ -35,7 +35,8 @@ void add_run(CLI::App& verb, CommonOptions& common, RunOptions& o) {
   verb.add_option("--range", o.range, "min:max [m]; default: the sonar's");
   verb.add_option("-o,--output", o.output, "run directory to make")->required();
   verb.add_option("--tolerance", o.tolerance, "relative error of the synthesis");
-  verb.add_option("--method", o.method, "stamped, or direct: the slow referee")->check(CLI::IsMember({"stamped", "direct"}));
+  verb.add_option("--method", o.method, "stamped, or direct: the slow referee")
+      ->check(CLI::IsMember({"stamped", "direct"}));
   verb.add_option("--set", common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times");
   verb.add_flag("--force", o.force, "replace an existing run directory");
   verb.add_flag("--no-picture", o.no_picture, "do not draw fan.png");
@@ -65,11 +66,13 @@ void add_prepare(CLI::App& app, AllOptions& all) {
   add_scene(*verb, all.prepare.scene);
   verb->add_option("-o,--output", all.prepare.output, "prepared scene, .ply or .pcd")->required();
   verb->add_flag("--force", all.prepare.force, "replace an existing file");
-  verb->add_flag_callback("--normals", [] {}, "accepted for clarity: missing normals are always estimated");
+  verb->add_flag_callback(
+      "--normals", [] {}, "accepted for clarity: missing normals are always estimated");
   add_common(*verb, all.common, true);
   add_work(*verb, all.common);
-  verb->footer("Examples:\n  insonify prepare reef.pcd -o reef.ply --material medium-sand\n"
-               "  insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2");
+  verb->footer(
+      "Examples:\n  insonify prepare reef.pcd -o reef.ply --material medium-sand\n"
+      "  insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2");
 }
 
 void add_make_scene(CLI::App& app, AllOptions& all) {
@@ -84,8 +87,9 @@ void add_make_scene(CLI::App& app, AllOptions& all) {
   verb->add_flag("--force", o.force, "replace an existing file");
   add_common(*verb, all.common, false);
   verb->add_option("--seed", all.common.seed, "of jitter and ripples; same seed, same bytes");
-  verb->footer("Examples:\n  insonify make-scene harbour -o harbour.ply --points 200000\n"
-               "  insonify make-scene plane -o plane.ply --size 40,40 --mu-db -27");
+  verb->footer(
+      "Examples:\n  insonify make-scene harbour -o harbour.ply --points 200000\n"
+      "  insonify make-scene plane -o plane.ply --size 40,40 --mu-db -27");
 }
 
 void add_sonars(CLI::App& app, AllOptions& all) {
@@ -101,9 +105,11 @@ void add_ping(CLI::App& app, AllOptions& all) {
   add_scene(*verb, o.scene);
   add_run(*verb, all.common, o.run);
   verb->add_option("--pose", o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down")->required();
-  verb->add_option("--world", o.world, "z-up, or ned: z down, pitch positive nose up")->check(CLI::IsMember({"z-up", "ned"}));
+  verb->add_option("--world", o.world, "z-up, or ned: z down, pitch positive nose up")
+      ->check(CLI::IsMember({"z-up", "ned"}));
   verb->add_option("--sampling", o.sampling, "surfels or rays")->check(CLI::IsMember({"surfels", "rays"}));
-  verb->add_option("--scatterers-per-cell", o.scatterers_per_cell, "surfels are split until a resolution cell holds so many");
+  verb->add_option("--scatterers-per-cell", o.scatterers_per_cell,
+                   "surfels are split until a resolution cell holds so many");
   verb->add_option("--rays-per-beam", o.rays_per_beam, "with --sampling rays");
   verb->add_option("--amplitude", o.amplitude, "speckle, random-phase or coherent")
       ->check(CLI::IsMember({"speckle", "random-phase", "coherent"}));
@@ -111,18 +117,22 @@ void add_ping(CLI::App& app, AllOptions& all) {
   verb->add_option("--all-bins-above", o.all_bins_above, "[dB re 1 uPa] every bin above is a returned point");
   add_common(*verb, all.common, true);
   add_work(*verb, all.common);
-  verb->footer("Examples:\n  insonify ping reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9 -o out\n"
-               "  insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set water.temperature_c=4 -o cold");
+  verb->footer(
+      "Examples:\n  insonify ping reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9 -o out\n"
+      "  insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set water.temperature_c=4 -o cold");
 }
 
 void add_synthesize(CLI::App& app, AllOptions& all) {
   CLI::App* verb = app.add_subcommand("synthesize", "beams from scatterers of another program (CSV)");
-  verb->add_option("SCATTERERS", all.synthesize.scatterers, "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im")->required();
+  verb->add_option("SCATTERERS", all.synthesize.scatterers,
+                   "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im")
+      ->required();
   add_run(*verb, all.common, all.synthesize.run);
   add_common(*verb, all.common, true);
   add_work(*verb, all.common);
-  verb->footer("Examples:\n  insonify synthesize rays.csv --sonar p900-45 --range 1:20 -o out\n"
-               "  insonify synthesize rays.csv --sonar p900-45 --method direct -o referee");
+  verb->footer(
+      "Examples:\n  insonify synthesize rays.csv --sonar p900-45 --range 1:20 -o out\n"
+      "  insonify synthesize rays.csv --sonar p900-45 --method direct -o referee");
 }
 
 void add_image(CLI::App& app, AllOptions& all) {

@@ -14,12 +14,17 @@ namespace {
 
 void set_water(Water& water, const Setting& setting) {
   const double value = parse_number("--set water." + setting.key, setting.value);
-  if (setting.key == "temperature_c") water.temperature_c = value;
-  else if (setting.key == "salinity_psu") water.salinity_psu = value;
-  else if (setting.key == "depth_m") water.depth = value;
-  else if (setting.key == "ph") water.ph = value;
-  else fail(ErrorKind::argument, "--set water.", setting.key, ": unknown key; known are temperature_c, salinity_psu, ",
-            "depth_m, ph");
+  if (setting.key == "temperature_c")
+    water.temperature_c = value;
+  else if (setting.key == "salinity_psu")
+    water.salinity_psu = value;
+  else if (setting.key == "depth_m")
+    water.depth = value;
+  else if (setting.key == "ph")
+    water.ph = value;
+  else
+    fail(ErrorKind::argument, "--set water.", setting.key, ": unknown key; known are temperature_c, salinity_psu, ",
+         "depth_m, ph");
 }
 
 /// Index of the material called `name`; Error(argument) with the nearest name.
@@ -45,9 +50,12 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
     if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
   for (const std::string& text : common.settings) {
     const Setting setting = parse_setting(text);
-    if (setting.section == "sonar") set_sonar_value(setup.spec, setting.key, setting.value);
-    else if (setting.section == "water") set_water(setup.water, setting);
-    else fail(ErrorKind::argument, "--set ", text, ": section '", setting.section, "' is unknown; use sonar or water");
+    if (setting.section == "sonar")
+      set_sonar_value(setup.spec, setting.key, setting.value);
+    else if (setting.section == "water")
+      set_water(setup.water, setting);
+    else
+      fail(ErrorKind::argument, "--set ", text, ": section '", setting.section, "' is unknown; use sonar or water");
   }
   if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
   setup.medium = medium_of(setup.water, setup.spec.centre_frequency);

@@ -10,10 +10,14 @@ namespace {
 
 int exit_code(insonify::ErrorKind kind) {
   switch (kind) {
-    case insonify::ErrorKind::runtime: return 1;
-    case insonify::ErrorKind::argument: return 2;
-    case insonify::ErrorKind::content: return 3;
-    case insonify::ErrorKind::file: return 4;
+    case insonify::ErrorKind::runtime:
+      return 1;
+    case insonify::ErrorKind::argument:
+      return 2;
+    case insonify::ErrorKind::content:
+      return 3;
+    case insonify::ErrorKind::file:
+      return 4;
   }
   return 1;
 }

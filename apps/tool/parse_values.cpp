@@ -44,7 +44,8 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
                                   const char* meaning) {
   const std::vector<std::string> parts = split(text, ',');
   if (parts.size() != count)
-    fail(ErrorKind::argument, option, " = '", text, "' has ", parts.size(), " numbers, must have ", count, ": ", meaning);
+    fail(ErrorKind::argument, option, " = '", text, "' has ", parts.size(), " numbers, must have ", count, ": ",
+         meaning);
   std::vector<double> values;
   for (const std::string& part : parts) {
     const auto value = number(part);
@@ -55,7 +56,8 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
 }
 
 Pose parse_pose(const std::string& text, const std::string& world) {
-  const auto v = parse_numbers("--pose", text, 6, "x,y,z,yaw,pitch,roll in metres and degrees, e.g. --pose=0,0,-3,0,10,0");
+  const auto v =
+      parse_numbers("--pose", text, 6, "x,y,z,yaw,pitch,roll in metres and degrees, e.g. --pose=0,0,-3,0,10,0");
   const auto pose = world == "ned" ? pose_from_ned : pose_from_yaw_pitch_roll;
   return pose({v[0], v[1], v[2]}, radians(v[3]), radians(v[4]), radians(v[5]));
 }

@@ -1,8 +1,7 @@
 #include "tool/run_files.hpp"
 
-#include <sys/resource.h>
-
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -13,12 +12,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string run_toml(const CommonOptions& common, const RunOptions& run, const HeadSetup& setup, const std::string& head) {
-  return fmt::format("# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
-                     "tolerance = {}\nmethod = \"{}\"\n{}\n[water]\ntemperature_c = {}\nsalinity_psu = {}\ndepth_m = {}\n"
-                     "ph = {}\n\n[sonar]\n{}",
-                     INSONIFY_VERSION, common.seed, run.tolerance, run.method, head, setup.water.temperature_c,
-                     setup.water.salinity_psu, setup.water.depth, setup.water.ph, sonar_as_toml(setup.spec));
+std::string run_toml(const CommonOptions& common, const RunOptions& run, const HeadSetup& setup,
+                     const std::string& head) {
+  return fmt::format(
+      "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
+      "tolerance = {}\nmethod = \"{}\"\n{}\n[water]\ntemperature_c = {}\nsalinity_psu = {}\ndepth_m = {}\n"
+      "ph = {}\n\n[sonar]\n{}",
+      INSONIFY_VERSION, common.seed, run.tolerance, run.method, head, setup.water.temperature_c,
+      setup.water.salinity_psu, setup.water.depth, setup.water.ph, sonar_as_toml(setup.spec));
 }
 
 Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
@@ -56,8 +57,9 @@ ordered_json sonar_json(const HeadSetup& setup) {
 
 }  // namespace
 
-void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup,
-               const Ping& ping, const std::string& run_toml_head, ordered_json& manifest, Progress& progress) {
+void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
+               const HeadSetup& setup, const Ping& ping, const std::string& run_toml_head, ordered_json& manifest,
+               Progress& progress) {
   write_cube(directory.file("cube.h5"), cube_of(ping, common, run, setup));
   write_text_file(directory.file("run.toml"), run_toml(common, run, setup, run_toml_head));
 
@@ -72,9 +74,12 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
     }
 
   manifest["sonar"] = sonar_json(setup);
-  manifest["water"] = {{"temperature_c", setup.water.temperature_c}, {"salinity_psu", setup.water.salinity_psu},
-                       {"depth_m", setup.water.depth},               {"ph", setup.water.ph},
-                       {"sound_speed", setup.medium.sound_speed},    {"absorption_db_per_m", absorption}};
+  manifest["water"] = {{"temperature_c", setup.water.temperature_c},
+                       {"salinity_psu", setup.water.salinity_psu},
+                       {"depth_m", setup.water.depth},
+                       {"ph", setup.water.ph},
+                       {"sound_speed", setup.medium.sound_speed},
+                       {"absorption_db_per_m", absorption}};
   manifest["peak_memory_mib"] = peak_memory_mib();
 }
 

@@ -15,8 +15,9 @@ namespace insonify::tool {
 
 /// Writes cube.h5, run.toml, fan.png (unless refused) and manifest.json into `directory`. `manifest` is completed with
 /// version, sonar, water, gate, counts of samples and peak memory.
-void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup,
-               const Ping& ping, const std::string& run_toml_head, nlohmann::ordered_json& manifest, Progress& progress);
+void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
+               const HeadSetup& setup, const Ping& ping, const std::string& run_toml_head,
+               nlohmann::ordered_json& manifest, Progress& progress);
 
 /// Levels of a ping as they are drawn: range compensated unless raw.
 LevelImage level_image(const Ping& ping, double absorption_db_per_m, bool raw);

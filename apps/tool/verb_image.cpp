@@ -38,7 +38,8 @@ void image(const CommonOptions& common, const ImageOptions& o) {
   progress.step("reading " + o.run);
   const Cube cube = read_cube(cube_path(o.run));
   if (o.ping >= cube.pings.size())
-    fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ", o.run);
+    fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ",
+         o.run);
   const Ping& ping = cube.pings[o.ping];
   const auto beams = static_cast<int>(ping.fan.beams());
   const int beam = o.beam < 0 ? beams / 2 : o.beam;

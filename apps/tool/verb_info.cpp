@@ -46,8 +46,8 @@ void print_cloud(const FileDescription& d) {
   fmt::print("\n  not finite {}\n  duplicates {}\n  fields    ", d.not_finite, d.duplicates);
   for (const auto& f : d.fields) fmt::print(" {}:{}", f.name, f.type);
   const Eigen::Vector3d size = d.max - d.min;
-  fmt::print("\n  bounds     x {:g}..{:g}  y {:g}..{:g}  z {:g}..{:g}\n  size       {:.4g} x {:.4g} x {:.4g}\n", d.min.x(),
-             d.max.x(), d.min.y(), d.max.y(), d.min.z(), d.max.z(), size.x(), size.y(), size.z());
+  fmt::print("\n  bounds     x {:g}..{:g}  y {:g}..{:g}  z {:g}..{:g}\n  size       {:.4g} x {:.4g} x {:.4g}\n",
+             d.min.x(), d.max.x(), d.min.y(), d.max.y(), d.min.z(), d.max.z(), size.x(), size.y(), size.z());
   fmt::print("  spacing    {:.4g} (median)\n  normals    {}\n  area       {}\n  materials  {}\n", d.median_spacing,
              d.has_normals ? "yes" : "no", d.has_area ? "yes" : "no", d.has_materials ? "yes" : "no");
   if (d.viewpoint) fmt::print("  viewpoint  {:g}, {:g}, {:g}\n", d.viewpoint->x(), d.viewpoint->y(), d.viewpoint->z());
@@ -81,8 +81,12 @@ void print_json_as_text(const ordered_json& json) {
 }
 
 ordered_json sonar_summary(const SonarFile& f) {
-  return {{"path", f.path}, {"format", "insonify sonar"}, {"name", f.spec.name}, {"beams", f.spec.beams},
-          {"centre_frequency_hz", f.spec.centre_frequency}, {"bandwidth_hz", f.spec.bandwidth}};
+  return {{"path", f.path},
+          {"format", "insonify sonar"},
+          {"name", f.spec.name},
+          {"beams", f.spec.beams},
+          {"centre_frequency_hz", f.spec.centre_frequency},
+          {"bandwidth_hz", f.spec.bandwidth}};
 }
 
 }  // namespace

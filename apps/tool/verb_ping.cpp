@@ -53,14 +53,17 @@ std::vector<Eigen::Vector3d> glance(const SceneCloud& scene, const Pose& pose) {
 /// Catches clouds in other units and poses elsewhere: the middle point must be within reach of the range gate.
 void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path) {
   const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-  std::nth_element(places.begin(), middle, places.end(), [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+  std::nth_element(places.begin(), middle, places.end(),
+                   [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
   const double range = middle->norm();
   if (range > 10 * gate.max_range)
-    fail(ErrorKind::content, path, ": the middle point is ", range, " m from the head, more than ten times the max range of ",
-         gate.max_range, " m; is the cloud in millimetres (--unit mm), or the pose in another frame?");
+    fail(ErrorKind::content, path, ": the middle point is ", range,
+         " m from the head, more than ten times the max range of ", gate.max_range,
+         " m; is the cloud in millimetres (--unit mm), or the pose in another frame?");
   if (range < gate.min_range / 10)
-    fail(ErrorKind::content, path, ": the middle point is ", range, " m from the head, less than a tenth of the min range of ",
-         gate.min_range, " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
+    fail(ErrorKind::content, path, ": the middle point is ", range,
+         " m from the head, less than a tenth of the min range of ", gate.min_range,
+         " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
 }
 
 /// What to tell a user whose ping is silent: where the scene is.
@@ -68,10 +71,11 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& p : places) centre += p / static_cast<double>(places.size());
   const Direction d = direction_of(centre);
-  return fmt::format("nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
-                     "{:.0f} deg to {} and {:.0f} deg {} the head's axis",
-                     centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard",
-                     std::abs(degrees(d.elevation)), d.elevation > 0 ? "above" : "below");
+  return fmt::format(
+      "nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
+      "{:.0f} deg to {} and {:.0f} deg {} the head's axis",
+      centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
+      d.elevation > 0 ? "above" : "below");
 }
 
 ordered_json scene_json(const LoadedScene& loaded) {
@@ -94,20 +98,25 @@ ordered_json scene_json(const LoadedScene& loaded) {
 
 ordered_json sampling_json(const SimulatedPing& p) {
   const SamplingReport& s = p.sampling;
-  return {{"surfels", s.surfels},         {"in_fan_and_gate", s.in_gate}, {"back_facing", s.back_facing},
-          {"hidden", s.hidden},           {"visible", s.visible},         {"rays_missed", s.rays_missed},
-          {"scatterers", s.scatterers},   {"soundings", p.soundings.size()},
+  return {{"surfels", s.surfels},
+          {"in_fan_and_gate", s.in_gate},
+          {"back_facing", s.back_facing},
+          {"hidden", s.hidden},
+          {"visible", s.visible},
+          {"rays_missed", s.rays_missed},
+          {"scatterers", s.scatterers},
+          {"soundings", p.soundings.size()},
           {"noise_floor_db", p.noise_floor_db}};
 }
 
 std::string run_toml_head(const PingOptions& o) {
-  return fmt::format("\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nviewpoint = {}\n\n[ping]\npose = {}\n"
-                     "world = {}\nsampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\n"
-                     "threshold_db = {}\nall_bins_above = {}\n",
-                     toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material),
-                     toml_text(o.scene.materials_file), toml_text(o.scene.viewpoint), toml_text(o.pose),
-                     toml_text(o.world), toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam,
-                     toml_text(o.amplitude), o.threshold_db, toml_text(o.all_bins_above));
+  return fmt::format(
+      "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nviewpoint = {}\n\n[ping]\npose = {}\n"
+      "world = {}\nsampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\n"
+      "threshold_db = {}\nall_bins_above = {}\n",
+      toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
+      toml_text(o.scene.viewpoint), toml_text(o.pose), toml_text(o.world), toml_text(o.sampling), o.scatterers_per_cell,
+      o.rays_per_beam, toml_text(o.amplitude), o.threshold_db, toml_text(o.all_bins_above));
 }
 
 void print_summary(const CommonOptions& common, const std::string& output, const ordered_json& manifest) {
@@ -137,8 +146,11 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   const double load_seconds = seconds_since(start);
   const std::vector<Eigen::Vector3d> places = glance(loaded.scene, pose);
   require_in_reach(places, setup.head.gate, o.scene.path);
-  ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"seed", common.seed},
-                           {"scene", scene_json(loaded)}, {"notes", ordered_json::array()}};
+  ordered_json manifest = {{"schema", 1},
+                           {"insonify_version", INSONIFY_VERSION},
+                           {"seed", common.seed},
+                           {"scene", scene_json(loaded)},
+                           {"notes", ordered_json::array()}};
   for (const std::string& note : loading_notes(loaded.report)) {
     progress.note(note);
     manifest["notes"].push_back(note);

@@ -25,12 +25,9 @@ void prepare(const CommonOptions& common, const PrepareOptions& o) {
 
   const double area = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0);
   if (common.json) {
-    const nlohmann::ordered_json result = {{"output", o.output},
-                                           {"points_read", loaded.report.points_read},
-                                           {"surfels", loaded.scene.size()},
-                                           {"area_m2", area},
-                                           {"normals_oriented", loaded.scene.normals_oriented},
-                                           {"notes", notes}};
+    const nlohmann::ordered_json result = {
+        {"output", o.output}, {"points_read", loaded.report.points_read},          {"surfels", loaded.scene.size()},
+        {"area_m2", area},    {"normals_oriented", loaded.scene.normals_oriented}, {"notes", notes}};
     fmt::print("{}\n", result.dump(2));
   } else {
     fmt::print("{}: {} surfels, {:.4g} m^2, normals {}\n", o.output, loaded.scene.size(), area,

@@ -19,11 +19,13 @@ ordered_json sonar_json(const SonarFile& file) {
 
 void print_one(const SonarFile& file) {
   fmt::print("{}: {}\n\n", file.spec.name, file.description);
-  for (const SonarNumber& n : file.numbers) fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
+  for (const SonarNumber& n : file.numbers)
+    fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
 }
 
 void print_table(const std::vector<SonarFile>& files) {
-  fmt::print("{:<20} {:>9} {:>9} {:>6} {:>6} {:>12}  {}\n", "name", "kHz", "fan deg", "beams", "deg", "range m", "description");
+  fmt::print("{:<20} {:>9} {:>9} {:>6} {:>6} {:>12}  {}\n", "name", "kHz", "fan deg", "beams", "deg", "range m",
+             "description");
   for (const SonarFile& f : files) {
     const SonarSpec& s = f.spec;
     fmt::print("{:<20} {:>9.4g} {:>5.3g}x{:<3.3g} {:>6} {:>6.3g} {:>12}  {}\n", s.name, s.centre_frequency * 1e-3,
@@ -37,8 +39,10 @@ void print_table(const std::vector<SonarFile>& files) {
 void sonars(const CommonOptions& common, const SonarsOptions& o) {
   if (!o.name.empty()) {
     const SonarFile file = find_sonar(o.name);
-    if (common.json) fmt::print("{}\n", sonar_json(file).dump(2));
-    else print_one(file);
+    if (common.json)
+      fmt::print("{}\n", sonar_json(file).dump(2));
+    else
+      print_one(file);
     return;
   }
   const std::vector<SonarFile> files = list_sonars();

@@ -25,7 +25,7 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   const auto start = Clock::now();
   const SonarHead& head = setup.head;
   const HearingOptions hearing{SurfaceAmplitude::coherent, head.elevation_shape, head.fan.elevation_width,
-                               head.fan.elevation[0], common.seed, common.threads};
+                               head.fan.elevation[0],      common.seed,          common.threads};
   const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
   const auto method = o.run.method == "direct" ? synthesize_direct : synthesize_stamped;
   const ComplexGrid pressure = method(echoes, head, setup.medium, {o.run.tolerance, common.threads});
@@ -33,7 +33,9 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
   progress.step("writing " + o.run.output);
-  nlohmann::ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"seed", common.seed},
+  nlohmann::ordered_json manifest = {{"schema", 1},
+                                     {"insonify_version", INSONIFY_VERSION},
+                                     {"seed", common.seed},
                                      {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
                                      {"notes", nlohmann::ordered_json::array()}};
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(pressure.abs().maxCoeff()));
@@ -42,7 +44,8 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   manifest["seconds"] = {{"synthesis", seconds}};
   write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  if (common.json) fmt::print("{}\n", manifest.dump(2));
+  if (common.json)
+    fmt::print("{}\n", manifest.dump(2));
   else
     fmt::print("{}: {} scatterers, peak {:.4f} dB re 1 uPa\n", o.run.output, table.scatterers.size(),
                manifest["peak_level_db"].get<double>());

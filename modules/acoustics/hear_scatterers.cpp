@@ -73,10 +73,9 @@ Echoes hear_scatterers(const Scatterers& scatterers, std::span<const Material> m
       const std::size_t m = scatterers.material[i];
       if (m >= materials.size())
         fail(ErrorKind::argument, "hear_scatterers: material[", i, "] = ", m, ", but there are ", materials.size());
-      const double sigma = lambert_cross_section(materials[m].lambert_mu, scatterers.cos_incidence[i],
-                                                 scatterers.projected_area[i]);
-      hearing.hear(scatterers, i, sigma, surface_amplitude(options.amplitude, options.seed, scatterers.id[i]),
-                   echoes);
+      const double sigma =
+          lambert_cross_section(materials[m].lambert_mu, scatterers.cos_incidence[i], scatterers.projected_area[i]);
+      hearing.hear(scatterers, i, sigma, surface_amplitude(options.amplitude, options.seed, scatterers.id[i]), echoes);
     }
   });
   return echoes;

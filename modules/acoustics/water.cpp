@@ -13,8 +13,7 @@ void require_valid(const Water& w, const char* who) {
     fail(ErrorKind::argument, who, ": temperature_c = ", w.temperature_c, " deg C, must be within -4 and 100");
   if (!std::isfinite(w.salinity_psu) || w.salinity_psu < 0)
     fail(ErrorKind::argument, who, ": salinity_psu = ", w.salinity_psu, " psu, must be >= 0");
-  if (!std::isfinite(w.depth) || w.depth < 0)
-    fail(ErrorKind::argument, who, ": depth = ", w.depth, " m, must be >= 0");
+  if (!std::isfinite(w.depth) || w.depth < 0) fail(ErrorKind::argument, who, ": depth = ", w.depth, " m, must be >= 0");
   if (!std::isfinite(w.ph) || w.ph < 0 || w.ph > 14)
     fail(ErrorKind::argument, who, ": ph = ", w.ph, ", must be within 0 and 14");
 }

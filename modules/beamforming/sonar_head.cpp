@@ -19,8 +19,8 @@ void require_valid(const SonarHead& head, const char* who) {
 }
 
 LineArray array_for_beam_width(double beam_width, double wavelength, double side_lobe_db) {
-  if (!(beam_width > 0)) fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width),
-                              " deg, must be > 0");
+  if (!(beam_width > 0))
+    fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width), " deg, must be > 0");
   const auto with = [&](std::size_t n) {
     return LineArray{wavelength / 2, side_lobe_db < 0 ? taylor_shading(n, side_lobe_db) : uniform_shading(n)};
   };
@@ -30,8 +30,8 @@ LineArray array_for_beam_width(double beam_width, double wavelength, double side
   while (array_beam_width(with(narrow), wavelength) > beam_width) {
     wide = narrow, narrow *= 2;
     if (narrow > most_elements)
-      fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width),
-           " deg needs more than ", most_elements, " elements");
+      fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width), " deg needs more than ",
+           most_elements, " elements");
   }
   while (narrow - wide > 1) {
     const std::size_t middle = (wide + narrow) / 2;
@@ -42,8 +42,6 @@ LineArray array_for_beam_width(double beam_width, double wavelength, double side
   return with(too_wide < too_narrow ? wide : narrow);
 }
 
-double default_bin_size(const Pulse& pulse, double sound_speed) {
-  return 0.44 * sound_speed / (2 * pulse.bandwidth);
-}
+double default_bin_size(const Pulse& pulse, double sound_speed) { return 0.44 * sound_speed / (2 * pulse.bandwidth); }
 
 }  // namespace insonify

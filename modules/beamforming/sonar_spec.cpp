@@ -20,8 +20,7 @@ void require_valid(const SonarSpec& s, const char* who) {
           "> 0 and at most 1e9");
   require(s.bandwidth > 0 && s.bandwidth < 2 * s.centre_frequency, who, "bandwidth_hz", s.bandwidth, "Hz",
           "> 0 and below twice centre_frequency_hz");
-  require(std::abs(s.source_level_db) <= 400, who, "source_level_db", s.source_level_db, "dB",
-          "within -400 and 400");
+  require(std::abs(s.source_level_db) <= 400, who, "source_level_db", s.source_level_db, "dB", "within -400 and 400");
   require(s.beams >= 1 && s.beams <= 65536, who, "beams", static_cast<double>(s.beams), "", "within 1 and 65536");
   require(s.beams == 1 || !s.azimuths.empty() || within(s.field_of_view, 0, 2 * pi), who, "field_of_view_deg",
           degrees(s.field_of_view), "deg", "> 0 and at most 360");
@@ -29,8 +28,8 @@ void require_valid(const SonarSpec& s, const char* who) {
   require(within(s.elevation_width, 0, pi), who, "elevation_width_deg", degrees(s.elevation_width), "deg",
           "> 0 and at most 180");
   require(std::abs(s.elevation) <= pi / 2, who, "elevation_deg", degrees(s.elevation), "deg", "within -90 and 90");
-  require(s.side_lobe_db == 0 || (s.side_lobe_db >= -80 && s.side_lobe_db < -13.3), who, "side_lobe_db",
-          s.side_lobe_db, "dB", "0 (uniform) or within -80 and -13.3 (Taylor)");
+  require(s.side_lobe_db == 0 || (s.side_lobe_db >= -80 && s.side_lobe_db < -13.3), who, "side_lobe_db", s.side_lobe_db,
+          "dB", "0 (uniform) or within -80 and -13.3 (Taylor)");
   require(within(s.min_range, 0, 1e6), who, "min_range_m", s.min_range, "m", "> 0");
   require(std::isfinite(s.max_range) && s.max_range > s.min_range, who, "max_range_m", s.max_range, "m",
           "above min_range_m");
@@ -53,8 +52,9 @@ SonarHead make_head(const SonarSpec& spec, double sound_speed) {
   const double coarsest = default_bin_size(head.pulse, sound_speed);
   head.gate = {spec.min_range, spec.max_range, spec.bin_size.value_or(coarsest)};
   if (head.gate.bin_size > coarsest * (1 + 1e-9))
-    fail(ErrorKind::argument, "make_head: bin_size_m = ", head.gate.bin_size, " m would under-sample the pulse, must be ",
-         "at most 0.44 c / 2B = ", coarsest, " m; leave bin_size_m out, or lower bandwidth_hz");
+    fail(ErrorKind::argument, "make_head: bin_size_m = ", head.gate.bin_size,
+         " m would under-sample the pulse, must be ", "at most 0.44 c / 2B = ", coarsest,
+         " m; leave bin_size_m out, or lower bandwidth_hz");
   require_valid(head, "make_head");
   return head;
 }

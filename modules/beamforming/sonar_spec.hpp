@@ -13,20 +13,20 @@ constexpr double nominal_sound_speed = 1500;
 /// A sonar as a datasheet describes it, SI and radians; make_head turns it into a SonarHead.
 struct SonarSpec {
   std::string name;
-  double centre_frequency = 0;                  ///< [Hz]
-  double bandwidth = 0;                         ///< full -3 dB width [Hz]; c_nominal / (2 range resolution)
-  double source_level_db = 220;                 ///< dB re 1 uPa at 1 m
+  double centre_frequency = 0;   ///< [Hz]
+  double bandwidth = 0;          ///< full -3 dB width [Hz]; c_nominal / (2 range resolution)
+  double source_level_db = 220;  ///< dB re 1 uPa at 1 m
   std::size_t beams = 1;
-  double field_of_view = 0;                     ///< [rad]
-  double beam_width = 0;                        ///< -3 dB, azimuth [rad]
-  double elevation = 0;                         ///< of the fan's axis [rad], positive up
-  double elevation_width = 0;                   ///< -3 dB [rad]
+  double field_of_view = 0;    ///< [rad]
+  double beam_width = 0;       ///< -3 dB, azimuth [rad]
+  double elevation = 0;        ///< of the fan's axis [rad], positive up
+  double elevation_width = 0;  ///< -3 dB [rad]
   ElevationShape elevation_shape = ElevationShape::gaussian;
-  double side_lobe_db = -30;                    ///< Taylor shading; 0: uniform array
-  double min_range = 0;                         ///< [m]
-  double max_range = 0;                         ///< [m]
-  std::optional<double> bin_size;               ///< [m]; absent: 0.44 c / 2B
-  std::vector<double> azimuths;                 ///< [rad]; not empty: these beams instead of an even fan
+  double side_lobe_db = -30;       ///< Taylor shading; 0: uniform array
+  double min_range = 0;            ///< [m]
+  double max_range = 0;            ///< [m]
+  std::optional<double> bin_size;  ///< [m]; absent: 0.44 c / 2B
+  std::vector<double> azimuths;    ///< [rad]; not empty: these beams instead of an even fan
 };
 
 /// Throws Error unless the spec describes a sonar that can be built: names key, value, unit and rule.

@@ -1,7 +1,7 @@
-#include "beamforming/stamping_kernels_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "beamforming/stamping_kernels_internal.hpp"
 
 // Sanitizers start after the loader has chosen a variant, and crash on it: they get the plain one.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

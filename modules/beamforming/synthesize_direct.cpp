@@ -22,7 +22,8 @@ ComplexGrid beam_weights(const Echoes& echoes, std::size_t first, std::size_t la
   ComplexGrid weights(last - first, u_beam.size());
   parallel_for(last - first, threads, [&](std::size_t i) {
     for (std::size_t b = 0; b < u_beam.size(); ++b)
-      weights(i, b) = echoes.amplitude[first + i] * array_response(head.array, wavelength, echoes.u[first + i], u_beam[b]);
+      weights(i, b) =
+          echoes.amplitude[first + i] * array_response(head.array, wavelength, echoes.u[first + i], u_beam[b]);
   });
   return weights;
 }

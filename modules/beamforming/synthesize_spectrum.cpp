@@ -62,7 +62,7 @@ struct SpectrumGrid {
   double frequency(std::size_t k) const {
     const auto n = static_cast<std::ptrdiff_t>(samples);
     const auto signed_k = static_cast<std::ptrdiff_t>(k) < (n + 1) / 2 ? static_cast<std::ptrdiff_t>(k)
-                                                                     : static_cast<std::ptrdiff_t>(k) - n;
+                                                                       : static_cast<std::ptrdiff_t>(k) - n;
     return static_cast<double>(signed_k) / (static_cast<double>(samples) * step_time);
   }
 };

@@ -35,7 +35,7 @@ struct TimeAxis {
 
 /// Which echoes touch which tile of samples, in order of echoes: the same for any number of threads.
 struct TileLists {
-  std::vector<std::size_t> begin;    ///< tiles + 1 offsets into `echo`
+  std::vector<std::size_t> begin;  ///< tiles + 1 offsets into `echo`
   std::vector<std::uint32_t> echo;
 
   TileLists(const Echoes& echoes, const TimeAxis& axis, double half) {

@@ -43,8 +43,7 @@ void parallel_for(std::size_t n, int threads, Body&& body) {
 /// Calls body(begin, end) for the fixed blocks of `block` indices that tile [0, n); see parallel_for.
 template <typename Body>
 void parallel_blocks(std::size_t n, std::size_t block, int threads, Body&& body) {
-  parallel_for((n + block - 1) / block, threads,
-               [&](std::size_t b) { body(b * block, std::min(n, (b + 1) * block)); });
+  parallel_for((n + block - 1) / block, threads, [&](std::size_t b) { body(b * block, std::min(n, (b + 1) * block)); });
 }
 
 }  // namespace insonify

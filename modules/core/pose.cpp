@@ -8,9 +8,9 @@ namespace insonify {
 Pose pose_from_yaw_pitch_roll(const Eigen::Vector3d& position, double yaw, double pitch, double roll) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   Pose pose = Pose::Identity();
-  pose.linear() = (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
-                   AngleAxisd(roll, Vector3d::UnitX()))
-                      .toRotationMatrix();
+  pose.linear() =
+      (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX()))
+          .toRotationMatrix();
   pose.translation() = position;
   return pose;
 }

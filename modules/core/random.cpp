@@ -26,7 +26,7 @@ std::array<double, 4> random_uniform(std::uint64_t seed, RandomStage stage, Rand
 
 std::complex<double> random_complex_normal(std::uint64_t seed, RandomStage stage, RandomCounter counter) {
   const auto u = random_uniform(seed, stage, counter);
-  return std::polar(std::sqrt(-std::log(u[0])), 2 * pi * u[1]);
+  return std::polar(std::sqrt(-std::log(u[0])), 2 * pi * u[1]);  // (E9)
 }
 
 }  // namespace insonify

@@ -54,8 +54,9 @@ class ContributorTable {
     for (std::size_t i = 0; i < echoes.size(); ++i)
       if (bin[i] != outside) order_[next[bin[i]]++] = static_cast<std::uint32_t>(i);
     for (std::size_t n = 0; n + 1 < begin_.size(); ++n)
-      std::sort(order_.begin() + begin_[n], order_.begin() + begin_[n + 1],
-                [&](std::uint32_t a, std::uint32_t b) { return echoes.u[a] < echoes.u[b] || (echoes.u[a] == echoes.u[b] && a < b); });
+      std::sort(order_.begin() + begin_[n], order_.begin() + begin_[n + 1], [&](std::uint32_t a, std::uint32_t b) {
+        return echoes.u[a] < echoes.u[b] || (echoes.u[a] == echoes.u[b] && a < b);
+      });
   }
 
   /// The strongest echo of bins bin-1 .. bin+1 within half_width of direction u, or `none`.

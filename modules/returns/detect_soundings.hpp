@@ -10,11 +10,11 @@ namespace insonify {
 
 struct DetectionOptions {
   double noise_floor_db = -std::numeric_limits<double>::infinity();  ///< [dB re 1 uPa] of a beam
-  double threshold_db = 11.4;      ///< above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)
-  double side_lobe_margin_db = 25; ///< a sample so far below the strongest beam at its range is leakage, not a target
-  bool all_bins = false;           ///< every bin above `above_db`, not only range maxima above the floor
+  double threshold_db = 11.4;       ///< above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)
+  double side_lobe_margin_db = 25;  ///< a sample so far below the strongest beam at its range is leakage, not a target
+  bool all_bins = false;            ///< every bin above `above_db`, not only range maxima above the floor
   double above_db = -std::numeric_limits<double>::infinity();  ///< [dB re 1 uPa], with all_bins
-  int threads = 0;                 ///< 0: all cores
+  int threads = 0;                                             ///< 0: all cores
 };
 
 /// Turns a ping into points (E19). Per beam, each local maximum along range that exceeds the noise floor by the

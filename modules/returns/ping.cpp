@@ -31,7 +31,8 @@ double mean_level_db(const Ping& ping, double min_range, double max_range) {
   for (Eigen::Index n = 0; n < ping.pressure.cols(); ++n) {
     const double r = ping.gate.centre(static_cast<std::size_t>(n));
     if (r < min_range || r > max_range) continue;
-    for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b) power += std::norm(std::complex<double>(ping.pressure(b, n)));
+    for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b)
+      power += std::norm(std::complex<double>(ping.pressure(b, n)));
     samples += static_cast<std::size_t>(ping.pressure.rows());
   }
   return pressure_level_db(std::sqrt(power / static_cast<double>(std::max<std::size_t>(samples, 1))));

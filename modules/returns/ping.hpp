@@ -11,11 +11,11 @@ namespace insonify {
 /// What one transmission gave.
 struct Ping {
   std::int64_t number = 0;
-  double time = 0;                            ///< of transmission [s]
+  double time = 0;  ///< of transmission [s]
   Pose world_from_head = Pose::Identity();
   BeamFan fan;
   RangeGate gate;
-  ComplexGridF pressure;                      ///< beams x bins [Pa], analytic baseband, linear
+  ComplexGridF pressure;  ///< beams x bins [Pa], analytic baseband, linear
 };
 
 /// Level of every sample, beams x bins [dB re 1 uPa rms] (E6); samples below `floor_db` (zeros too) give floor_db.

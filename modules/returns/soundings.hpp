@@ -16,7 +16,7 @@ struct Soundings {
   std::vector<std::uint32_t> ping;
   std::vector<std::uint32_t> beam;
   std::vector<std::uint32_t> bin;
-  std::vector<std::uint32_t> material;    ///< of the strongest contributor
+  std::vector<std::uint32_t> material;  ///< of the strongest contributor
 
   std::size_t size() const { return position.size(); }
 };

@@ -1,26 +1,23 @@
 #include "sampling/beam_fan.hpp"
 
-#include "core/error.hpp"
-#include "core/units.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
+#include "core/units.hpp"
+
 namespace insonify {
 
-BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, double elevation_width,
-                 double elevation) {
+BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, double elevation_width, double elevation) {
   if (beams == 0) fail(ErrorKind::argument, "make_fan: beams = 0, must be at least 1");
   if (!(field_of_view > 0 && field_of_view <= 2 * pi))
-    fail(ErrorKind::argument, "make_fan: field_of_view = ", field_of_view,
-         " rad, must be > 0 and at most 2 pi");
+    fail(ErrorKind::argument, "make_fan: field_of_view = ", field_of_view, " rad, must be > 0 and at most 2 pi");
   BeamFan fan;
   fan.beam_width = beam_width;
   fan.elevation_width = elevation_width;
   fan.elevation.assign(beams, elevation);
   for (std::size_t b = 0; b < beams; ++b)
-    fan.azimuth.push_back(field_of_view *
-                          ((static_cast<double>(b) + 0.5) / static_cast<double>(beams) - 0.5));
+    fan.azimuth.push_back(field_of_view * ((static_cast<double>(b) + 0.5) / static_cast<double>(beams) - 0.5));
   require_valid(fan, "make_fan");
   return fan;
 }
@@ -28,15 +25,13 @@ BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, dou
 void require_valid(const BeamFan& fan, const char* who) {
   if (fan.beams() == 0) fail(ErrorKind::argument, who, ": fan has no beams, must have at least 1");
   if (fan.elevation.size() != fan.beams())
-    fail(ErrorKind::argument, who, ": fan.elevation has ", fan.elevation.size(),
-         " entries, must have one per beam (", fan.beams(), ")");
+    fail(ErrorKind::argument, who, ": fan.elevation has ", fan.elevation.size(), " entries, must have one per beam (",
+         fan.beams(), ")");
   for (std::size_t b = 0; b < fan.beams(); ++b) {
     if (!(std::abs(fan.azimuth[b]) <= pi))
-      fail(ErrorKind::argument, who, ": fan.azimuth[", b, "] = ", fan.azimuth[b],
-           " rad, must be within +-pi");
+      fail(ErrorKind::argument, who, ": fan.azimuth[", b, "] = ", fan.azimuth[b], " rad, must be within +-pi");
     if (!(std::abs(fan.elevation[b]) <= pi / 2))
-      fail(ErrorKind::argument, who, ": fan.elevation[", b, "] = ", fan.elevation[b],
-           " rad, must be within +-pi/2");
+      fail(ErrorKind::argument, who, ": fan.elevation[", b, "] = ", fan.elevation[b], " rad, must be within +-pi/2");
   }
   if (!(fan.beam_width > 0 && std::isfinite(fan.beam_width)))
     fail(ErrorKind::argument, who, ": fan.beam_width = ", fan.beam_width, " rad, must be > 0");

@@ -1,14 +1,14 @@
 #include "sampling/cast_rays.hpp"
 
-#include "core/parallel.hpp"
-#include "core/random.hpp"
-#include "core/units.hpp"
-#include "sampling/hit_rule.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "core/parallel.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "sampling/hit_rule.hpp"
 
 namespace insonify {
 namespace {
@@ -63,8 +63,7 @@ class RayCaster {
       const double jitter = random_uniform(options_.seed, RandomStage::ray_jitter, {beam, k, 0})[0];
       const double across = shift + static_cast<double>(k) * golden;
       Ray ray;
-      ray.direction.azimuth =
-          std::remainder(share.min_azimuth + width * (across - std::floor(across)), 2 * pi);
+      ray.direction.azimuth = std::remainder(share.min_azimuth + width * (across - std::floor(across)), 2 * pi);
       ray.direction.elevation = share.min_elevation + step * (static_cast<double>(k) + jitter);
       ray.solid_angle = std::cos(ray.direction.elevation) * width * step;
       ray.number = static_cast<std::uint32_t>(beam * n + k);
@@ -154,9 +153,8 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector, dou
   return shares;
 }
 
-CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels,
-                     const DirectionIndex& index, const std::vector<BeamShare>& shares, const RangeGate& gate,
-                     const SamplingOptions& options) {
+CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+                     const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options) {
   constexpr std::size_t block = 4;
   std::vector<Catch> caught((shares.size() + block - 1) / block);
   parallel_blocks(shares.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {

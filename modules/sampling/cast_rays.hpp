@@ -28,8 +28,7 @@ struct CastResult {
 
 /// rays_per_beam rays in each beam's share: one per equal interval of elevation, jittered in it, spread in
 /// azimuth by the golden ratio. Each ray's cell is its part of the share: r^2 cos(elevation) dtheta dphi.
-CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels,
-                     const DirectionIndex& index, const std::vector<BeamShare>& shares, const RangeGate& gate,
-                     const SamplingOptions& options);
+CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+                     const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options);
 
 }  // namespace insonify

@@ -1,12 +1,12 @@
 #include "sampling/direction_index.hpp"
 
-#include "core/parallel.hpp"
-#include "sampling/hit_rule.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "core/parallel.hpp"
+#include "sampling/hit_rule.hpp"
 
 namespace insonify {
 namespace {

@@ -21,8 +21,7 @@ class DirectionIndex {
   /// Calls test(surfel) for the surfels that may stand in `direction`, among them all that do and are nearer
   /// than `range`, until one call returns true; returns whether one did. `scratch` is overwritten.
   template <typename Test>
-  bool any(const Eigen::Vector3f& direction, float range, std::vector<Neighbour>& scratch,
-           Test&& test) const {
+  bool any(const Eigen::Vector3f& direction, float range, std::vector<Neighbour>& scratch, Test&& test) const {
     for (const std::uint32_t s : wide_)
       if (test(s)) return true;
     for (const Octave& octave : octaves_) {

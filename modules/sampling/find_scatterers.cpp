@@ -1,16 +1,16 @@
 #include "sampling/find_scatterers.hpp"
 
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
 #include "core/error.hpp"
 #include "sampling/cast_rays.hpp"
 #include "sampling/direction_index.hpp"
 #include "sampling/gate_surfels.hpp"
 #include "sampling/split_surfels.hpp"
 #include "sampling/surfel_visibility.hpp"
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <utility>
 
 namespace insonify {
 namespace {
@@ -22,8 +22,7 @@ void require_valid(const SamplingOptions& options, const BeamFan& fan) {
     if (!good) fail(ErrorKind::argument, me, ": options.", name, " = ", value, ", must be ", rule);
   };
   const auto at_least_0 = [](double value) { return value >= 0 && std::isfinite(value); };
-  require(at_least_0(options.scatterers_per_cell), "scatterers_per_cell", options.scatterers_per_cell,
-          ">= 0");
+  require(at_least_0(options.scatterers_per_cell), "scatterers_per_cell", options.scatterers_per_cell, ">= 0");
   require(at_least_0(options.range_resolution), "range_resolution", options.range_resolution, ">= 0 m");
   require(at_least_0(options.elevation_half_extent), "elevation_half_extent", options.elevation_half_extent,
           ">= 0 rad");
@@ -43,8 +42,8 @@ void require_valid(const Pose& pose) {
 }
 
 // Surfels that give an echo, in scene order; counts the others.
-std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfels,
-                                          const DirectionIndex* index, int threads, SamplingReport& report) {
+std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfels, const DirectionIndex* index,
+                                          int threads, SamplingReport& report) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   if (index) hidden = find_hidden(surfels, *index, threads);
   std::vector<std::uint32_t> visible;
@@ -67,8 +66,7 @@ Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, c
   require_valid(options, fan);
 
   // What lies in sector and gate, in head axes.
-  const double half_extent =
-      options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
+  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
   const Sector sector = insonified_sector(fan, half_extent);
   const HeadFrame head(scene, world_from_head);
   const auto surfels = gate_surfels(scene, head, sector, gate, options.footprint, options.threads);
@@ -88,13 +86,11 @@ Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, c
     report.visible = cast.met_surfels;
   } else {
     std::unique_ptr<DirectionIndex> index;
-    if (options.occlusion)
-      index = std::make_unique<DirectionIndex>(surfels, options.projection, options.threads);
+    if (options.occlusion) index = std::make_unique<DirectionIndex>(surfels, options.projection, options.threads);
     const auto visible = select_visible(surfels, index.get(), options.threads, report);
     const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
-    result.scatterers =
-        split_surfels(scene, head, visible,
-                      {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads});
+    result.scatterers = split_surfels(
+        scene, head, visible, {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads});
   }
   report.scatterers = result.scatterers.size();
   return result;

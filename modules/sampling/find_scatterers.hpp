@@ -22,25 +22,25 @@ enum class Projection {
 struct SamplingOptions {
   SamplingKind kind = SamplingKind::surfels;
   Projection projection = Projection::kdtree;
-  double scatterers_per_cell = 10;     ///< surfels are split until a resolution cell holds so many; 0: never split
-  double range_resolution = 0;         ///< [m], length of a cell; 0: two bins of the gate
-  int rays_per_beam = 64;              ///< for rays: jittered in azimuth and elevation inside the beam's own share
-  double elevation_half_extent = 0;    ///< [rad] kept above and below the fan's elevation; 0: the elevation width
-  double footprint = 1.2;              ///< radius of a surfel's disc in units of its spacing sqrt(area)
-  bool occlusion = true;               ///< false: everything is seen (for tests and closed forms)
-  std::uint64_t seed = 1;              ///< of the jitter of parts and rays
-  int threads = 0;                     ///< 0: all cores
+  double scatterers_per_cell = 10;   ///< surfels are split until a resolution cell holds so many; 0: never split
+  double range_resolution = 0;       ///< [m], length of a cell; 0: two bins of the gate
+  int rays_per_beam = 64;            ///< for rays: jittered in azimuth and elevation inside the beam's own share
+  double elevation_half_extent = 0;  ///< [rad] kept above and below the fan's elevation; 0: the elevation width
+  double footprint = 1.2;            ///< radius of a surfel's disc in units of its spacing sqrt(area)
+  bool occlusion = true;             ///< false: everything is seen (for tests and closed forms)
+  std::uint64_t seed = 1;            ///< of the jitter of parts and rays
+  int threads = 0;                   ///< 0: all cores
 };
 
 /// What sampling met on its way, for the log and the manifest.
 struct SamplingReport {
-  std::size_t surfels = 0;        ///< in the scene
-  std::size_t in_gate = 0;        ///< inside sector and range gate
-  std::size_t back_facing = 0;    ///< of these, turned away
-  std::size_t hidden = 0;         ///< of these, behind others; 0 for rays
-  std::size_t visible = 0;        ///< the rest; for rays: surfels that a ray met
-  std::size_t rays_missed = 0;    ///< rays that met nothing
-  std::size_t scatterers = 0;     ///< after splitting
+  std::size_t surfels = 0;      ///< in the scene
+  std::size_t in_gate = 0;      ///< inside sector and range gate
+  std::size_t back_facing = 0;  ///< of these, turned away
+  std::size_t hidden = 0;       ///< of these, behind others; 0 for rays
+  std::size_t visible = 0;      ///< the rest; for rays: surfels that a ray met
+  std::size_t rays_missed = 0;  ///< rays that met nothing
+  std::size_t scatterers = 0;   ///< after splitting
 };
 
 struct Sampling {

@@ -1,9 +1,9 @@
 #include "sampling/gate_surfels.hpp"
 
+#include <cmath>
+
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-
-#include <cmath>
 
 namespace insonify {
 namespace {
@@ -29,8 +29,7 @@ class SectorTest {
     if (p.z() * top_.y() - across * top_.x() > margin) return false;
     if (across * bottom_.x() - p.z() * bottom_.y() > margin) return false;
     if (whole_circle_) return true;
-    const bool from_port = port_.dot(p.head<2>()) >= -margin,
-               from_starboard = starboard_.dot(p.head<2>()) >= -margin;
+    const bool from_port = port_.dot(p.head<2>()) >= -margin, from_starboard = starboard_.dot(p.head<2>()) >= -margin;
     return convex_ ? from_port && from_starboard : from_port || from_starboard;
   }
 

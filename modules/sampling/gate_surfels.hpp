@@ -29,11 +29,8 @@ struct GatedSurfel {
 class HeadFrame {
  public:
   HeadFrame(const SceneCloud& scene, const Pose& world_from_head)
-      : to_head_(world_from_head.linear().transpose()),
-        shift_(scene.origin - world_from_head.translation()) {}
-  Eigen::Vector3d position(const Eigen::Vector3f& point) const {
-    return to_head_ * (shift_ + point.cast<double>());
-  }
+      : to_head_(world_from_head.linear().transpose()), shift_(scene.origin - world_from_head.translation()) {}
+  Eigen::Vector3d position(const Eigen::Vector3f& point) const { return to_head_ * (shift_ + point.cast<double>()); }
   Eigen::Vector3d direction(const Eigen::Vector3d& scene_vector) const { return to_head_ * scene_vector; }
 
  private:

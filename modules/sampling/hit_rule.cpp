@@ -11,8 +11,7 @@ namespace {
 constexpr float link = 8;  // a cluster goes on while the next range is within so many spacings
 
 // Number of leading candidates, sorted by range, that belong to one surface.
-std::size_t front_cluster(const std::vector<GatedSurfel>& surfels,
-                          const std::vector<std::uint32_t>& candidates) {
+std::size_t front_cluster(const std::vector<GatedSurfel>& surfels, const std::vector<std::uint32_t>& candidates) {
   for (std::size_t k = 1; k < candidates.size(); ++k) {
     const GatedSurfel &a = surfels[candidates[k - 1]], &b = surfels[candidates[k]];
     if (b.range - a.range > link * std::max(a.spacing, b.spacing)) return k;
@@ -50,8 +49,8 @@ float squared_footprint_chord(const GatedSurfel& s) {
   return sine < 1 ? 2 - 2 * std::sqrt(1 - sine * sine) : 4.0f;
 }
 
-RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction,
-                    bool front_only, std::vector<std::uint32_t>& candidates, RayHit& hit) {
+RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
+                    std::vector<std::uint32_t>& candidates, RayHit& hit) {
   std::erase_if(candidates, [&](std::uint32_t c) {
     return !(squared_chord(direction, surfels[c]) <= squared_footprint_chord(surfels[c]));
   });
@@ -68,8 +67,7 @@ RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector
   hit = {cluster[facing], range_on_tangent_plane(surfels[cluster[facing]], direction)};
   const std::size_t nearest = nearest_member(surfels, cluster, direction, false);
   if (nearest == facing) return RayFate::echoes;
-  return hit.range <= range_on_tangent_plane(surfels[cluster[nearest]], direction) ? RayFate::echoes
-                                                                                   : RayFate::blocked;
+  return hit.range <= range_on_tangent_plane(surfels[cluster[nearest]], direction) ? RayFate::echoes : RayFate::blocked;
 }
 
 }  // namespace insonify

@@ -44,7 +44,7 @@ enum class RayFate { missed, blocked, echoes };  ///< blocked: by a surface that
 /// The hit rule (E16): of the surfels whose cone holds the ray, the front cluster counts; the ray meets the
 /// tangent plane of its angularly nearest member. `candidates` must hold all those surfels and may hold more;
 /// it is used as scratch space. front_only = false takes all surfels for the cluster.
-RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction,
-                    bool front_only, std::vector<std::uint32_t>& candidates, RayHit& hit);
+RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
+                    std::vector<std::uint32_t>& candidates, RayHit& hit);
 
 }  // namespace insonify

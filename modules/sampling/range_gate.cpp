@@ -1,8 +1,8 @@
 #include "sampling/range_gate.hpp"
 
-#include "core/error.hpp"
-
 #include <cmath>
+
+#include "core/error.hpp"
 
 namespace insonify {
 

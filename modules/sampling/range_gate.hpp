@@ -9,7 +9,7 @@ struct RangeGate {
   double max_range = 0;  ///< [m]
   double bin_size = 0;   ///< [m]
 
-  std::size_t bins() const;                                                       ///< enough to cover max_range
+  std::size_t bins() const;  ///< enough to cover max_range
   double centre(std::size_t bin) const { return min_range + (static_cast<double>(bin) + 0.5) * bin_size; }
 };
 

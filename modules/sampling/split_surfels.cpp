@@ -1,14 +1,14 @@
 #include "sampling/split_surfels.hpp"
 
-#include "core/parallel.hpp"
-#include "core/random.hpp"
-#include "core/units.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include <Eigen/Geometry>
+
+#include "core/parallel.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
@@ -24,8 +24,8 @@ double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double
   return std::min(1.0, oriented ? std::max(0.0, cosine) : std::abs(cosine));
 }
 
-void write_scatterer(Scatterers& out, std::size_t at, const Vector3d& position, const Vector3d& normal,
-                     double area, bool oriented) {
+void write_scatterer(Scatterers& out, std::size_t at, const Vector3d& position, const Vector3d& normal, double area,
+                     bool oriented) {
   const double range = std::max(position.norm(), 1e-6);
   const double cosine = cos_incidence_of(normal, position, range, oriented);
   out.range[at] = range;
@@ -108,13 +108,12 @@ std::uint32_t parts_of(double area, double range, double cos_incidence, const Sp
   const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
   const double dr = options.range_resolution, level = 2 * std::sqrt(2 * range * dr);
   const double length = sine * level > dr ? dr / sine : level;
-  const double parts =
-      std::ceil(options.scatterers_per_cell * area / (length * range * options.beam_width));  // (E17)
+  const double parts = std::ceil(options.scatterers_per_cell * area / (length * range * options.beam_width));  // (E17)
   return parts < most_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : most_parts;
 }
 
-Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head,
-                         const std::vector<std::uint32_t>& surfels, const SplitOptions& options) {
+Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
+                         const SplitOptions& options) {
   const Splitter splitter{scene, head, options};
   constexpr std::size_t block = 512;
   std::vector<std::size_t> first(surfels.size() + 1, 0);
@@ -126,8 +125,7 @@ Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head,
   Scatterers scatterers;
   resize(scatterers, first.back());
   parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s)
-      splitter.write(scatterers, first[s], first[s + 1] - first[s], surfels[s]);
+    for (std::size_t s = begin; s < end; ++s) splitter.write(scatterers, first[s], first[s + 1] - first[s], surfels[s]);
   });
   return scatterers;
 }

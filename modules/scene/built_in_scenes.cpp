@@ -1,10 +1,10 @@
 #include "scene/built_in_scenes.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "scene/harbour_scene.hpp"
 #include "scene/sample_patches.hpp"
-
-#include <algorithm>
 
 namespace insonify {
 namespace {
@@ -28,8 +28,8 @@ Patch facing_wall(double x, double low, double high, double bottom, double top) 
 std::vector<Patch> wall_patches(const BuiltInSceneOptions& options) {
   const double w = options.size.x() / 2, h = options.size.y() / 2, hole = 0.5;
   if (w <= 2 * hole || h <= 2 * hole) return {facing_wall(5, -w, w, -h, h)};
-  return {facing_wall(5, -w, w, -h, -hole), facing_wall(5, -w, w, hole, h),
-          facing_wall(5, -w, -hole, -hole, hole), facing_wall(5, hole, w, -hole, hole)};
+  return {facing_wall(5, -w, w, -h, -hole), facing_wall(5, -w, w, hole, h), facing_wall(5, -w, -hole, -hole, hole),
+          facing_wall(5, hole, w, -hole, hole)};
 }
 
 std::vector<Patch> pole_patches() {

@@ -11,11 +11,11 @@
 namespace insonify {
 
 struct BuiltInSceneOptions {
-  std::size_t points = 200000;                          ///< surfels wanted; the result is within 2 % of it
-  Eigen::Vector2d size = Eigen::Vector2d(40.0, 40.0);   ///< [m]; plane: extent in x and y; wall: width and height
-  double radius = 0.5;                                  ///< [m]; sphere
-  double lambert_mu = 0.001995262314968880;             ///< [1/sr] of plane, wall, sphere (harbour: per part)
-  std::uint64_t seed = 1;                               ///< of the stratified jitter and the ripples
+  std::size_t points = 200000;                         ///< surfels wanted; the result is within 2 % of it
+  Eigen::Vector2d size = Eigen::Vector2d(40.0, 40.0);  ///< [m]; plane: extent in x and y; wall: width and height
+  double radius = 0.5;                                 ///< [m]; sphere
+  double lambert_mu = 0.001995262314968880;            ///< [1/sr] of plane, wall, sphere (harbour: per part)
+  std::uint64_t seed = 1;                              ///< of the stratified jitter and the ripples
 };
 
 /// Names that make_built_in_scene knows: harbour, plane, sphere, wall, poles.

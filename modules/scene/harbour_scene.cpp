@@ -1,12 +1,12 @@
 #include "scene/harbour_scene.hpp"
 
-#include "core/random.hpp"
-#include "core/units.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
@@ -28,8 +28,7 @@ struct SeaBed {
   double height(double x, double y) const {
     const double waves =
         0.12 * std::sin(0.31 * x + 0.17 * y + phase[0]) + 0.10 * std::sin(0.13 * x - 0.27 * y + phase[1]);
-    const double meander =
-        1.5 * std::sin(0.23 * y + phase[2]) + 0.8 * std::sin(0.41 * y + 0.2 * x + phase[3]);
+    const double meander = 1.5 * std::sin(0.23 * y + phase[2]) + 0.8 * std::sin(0.41 * y + 0.2 * x + phase[3]);
     const double ripples = 0.035 * std::sin(2 * pi * (0.9 * x + 0.25 * y + 0.4 * meander) / 1.1);
     const double scour = -0.35 * std::exp(-(Vector2d(x, y) - Vector2d(23, 4)).squaredNorm() / 30);
     return -8 + waves + ripples + scour;
@@ -37,9 +36,7 @@ struct SeaBed {
 
   Patch patch() const {
     const SeaBed bed = *this;
-    return {
-        [bed](double u, double v) { return Vector3d(60 * u, 60 * v - 30, bed.height(60 * u, 60 * v - 30)); },
-        sand};
+    return {[bed](double u, double v) { return Vector3d(60 * u, 60 * v - 30, bed.height(60 * u, 60 * v - 30)); }, sand};
   }
 };
 
@@ -74,8 +71,8 @@ void add_pilings(std::vector<Patch>& patches) {
 // stern.
 Vector3d from_ship(const Vector3d& p) {
   const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(radians(128), Vector3d::UnitZ()) *
-       Eigen::AngleAxisd(radians(-4), Vector3d::UnitY()) * Eigen::AngleAxisd(radians(-14), Vector3d::UnitX()))
+      (Eigen::AngleAxisd(radians(128), Vector3d::UnitZ()) * Eigen::AngleAxisd(radians(-4), Vector3d::UnitY()) *
+       Eigen::AngleAxisd(radians(-14), Vector3d::UnitX()))
           .toRotationMatrix();
   return Vector3d(23, 4, -7.15) + turn * p;
 }
@@ -112,8 +109,7 @@ void add_wreck(std::vector<Patch>& patches) {
                   return Vector3d(ship_x(u), half_beam(u) * across, 0.12 * (1 - across * across));
                 }});
   add_ship_part(patches, inside, {[](double u, double v) {  // transom
-                  return Vector3d(ship_x(1), u * half_beam(1) * std::cos(pi * v),
-                                  -u * draught(1) * std::sin(pi * v));
+                  return Vector3d(ship_x(1), u * half_beam(1) * std::cos(pi * v), -u * draught(1) * std::sin(pi * v));
                 }});
   add_box(patches, {-4.6, -1.0, 0.05}, {2.4, 2.0, 1.35});                                // wheelhouse
   add_box(patches, {0.2, -0.9, 0.05}, {1.8, 1.8, 0.5});                                  // hatch

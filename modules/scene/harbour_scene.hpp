@@ -1,9 +1,9 @@
 #pragma once
-#include "scene/material.hpp"
-#include "scene/sample_patches.hpp"
-
 #include <cstdint>
 #include <vector>
+
+#include "scene/material.hpp"
+#include "scene/sample_patches.hpp"
 
 namespace insonify {
 

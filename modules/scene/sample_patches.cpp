@@ -1,13 +1,13 @@
 #include "scene/sample_patches.hpp"
 
-#include "core/parallel.hpp"
-#include "core/random.hpp"
-#include "core/units.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
+
+#include "core/parallel.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
@@ -90,8 +90,7 @@ struct PatchSampler {
 };
 
 // How many surfels each row gets. Rounding the running sum `wanted`, not each row, keeps the total exact.
-std::vector<Row> plan_rows(const std::vector<double>& row_area, double per_area, std::size_t first,
-                           double& wanted) {
+std::vector<Row> plan_rows(const std::vector<double>& row_area, double per_area, std::size_t first, double& wanted) {
   std::vector<Row> plan;
   for (const double area : row_area) {
     wanted += area * per_area;
@@ -126,8 +125,7 @@ double sum_of(const std::vector<double>& values) {
 
 }  // namespace
 
-void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points,
-                    std::uint64_t seed) {
+void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed) {
   std::vector<std::vector<double>> length;
   std::vector<double> area;
   double weighted_area = 0;
@@ -147,8 +145,7 @@ void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::s
     const std::vector<Row> plan = plan_rows(row_areas(patch, edges, 16), per_area, first, wanted);
     resize(scene, plan.back().first + plan.back().count);
     const PatchSampler sampler{patch, part, seed};
-    parallel_for(plan.size(), 0,
-                 [&](std::size_t r) { sampler.sample(scene, plan[r], r, edges[r], edges[r + 1]); });
+    parallel_for(plan.size(), 0, [&](std::size_t r) { sampler.sample(scene, plan[r], r, edges[r], edges[r + 1]); });
     scale_areas(scene, first, area[part]);
   }
 }
@@ -180,8 +177,8 @@ Patch ellipsoid(const Vector3d& centre, const Vector3d& radii) {
 Patch torus(const Vector3d& centre, double radius, double tube_radius) {
   return {[=](double u, double v) -> Vector3d {
     const double across = radius + tube_radius * std::cos(2 * pi * v);
-    return centre + Vector3d(across * std::cos(2 * pi * u), across * std::sin(2 * pi * u),
-                             tube_radius * std::sin(2 * pi * v));
+    return centre +
+           Vector3d(across * std::cos(2 * pi * u), across * std::sin(2 * pi * u), tube_radius * std::sin(2 * pi * v));
   }};
 }
 

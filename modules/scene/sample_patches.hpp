@@ -1,12 +1,12 @@
 #pragma once
-#include "scene/scene_cloud.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "scene/scene_cloud.hpp"
 
 namespace insonify {
 
@@ -33,7 +33,6 @@ Patch torus(const Eigen::Vector3d& centre, double radius, double tube_radius);
 /// Appends about `points` surfels, spread over the patches by area times density: rows of constant u, in each
 /// row one jittered surfel per equal interval of v. Areas are those of the surface, and add up to it patch by
 /// patch.
-void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points,
-                    std::uint64_t seed);
+void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed);
 
 }  // namespace insonify

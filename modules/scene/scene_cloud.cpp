@@ -1,16 +1,16 @@
 #include "scene/scene_cloud.hpp"
 
-#include "core/error.hpp"
-
 #include <cmath>
+
+#include "core/error.hpp"
 
 namespace insonify {
 namespace {
 
 void require_length(std::size_t length, std::size_t points, const char* name, const char* who) {
   if (length != points)
-    fail(ErrorKind::argument, who, ": scene.", name, " has ", length, " entries, must have one per point (",
-         points, ")");
+    fail(ErrorKind::argument, who, ": scene.", name, " has ", length, " entries, must have one per point (", points,
+         ")");
 }
 
 void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* who) {
@@ -34,11 +34,11 @@ void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* wh
 
 }  // namespace
 
-void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal,
-                double area, std::uint16_t material) {
+void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal, double area,
+                std::uint16_t material) {
   if (material >= scene.materials.size())
-    fail(ErrorKind::argument, "add_surfel: material = ", material,
-         ", must be below the number of materials, ", scene.materials.size());
+    fail(ErrorKind::argument, "add_surfel: material = ", material, ", must be below the number of materials, ",
+         scene.materials.size());
   scene.point.push_back((world_position - scene.origin).cast<float>());
   scene.normal.push_back(normal.cast<float>());
   scene.area.push_back(static_cast<float>(area));
@@ -66,8 +66,7 @@ SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& kee
   part.normals_oriented = scene.normals_oriented;
   for (const std::uint32_t i : keep)
     if (i >= scene.size())
-      fail(ErrorKind::argument, "subset: keep holds ", i, ", must be below the number of surfels, ",
-           scene.size());
+      fail(ErrorKind::argument, "subset: keep holds ", i, ", must be below the number of surfels, ", scene.size());
   const auto gather = [&keep](const auto& from, auto& to) {
     to.reserve(keep.size());
     for (const std::uint32_t i : keep) to.push_back(from[i]);

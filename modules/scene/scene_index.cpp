@@ -1,11 +1,11 @@
 #include "scene/scene_index.hpp"
 
-#include "core/error.hpp"
-
 #include <algorithm>
 #include <limits>
 
 #include <flann/flann.hpp>
+
+#include "core/error.hpp"
 
 namespace insonify {
 namespace {
@@ -15,13 +15,11 @@ using Index = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
 // Writes hits straight into the caller's vector, so that a query allocates nothing of its own.
 class WithinRadius final : public flann::ResultSet<float> {
  public:
-  WithinRadius(float squared_radius, std::vector<Neighbour>& hits)
-      : squared_radius_(squared_radius), hits_(hits) {}
+  WithinRadius(float squared_radius, std::vector<Neighbour>& hits) : squared_radius_(squared_radius), hits_(hits) {}
   bool full() const override { return true; }
   float worstDist() const override { return squared_radius_; }
   void addPoint(float squared_distance, std::size_t index) override {
-    if (squared_distance < squared_radius_)
-      hits_.push_back({static_cast<std::uint32_t>(index), squared_distance});
+    if (squared_distance < squared_radius_) hits_.push_back({static_cast<std::uint32_t>(index), squared_distance});
   }
 
  private:
@@ -39,8 +37,7 @@ class Nearest final : public flann::ResultSet<float> {
     if (squared_distance >= worst_) return;
     const Neighbour hit{static_cast<std::uint32_t>(index), squared_distance};
     const auto before = [](const Neighbour& a, const Neighbour& b) {
-      return a.squared_distance < b.squared_distance ||
-             (a.squared_distance == b.squared_distance && a.index < b.index);
+      return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
     };
     hits_.insert(std::upper_bound(hits_.begin(), hits_.end(), hit, before), hit);
     if (hits_.size() > k_) hits_.pop_back();
@@ -76,8 +73,7 @@ SceneIndex::SceneIndex(std::span<const Eigen::Vector3f> points) {
   if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     fail(ErrorKind::argument, "SceneIndex: ", points.size(), " points, must be below 2^31; divide the scene");
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!points[i].allFinite())
-      fail(ErrorKind::content, "SceneIndex: point ", i, " is not finite; drop such points");
+    if (!points[i].allFinite()) fail(ErrorKind::content, "SceneIndex: point ", i, " is not finite; drop such points");
   tree_ = std::make_unique<Tree>(points);
 }
 
@@ -87,16 +83,14 @@ SceneIndex& SceneIndex::operator=(SceneIndex&&) noexcept = default;
 
 std::size_t SceneIndex::size() const { return tree_->size; }
 
-void SceneIndex::find_nearest(const Eigen::Vector3f& query, std::size_t k,
-                              std::vector<Neighbour>& result) const {
+void SceneIndex::find_nearest(const Eigen::Vector3f& query, std::size_t k, std::vector<Neighbour>& result) const {
   result.clear();
   if (k == 0 || !tree_->index) return;
   Nearest nearest(std::min(k, tree_->size), result);
   tree_->index->findNeighbors(nearest, query.data(), exact_search());
 }
 
-void SceneIndex::find_within(const Eigen::Vector3f& query, float radius,
-                             std::vector<Neighbour>& result) const {
+void SceneIndex::find_within(const Eigen::Vector3f& query, float radius, std::vector<Neighbour>& result) const {
   result.clear();
   if (!(radius > 0) || !tree_->index) return;
   WithinRadius within(radius * radius, result);

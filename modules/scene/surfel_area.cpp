@@ -1,10 +1,5 @@
 #include "scene/surfel_area.hpp"
 
-#include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "core/units.hpp"
-#include "scene/scene_index.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,14 +8,19 @@
 
 #include <Eigen/Geometry>
 
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "scene/scene_index.hpp"
+
 namespace insonify {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 
 constexpr double border_gap = radians(120);  // wider gaps between neighbours are borders
-constexpr double isolation = 4;  // farther from the nearest point, in spacings of that point: an outlier
-constexpr double largest_spacing = 16;  // of a cell, in median spacings of the cloud
+constexpr double isolation = 4;              // farther from the nearest point, in spacings of that point: an outlier
+constexpr double largest_spacing = 16;       // of a cell, in median spacings of the cloud
 
 // A convex polygon with the point itself at (0, 0).
 using Polygon = std::vector<Vector2d>;
@@ -50,8 +50,7 @@ struct Gap {
   double begin = 0, width = 0;
   double middle() const { return begin + width / 2; }
   bool holds(double angle) const {
-    return std::remainder(angle - middle(), 2 * pi) * 2 < width &&
-           std::remainder(middle() - angle, 2 * pi) * 2 < width;
+    return std::remainder(angle - middle(), 2 * pi) * 2 < width && std::remainder(middle() - angle, 2 * pi) * 2 < width;
   }
 };
 
@@ -174,8 +173,7 @@ class AreaEstimator {
     double farthest = 0;
     for (const Vector2d& f : work.flat) farthest = std::max(farthest, f.norm());
     work.cell = {{-farthest, -farthest}, {farthest, -farthest}, {farthest, farthest}, {-farthest, farthest}};
-    for (const Vector2d& neighbour : work.flat)
-      clip_by_bisector(work.cell, neighbour, work.scratch);  // (E15)
+    for (const Vector2d& neighbour : work.flat) clip_by_bisector(work.cell, neighbour, work.scratch);  // (E15)
     return work.cell.size() < 3 ? 0 : area_of(work.cell);
   }
 
@@ -201,8 +199,7 @@ std::vector<float> estimate_surfel_areas(std::span<const Vector3f> points, std::
     fail(ErrorKind::argument, "estimate_surfel_areas: ", normals.size(), " normals for ", points.size(),
          " points, must be one each");
   if (options.neighbours < 6)
-    fail(ErrorKind::argument, "estimate_surfel_areas: neighbours = ", options.neighbours,
-         ", must be at least 6");
+    fail(ErrorKind::argument, "estimate_surfel_areas: neighbours = ", options.neighbours, ", must be at least 6");
   std::vector<float> result(points.size(), 0.0f);
   if (points.size() < 4) return result;
 

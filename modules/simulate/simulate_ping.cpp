@@ -63,13 +63,13 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   result.medium = medium_of(water, head.pulse.centre_frequency, options.absorption_order);
 
   // What the head sees: visible surface patches inside fan and range gate.
-  Sampling sampling = find_scatterers(scene, world_from_head, head.fan, head.gate,
-                                      sampling_options(head, result.medium, options));
+  Sampling sampling =
+      find_scatterers(scene, world_from_head, head.fan, head.gate, sampling_options(head, result.medium, options));
   result.seconds.sampling = watch.lap();
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase.
-  const Echoes echoes = hear_scatterers(sampling.scatterers, scene.materials, head.pulse, result.medium,
-                                        hearing_options(head, options));
+  const Echoes echoes =
+      hear_scatterers(sampling.scatterers, scene.materials, head.pulse, result.medium, hearing_options(head, options));
   result.seconds.acoustics = watch.lap();
 
   // What the array makes of it: a complex time series per beam.

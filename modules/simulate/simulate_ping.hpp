@@ -20,9 +20,9 @@ struct SimulationOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   SynthesisMethod method = SynthesisMethod::stamped;
   double tolerance = 1e-4;
-  int absorption_order = 0;        ///< 0: absorption of the centre frequency for the whole pulse
-  DetectionOptions detection{};    ///< noise floor -inf: thermal noise in the band, less the array's directivity
-  int threads = 0;                 ///< 0: all cores; the result does not depend on it
+  int absorption_order = 0;      ///< 0: absorption of the centre frequency for the whole pulse
+  DetectionOptions detection{};  ///< noise floor -inf: thermal noise in the band, less the array's directivity
+  int threads = 0;               ///< 0: all cores; the result does not depend on it
 };
 
 /// Wall time of each stage [s].

@@ -13,15 +13,14 @@ void write_scalar(const Place& place, hid_t where, const char* name, hid_t file_
                   const void* value) {
   const std::string what = std::string("attribute '") + name + "' cannot be written";
   const Handle space(place.checked(H5Screate(H5S_SCALAR), what), H5Sclose);
-  const Handle attribute(
-      place.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose);
+  const Handle attribute(place.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what),
+                         H5Aclose);
   place.checked(H5Awrite(attribute, memory_type, value), what);
 }
 
 Handle open_attribute(const Place& place, hid_t where, const char* name) {
   if (H5Aexists(where, name) <= 0) fail(place.kind, place.path, ": attribute '", name, "' is missing");
-  Handle attribute(place.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"),
-                   H5Aclose);
+  Handle attribute(place.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"), H5Aclose);
   const Handle space(place.checked(H5Aget_space(attribute), name), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != 1)
     fail(place.kind, place.path, ": attribute '", name, "' must hold one value");
@@ -32,8 +31,7 @@ template <typename T>
 T read_scalar(const Place& place, hid_t where, const char* name, hid_t memory_type) {
   const Handle attribute = open_attribute(place, where, name);
   T value{};
-  place.checked(H5Aread(attribute, memory_type, &value),
-                std::string("attribute '") + name + "' is not a number");
+  place.checked(H5Aread(attribute, memory_type, &value), std::string("attribute '") + name + "' is not a number");
   return value;
 }
 
@@ -81,8 +79,7 @@ Handle select_row(const Place& place, hid_t dataset, const Extent& extent, hsize
   Handle space(place.checked(H5Dget_space(dataset), "selection"), H5Sclose);
   Extent start(extent.size(), 0), count = extent;
   start[0] = first, count[0] = 1;
-  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-                "selection");
+  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "selection");
   return space;
 }
 
@@ -120,8 +117,7 @@ std::uint64_t read_unsigned(const Place& place, hid_t where, const char* name) {
 std::string read_text(const Place& place, hid_t where, const char* name) {
   const Handle attribute = open_attribute(place, where, name);
   const Handle stored(place.checked(H5Aget_type(attribute), name), H5Tclose);
-  if (H5Tget_class(stored) != H5T_STRING)
-    fail(place.kind, place.path, ": attribute '", name, "' must be text");
+  if (H5Tget_class(stored) != H5T_STRING) fail(place.kind, place.path, ": attribute '", name, "' must be text");
   if (H5Tis_variable_str(stored) <= 0) {
     std::string text(H5Tget_size(stored), '\0');
     place.checked(H5Aread(attribute, stored, text.data()), name);

@@ -32,8 +32,7 @@ int label_of(const std::string& path, const TomlValue& entry, std::size_t place)
 }
 
 SourcedMaterial read_material(const std::string& path, const TomlValue& entry, std::size_t place) {
-  if (entry.kind != TomlValue::Kind::table)
-    fail_in_file(path, entry.line, "material must be a table: [[material]]");
+  if (entry.kind != TomlValue::Kind::table) fail_in_file(path, entry.line, "material must be a table: [[material]]");
   require_known_keys(path, entry, {"name", "label", "lambert_mu_db", "status", "source"});
   SourcedMaterial result;
   result.material.name = toml_text(path, entry, "name");

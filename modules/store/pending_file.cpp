@@ -14,11 +14,7 @@ namespace fs = std::filesystem;
 std::string sibling_name(const std::string& path, const char* suffix) {
   const fs::path target(path);
   std::string name = ".";
-  name.append(target.filename().string())
-      .append(".")
-      .append(suffix)
-      .append("-")
-      .append(std::to_string(::getpid()));
+  name.append(target.filename().string()).append(".").append(suffix).append("-").append(std::to_string(::getpid()));
   return (target.parent_path() / name).string();
 }
 

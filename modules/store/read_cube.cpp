@@ -19,8 +19,7 @@ Handle open_file(const Place& place) {
   const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
   if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
   if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");
-  return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"),
-          H5Fclose};
+  return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
 }
 
 void require_schema(const Place& place, hid_t file) {
@@ -39,8 +38,7 @@ Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
 
 // The whole of a dataset that must have this extent.
 template <typename T>
-std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name, const Extent& expected,
-                        hid_t type) {
+std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name, const Extent& expected, hid_t type) {
   const Handle dataset = open_dataset(place, file, name);
   const Extent extent = extent_of(place, dataset, name.path, expected.size());
   std::size_t values = 1;
@@ -71,8 +69,8 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
     fail(place.kind, place.path, ": ", error.what());
   }
   if (ping.gate.bins() != extent[2])
-    fail(place.kind, place.path, ": /pressure has ", extent[2],
-         " bins, min_range, max_range and bin_size make ", ping.gate.bins());
+    fail(place.kind, place.path, ": /pressure has ", extent[2], " bins, min_range, max_range and bin_size make ",
+         ping.gate.bins());
   read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
   return ping;
 }
@@ -80,8 +78,7 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
 void read_pressure(const Place& place, hid_t dataset, const Extent& extent, std::vector<Ping>& pings) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   const Extent one_ping = {1, extent[1], extent[2]};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path),
-                      H5Sclose);
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
     pings[p].pressure.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
     const Handle row = select_row(place, dataset, extent, p);
@@ -92,8 +89,7 @@ void read_pressure(const Place& place, hid_t dataset, const Extent& extent, std:
 
 void require_complex(const Place& place, hid_t dataset) {
   const Handle type(place.checked(H5Dget_type(dataset), pressure_name.path), H5Tclose);
-  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 ||
-      H5Tget_member_index(type, "i") < 0)
+  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 || H5Tget_member_index(type, "i") < 0)
     fail(place.kind, place.path, ": /pressure must be compound {r, i}");
 }
 
@@ -111,8 +107,7 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
     pings[p].number = number[p];
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
-        pings[p].world_from_head.matrix()(row, column) =
-            pose[16 * p + static_cast<std::size_t>(4 * row + column)];
+        pings[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
   }
   read_pressure(place, dataset, extent, pings);
   return pings;

@@ -39,15 +39,13 @@ void require_free(const std::string& target, bool force) {
   if (!fs::exists(fs::symlink_status(target, ignored))) return;
   if (!force) fail(ErrorKind::file, target, ": exists already; give --force to replace it, or another name");
   if (!may_be_replaced(target))
-    fail(ErrorKind::file, target,
-         ": is not a folder of an earlier run (no manifest.json in it), so --force does not ",
+    fail(ErrorKind::file, target, ": is not a folder of an earlier run (no manifest.json in it), so --force does not ",
          "replace it; remove it yourself, or give another name");
 }
 
 }  // namespace
 
-RunDirectory::RunDirectory(const std::string& path, bool force)
-    : target_(without_trailing_slash(path)), force_(force) {
+RunDirectory::RunDirectory(const std::string& path, bool force) : target_(without_trailing_slash(path)), force_(force) {
   if (target_.empty() || target_ == "." || target_ == "/" || fs::path(target_).filename() == "..")
     fail(ErrorKind::file, "\"", path, "\": is not the name of a folder that can be made");
   require_free(target_, force);
@@ -57,8 +55,7 @@ RunDirectory::RunDirectory(const std::string& path, bool force)
     fail(ErrorKind::file, target_, ": folder ", parent.string(), " does not exist; create it first");
   temporary_ = sibling_name(target_, "tmp");
   fs::remove_all(temporary_, error);
-  if (!fs::create_directory(temporary_, error))
-    fail(ErrorKind::file, target_, ": cannot be made: ", error.message());
+  if (!fs::create_directory(temporary_, error)) fail(ErrorKind::file, target_, ": cannot be made: ", error.message());
 }
 
 RunDirectory::~RunDirectory() {
@@ -66,9 +63,7 @@ RunDirectory::~RunDirectory() {
   if (!committed_) fs::remove_all(temporary_, ignored);
 }
 
-std::string RunDirectory::file(const std::string& name) const {
-  return (fs::path(temporary_) / name).string();
-}
+std::string RunDirectory::file(const std::string& name) const { return (fs::path(temporary_) / name).string(); }
 
 void RunDirectory::commit() {
   if (committed_) fail(ErrorKind::runtime, "RunDirectory::commit: ", target_, " is committed already");

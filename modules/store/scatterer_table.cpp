@@ -55,8 +55,7 @@ std::vector<std::size_t> read_header(const std::vector<std::string_view>& fields
     while (column < known.size() && field != known[column]) ++column;
     if (column == known.size()) {
       const std::string nearest = nearest_word(std::string(field), known);
-      place.fail_here("unknown column '", field, "'",
-                      nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+      place.fail_here("unknown column '", field, "'", nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
     }
     for (const std::size_t other : columns)
       if (other == column) place.fail_here("column '", field, "' stands there twice");
@@ -77,8 +76,7 @@ double read_number(std::string_view text, const char* column, const Place& place
   return value;
 }
 
-Row read_row(const std::vector<std::string_view>& fields, const std::vector<std::size_t>& columns,
-             const Place& place) {
+Row read_row(const std::vector<std::string_view>& fields, const std::vector<std::size_t>& columns, const Place& place) {
   if (fields.size() != columns.size())
     place.fail_here("has ", fields.size(), " fields, the header has ", columns.size());
   Row row{};
@@ -87,11 +85,9 @@ Row read_row(const std::vector<std::string_view>& fields, const std::vector<std:
   if (!(row[range_m] > 0)) place.fail_here("range_m = ", row[range_m], " m, must be > 0");
   if (!(row[sigma_m2] >= 0)) place.fail_here("sigma_m2 = ", row[sigma_m2], " m^2, must be >= 0");
   if (!(std::abs(row[azimuth_rad]) <= pi))
-    place.fail_here("azimuth_rad = ", row[azimuth_rad],
-                    " rad, must be within -pi and pi (is it in degrees?)");
+    place.fail_here("azimuth_rad = ", row[azimuth_rad], " rad, must be within -pi and pi (is it in degrees?)");
   if (!(std::abs(row[elevation_rad]) <= pi / 2))
-    place.fail_here("elevation_rad = ", row[elevation_rad],
-                    " rad, must be within -pi/2 and pi/2 (is it in degrees?)");
+    place.fail_here("elevation_rad = ", row[elevation_rad], " rad, must be within -pi/2 and pi/2 (is it in degrees?)");
   return row;
 }
 

@@ -54,8 +54,7 @@ void read_key(SonarFile& file, const std::string& key, const TomlValue& entry) {
   } catch (const Error& error) {
     fail_in_file(file.path, value->line, error.what());
   }
-  number.value =
-      std::holds_alternative<std::string>(parsed) ? std::get<std::string>(parsed) : toml_text_of(parsed);
+  number.value = std::holds_alternative<std::string>(parsed) ? std::get<std::string>(parsed) : toml_text_of(parsed);
   file.numbers.push_back(number);
   if (key == "range_resolution_m")
     file.numbers.push_back(
@@ -77,13 +76,11 @@ void require_complete(const std::string& path, const TomlValue& table) {
   if (!table.find("bandwidth_hz") && !resolution)
     fail_in_file(path, table.line, "missing key 'bandwidth_hz' (or 'range_resolution_m')");
   if (table.find("bandwidth_hz") && resolution)
-    fail_in_file(path, resolution->line,
-                 "bandwidth_hz and range_resolution_m say the same thing; leave one out");
+    fail_in_file(path, resolution->line, "bandwidth_hz and range_resolution_m say the same thing; leave one out");
   const bool given_beams = table.find("azimuths_deg") != nullptr;
   for (const std::string key : {"beams", "field_of_view_deg"}) {
     const TomlValue* value = table.find(key);
-    if (given_beams && value)
-      fail_in_file(path, value->line, key, " follows from azimuths_deg; leave it out");
+    if (given_beams && value) fail_in_file(path, value->line, key, " follows from azimuths_deg; leave it out");
     if (!given_beams && !value) fail_in_file(path, table.line, "missing key '", key, "' (or 'azimuths_deg')");
   }
 }
@@ -133,8 +130,7 @@ SonarFile load_sonar_file(const std::string& path) {
   known.insert(known.end(), {"schema", "name", "description"});
   require_known_keys(path, table, known);
   if (const double schema = toml_number(path, table, "schema"); schema != sonar_schema)
-    fail_in_file(path, table.find("schema")->line, "schema = ", schema, ", this insonify reads schema ",
-                 sonar_schema);
+    fail_in_file(path, table.find("schema")->line, "schema = ", schema, ", this insonify reads schema ", sonar_schema);
   require_complete(path, table);
 
   SonarFile file;
@@ -153,8 +149,7 @@ SonarFile load_sonar_file(const std::string& path) {
 }
 
 std::string sonar_as_toml(const SonarSpec& spec) {
-  std::string text =
-      "schema = " + std::to_string(sonar_schema) + "\nname = " + toml_text_of(spec.name) + "\n";
+  std::string text = "schema = " + std::to_string(sonar_schema) + "\nname = " + toml_text_of(spec.name) + "\n";
   for (const std::string& key : sonar_key_names())
     if (const auto value = sonar_key_text(spec, key)) text += key + " = " + *value + "\n";
   return text;
@@ -173,8 +168,7 @@ void set_sonar_value(SonarSpec& spec, const std::string& key, const std::string&
          nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
   }
   SonarValue parsed = value_from_text(value);
-  if (key == "azimuths_deg" && std::holds_alternative<double>(parsed))
-    parsed = std::vector{std::get<double>(parsed)};
+  if (key == "azimuths_deg" && std::holds_alternative<double>(parsed)) parsed = std::vector{std::get<double>(parsed)};
   try {
     set_sonar_key(spec, key, parsed);
   } catch (const Error& error) {

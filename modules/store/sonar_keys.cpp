@@ -51,14 +51,12 @@ double degrees_of(double angle) {
   const double straight = degrees(angle);
   for (int digits = 6; digits <= 17; ++digits) {
     std::array<char, 40> text{};
-    const auto end =
-        std::to_chars(text.begin(), text.end(), straight, std::chars_format::general, digits).ptr;
+    const auto end = std::to_chars(text.begin(), text.end(), straight, std::chars_format::general, digits).ptr;
     double rounded = 0;
     std::from_chars(text.begin(), end, rounded);
     if (radians(rounded) == angle) return rounded;
   }
-  for (const double towards :
-       {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}) {
+  for (const double towards : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}) {
     double near = straight;
     for (int step = 0; step < 4; ++step)
       if (near = std::nextafter(near, towards); radians(near) == angle) return near;
@@ -117,9 +115,8 @@ std::string text_of_number(double value) {
   const double size = std::abs(value);
   const bool everyday = value == 0 || (size >= 1e-5 && size < 1e15);
   std::array<char, 40> text{};
-  const auto end = everyday
-                       ? std::to_chars(text.begin(), text.end(), value, std::chars_format::fixed).ptr
-                       : std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific).ptr;
+  const auto end = everyday ? std::to_chars(text.begin(), text.end(), value, std::chars_format::fixed).ptr
+                            : std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific).ptr;
   std::string digits(text.begin(), end);
   if (digits.find_first_not_of("-0123456789") == std::string::npos) digits += ".0";
   return digits;
@@ -128,11 +125,9 @@ std::string text_of_number(double value) {
 }  // namespace
 
 std::vector<std::string> sonar_key_names() {
-  return {"centre_frequency_hz", "bandwidth_hz",  "range_resolution_m",
-          "source_level_db",     "beams",         "field_of_view_deg",
-          "beam_width_deg",      "azimuths_deg",  "side_lobe_db",
-          "elevation_width_deg", "elevation_deg", "elevation_shape",
-          "min_range_m",         "max_range_m",   "bin_size_m"};
+  return {"centre_frequency_hz", "bandwidth_hz",    "range_resolution_m", "source_level_db", "beams",
+          "field_of_view_deg",   "beam_width_deg",  "azimuths_deg",       "side_lobe_db",    "elevation_width_deg",
+          "elevation_deg",       "elevation_shape", "min_range_m",        "max_range_m",     "bin_size_m"};
 }
 
 std::vector<std::string> required_sonar_keys() {
@@ -193,8 +188,7 @@ std::string toml_text_of(const SonarValue& value) {
     return quoted + "\"";
   }
   std::string list = "[";
-  for (const double x : std::get<std::vector<double>>(value))
-    list += (list.size() > 1 ? ", " : "") + text_of_number(x);
+  for (const double x : std::get<std::vector<double>>(value)) list += (list.size() > 1 ? ", " : "") + text_of_number(x);
   return list + "]";
 }
 

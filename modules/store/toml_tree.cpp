@@ -65,8 +65,7 @@ TomlValue load_toml(const std::string& path) {
   }
 }
 
-void require_known_keys(const std::string& path, const TomlValue& table,
-                        const std::vector<std::string>& known) {
+void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known) {
   for (std::size_t i = 0; i < table.keys.size(); ++i) {
     const std::string& key = table.keys[i];
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;

@@ -32,8 +32,7 @@ template <typename... Parts>
 }
 
 /// Throws Error(content) at the first key of `table` that is not in `known`, with the nearest known one.
-void require_known_keys(const std::string& path, const TomlValue& table,
-                        const std::vector<std::string>& known);
+void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known);
 
 /// The text or number of a key; Error(content) with line if it is missing or of another type.
 std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key);

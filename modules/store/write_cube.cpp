@@ -26,12 +26,12 @@ void require_writable(const Cube& cube, const std::string& path) {
     const auto rows = static_cast<std::size_t>(ping.pressure.rows());
     const auto columns = static_cast<std::size_t>(ping.pressure.cols());
     if (rows != first.fan.beams() || columns != first.gate.bins())
-      fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has ", rows, " beams x ",
-           columns, " bins, must have ", first.fan.beams(), " x ", first.gate.bins());
+      fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has ", rows, " beams x ", columns,
+           " bins, must have ", first.fan.beams(), " x ", first.gate.bins());
     if (ping.fan.azimuth != first.fan.azimuth || ping.fan.elevation != first.fan.elevation ||
         ping.gate.min_range != first.gate.min_range || ping.gate.bin_size != first.gate.bin_size)
-      fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number,
-           " has another fan or gate than ping ", first.number, "; write it to a cube of its own");
+      fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has another fan or gate than ping ",
+           first.number, "; write it to a cube of its own");
   }
 }
 
@@ -43,11 +43,10 @@ Handle create_file(const Place& place, const std::string& name) {
 }
 
 // A dataset without time stamps; with `chunk` if not empty.
-Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type,
-                      const Extent& extent, const Extent& chunk = {}) {
+Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+                      const Extent& chunk = {}) {
   const Handle space(
-      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path),
-      H5Sclose);
+      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
   const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
   place.checked(H5Pset_obj_track_times(properties, false), name.path);
   if (!chunk.empty()) {
@@ -55,9 +54,9 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
     place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
                   name.path);  // no chance bytes in edge chunks
   }
-  Handle dataset(place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
-                               name.path),
-                 H5Dclose);
+  Handle dataset(
+      place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
+      H5Dclose);
   if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
   return dataset;
 }
@@ -65,8 +64,7 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
 void write_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
                    const std::vector<double>& values) {
   const Handle dataset = create_dataset(place, file, name, H5T_IEEE_F64LE, extent);
-  place.checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-                name.path);
+  place.checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name.path);
 }
 
 // Chunks of one ping, all bins and up to 64 beams, fewer if that were more than 64 MiB.
@@ -82,12 +80,10 @@ void write_pressure(const Place& place, hid_t file, const std::vector<Ping>& pin
   const Handle dataset =
       create_dataset(place, file, pressure_name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
   const Extent one_ping = {1, beams, bins};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path),
-                      H5Sclose);
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
     const Handle row = select_row(place, dataset, extent, p);
-    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, pings[p].pressure.data()),
-                  pressure_name.path);
+    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, pings[p].pressure.data()), pressure_name.path);
   }
 }
 
@@ -111,8 +107,7 @@ void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings)
   write_numbers(place, file, pose_name, {pings.size(), 4, 4}, pose);
   write_numbers(place, file, time_name, {pings.size()}, time);
   const Handle dataset = create_dataset(place, file, ping_name, H5T_STD_I64LE, {pings.size()});
-  place.checked(H5Dwrite(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, number.data()),
-                ping_name.path);
+  place.checked(H5Dwrite(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, number.data()), ping_name.path);
 }
 
 void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {

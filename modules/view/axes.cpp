@@ -74,8 +74,7 @@ void add_axis_upwards(Axes& axes, const AxisTicks& ticks, const std::string& tit
   }
   const double title_right = labels_right - widest_label(ticks, font_size) - to_title * font_size;
   const FittedText fitted = fit_text(title, font_size, frame.height());
-  axes.texts.push_back(
-      {fitted.text, {title_right - line / 2, (frame.bottom + frame.top) / 2}, fitted.font_size, true});
+  axes.texts.push_back({fitted.text, {title_right - line / 2, (frame.bottom + frame.top) / 2}, fitted.font_size, true});
 }
 
 }  // namespace insonify

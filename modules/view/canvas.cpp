@@ -125,8 +125,8 @@ Canvas::Canvas(const PictureOptions& options, const char* who)
 // Cells are drawn as one texture, a texel per cell, on a mesh with one column of quads per beam. Along a quad
 // the range is linear and the beam is constant, so every cell has its true place and edges, and a picture of
 // millions of cells costs a few hundred polygons and one upload.
-void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_edges,
-                       const ColourScale& scale, const Projection& projection, double largest_step) {
+void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
+                       const Projection& projection, double largest_step) {
   const vtkNew<vtkImageData> colours = coloured(patch.level_db, scale);
   const double far = patch.columns / colours->GetDimensions()[0];
   std::vector<Point2> corners, texture_points;
@@ -137,8 +137,7 @@ void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_e
     const int steps = std::max(1, static_cast<int>(std::ceil(width / largest_step)));
     for (int step = 0; step < steps; ++step) {
       const double from = beam_edges[beam] + width * step / steps;
-      const double to =
-          step + 1 == steps ? beam_edges[beam + 1] : beam_edges[beam] + width * (step + 1) / steps;
+      const double to = step + 1 == steps ? beam_edges[beam + 1] : beam_edges[beam] + width * (step + 1) / steps;
       corners.insert(corners.end(), {projection(from, patch.min_range), projection(from, patch.max_range),
                                      projection(to, patch.max_range), projection(to, patch.min_range)});
       texture_points.insert(texture_points.end(), {{0, v}, {far, v}, {far, v}, {0, v}});
@@ -218,11 +217,9 @@ void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, doub
   const Point2 low_left{box.left, box.bottom}, low_right{box.right, box.bottom};
   const Point2 high_left{box.left, box.top}, high_right{box.right, box.top};
   if (bar.lying)
-    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {1, 0.5}, {1, 0.5}, {0, 0.5}},
-                       colours);
+    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {1, 0.5}, {1, 0.5}, {0, 0.5}}, colours);
   else
-    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {0, 0.5}, {1, 0.5}, {1, 0.5}},
-                       colours);
+    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {0, 0.5}, {1, 0.5}, {1, 0.5}}, colours);
 
   std::vector<Path> lines = bar.ticks;
   lines.push_back({low_left, low_right, high_right, high_left, low_left});

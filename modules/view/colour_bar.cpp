@@ -57,13 +57,12 @@ ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, 
     placed.texts.push_back({label, {labels_right - text_size(label, font_size).width / 2, y}, font_size});
   }
   if (!title.text.empty())
-    placed.texts.push_back(
-        {title.text, {right - title_height / 2, (bottom + top) / 2}, title.font_size, true});
+    placed.texts.push_back({title.text, {right - title_height / 2, (bottom + top) / 2}, title.font_size, true});
   return placed;
 }
 
-ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left,
-                           double right, double bottom) {
+ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left, double right,
+                           double bottom) {
   const double tick = 0.4 * font_size, line = text_size("0", font_size).height;
   const LevelTicks ticks = level_ticks(scale, right - left, 4.5 * font_size);
   const FittedText title = fit_text(unit, font_size, right - left);

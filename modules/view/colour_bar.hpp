@@ -23,7 +23,7 @@ ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, 
                              double bottom, double top);
 
 /// Lying bar from `left` to `right` whose outer box stands on `bottom`.
-ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left,
-                           double right, double bottom);
+ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left, double right,
+                           double bottom);
 
 }  // namespace insonify

@@ -37,12 +37,7 @@ std::vector<NamedMap> colour_maps() {
           {"amber", {{0, 0x000000}, {0.35, 0x6B3205}, {0.7, 0xF39A1B}, {0.9, 0xFFDF7A}, {1, 0xFFF8DC}}},
           {"grey", {{0, 0x000000}, {1, 0xFFFFFF}}},
           {"jet",
-           {{0, 0x000080},
-            {0.125, 0x0000FF},
-            {0.375, 0x00FFFF},
-            {0.625, 0xFFFF00},
-            {0.875, 0xFF0000},
-            {1, 0x800000}}}};
+           {{0, 0x000080}, {0.125, 0x0000FF}, {0.375, 0x00FFFF}, {0.625, 0xFFFF00}, {0.875, 0xFF0000}, {1, 0x800000}}}};
 }
 
 Rgb mix(const ColourStop& low, const ColourStop& high, double at) {
@@ -78,8 +73,7 @@ double automatic_max_db(const Grid<float>& level_db, double window_db) {
   for (const float level : level_db.reshaped())
     if (std::isfinite(level) && level > lowest) above.push_back(level);
   if (above.empty()) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
-  const auto quantile =
-      above.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(above.size() - 1));
+  const auto quantile = above.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(above.size() - 1));
   std::nth_element(above.begin(), quantile, above.end());
   return 5.0 * std::ceil(static_cast<double>(*quantile) / 5.0);
 }

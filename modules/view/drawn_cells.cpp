@@ -29,8 +29,8 @@ float mean_power_db(const Block& level_db) {
 }
 
 // Combines rows x columns blocks by mean power; the last row and column of blocks may be smaller.
-Grid<float> combine(const Grid<float>& level_db, Eigen::Index first_column, Eigen::Index end_column,
-                    Eigen::Index rows, Eigen::Index columns) {
+Grid<float> combine(const Grid<float>& level_db, Eigen::Index first_column, Eigen::Index end_column, Eigen::Index rows,
+                    Eigen::Index columns) {
   const Eigen::Index width = end_column - first_column;
   Grid<float> combined((level_db.rows() + rows - 1) / rows, (width + columns - 1) / columns);
   parallel_for(static_cast<std::size_t>(combined.rows()), 0, [&](std::size_t g) {
@@ -54,8 +54,8 @@ Eigen::Index bins_per_group(double bin_pixels) {
   return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(0.5 / bin_pixels - 1e-9)));
 }
 
-CellPatch make_patch(const BeamCells& cells, const RangeGate& gate, Eigen::Index first_bin,
-                     Eigen::Index end_bin, std::size_t beams, Eigen::Index bins) {
+CellPatch make_patch(const BeamCells& cells, const RangeGate& gate, Eigen::Index first_bin, Eigen::Index end_bin,
+                     std::size_t beams, Eigen::Index bins) {
   CellPatch patch;
   patch.level_db = combine(cells.level_db, first_bin, end_bin, static_cast<Eigen::Index>(beams), bins);
   patch.beams_per_row = beams;
@@ -93,8 +93,7 @@ OrderedBearings order_bearings(const BeamFan& fan) {
     }
   }
   for (std::size_t i = 0; i < first; ++i) bearing[order[i]] += 2 * pi;
-  std::rotate(ordered.beam.begin(), ordered.beam.begin() + static_cast<std::ptrdiff_t>(first),
-              ordered.beam.end());
+  std::rotate(ordered.beam.begin(), ordered.beam.begin() + static_cast<std::ptrdiff_t>(first), ordered.beam.end());
 
   // A fan that lies wholly beyond the stern is turned back.
   const double middle = (bearing[ordered.beam.front()] + bearing[ordered.beam.back()]) / 2;
@@ -171,9 +170,9 @@ std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate
     const double too_narrow = 0.5 / (width_per_metre * static_cast<double>(group));  // at this range [m]
     const double first = std::ceil((too_narrow - gate.min_range) / gate.bin_size);
     const Eigen::Index begin =
-        group >= beams ? 0
-                       : std::clamp<Eigen::Index>(
-                             static_cast<Eigen::Index>(std::max(0.0, std::min(first, 1e9))), 0, end);
+        group >= beams
+            ? 0
+            : std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::max(0.0, std::min(first, 1e9))), 0, end);
     if (begin < end) patches.push_back(make_patch(cells, gate, begin, end, group, bins));
     end = begin;
   }
@@ -183,8 +182,8 @@ std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate
 CellPatch rect_patch(const BeamCells& cells, const RangeGate& gate, double width, double height) {
   const double beam_pixels = width / static_cast<double>(cells.level_db.rows());
   const double bin_pixels = height / static_cast<double>(cells.level_db.cols());
-  return make_patch(cells, gate, 0, cells.level_db.cols(),
-                    static_cast<std::size_t>(bins_per_group(beam_pixels)), bins_per_group(bin_pixels));
+  return make_patch(cells, gate, 0, cells.level_db.cols(), static_cast<std::size_t>(bins_per_group(beam_pixels)),
+                    bins_per_group(bin_pixels));
 }
 
 }  // namespace insonify

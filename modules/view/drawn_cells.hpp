@@ -33,7 +33,7 @@ struct CellPatch {
   std::size_t beams_per_row = 1;  ///< row g holds beams [g, g+1) * beams_per_row
   double min_range = 0;           ///< [m]
   double max_range = 0;           ///< [m], of the last bin
-  double columns = 0;  ///< max_range in columns; below level_db.cols() if the last group is not full
+  double columns = 0;             ///< max_range in columns; below level_db.cols() if the last group is not full
 };
 
 /// Cells of a fan drawn at pixels_per_metre: bins are combined when there are more than two per pixel of

@@ -66,8 +66,7 @@ void EglWindow::open(const char* who) {
                                 EGL_NONE};
   EGLConfig config = nullptr;
   EGLint configs = 0;
-  if (!eglChooseConfig(display_, config_wish, &config, 1, &configs) || configs < 1)
-    no_gl(who, "eglChooseConfig");
+  if (!eglChooseConfig(display_, config_wish, &config, 1, &configs) || configs < 1) no_gl(who, "eglChooseConfig");
   const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2, EGL_NONE};
   context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version);
   if (context_ == EGL_NO_CONTEXT) no_gl(who, "eglCreateContext for OpenGL 3.2");

@@ -10,8 +10,7 @@
 namespace insonify {
 namespace {
 
-constexpr double narrow_gap =
-    radians(40);  // behind a fan: too narrow for labels, so they go onto the picture
+constexpr double narrow_gap = radians(40);  // behind a fan: too narrow for labels, so they go onto the picture
 
 // Everything that hangs on the fan, with the apex at (0, 0), for one trial scale.
 struct Trial {
@@ -20,9 +19,7 @@ struct Trial {
   Box extent;
 };
 
-Point2 polar(double bearing, double radius) {
-  return {radius * std::sin(bearing), radius * std::cos(bearing)};
-}
+Point2 polar(double bearing, double radius) { return {radius * std::sin(bearing), radius * std::cos(bearing)}; }
 
 void include(Box& box, const Box& more) {
   box = {std::min(box.left, more.left), std::max(box.right, more.right), std::min(box.bottom, more.bottom),
@@ -56,14 +53,11 @@ bool inside_sector(const FanOutline& fan, double scale, Point2 p) {
 bool touches_sector(const FanOutline& fan, double scale, const Box& box) {
   for (int i = 0; i <= 4; ++i)
     for (int j = 0; j <= 4; ++j)
-      if (inside_sector(fan, scale, {box.left + i * box.width() / 4, box.bottom + j * box.height() / 4}))
-        return true;
+      if (inside_sector(fan, scale, {box.left + i * box.width() / 4, box.bottom + j * box.height() / 4})) return true;
   return false;
 }
 
-Box grown(const Box& box, double by) {
-  return {box.left - by, box.right + by, box.bottom - by, box.top + by};
-}
+Box grown(const Box& box, double by) { return {box.left - by, box.right + by, box.bottom - by, box.top + by}; }
 
 // Moves a label from `foot` along a unit vector until its box just clears `pad` from the line across that
 // vector.
@@ -101,9 +95,9 @@ void add_ranges(Trial& trial, const FanOutline& fan, double scale, int font) {
   const bool on_picture = 2 * pi - (fan.high - fan.low) < narrow_gap;
   const double spoke = trial.spokes.size() > 1 ? trial.spokes[1] - trial.spokes[0] : radians(30);
   const double bearing =
-      on_picture ? trial.spokes.front() +
-                       std::floor(0.55 * static_cast<double>(trial.spokes.size())) * spoke + spoke / 2
-                 : fan.high;
+      on_picture
+          ? trial.spokes.front() + std::floor(0.55 * static_cast<double>(trial.spokes.size())) * spoke + spoke / 2
+          : fan.high;
   const TextSize widest = text_size(number_text(fan.max_range, 0.1) + " m", font);
   const double needed = std::min((widest.width + 0.5 * font) / std::max(std::abs(std::sin(bearing)), 1e-6),
                                  1.5 * widest.height / std::max(std::abs(std::cos(bearing)), 1e-6));
@@ -114,8 +108,8 @@ void add_ranges(Trial& trial, const FanOutline& fan, double scale, int font) {
     PlacedText label{number_text(ring, step) + " m", polar(bearing, ring * scale), font};
     label.on_plate = on_picture;
     if (!on_picture) push_out(label, label.centre, polar(bearing + pi / 2, 1), 0.5 * font);
-    const bool hidden = on_picture ? ring * scale + widest.height > fan.max_range * scale
-                                   : touches_sector(fan, scale, label.box());
+    const bool hidden =
+        on_picture ? ring * scale + widest.height > fan.max_range * scale : touches_sector(fan, scale, label.box());
     if (!hidden) add_if_free(trial.texts, label, 0.15 * font);
   }
 }
@@ -182,8 +176,7 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   const double right = options.width - margin;
   const double inset = 0.08 * (top - margin);
   const ColourBar upright = upright_colour_bar(scale, unit, font, right, margin + inset, top - inset);
-  const ColourBar lying =
-      lying_colour_bar(scale, unit, font, 0.2 * options.width, 0.8 * options.width, margin);
+  const ColourBar lying = lying_colour_bar(scale, unit, font, 0.2 * options.width, 0.8 * options.width, margin);
   const Box beside{margin, upright.outer().left - 1.2 * font, margin, top};
   const Box above{margin, right, lying.outer().top + 1.2 * font, top};
   const double scale_beside = fitting_scale(fan, beside, font), scale_above = fitting_scale(fan, above, font);
@@ -196,8 +189,7 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   Trial trial = try_scale(fan, layout.pixels_per_metre, font);
   layout.apex = {(room.left + room.right - trial.extent.left - trial.extent.right) / 2,
                  (room.bottom + room.top - trial.extent.bottom - trial.extent.top) / 2};
-  for (PlacedText& text : trial.texts)
-    text.centre = {text.centre.x + layout.apex.x, text.centre.y + layout.apex.y};
+  for (PlacedText& text : trial.texts) text.centre = {text.centre.x + layout.apex.x, text.centre.y + layout.apex.y};
   layout.rings = std::move(trial.rings);
   layout.spokes = std::move(trial.spokes);
   layout.texts = std::move(trial.texts);

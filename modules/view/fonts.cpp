@@ -69,16 +69,14 @@ TextSize text_size(const std::string& text, int font_size) {
   set_font(property, font_size);
   int box[4] = {0, 0, 0, 0};
   vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
-  if (text.empty() || !renderer || !renderer->GetBoundingBox(property, readable_text(text).c_str(), box, 72))
-    return {};
+  if (text.empty() || !renderer || !renderer->GetBoundingBox(property, readable_text(text).c_str(), box, 72)) return {};
   return {static_cast<double>(box[1] - box[0] + 1), static_cast<double>(box[3] - box[2] + 1)};
 }
 
 FittedText fit_text(const std::string& text, int font_size, double width) {
   FittedText fitted{text, font_size};
   double needed = text_size(text, font_size).width;
-  while (needed > width && 10 * fitted.font_size > 7 * font_size)
-    needed = text_size(text, --fitted.font_size).width;
+  while (needed > width && 10 * fitted.font_size > 7 * font_size) needed = text_size(text, --fitted.font_size).width;
   for (std::string head = text; needed > width && !head.empty();) {
     drop_last_letter(head);
     fitted.text = head + "...";

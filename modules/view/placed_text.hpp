@@ -28,11 +28,7 @@ struct Box {
 /// A line of text by its middle. It is measured once, when it is made.
 struct PlacedText {
   PlacedText(std::string line, Point2 middle, int size, bool reads_upwards = false)
-      : text(std::move(line)),
-        centre(middle),
-        font_size(size),
-        turned(reads_upwards),
-        extent(text_size(text, size)) {}
+      : text(std::move(line)), centre(middle), font_size(size), turned(reads_upwards), extent(text_size(text, size)) {}
 
   std::string text;
   Point2 centre;
@@ -42,8 +38,7 @@ struct PlacedText {
   TextSize extent;        ///< before it is turned
 
   Box box() const {
-    const double x = (turned ? extent.height : extent.width) / 2,
-                 y = (turned ? extent.width : extent.height) / 2;
+    const double x = (turned ? extent.height : extent.width) / 2, y = (turned ? extent.width : extent.height) / 2;
     return {centre.x - x, centre.x + x, centre.y - y, centre.y + y};
   }
 };

@@ -96,16 +96,15 @@ std::string chart_title(const LevelImage& image, std::size_t beam, const std::st
 }
 
 // The frame is what title and labels leave.
-Axes lay_out_axes(const RangeGate& gate, Eigen::Index bins, const ColourScale& limits,
-                  const std::string& unit, const PictureOptions& options, double title_bottom) {
+Axes lay_out_axes(const RangeGate& gate, Eigen::Index bins, const ColourScale& limits, const std::string& unit,
+                  const PictureOptions& options, double title_bottom) {
   const int font = font_size_for(options.width, options.height);
   const double max_range = gate.min_range + static_cast<double>(bins) * gate.bin_size;
   const double bottom = 0.8 * font + room_below(font), top = title_bottom - font;
   const double most_levels = std::min(10.0, (top - bottom) / (2.5 * font));
   const AxisTicks levels = round_ticks(limits.min_db, limits.max_db, most_levels);
   const Box frame{0.8 * font + room_left(levels, font), options.width - 2.0 * font, bottom, top};
-  const AxisTicks ranges =
-      round_ticks(gate.min_range, max_range, std::min(12.0, frame.width() / (4.5 * font)));
+  const AxisTicks ranges = round_ticks(gate.min_range, max_range, std::min(12.0, frame.width() / (4.5 * font)));
   Axes axes{frame, gate.min_range, max_range, limits.min_db, limits.max_db, {}, {}, {}};
   add_axis_across(axes, ranges, "Range [m]", font);
   add_axis_upwards(axes, levels, unit.empty() ? "Level [dB]" : "Level, " + unit, font);
@@ -114,13 +113,11 @@ Axes lay_out_axes(const RangeGate& gate, Eigen::Index bins, const ColourScale& l
 
 }  // namespace
 
-void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions& options,
-                const std::string& png_path) {
+void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions& options, const std::string& png_path) {
   constexpr const char* who = "show_ascan";
   require_drawable(image, options, who);
   if (beam >= image.fan.beams())
-    fail(ErrorKind::argument, who, ": beam = ", beam, ", must be below the number of beams, ",
-         image.fan.beams());
+    fail(ErrorKind::argument, who, ": beam = ", beam, ", must be below the number of beams, ", image.fan.beams());
   const Grid<float> level_db = image.level_db.row(static_cast<Eigen::Index>(beam));
   const ColourScale limits = level_limits(level_db, options, who);
 
@@ -138,8 +135,7 @@ void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions&
   for (const PlacedText& text : axes.texts) canvas.add_text(text);
   canvas.add_text(*title);
   const vtkNew<vtkTable> table = level_table(level_db, image.gate, limits.min_db - options.window_db);
-  add_line(canvas, axes, table, options.dark ? Colour{0.98, 0.66, 0.25} : Colour{0.08, 0.33, 0.62},
-           1.3 * thin);
+  add_line(canvas, axes, table, options.dark ? Colour{0.98, 0.66, 0.25} : Colour{0.08, 0.33, 0.62}, 1.3 * thin);
   canvas.save_png(png_path, messages);
 }
 

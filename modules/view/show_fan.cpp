@@ -47,16 +47,14 @@ void show_fan(const LevelImage& image, const PictureOptions& options, const std:
   require_drawable(image, options, who);
   const ColourScale scale = colour_scale(image.level_db, options, who);
   const BeamCells cells = order_beams(image);
-  const double max_range =
-      image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
+  const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
 
   // Find a place for everything, then draw it.
   const VtkMessages messages;
   const FanLayout layout =
       lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale, image.unit);
   Canvas canvas(options, who);
-  const double step =
-      std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
+  const double step = std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
   for (const CellPatch& patch : fan_patches(cells, image.gate, layout.pixels_per_metre))
     canvas.add_cells(
         patch, cells.edges, scale, [&](double b, double r) { return layout.at(b, r); }, step);

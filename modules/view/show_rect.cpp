@@ -53,8 +53,7 @@ void show_rect(const LevelImage& image, const PictureOptions& options, const std
             {},
             {},
             {}};
-  add_axis_across(axes, bearing_axis(cells, axes.frame.width(), font), "Bearing, positive to starboard",
-                  font);
+  add_axis_across(axes, bearing_axis(cells, axes.frame.width(), font), "Bearing, positive to starboard", font);
   add_axis_upwards(axes, ranges, "Range [m]", font);
 
   Canvas canvas(options, who);

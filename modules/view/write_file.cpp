@@ -8,15 +8,12 @@
 
 namespace insonify {
 
-void write_file_atomically(const std::string& path, const unsigned char* bytes, std::size_t count,
-                           const char* who) {
+void write_file_atomically(const std::string& path, const unsigned char* bytes, std::size_t count, const char* who) {
   const std::string part = path + ".tmp";
   std::error_code trouble;
   {
     std::ofstream file(part, std::ios::binary | std::ios::trunc);
-    if (!file)
-      fail(ErrorKind::file, who, ": cannot write ", path,
-           "; does its folder exist, and may you write there?");
+    if (!file) fail(ErrorKind::file, who, ": cannot write ", path, "; does its folder exist, and may you write there?");
     file.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(count));
     file.close();
     if (!file) {

@@ -47,7 +47,8 @@ TEST(HearScatterers, gives_the_sonar_equation_before_absorption) {
 }
 
 TEST(HearScatterers, loses_40_log_of_the_range_ratio) {
-  const double near = std::abs(echo_of(one_scatterer(5), coherent)), far = std::abs(echo_of(one_scatterer(10), coherent));
+  const double near = std::abs(echo_of(one_scatterer(5), coherent)),
+               far = std::abs(echo_of(one_scatterer(10), coherent));
   EXPECT_NEAR(db_from_amplitude(near / far), 40 * std::log10(2.0), 1e-12);
 }
 
@@ -73,7 +74,8 @@ TEST(HearScatterers, applies_the_elevation_pattern) {
   HearingOptions options = coherent;
   options.elevation_width = 0.2;
   options.elevation_centre = 0.05;
-  const double ratio = std::abs(echo_of(one_scatterer(7, 0, 0.15), options)) / std::abs(echo_of(one_scatterer(7), coherent));
+  const double ratio =
+      std::abs(echo_of(one_scatterer(7, 0, 0.15), options)) / std::abs(echo_of(one_scatterer(7), coherent));
   EXPECT_NEAR(ratio, std::sqrt(0.5), 1e-12);
 }
 

@@ -41,7 +41,8 @@ TEST(Pulse, closed_form_with_frequency_dependent_absorption_matches_quadrature) 
     std::complex<double> sum = 0;
     for (double f = -8 * wide.bandwidth; f <= 8 * wide.bandwidth; f += df) {
       const double x = f / wide.bandwidth;
-      const double spectrum = std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / wide.bandwidth;
+      const double spectrum =
+          std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / wide.bandwidth;
       const double loss = std::exp(-2 * (a.a0 + a.a1 * f + a.a2 * f * f) * r);
       sum += std::polar(spectrum * loss * df, -2 * pi * f * t);
     }

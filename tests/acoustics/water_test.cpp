@@ -48,10 +48,12 @@ TEST(Absorption, follows_francois_and_garrison) {
     double khz, db_per_km;
   };
   const Water cold{4, 35, 0, 8}, mild{10, 35, 0, 8}, warm{30, 35, 0, 8}, fresh{10, 0, 0, 8}, deep{10, 35, 1000, 8};
-  for (const Case& c : {Case{mild, 50, 15.392}, Case{mild, 100, 33.630}, Case{mild, 450, 109.663}, Case{mild, 900, 299.463},
-                        Case{mild, 1200, 495.414}, Case{mild, 3000, 2845.22}, Case{cold, 900, 357.095},
-                        Case{warm, 900, 310.969}, Case{fresh, 900, 251.748}, Case{fresh, 50, 0.777}, Case{deep, 900, 283.257}})
-    EXPECT_NEAR(absorption_db_per_m(c.water, c.khz * 1e3) * 1e3, c.db_per_km, 6e-4 + 1e-5 * c.db_per_km) << c.khz << " kHz";
+  for (const Case& c :
+       {Case{mild, 50, 15.392}, Case{mild, 100, 33.630}, Case{mild, 450, 109.663}, Case{mild, 900, 299.463},
+        Case{mild, 1200, 495.414}, Case{mild, 3000, 2845.22}, Case{cold, 900, 357.095}, Case{warm, 900, 310.969},
+        Case{fresh, 900, 251.748}, Case{fresh, 50, 0.777}, Case{deep, 900, 283.257}})
+    EXPECT_NEAR(absorption_db_per_m(c.water, c.khz * 1e3) * 1e3, c.db_per_km, 6e-4 + 1e-5 * c.db_per_km)
+        << c.khz << " kHz";
 }
 
 // The R package `sonar` prints 13.96602 dB/km at 50 kHz, 0 deg C, 35, pH 6 with theta = 273.15 + T; the paper's
@@ -61,7 +63,8 @@ TEST(Absorption, uses_theta_of_the_paper) {
 }
 
 TEST(Absorption, jumps_by_less_than_a_thousandth_where_the_branches_meet) {
-  const double below = absorption_db_per_m({20, 35, 0, 8}, 900e3), above = absorption_db_per_m({20.0001, 35, 0, 8}, 900e3);
+  const double below = absorption_db_per_m({20, 35, 0, 8}, 900e3),
+               above = absorption_db_per_m({20.0001, 35, 0, 8}, 900e3);
   EXPECT_NEAR(above / below, 1, 1e-3);
 }
 

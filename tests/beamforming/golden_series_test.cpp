@@ -98,7 +98,8 @@ TEST(GoldenSeries, five_beams_raw_and_mixed_within_1e_9_of_their_maximum) {
   for (std::size_t k = 0; k < raw.size(); ++k) {
     const auto n = static_cast<std::size_t>(raw[k][0]) - 1;
     for (std::size_t j = 0; j < 5; ++j) {
-      const Complex expected_raw(raw[k][2 + 2 * j], raw[k][3 + 2 * j]), expected_mixed(mixed[k][2 + 2 * j], mixed[k][3 + 2 * j]);
+      const Complex expected_raw(raw[k][2 + 2 * j], raw[k][3 + 2 * j]),
+          expected_mixed(mixed[k][2 + 2 * j], mixed[k][3 + 2 * j]);
       Complex mix = 0;
       for (std::size_t i = 0; i < 5; ++i)
         mix += sinc(0.884 * std::sin(0.05 * (static_cast<double>(i) - static_cast<double>(j))) / 0.1) * beams[i].at(n);

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double lambda = 1.5 / 900;
 
-LineArray uniform(std::size_t n, double pitch_in_wavelengths) { return {pitch_in_wavelengths * lambda, uniform_shading(n)}; }
+LineArray uniform(std::size_t n, double pitch_in_wavelengths) {
+  return {pitch_in_wavelengths * lambda, uniform_shading(n)};
+}
 
 /// Highest |B| in dB for u in [from, to].
 double highest_db(const LineArray& array, double from, double to) {
@@ -57,7 +59,9 @@ TEST(ArrayResponse, has_grating_lobes_beyond_half_wavelength_pitch) {
 
 // Half-power width times N d / lambda of uniform arrays: 0.91078 (4), 0.88739 (16), 0.88590 (256).
 TEST(ArrayBeamWidth, of_uniform_arrays) {
-  const auto in_u = [](std::size_t n) { return 2 * std::sin(array_beam_width(uniform(n, 0.5), lambda) / 2) * 0.5 * static_cast<double>(n); };
+  const auto in_u = [](std::size_t n) {
+    return 2 * std::sin(array_beam_width(uniform(n, 0.5), lambda) / 2) * 0.5 * static_cast<double>(n);
+  };
   EXPECT_NEAR(in_u(4), 0.91078, 2e-5);
   EXPECT_NEAR(in_u(16), 0.88739, 2e-5);
   EXPECT_NEAR(in_u(256), 0.88590, 2e-5);

@@ -42,7 +42,9 @@ Echoes random_echoes(std::size_t n, double min_range, double max_range, std::uin
 
 Medium medium(int order = 0) { return {c, absorption_about({}, 750e3, order)}; }
 
-double relative_error(const ComplexGrid& a, const ComplexGrid& b) { return std::sqrt((a - b).abs2().sum() / b.abs2().sum()); }
+double relative_error(const ComplexGrid& a, const ComplexGrid& b) {
+  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
+}
 
 using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&, const SynthesisOptions&);
 
@@ -91,7 +93,8 @@ TEST(Synthesize, stamped_keeps_its_tolerance_against_the_referee) {
       for (const int order : {0, 2}) {
         const ComplexGrid reference = synthesize_direct(echoes, head, medium(order));
         for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
-          EXPECT_LT(relative_error(synthesize_stamped(echoes, head, medium(order), {tolerance, 0}), reference), tolerance)
+          EXPECT_LT(relative_error(synthesize_stamped(echoes, head, medium(order), {tolerance, 0}), reference),
+                    tolerance)
               << beams << " beams, " << n << " echoes, order " << order;
       }
     }
@@ -102,7 +105,9 @@ TEST(Synthesize, spectrum_form_agrees_with_the_referee) {
   const SonarHead head = head_of(5, 16, 2);
   const Echoes echoes = random_echoes(40, 1.0, 2.0);
   for (const int order : {0, 1, 2})
-    EXPECT_LT(relative_error(synthesize_spectrum(echoes, head, medium(order)), synthesize_direct(echoes, head, medium(order))), 1e-11)
+    EXPECT_LT(relative_error(synthesize_spectrum(echoes, head, medium(order)),
+                             synthesize_direct(echoes, head, medium(order))),
+              1e-11)
         << "absorption order " << order;
 }
 

@@ -23,7 +23,11 @@ TEST(ParallelFor, of_nothing_does_nothing) {
 }
 
 TEST(ParallelFor, rethrows_the_first_exception) {
-  EXPECT_THROW(parallel_for(100, 2, [](std::size_t i) { if (i == 17) fail(ErrorKind::runtime, "ping ", i); }), Error);
+  EXPECT_THROW(parallel_for(100, 2,
+                            [](std::size_t i) {
+                              if (i == 17) fail(ErrorKind::runtime, "ping ", i);
+                            }),
+               Error);
 }
 
 TEST(ParallelBlocks, tile_the_range_without_overlap) {

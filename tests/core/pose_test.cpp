@@ -8,7 +8,9 @@ using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {
-void expect_near(const Vector3d& a, const Vector3d& b) { EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " | " << b.transpose(); }
+void expect_near(const Vector3d& a, const Vector3d& b) {
+  EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " | " << b.transpose();
+}
 }  // namespace
 
 TEST(Pose, yaw_turns_to_port_pitch_lowers_the_nose_roll_lowers_starboard) {

@@ -13,9 +13,7 @@ TEST(Units, decibels_and_back) {
 }
 
 // 70.97 Pa peak = 50.18 Pa rms = 154.01 dB re 1 uPa.
-TEST(Units, level_of_a_peak_pressure_is_rms_re_1_micropascal) {
-  EXPECT_NEAR(pressure_level_db(70.97), 154.011, 0.001);
-}
+TEST(Units, level_of_a_peak_pressure_is_rms_re_1_micropascal) { EXPECT_NEAR(pressure_level_db(70.97), 154.011, 0.001); }
 
 TEST(Units, reduced_cycles_stays_within_half_a_cycle) {
   EXPECT_NEAR(reduced_cycles(72000.25), 0.25, 1e-12);

@@ -32,7 +32,8 @@ struct Scene {
     scatterers.range.push_back(range), scatterers.azimuth.push_back(azimuth), scatterers.elevation.push_back(elevation);
     scatterers.material.push_back(material), scatterers.id.push_back(range > 4), scatterers.surfel.push_back(0);
     scatterers.cos_incidence.push_back(1), scatterers.projected_area.push_back(1);
-    echoes.delay.push_back(2 * range / 1500), echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)), echoes.amplitude.emplace_back(1, 0);
+    echoes.delay.push_back(2 * range / 1500), echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)),
+        echoes.amplitude.emplace_back(1, 0);
   }
   /// A pulse of three bins with its peak at `level` dB.
   void mark(int beam, int bin, double level) {
@@ -40,7 +41,9 @@ struct Scene {
     ping.pressure(beam, bin) = peak;
     ping.pressure(beam, bin - 1) = ping.pressure(beam, bin + 1) = 0.3F * peak;
   }
-  Soundings detect(DetectionOptions options = {.noise_floor_db = 40}) { return detect_soundings(ping, scatterers, echoes, options); }
+  Soundings detect(DetectionOptions options = {.noise_floor_db = 40}) {
+    return detect_soundings(ping, scatterers, echoes, options);
+  }
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "sampling/beam_fan.hpp"
 
-#include "sampling/cast_rays.hpp"
-#include "sampling_scenes.hpp"
-
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "sampling/cast_rays.hpp"
+#include "sampling_scenes.hpp"
 
 using namespace insonify;
 using testing::HasSubstr;
@@ -31,8 +31,7 @@ TEST(BeamFan, says_what_is_wrong_with_it) {
   EXPECT_THAT(message([](BeamFan& f) { f.azimuth[1] = std::numeric_limits<double>::quiet_NaN(); }),
               HasSubstr("fan.azimuth[1]"));
   EXPECT_THAT(message([](BeamFan& f) { f.elevation[2] = -1.6; }), HasSubstr("fan.elevation[2] = -1.6 rad"));
-  EXPECT_THAT(message([](BeamFan& f) { f.beam_width = 0; }),
-              HasSubstr("fan.beam_width = 0 rad, must be > 0"));
+  EXPECT_THAT(message([](BeamFan& f) { f.beam_width = 0; }), HasSubstr("fan.beam_width = 0 rad, must be > 0"));
   EXPECT_THAT(message([](BeamFan& f) { f.elevation_width = -1; }), HasSubstr("fan.elevation_width = -1 rad"));
   EXPECT_THAT(message_of([] { make_fan(0, 1, 0.1, 0.1); }), HasSubstr("beams = 0"));
   EXPECT_THAT(message_of([] { make_fan(3, 7, 0.1, 0.1); }), HasSubstr("field_of_view = 7 rad"));
@@ -68,8 +67,7 @@ TEST(BeamShares, tile_the_sector) {
     const auto shares = beam_shares(fan, sector, 0.3);
     for (std::size_t b = 0; b < fan.beams(); ++b) {
       sum += shares[b].max_azimuth - shares[b].min_azimuth;
-      const double off =
-          std::remainder(fan.azimuth[b] - (shares[b].min_azimuth + shares[b].max_azimuth) / 2, 2 * pi);
+      const double off = std::remainder(fan.azimuth[b] - (shares[b].min_azimuth + shares[b].max_azimuth) / 2, 2 * pi);
       EXPECT_LE(std::abs(off), (shares[b].max_azimuth - shares[b].min_azimuth) / 2 + 1e-12);
     }
     EXPECT_NEAR(sum, sector.max_azimuth - sector.min_azimuth, 1e-12);

@@ -1,11 +1,11 @@
 #include "sampling/find_scatterers.hpp"
 
-#include "sampling_scenes.hpp"
-
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "sampling_scenes.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -36,9 +36,9 @@ TEST(FindScatterers, gives_the_same_bytes_for_any_number_of_threads) {
     const Sampling one = find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), with_threads(kind, 1));
     EXPECT_GT(one.scatterers.size(), 2000u);
     for (const int threads : {2, 7})
-      EXPECT_TRUE(equal(one.scatterers, find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(),
-                                                        with_threads(kind, threads))
-                                            .scatterers));
+      EXPECT_TRUE(
+          equal(one.scatterers,
+                find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), with_threads(kind, threads)).scatterers));
   }
 }
 
@@ -48,15 +48,13 @@ TEST(FindScatterers, does_not_change_when_world_and_head_move_together) {
   Pose moved = at(0.3, 0, 0, 5, 5);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
     scene.origin.setZero();
-    const Sampling here =
-        find_scatterers(scene, at(0.3, 0, 0, 5, 5), wide_fan(), long_gate(), with_threads(kind, 0));
+    const Sampling here = find_scatterers(scene, at(0.3, 0, 0, 5, 5), wide_fan(), long_gate(), with_threads(kind, 0));
     scene.origin = far;
     moved.translation() = far + Vector3d(0.3, 0, 0);
     const Sampling there = find_scatterers(scene, moved, wide_fan(), long_gate(), with_threads(kind, 0));
     ASSERT_EQ(there.scatterers.id, here.scatterers.id);
     for (std::size_t i = 0; i < here.scatterers.size(); ++i)
-      ASSERT_NEAR(there.scatterers.range[i], here.scatterers.range[i],
-                  kind == SamplingKind::rays ? 1e-5 : 1e-8);
+      ASSERT_NEAR(there.scatterers.range[i], here.scatterers.range[i], kind == SamplingKind::rays ? 1e-5 : 1e-8);
   }
 }
 
@@ -137,8 +135,7 @@ TEST(FindScatterers, with_nothing_in_view_gives_none) {
   add_wall(behind, -4, 1, 1, 0.1);
   for (const SceneCloud& scene : {SceneCloud{}, behind})
     for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
-      const Sampling sampling =
-          find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), with_threads(kind, 0));
+      const Sampling sampling = find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), with_threads(kind, 0));
       EXPECT_EQ(sampling.scatterers.size(), 0u);
       EXPECT_EQ(sampling.report.in_gate, 0u);
       EXPECT_EQ(sampling.report.rays_missed, kind == SamplingKind::rays ? 91u * 64u : 0u);
@@ -146,16 +143,15 @@ TEST(FindScatterers, with_nothing_in_view_gives_none) {
 }
 
 TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
-  const auto message =
-      [](const std::function<void(SceneCloud&, Pose&, RangeGate&, SamplingOptions&)>& damage) {
-        SceneCloud scene;
-        add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, 0.01);
-        Pose pose = Pose::Identity();
-        RangeGate gate = long_gate();
-        SamplingOptions options;
-        damage(scene, pose, gate, options);
-        return message_of([&] { find_scatterers(scene, pose, wide_fan(), gate, options); });
-      };
+  const auto message = [](const std::function<void(SceneCloud&, Pose&, RangeGate&, SamplingOptions&)>& damage) {
+    SceneCloud scene;
+    add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, 0.01);
+    Pose pose = Pose::Identity();
+    RangeGate gate = long_gate();
+    SamplingOptions options;
+    damage(scene, pose, gate, options);
+    return message_of([&] { find_scatterers(scene, pose, wide_fan(), gate, options); });
+  };
   using O = SamplingOptions;
   EXPECT_EQ(message([](auto&, auto&, auto&, O&) {}), "no error");
   EXPECT_THAT(message([](auto&, auto&, auto&, O& o) { o.footprint = 0; }),
@@ -170,8 +166,7 @@ TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
               HasSubstr("elevation_half_extent = -0.1"));
   EXPECT_THAT(message([](auto&, auto&, RangeGate& g, O&) { g.max_range = 0.05; }),
               HasSubstr("find_scatterers: gate.max_range = 0.05 m"));
-  EXPECT_THAT(message([](SceneCloud& s, auto&, auto&, O&) { s.normal[0].setZero(); }),
-              HasSubstr("scene.normal[0]"));
+  EXPECT_THAT(message([](SceneCloud& s, auto&, auto&, O&) { s.normal[0].setZero(); }), HasSubstr("scene.normal[0]"));
   EXPECT_THAT(message([](auto&, Pose& p, auto&, O&) { p.linear() *= 2; }), HasSubstr("must be a rotation"));
   EXPECT_THAT(message([](auto&, Pose& p, auto&, O&) { p.translation().x() = std::nan(""); }),
               HasSubstr("must be finite"));

@@ -1,9 +1,9 @@
 #include "sampling/range_gate.hpp"
 
-#include "sampling_scenes.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "sampling_scenes.hpp"
 
 using namespace insonify;
 using testing::HasSubstr;

@@ -1,9 +1,9 @@
-#include "sampling_scenes.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "sampling_scenes.hpp"
 
 using namespace insonify;
 
@@ -45,13 +45,11 @@ TEST(Sampling, of_an_enclosing_sphere_fills_the_solid_angle_of_the_fan) {
 TEST(Rays, meet_a_plane_where_it_is_down_to_grazing_incidence) {
   SceneCloud scene;
   add_rectangle(scene, {0.5, -10, 0}, {40, 0, 0}, {0, 20, 0}, {0, 0, 1}, 0.08, 0.5);
-  const Sampling sampling =
-      find_scatterers(scene, at(0, 0, 2), make_fan(32, radians(40), radians(1), radians(16), radians(-12)),
-                      {0.1, 30, 0.05}, rays(128));
+  const Sampling sampling = find_scatterers(
+      scene, at(0, 0, 2), make_fan(32, radians(40), radians(1), radians(16), radians(-12)), {0.1, 30, 0.05}, rays(128));
   std::vector<double> error;
   for (std::size_t i = 0; i < sampling.scatterers.size(); ++i)
-    error.push_back(
-        std::abs(sampling.scatterers.range[i] * std::sin(-sampling.scatterers.elevation[i]) / 2 - 1));
+    error.push_back(std::abs(sampling.scatterers.range[i] * std::sin(-sampling.scatterers.elevation[i]) / 2 - 1));
   ASSERT_GT(error.size(), 1000u);
   std::sort(error.begin(), error.end());
   EXPECT_LT(error[error.size() / 2], 1e-5);

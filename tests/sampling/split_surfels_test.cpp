@@ -1,11 +1,11 @@
 #include "sampling/split_surfels.hpp"
 
-#include "sampling_scenes.hpp"
-
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "sampling_scenes.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -47,8 +47,7 @@ TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell) {
 TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {
   const SceneCloud scene = small_wall();
   const Scatterers whole = find_scatterers(scene, at(0, 0, 0), fan, gate, unsplit()).scatterers;
-  const Scatterers parts =
-      find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 200}).scatterers;
+  const Scatterers parts = find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 200}).scatterers;
   EXPECT_EQ(whole.size(), scene.size());
   EXPECT_GT(parts.size(), 5 * whole.size());
   EXPECT_NEAR(total(parts.projected_area), total(whole.projected_area), 1e-4 * total(whole.projected_area));
@@ -88,8 +87,7 @@ TEST(Splitting, puts_every_part_at_the_same_place_for_every_pose) {
 TEST(Splitting, spreads_parts_evenly_over_the_disc_of_the_surfel) {
   SceneCloud scene;
   add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, pi);  // a disc of radius 1 m
-  const Scatterers s =
-      find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 1e4}).scatterers;
+  const Scatterers s = find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 1e4}).scatterers;
   ASSERT_EQ(s.size(), 4096u);
   Vector3d mean = Vector3d::Zero();
   double inner = 0, port = 0;

@@ -1,10 +1,10 @@
 // Which surfels a head sees, on scenes whose shadows are known in closed form.
-#include "sampling_scenes.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "sampling_scenes.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -25,8 +25,7 @@ TEST(Visibility, a_plane_at_grazing_incidence_hides_nothing_of_itself) {
   SceneCloud scene;
   add_rectangle(scene, {1, -5, 0}, {30, 0, 0}, {0, 10, 0}, {0, 0, 1}, 0.1, 0.5);
   for (const double height : {2.0, 0.3, 0.05}) {
-    const SamplingReport report =
-        find_scatterers(scene, at(0, 0, height), wide_fan(), long_gate(), unsplit()).report;
+    const SamplingReport report = find_scatterers(scene, at(0, 0, height), wide_fan(), long_gate(), unsplit()).report;
     EXPECT_GT(report.in_gate, 10000u);
     EXPECT_EQ(report.visible, report.in_gate) << height;
   }
@@ -38,8 +37,7 @@ TEST(Visibility, a_rough_plane_hides_little_of_itself) {
   std::mt19937 random(3);
   std::normal_distribution<float> noise(0, 0.01f);  // a tenth of the spacing
   for (auto& p : scene.point) p.z() += noise(random);
-  const SamplingReport report =
-      find_scatterers(scene, at(0, 0, 2), wide_fan(), long_gate(), unsplit()).report;
+  const SamplingReport report = find_scatterers(scene, at(0, 0, 2), wide_fan(), long_gate(), unsplit()).report;
   EXPECT_GT(static_cast<double>(report.visible), 0.999 * static_cast<double>(report.in_gate));
 }
 
@@ -57,8 +55,7 @@ TEST(Visibility, through_a_hole_in_a_wall_is_what_the_hole_frames) {
   for (std::size_t i = 0; i < front; ++i) ASSERT_TRUE(visible[i]);
   for (std::size_t i = front; i < scene.size(); ++i) {
     // How far inside the hole's edge, at the near wall, the way to this surfel passes.
-    const double inside =
-        hole - std::max(std::abs(scene.point[i].y()), std::abs(scene.point[i].z())) * near / far;
+    const double inside = hole - std::max(std::abs(scene.point[i].y()), std::abs(scene.point[i].z())) * near / far;
     if (inside > 1.5 * spacing) {
       ASSERT_TRUE(visible[i]) << scene.point[i].transpose();
     }
@@ -75,8 +72,7 @@ TEST(Visibility, a_pole_before_a_wall_throws_a_shadow_of_its_own_width) {
     for (int k = 0; k < 21; ++k) {
       const double turn = 2 * pi * (k + 0.5 * (ring % 2)) / 21;
       const Vector3d d(std::cos(turn), std::sin(turn), 0);
-      add_surfel(scene, Vector3d(pole_x, 0, -1.5 + spacing * ring) + radius * d, d,
-                 2 * pi * radius / 21 * spacing);
+      add_surfel(scene, Vector3d(pole_x, 0, -1.5 + spacing * ring) + radius * d, d, 2 * pi * radius / 21 * spacing);
     }
   const std::size_t pole = scene.size();
   add_wall(scene, wall_x, 1, 1, spacing, 0.4);
@@ -132,11 +128,9 @@ TEST(Visibility, a_sparse_wall_does_not_leak) {
     const std::size_t front = scene.size();
     add_wall(scene, 6, 4, 3, 0.02);  // a far finer one behind it
     const auto visible = seen(scene, at(0, 0, 0));
-    EXPECT_EQ(std::count(visible.begin() + static_cast<std::ptrdiff_t>(front), visible.end(), true), 0)
-        << jitter;
+    EXPECT_EQ(std::count(visible.begin() + static_cast<std::ptrdiff_t>(front), visible.end(), true), 0) << jitter;
     const auto beside = seen(scene, at(0, 2, 0, -40));
-    EXPECT_EQ(std::count(beside.begin() + static_cast<std::ptrdiff_t>(front), beside.end(), true), 0)
-        << jitter;
+    EXPECT_EQ(std::count(beside.begin() + static_cast<std::ptrdiff_t>(front), beside.end(), true), 0) << jitter;
   }
 }
 
@@ -145,8 +139,7 @@ TEST(Visibility, a_closed_body_shows_neither_its_inside_nor_what_is_outside) {
   add_sphere(scene, {0, 0, 0}, 1, 2000);
   const std::size_t body = scene.size();
   add_wall(scene, 5, 3, 3, 0.1);
-  const SamplingReport report =
-      find_scatterers(scene, at(0.2, 0, 0), wide_fan(), long_gate(), unsplit()).report;
+  const SamplingReport report = find_scatterers(scene, at(0.2, 0, 0), wide_fan(), long_gate(), unsplit()).report;
   EXPECT_EQ(report.visible, 0u);
   EXPECT_GT(report.back_facing, 100u);
   EXPECT_GT(report.hidden, 100u);

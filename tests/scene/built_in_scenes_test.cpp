@@ -1,14 +1,14 @@
 #include "scene/built_in_scenes.hpp"
 
-#include "core/error.hpp"
-#include "core/units.hpp"
-
 #include <cmath>
 #include <numeric>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d, Eigen::Vector3f;
@@ -33,8 +33,7 @@ TEST(BuiltInScenes, are_valid_and_have_the_points_asked_for) {
     for (const std::size_t points : {1000u, 20000u}) {
       const SceneCloud scene = make_built_in_scene(name, {.points = points});
       EXPECT_NO_THROW(require_valid(scene, name.c_str()));
-      EXPECT_NEAR(static_cast<double>(scene.size()), static_cast<double>(points),
-                  0.02 * static_cast<double>(points))
+      EXPECT_NEAR(static_cast<double>(scene.size()), static_cast<double>(points), 0.02 * static_cast<double>(points))
           << name;
       EXPECT_EQ(std::set(scene.id.begin(), scene.id.end()).size(), scene.size()) << name;
     }
@@ -66,8 +65,7 @@ TEST(BuiltInScenes, have_outward_normals) {
   for (std::size_t i = 0; i < sphere.size(); ++i)
     ASSERT_GT(sphere.normal[i].dot((sphere.point[i] - Vector3f(5, 0, 0)).normalized()), 0.9999);
   for (const Vector3f& n : make_built_in_scene("plane").normal) ASSERT_EQ(n, Vector3f(0, 0, 1));
-  for (const Vector3f& n : make_built_in_scene("wall").normal)
-    ASSERT_LT((n - Vector3f(-1, 0, 0)).norm(), 1e-6);
+  for (const Vector3f& n : make_built_in_scene("wall").normal) ASSERT_LT((n - Vector3f(-1, 0, 0)).norm(), 1e-6);
   const SceneCloud poles = make_built_in_scene("poles", {.points = 5000});
   for (std::size_t i = 0; i < poles.size(); ++i)
     if (poles.point[i].x() < 5) {
@@ -78,8 +76,7 @@ TEST(BuiltInScenes, have_outward_normals) {
 
 TEST(BuiltInScenes, are_reproducible_and_follow_the_seed) {
   for (const std::string& name : built_in_scene_names()) {
-    const SceneCloud a = make_built_in_scene(name, {.points = 3000}),
-                     b = make_built_in_scene(name, {.points = 3000});
+    const SceneCloud a = make_built_in_scene(name, {.points = 3000}), b = make_built_in_scene(name, {.points = 3000});
     EXPECT_EQ(a.point, b.point) << name;
     EXPECT_EQ(a.area, b.area) << name;
     EXPECT_NE(a.point, make_built_in_scene(name, {.points = 3000, .seed = 2}).point) << name;

@@ -1,12 +1,12 @@
 #include "scene/scene_cloud.hpp"
 
-#include "core/error.hpp"
-
 #include <functional>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/error.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -72,12 +72,10 @@ TEST(RequireValid, names_what_is_wrong) {
     return message_of([&] { require_valid(scene, "someone"); });
   };
   EXPECT_EQ(message([](SceneCloud&) {}), "no error");
-  EXPECT_THAT(message([](SceneCloud& s) { s.area.pop_back(); }),
-              HasSubstr("someone: scene.area has 1 entries"));
+  EXPECT_THAT(message([](SceneCloud& s) { s.area.pop_back(); }), HasSubstr("someone: scene.area has 1 entries"));
   EXPECT_THAT(message([](SceneCloud& s) { s.id.push_back(9); }), HasSubstr("scene.id has 3 entries"));
   EXPECT_THAT(message([&](SceneCloud& s) { s.point[1].y() = nan; }), HasSubstr("scene.point[1]"));
-  EXPECT_THAT(message([](SceneCloud& s) { s.normal[0].setZero(); }),
-              HasSubstr("scene.normal[0] = (0, 0, 0)"));
+  EXPECT_THAT(message([](SceneCloud& s) { s.normal[0].setZero(); }), HasSubstr("scene.normal[0] = (0, 0, 0)"));
   EXPECT_THAT(message([](SceneCloud& s) { s.normal[0] *= 1.01f; }), HasSubstr("unit vector"));
   EXPECT_THAT(message([&](SceneCloud& s) { s.normal[1].x() = nan; }), HasSubstr("scene.normal[1]"));
   EXPECT_THAT(message([](SceneCloud& s) { s.area[1] = -1; }), HasSubstr("scene.area[1] = -1 m^2"));

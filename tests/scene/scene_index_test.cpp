@@ -1,14 +1,14 @@
 #include "scene/scene_index.hpp"
 
-#include "core/error.hpp"
-#include "core/parallel.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
 
 using namespace insonify;
 using Eigen::Vector3f;
@@ -56,9 +56,7 @@ std::vector<PointSet> point_sets() {
          return points;
        }},
       {"duplicates",
-       [] {
-         return generate(1500, [](std::mt19937& r) { return Vector3f(static_cast<float>(r() % 3), 1, 2); });
-       }},
+       [] { return generate(1500, [](std::mt19937& r) { return Vector3f(static_cast<float>(r() % 3), 1, 2); }); }},
       {"one point",
        [] {
          return std::vector<Vector3f>{{1, 2, 3}};
@@ -100,8 +98,7 @@ TEST(SceneIndex, finds_the_nearest_as_brute_force_does) {
         index.find_nearest(query, k, found);
         ASSERT_EQ(found.size(), std::min(k, points.size())) << set.name;
         for (std::size_t i = 0; i < found.size(); ++i)
-          ASSERT_EQ(found[i].squared_distance, expected[i].squared_distance)
-              << set.name << ", neighbour " << i;
+          ASSERT_EQ(found[i].squared_distance, expected[i].squared_distance) << set.name << ", neighbour " << i;
       }
     }
   }

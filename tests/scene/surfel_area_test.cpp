@@ -1,15 +1,15 @@
 #include "scene/surfel_area.hpp"
 
-#include "core/error.hpp"
-#include "core/units.hpp"
-#include "scene/built_in_scenes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
 
 using namespace insonify;
 using Eigen::Vector3f;
@@ -32,8 +32,7 @@ std::vector<Vector3f> plate(float spacing, float jitter) {
 }
 
 std::vector<float> areas_of_flat(const std::vector<Vector3f>& points, int threads = 0) {
-  return estimate_surfel_areas(points, std::vector<Vector3f>(points.size(), Vector3f::UnitZ()),
-                               {.threads = threads});
+  return estimate_surfel_areas(points, std::vector<Vector3f>(points.size(), Vector3f::UnitZ()), {.threads = threads});
 }
 
 }  // namespace

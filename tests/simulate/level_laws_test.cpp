@@ -37,9 +37,11 @@ SonarHead bottom_sonar(double min_range, double max_range) {
 double bottom_level_db(const SonarHead& head, double r, double h, double mu) {
   const double c = sound_speed({}), wavelength = c / head.pulse.centre_frequency;
   const double length = head.array.spacing * static_cast<double>(head.array.elements());
-  const double cell = wavelength / length * r * r / std::sqrt(r * r - h * h) * 0.5 * c * 0.469719 / head.pulse.bandwidth;
-  return head.pulse.source_level_db - 40 * std::log10(r) - 2 * absorption_db_per_m({}, head.pulse.centre_frequency) * r +
-         db_from_power(mu) + 20 * std::log10(h / r) + db_from_power(cell);
+  const double cell =
+      wavelength / length * r * r / std::sqrt(r * r - h * h) * 0.5 * c * 0.469719 / head.pulse.bandwidth;
+  return head.pulse.source_level_db - 40 * std::log10(r) -
+         2 * absorption_db_per_m({}, head.pulse.centre_frequency) * r + db_from_power(mu) + 20 * std::log10(h / r) +
+         db_from_power(cell);
 }
 
 SimulatedPing ping_plane(const SonarHead& head, double h, std::size_t points, const SimulationOptions& options) {
@@ -56,7 +58,8 @@ double bottom_excess_db(const SimulatedPing& p, const SonarHead& head, double r,
     for (std::size_t n = 0; n < head.gate.bins(); ++n) {
       const double range = head.gate.centre(n);
       if (std::abs(range - r) > 0.25) continue;
-      const double level = pressure_level_db(std::abs(std::complex<double>(p.ping.pressure(static_cast<int>(b), static_cast<int>(n)))));
+      const double level =
+          pressure_level_db(std::abs(std::complex<double>(p.ping.pressure(static_cast<int>(b), static_cast<int>(n)))));
       excess += power_from_db(level - bottom_level_db(head, range, h, power_from_db(-27)));
       ++samples;
     }
@@ -78,7 +81,8 @@ TEST(LevelLaws, level_does_not_depend_on_cloud_density_or_splitting) {
   for (const std::size_t points : {50000, 100000, 400000})
     EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, points, {}), head, 6, 3), 0, 0.4) << points << " points";
   for (const double per_cell : {3.0, 30.0})
-    EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, 100000, {.scatterers_per_cell = per_cell}), head, 6, 3), 0, 0.4) << per_cell;
+    EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, 100000, {.scatterers_per_cell = per_cell}), head, 6, 3), 0, 0.4)
+        << per_cell;
 }
 
 TEST(LevelLaws, level_does_not_depend_on_the_number_of_rays) {
@@ -97,9 +101,11 @@ TEST(LevelLaws, sphere_of_lambert_facets_converges_to_two_thirds_pi_mu_a_squared
   SamplingOptions options;
   options.scatterers_per_cell = 0;
   options.elevation_half_extent = 1;
-  const Scatterers s = find_scatterers(sphere, pose_from_yaw_pitch_roll({-50, 0, 0}, 0, 0, 0), head.fan, head.gate, options).scatterers;
+  const Scatterers s =
+      find_scatterers(sphere, pose_from_yaw_pitch_roll({-50, 0, 0}, 0, 0, 0), head.fan, head.gate, options).scatterers;
   double sigma = 0;
-  for (std::size_t i = 0; i < s.size(); ++i) sigma += lambert_cross_section(mu, s.cos_incidence[i], s.projected_area[i]);
+  for (std::size_t i = 0; i < s.size(); ++i)
+    sigma += lambert_cross_section(mu, s.cos_incidence[i], s.projected_area[i]);
   EXPECT_NEAR(db_from_power(sigma), -21.76, 0.03);
 }
 

@@ -34,7 +34,8 @@ SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector
   scene.origin += shift;
   const Water water;
   const SonarHead head = make_head(small_sonar(), sound_speed(water));
-  return simulate_ping(scene, head, pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0), water, options);
+  return simulate_ping(scene, head, pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0),
+                       water, options);
 }
 
 /// A flat bottom 3 m below a head at y, looking 15 degrees down.
@@ -50,7 +51,8 @@ ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<std::com
 /// The image times r^2: near and far cells weigh the same.
 ComplexGrid levelled(const SimulatedPing& p) {
   ComplexGrid grid = image(p);
-  for (Eigen::Index n = 0; n < grid.cols(); ++n) grid.col(n) *= std::pow(p.ping.gate.centre(static_cast<std::size_t>(n)), 2);
+  for (Eigen::Index n = 0; n < grid.cols(); ++n)
+    grid.col(n) *= std::pow(p.ping.gate.centre(static_cast<std::size_t>(n)), 2);
   return grid;
 }
 

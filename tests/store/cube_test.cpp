@@ -79,8 +79,7 @@ std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
 }
 
 std::string raw_text(hid_t file, const char* object, const char* name) {
-  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT),
-              type = H5Aget_type(attribute);
+  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(attribute);
   char* text = nullptr;
   H5Aread(attribute, type, &text);
   const std::string result = text;
@@ -232,9 +231,9 @@ TEST(Cube, names_the_dataset_that_is_missing) {
 }
 
 TEST(Cube, names_the_attribute_that_is_missing) {
-  for (const char* name : {"sound_speed", "absorption_db_per_m", "centre_frequency", "bandwidth",
-                           "source_level_db", "seed", "tolerance", "insonify_version", "sonar", "beam_width",
-                           "elevation_width", "min_range", "max_range", "bin_size"}) {
+  for (const char* name :
+       {"sound_speed", "absorption_db_per_m", "centre_frequency", "bandwidth", "source_level_db", "seed", "tolerance",
+        "insonify_version", "sonar", "beam_width", "elevation_width", "min_range", "max_range", "bin_size"}) {
     const std::string path = write(make_cube());
     { EXPECT_GE(H5Adelete(RawFile(path), name), 0); }
     EXPECT_EQ(error_of_reading(path), "content: cube.h5: attribute '" + std::string(name) + "' is missing");
@@ -283,9 +282,8 @@ TEST(Cube, refuses_foreign_missing_and_truncated_files) {
   EXPECT_EQ(error_of([&] { read_cube(missing); }), "file: " + missing + ": no such file");
   const std::string whole = read_text_file(write(make_cube()));
   const std::string cut = own_file("cut.h5", whole.substr(0, whole.size() / 2));
-  EXPECT_NE(
-      error_of([&] { read_cube(cut); }).find("content: " + cut + ": is damaged or cut short: truncated file"),
-      std::string::npos);
+  EXPECT_NE(error_of([&] { read_cube(cut); }).find("content: " + cut + ": is damaged or cut short: truncated file"),
+            std::string::npos);
 }
 
 TEST(Cube, foreign_hdf5_is_not_a_cube) {
@@ -308,8 +306,7 @@ TEST(Cube, without_pings_or_with_unlike_ones_is_not_written) {
             "write it to a cube of its own");
   cube = make_cube();
   cube.pings[2].pressure.resize(69, 46);
-  EXPECT_EQ(error_of_writing(cube),
-            "argument: write_cube: cube.h5: ping 42 has 69 beams x 46 bins, must have 70 x 46");
+  EXPECT_EQ(error_of_writing(cube), "argument: write_cube: cube.h5: ping 42 has 69 beams x 46 bins, must have 70 x 46");
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 

@@ -22,11 +22,10 @@ Material shipped(const std::string& name) {
 }  // namespace
 
 TEST(Materials, are_read_with_their_origin) {
-  const auto list =
-      load_materials(own_file("m.toml",
-                              "schema = 1\n[[material]]\nname = \"mud\"\nlambert_mu_db = -20\nstatus = "
-                              "\"sourced\"\nsource = \"a paper\"\n"
-                              "[[material]]\nname = \"weed\"\nlabel = 5\nlambert_mu_db = -30.0\n"));
+  const auto list = load_materials(own_file("m.toml",
+                                            "schema = 1\n[[material]]\nname = \"mud\"\nlambert_mu_db = -20\nstatus = "
+                                            "\"sourced\"\nsource = \"a paper\"\n"
+                                            "[[material]]\nname = \"weed\"\nlabel = 5\nlambert_mu_db = -30.0\n"));
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0].material.name, "mud");
   EXPECT_DOUBLE_EQ(list[0].material.lambert_mu, 0.01);
@@ -47,15 +46,13 @@ TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
             "content: m.toml:4: lambert_mu_db = -4.9 dB, must be at most -4.97 dB (1/pi: no surface sends "
             "back more "
             "than it receives)");
-  EXPECT_NE(error_of_materials(with("nan")).find("m.toml:4: lambert_mu_db = nan dB, must be"),
-            std::string::npos);
+  EXPECT_NE(error_of_materials(with("nan")).find("m.toml:4: lambert_mu_db = nan dB, must be"), std::string::npos);
 }
 
 TEST(Materials, by_label_stand_at_their_label_and_gaps_are_filled) {
-  const auto list =
-      load_materials(own_file("m.toml",
-                              "schema = 1\n[[material]]\nname = \"b\"\nlabel = 3\nlambert_mu_db = -20\n"
-                              "[[material]]\nname = \"a\"\nlabel = 1\nlambert_mu_db = -10\n"));
+  const auto list = load_materials(own_file("m.toml",
+                                            "schema = 1\n[[material]]\nname = \"b\"\nlabel = 3\nlambert_mu_db = -20\n"
+                                            "[[material]]\nname = \"a\"\nlabel = 1\nlambert_mu_db = -10\n"));
   const auto materials = materials_by_label(list);
   ASSERT_EQ(materials.size(), 4u);
   EXPECT_EQ(materials[0].name, "unlabelled");
@@ -84,8 +81,7 @@ TEST(Materials, errors_name_line_key_and_remedy) {
   EXPECT_EQ(error_of_materials("schema = 1\n"), "content: m.toml:1: no [[material]] in the file");
   EXPECT_EQ(error_of_materials("schema = 1\nmaterial = [1]\n"),
             "content: m.toml:2: material must be a table: [[material]]");
-  EXPECT_EQ(error_of_materials("schema = 2\n"),
-            "content: m.toml:1: schema = 2, this insonify reads schema 1");
+  EXPECT_EQ(error_of_materials("schema = 2\n"), "content: m.toml:1: schema = 2, this insonify reads schema 1");
   EXPECT_EQ(error_of_materials("[[material]]\n"), "content: m.toml:1: missing key 'schema'");
 }
 

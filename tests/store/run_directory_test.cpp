@@ -76,8 +76,7 @@ TEST(RunDirectory, force_does_not_replace_what_is_no_run) {
                 "replace it; remove it yourself, or give another name");
   EXPECT_EQ(read_text_file(home + "/thesis.tex"), "years of work");
   const std::string file = own_file("file", "text");
-  EXPECT_NE(error_of([&] { RunDirectory(file, true); }).find("is not a folder of an earlier run"),
-            std::string::npos);
+  EXPECT_NE(error_of([&] { RunDirectory(file, true); }).find("is not a folder of an earlier run"), std::string::npos);
 }
 
 TEST(RunDirectory, does_not_overwrite_what_appeared_meanwhile) {

@@ -14,9 +14,8 @@ std::string error_of_table(const std::string& text) {
 }  // namespace
 
 TEST(ScattererTable, reads_every_column_in_line_order) {
-  const auto t = load_scatterer_table(
-      own_file("s.csv", "# made by a ray tracer\n" + header +
-                            "10,0.1,-0.2,1e-3,0.6,-0.8\n\n# between\n20.5,-0.25,+.5,0,1,0\n"));
+  const auto t = load_scatterer_table(own_file(
+      "s.csv", "# made by a ray tracer\n" + header + "10,0.1,-0.2,1e-3,0.6,-0.8\n\n# between\n20.5,-0.25,+.5,0,1,0\n"));
   ASSERT_EQ(t.scatterers.size(), 2u);
   EXPECT_EQ(t.scatterers.range, (std::vector<double>{10, 20.5}));
   EXPECT_EQ(t.scatterers.azimuth, (std::vector<double>{0.1, -0.25}));
@@ -36,8 +35,7 @@ TEST(ScattererTable, fills_every_array_of_the_scatterers) {
 
 TEST(ScattererTable, takes_columns_in_any_order_spaces_windows_lines_and_a_byte_order_mark) {
   const auto t = load_scatterer_table(own_file(
-      "s.csv",
-      "\xEF\xBB\xBFxi_im , xi_re,sigma_m2,elevation_rad,azimuth_rad, range_m\r\n6, 5 ,4,0.3,0.2,1\r\n"));
+      "s.csv", "\xEF\xBB\xBFxi_im , xi_re,sigma_m2,elevation_rad,azimuth_rad, range_m\r\n6, 5 ,4,0.3,0.2,1\r\n"));
   EXPECT_EQ(t.scatterers.range, (std::vector<double>{1}));
   EXPECT_EQ(t.scatterers.azimuth, (std::vector<double>{0.2}));
   EXPECT_EQ(t.scatterers.elevation, (std::vector<double>{0.3}));
@@ -62,20 +60,15 @@ TEST(ScattererTable, names_a_missing_unknown_or_doubled_column) {
 TEST(ScattererTable, names_line_column_value_and_rule) {
   EXPECT_EQ(error_of_table(header + "10,0,0,1,1,0\n# x\n0,0,0,1,1,0\n"),
             "content: s.csv:4: range_m = 0 m, must be > 0");
-  EXPECT_EQ(error_of_table(header + "1,0,0,-1e-3,1,0\n"),
-            "content: s.csv:2: sigma_m2 = -0.001 m^2, must be >= 0");
+  EXPECT_EQ(error_of_table(header + "1,0,0,-1e-3,1,0\n"), "content: s.csv:2: sigma_m2 = -0.001 m^2, must be >= 0");
   EXPECT_EQ(error_of_table(header + "1,45,0,1,1,0\n"),
             "content: s.csv:2: azimuth_rad = 45 rad, must be within -pi and pi (is it in degrees?)");
   EXPECT_EQ(error_of_table(header + "1,0,-2,1,1,0\n"),
             "content: s.csv:2: elevation_rad = -2 rad, must be within -pi/2 and pi/2 (is it in degrees?)");
-  EXPECT_EQ(error_of_table(header + "1,0,0,1,nan,0\n"),
-            "content: s.csv:2: xi_re = 'nan', must be a finite number");
-  EXPECT_EQ(error_of_table(header + "inf,0,0,1,1,0\n"),
-            "content: s.csv:2: range_m = 'inf', must be a finite number");
-  EXPECT_EQ(error_of_table(header + "1,0,0,1,1,0x\n"),
-            "content: s.csv:2: xi_im = '0x', must be a finite number");
-  EXPECT_EQ(error_of_table(header + "1,,0,1,1,0\n"),
-            "content: s.csv:2: azimuth_rad = '', must be a finite number");
+  EXPECT_EQ(error_of_table(header + "1,0,0,1,nan,0\n"), "content: s.csv:2: xi_re = 'nan', must be a finite number");
+  EXPECT_EQ(error_of_table(header + "inf,0,0,1,1,0\n"), "content: s.csv:2: range_m = 'inf', must be a finite number");
+  EXPECT_EQ(error_of_table(header + "1,0,0,1,1,0x\n"), "content: s.csv:2: xi_im = '0x', must be a finite number");
+  EXPECT_EQ(error_of_table(header + "1,,0,1,1,0\n"), "content: s.csv:2: azimuth_rad = '', must be a finite number");
   EXPECT_EQ(error_of_table(header + "1,0,0,1,1\n"), "content: s.csv:2: has 5 fields, the header has 6");
 }
 

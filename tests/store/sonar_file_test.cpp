@@ -81,8 +81,7 @@ TEST(SonarFile, reads_the_optional_keys) {
 }
 
 TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
-  const SonarFile file =
-      load(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
+  const SonarFile file = load(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
   std::map<std::string, SonarNumber> numbers;
   for (const auto& number : file.numbers) numbers[number.key] = number;
   EXPECT_EQ(file.spec.source_level_db, 221);
@@ -108,19 +107,16 @@ TEST(SonarFile, takes_range_resolution_for_bandwidth_but_not_both) {
 
 // Three beams at -20, 0, 30 deg: mean spacing 25 deg, half of it beyond either end makes 75 deg.
 TEST(SonarFile, takes_beams_at_given_azimuths) {
-  const std::string text =
-      replaced(plain, "beams = 128\nfield_of_view_deg = 90\n", "azimuths_deg = [-20, 0, 30.0]\n");
+  const std::string text = replaced(plain, "beams = 128\nfield_of_view_deg = 90\n", "azimuths_deg = [-20, 0, 30.0]\n");
   const SonarSpec s = load(text).spec;
   EXPECT_EQ(s.azimuths, (std::vector<double>{radians(-20), 0, radians(30)}));
   EXPECT_EQ(s.beams, 3u);
   EXPECT_NEAR(s.field_of_view, radians(75), 1e-15);
-  EXPECT_EQ(error_of_sonar(text + "beams = 3\n"),
-            "content: s.toml:11: beams follows from azimuths_deg; leave it out");
+  EXPECT_EQ(error_of_sonar(text + "beams = 3\n"), "content: s.toml:11: beams follows from azimuths_deg; leave it out");
   EXPECT_EQ(error_of_sonar(replaced(text, "[-20, 0, 30.0]", "[]")),
             "content: s.toml:6: azimuths_deg = [], must be a list of numbers within -180 and 180");
-  EXPECT_EQ(
-      error_of_sonar(replaced(text, "30.0", "300")),
-      "content: s.toml:6: azimuths_deg = [-20.0, 0.0, 300.0], must be a list of numbers within -180 and 180");
+  EXPECT_EQ(error_of_sonar(replaced(text, "30.0", "300")),
+            "content: s.toml:6: azimuths_deg = [-20.0, 0.0, 300.0], must be a list of numbers within -180 and 180");
   EXPECT_EQ(error_of_sonar(replaced(text, "30.0", "\"x\"")),
             "content: s.toml:6: azimuths_deg must be a list of numbers");
 }
@@ -134,16 +130,14 @@ TEST(SonarFile, unknown_keys_are_errors_with_line_and_suggestion) {
 }
 
 TEST(SonarFile, missing_keys_are_named) {
-  for (const char* line :
-       {"centre_frequency_hz = 900_000\n", "source_level_db = 210\n", "beam_width_deg = 1.5\n",
-        "elevation_width_deg = 20\n", "min_range_m = 0.5\n", "max_range_m = 30\n"}) {
+  for (const char* line : {"centre_frequency_hz = 900_000\n", "source_level_db = 210\n", "beam_width_deg = 1.5\n",
+                           "elevation_width_deg = 20\n", "min_range_m = 0.5\n", "max_range_m = 30\n"}) {
     const std::string key = std::string(line).substr(0, std::string(line).find(' '));
     EXPECT_EQ(error_of_sonar(replaced(plain, line, "")), "content: s.toml:1: missing key '" + key + "'");
   }
   EXPECT_EQ(error_of_sonar(replaced(plain, "beams = 128\n", "")),
             "content: s.toml:1: missing key 'beams' (or 'azimuths_deg')");
-  EXPECT_EQ(error_of_sonar(replaced(plain, "name = \"mine\"\n", "")),
-            "content: s.toml:1: missing key 'name'");
+  EXPECT_EQ(error_of_sonar(replaced(plain, "name = \"mine\"\n", "")), "content: s.toml:1: missing key 'name'");
   EXPECT_EQ(error_of_sonar(replaced(plain, "schema = 1\n", "")), "content: s.toml:1: missing key 'schema'");
 }
 
@@ -225,10 +219,8 @@ TEST(SonarFile, given_azimuths_survive_bit_for_bit) {
 
 TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
   const SonarSpec spec = load(plain).spec;
-  expect_same_bits(load("seed = 3\n[sonar]\n" + sonar_as_toml(spec) + "[water]\nsalinity_psu = 35\n").spec,
-                   spec);
-  EXPECT_EQ(error_of_sonar("seed = 3\n[sonar]\nschema = 1\n"),
-            "content: s.toml:2: missing key 'centre_frequency_hz'");
+  expect_same_bits(load("seed = 3\n[sonar]\n" + sonar_as_toml(spec) + "[water]\nsalinity_psu = 35\n").spec, spec);
+  EXPECT_EQ(error_of_sonar("seed = 3\n[sonar]\nschema = 1\n"), "content: s.toml:2: missing key 'centre_frequency_hz'");
 }
 
 TEST(SetSonarValue, sets_every_key_that_files_know) {
@@ -273,8 +265,7 @@ TEST(SetSonarValue, names_the_nearest_key_and_the_rule) {
   SonarSpec s;
   EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range", "3"); }),
             "argument: sonar: unknown key 'max_range'; did you mean 'max_range_m'?");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "pressure", "3"); }),
-            "argument: sonar: unknown key 'pressure'");
+  EXPECT_EQ(error_of([&] { set_sonar_value(s, "pressure", "3"); }), "argument: sonar: unknown key 'pressure'");
   EXPECT_EQ(error_of([&] { set_sonar_value(s, "beams", "many"); }),
             "argument: sonar: beams = \"many\", must be a number");
   EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", "30 m"); }),

@@ -85,8 +85,7 @@ TEST(Presets, give_status_and_source_of_every_number) {
     for (const auto& number : sonar.numbers) {
       EXPECT_TRUE(known.count(number.status)) << sonar.spec.name << " " << number.key << " " << number.status;
       EXPECT_FALSE(number.source.empty()) << sonar.spec.name << " " << number.key;
-      EXPECT_EQ(number.source.find("default of insonify"), std::string::npos)
-          << sonar.spec.name << " " << number.key;
+      EXPECT_EQ(number.source.find("default of insonify"), std::string::npos) << sonar.spec.name << " " << number.key;
     }
   }
 }

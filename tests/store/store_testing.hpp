@@ -13,9 +13,7 @@ namespace insonify {
 /// A folder that belongs to this program and goes when it ends.
 class OwnFolder {
  public:
-  OwnFolder()
-      : path_(std::filesystem::path(::testing::TempDir()) /
-              ("insonify_store_" + std::to_string(::getpid()))) {}
+  OwnFolder() : path_(std::filesystem::path(::testing::TempDir()) / ("insonify_store_" + std::to_string(::getpid()))) {}
   ~OwnFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);

@@ -48,19 +48,23 @@ TEST_F(BadInput, unknown_sonar_and_unknown_sonar_key) {
 }
 
 TEST_F(BadInput, pose_with_five_numbers) {
-  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15 -o out", 2, {"--pose", "0,0,3,0,15", "has 5 numbers, must have 6"});
+  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15 -o out", 2,
+                 {"--pose", "0,0,3,0,15", "has 5 numbers, must have 6"});
   expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,x,0,15,0 -o out", 2, {"'x' is not a number"});
 }
 
 TEST_F(BadInput, max_range_below_min_range) {
-  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 9:2 -o out", 2, {"--range", "9:2", "max range 2 m must be above min range 9 m"});
-  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 0:2 -o out", 2, {"min range 0 m must be > 0"});
+  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 9:2 -o out", 2,
+                 {"--range", "9:2", "max range 2 m must be above min range 9 m"});
+  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 0:2 -o out", 2,
+                 {"min range 0 m must be > 0"});
   expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 5 -o out", 2, {"min:max"});
 }
 
 TEST_F(BadInput, empty_cloud) {
-  write("empty.pcd", "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT 1\n"
-                     "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 0\nDATA ascii\n");
+  write("empty.pcd",
+        "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT 1\n"
+        "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 0\nDATA ascii\n");
   expect_refused("ping empty.pcd" + head, 3, {"empty.pcd"});
 }
 
@@ -89,7 +93,8 @@ TEST_F(BadInput, existing_file_of_prepare_and_make_scene) {
 
 TEST_F(BadInput, impossible_values) {
   expect_refused("ping plane.ply" + head + " --set sonar.bandwidth_hz=0", 2, {"bandwidth_hz = 0 Hz"});
-  expect_refused("ping plane.ply" + head + " --set sonar.bin_size_m=1", 2, {"bin_size_m = 1 m would under-sample the pulse"});
+  expect_refused("ping plane.ply" + head + " --set sonar.bin_size_m=1", 2,
+                 {"bin_size_m = 1 m would under-sample the pulse"});
   expect_refused("ping plane.ply" + head + " --set water.salinity_psu=-3", 2, {"salinity_psu = -3 psu"});
   expect_refused("ping plane.ply" + head + " --tolerance 0", 2, {"tolerance = 0"});
   expect_refused("ping plane.ply" + head + " --material stel", 2, {"stel", "did you mean 'steel'"});

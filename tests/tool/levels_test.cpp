@@ -32,7 +32,8 @@ TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
       const Cube c = cube("one");
       const double expected = c.source_level_db - 2 * (20 * std::log10(r) + c.absorption_db_per_m * r) - 20;
       const auto& p = c.pings[0].pressure;
-      EXPECT_NEAR(pressure_level_db(std::abs(std::complex<double>(p(static_cast<int>(beam), 400)))), expected, 1e-6) << method;
+      EXPECT_NEAR(pressure_level_db(std::abs(std::complex<double>(p(static_cast<int>(beam), 400)))), expected, 1e-6)
+          << method;
       Eigen::Index peak_beam = 0, peak_bin = 0;
       p.abs().maxCoeff(&peak_beam, &peak_bin);
       EXPECT_EQ(peak_beam, static_cast<int>(beam));

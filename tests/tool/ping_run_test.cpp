@@ -102,8 +102,8 @@ TEST_F(PingRun, returned_points_open_elsewhere_and_lie_on_the_scene) {
   succeed("make-scene plane -o plane.ply --points 60000 --size 25,25 -q");
   succeed("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:20 -o out --no-picture -q");
   const auto columns = read_ply_columns(read("out/returns.ply"));
-  for (const char* name : {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_azimuth", "scalar_elevation", "scalar_ping",
-                           "scalar_beam", "scalar_bin", "scalar_material"})
+  for (const char* name : {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_azimuth", "scalar_elevation",
+                           "scalar_ping", "scalar_beam", "scalar_bin", "scalar_material"})
     ASSERT_TRUE(columns.count(name)) << name;
   const auto& z = columns.at("z");
   ASSERT_GT(z.size(), 1000U);

@@ -1,8 +1,5 @@
 #include "tool/tool_runner.hpp"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -10,6 +7,8 @@
 #include <set>
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -53,7 +52,8 @@ std::string ToolTest::succeed(const std::string& arguments) const {
   return result.out;
 }
 
-void ToolTest::expect_refused(const std::string& arguments, int exit_code, const std::vector<std::string>& parts) const {
+void ToolTest::expect_refused(const std::string& arguments, int exit_code,
+                              const std::vector<std::string>& parts) const {
   const auto files = [&] {
     std::set<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.insert(entry.path().string());

@@ -63,9 +63,7 @@ TEST(ColourMaps, copper_follows_its_formula) {
 TEST(ColourMaps, all_but_jet_grow_brighter_with_the_level) {
   for (const char* name : {"viridis", "copper", "amber", "grey"}) {
     const ColourTable table = colour_table(name, "test");
-    const auto luma = [&](std::size_t i) {
-      return 0.2126 * table[i][0] + 0.7152 * table[i][1] + 0.0722 * table[i][2];
-    };
+    const auto luma = [&](std::size_t i) { return 0.2126 * table[i][0] + 0.7152 * table[i][1] + 0.0722 * table[i][2]; };
     for (std::size_t i = 1; i < 256; ++i)
       EXPECT_GE(luma(i) + 0.8, luma(i - 1)) << name << " " << i;  // rounding to bytes
     EXPECT_GT(luma(255) - luma(0), 120) << name;

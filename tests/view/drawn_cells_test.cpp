@@ -99,8 +99,7 @@ TEST(BeamCells, beams_of_one_azimuth_share_a_cell_of_their_mean_power) {
 
 TEST(FanPatches, of_cells_larger_than_pixels_hold_them_unchanged) {
   LevelImage image = flat_image(40, 60, 30, 0);
-  for (Eigen::Index i = 0; i < image.level_db.size(); ++i)
-    image.level_db.data()[i] = static_cast<float>(i % 97);
+  for (Eigen::Index i = 0; i < image.level_db.size(); ++i) image.level_db.data()[i] = static_cast<float>(i % 97);
   const BeamCells cells = order_beams(image);
   const std::vector<CellPatch> patches = fan_patches(cells, image.gate, 100);
   ASSERT_EQ(patches.size(), 1u);
@@ -114,8 +113,7 @@ TEST(FanPatches, cover_the_gate_without_gaps_and_keep_the_energy) {
   std::normal_distribution<float> level(100, 6);
   for (float& db : image.level_db.reshaped()) db = level(seed);
   const BeamCells cells = order_beams(image);
-  const std::vector<CellPatch> patches =
-      fan_patches(cells, image.gate, 0.4);  // 5 bins per pixel, 800 pixels of radius
+  const std::vector<CellPatch> patches = fan_patches(cells, image.gate, 0.4);  // 5 bins per pixel, 800 pixels of radius
 
   double outer = image.gate.min_range + 4001 * image.gate.bin_size, energy = 0;
   for (const CellPatch& patch : patches) {
@@ -135,8 +133,7 @@ TEST(FanPatches, cover_the_gate_without_gaps_and_keep_the_energy) {
   }
   EXPECT_DOUBLE_EQ(outer, image.gate.min_range);
   EXPECT_GT(patches.size(), 2u) << "beams narrow towards the apex";
-  const double whole =
-      cells.level_db.cast<double>().unaryExpr([](double db) { return power_from_db(db); }).sum();
+  const double whole = cells.level_db.cast<double>().unaryExpr([](double db) { return power_from_db(db); }).sum();
   EXPECT_NEAR(energy / whole, 1, 1e-6);
 }
 

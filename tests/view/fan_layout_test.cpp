@@ -29,8 +29,8 @@ LaidOut lay_out(double field_of_view_deg, int width, int height, FanOutline fan)
   laid.options.width = width;
   laid.options.height = height;
   laid.options.title = "Harbour, ping 12: a title of ordinary length";
-  laid.layout = lay_out_fan(laid.fan, laid.options, {colour_table("copper", "test"), 62, 107},
-                            "dB re 1 µPa, range compensated");
+  laid.layout =
+      lay_out_fan(laid.fan, laid.options, {colour_table("copper", "test"), 62, 107}, "dB re 1 µPa, range compensated");
   laid.texts = laid.layout.texts;
   laid.texts.push_back(laid.layout.title.value());
   const auto& bar_texts = laid.layout.colour_bar.texts;
@@ -43,12 +43,11 @@ template <typename Check>
 void for_all_fans(Check&& check) {
   const std::pair<int, int> sizes[] = {{600, 500}, {1400, 1050}, {500, 1000}, {1920, 1080}, {4000, 3000}};
   const FanOutline outlines[] = {{0, 0, 0.5, 9}, {0, 0, 10, 640}};
-  for (const double field_of_view_deg :
-       {20.0, 45.0, 60.0, 90.0, 120.0, 130.0, 180.0, 210.0, 270.0, 330.0, 360.0})
+  for (const double field_of_view_deg : {20.0, 45.0, 60.0, 90.0, 120.0, 130.0, 180.0, 210.0, 270.0, 330.0, 360.0})
     for (const auto& [width, height] : sizes)
       for (const FanOutline& outline : outlines) {
-        SCOPED_TRACE(testing::Message() << field_of_view_deg << " degrees to " << outline.max_range
-                                        << " m in " << width << " x " << height);
+        SCOPED_TRACE(testing::Message() << field_of_view_deg << " degrees to " << outline.max_range << " m in " << width
+                                        << " x " << height);
         check(lay_out(field_of_view_deg, width, height, outline));
       }
 }
@@ -57,8 +56,7 @@ void for_all_fans(Check&& check) {
 
 TEST(FanLayout, has_no_text_outside_the_picture_or_on_another) {
   for_all_fans([](const LaidOut& laid) {
-    const Box picture{0, static_cast<double>(laid.options.width), 0,
-                      static_cast<double>(laid.options.height)};
+    const Box picture{0, static_cast<double>(laid.options.width), 0, static_cast<double>(laid.options.height)};
     const auto& texts = laid.texts;
     for (std::size_t i = 0; i < texts.size(); ++i) {
       EXPECT_TRUE(picture.contains(texts[i].box())) << texts[i].text;
@@ -80,8 +78,7 @@ TEST(FanLayout, keeps_the_fan_inside_the_picture_and_clear_of_texts_and_colour_b
         const Point2 p = laid.layout.at(fan.low + (fan.high - fan.low) * i / 200,
                                         fan.min_range + (fan.max_range - fan.min_range) * j / 20);
         ASSERT_TRUE(p.x >= 0 && p.x <= laid.options.width && p.y >= 0 && p.y <= laid.options.height);
-        for (const Box& box : boxes)
-          ASSERT_FALSE(box.contains({p.x, p.x, p.y, p.y})) << box.left << ", " << box.bottom;
+        for (const Box& box : boxes) ASSERT_FALSE(box.contains({p.x, p.x, p.y, p.y})) << box.left << ", " << box.bottom;
       }
   });
 }
@@ -92,8 +89,7 @@ TEST(FanLayout, fills_the_picture_in_one_direction) {
     for (int i = 0; i <= 720; ++i)
       for (const double range : {laid.fan.min_range, laid.fan.max_range}) {
         const Point2 p = laid.layout.at(laid.fan.low + (laid.fan.high - laid.fan.low) * i / 720, range);
-        box = {std::min(box.left, p.x), std::max(box.right, p.x), std::min(box.bottom, p.y),
-               std::max(box.top, p.y)};
+        box = {std::min(box.left, p.x), std::max(box.right, p.x), std::min(box.bottom, p.y), std::max(box.top, p.y)};
       }
     EXPECT_TRUE(box.width() > 0.7 * laid.options.width || box.height() > 0.7 * laid.options.height)
         << box.width() << " x " << box.height();

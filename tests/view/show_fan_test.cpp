@@ -31,8 +31,7 @@ class ShowFan : public testing::Test {
   }
   FanLayout layout_of(const LevelImage& image) const {
     const BeamCells cells = order_beams(image);
-    const double max_range =
-        image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
+    const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
     return lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options,
                        colour_scale(image.level_db, options, "test"), image.unit);
   }
@@ -148,12 +147,10 @@ TEST_F(ShowFan, has_a_colour_bar_that_runs_through_the_colour_map) {
     const ColourTable table = colour_table("viridis", "test");
     for (std::size_t i = 2; i < 254; ++i) {
       const double along = (static_cast<double>(i) + 0.5) / 256;
-      const Rgb seen =
-          bar.lying
-              ? picture.at(bar.bar.left + along * bar.bar.width(), bar.bar.bottom + bar.bar.height() / 2)
-              : picture.at(bar.bar.left + bar.bar.width() / 2, bar.bar.bottom + along * bar.bar.height());
-      EXPECT_LE(colour_difference(seen, table[i]), 6)
-          << i;  // one entry of the table is up to 6 from the next
+      const Rgb seen = bar.lying
+                           ? picture.at(bar.bar.left + along * bar.bar.width(), bar.bar.bottom + bar.bar.height() / 2)
+                           : picture.at(bar.bar.left + bar.bar.width() / 2, bar.bar.bottom + along * bar.bar.height());
+      EXPECT_LE(colour_difference(seen, table[i]), 6) << i;  // one entry of the table is up to 6 from the next
     }
   }
 }
@@ -177,8 +174,7 @@ TEST_F(ShowFan, of_one_beam_shows_that_beam) {
   image.fan.beam_width = radians(8);
   const ReadPicture picture = show(image);
   const Point2 p = layout_of(image).at(radians(2), 12.3);
-  EXPECT_LE(colour_difference(picture.at(p.x, p.y), colour_scale(image.level_db, options, "test").colour(60)),
-            2);
+  EXPECT_LE(colour_difference(picture.at(p.x, p.y), colour_scale(image.level_db, options, "test").colour(60)), 2);
 }
 
 TEST_F(ShowFan, of_a_full_circle_has_no_seam) {
@@ -213,8 +209,8 @@ TEST_F(ShowFan, does_not_lose_a_bright_bin_among_many) {
     const FanLayout layout = layout_of(image);
     int brightest = 0;
     for (double pixels = -4; pixels <= 4; pixels += 0.5) {
-      const Point2 p = layout.at(
-          radians(4), image.gate.centre(static_cast<std::size_t>(bin)) + pixels / layout.pixels_per_metre);
+      const Point2 p =
+          layout.at(radians(4), image.gate.centre(static_cast<std::size_t>(bin)) + pixels / layout.pixels_per_metre);
       brightest = std::max(brightest, int{picture.at(p.x, p.y)[0]});
     }
     EXPECT_GT(brightest, 100) << bin;
@@ -254,13 +250,11 @@ TEST_F(ShowFan, refuses_an_unknown_colour_map) {
 TEST_F(ShowFan, that_cannot_be_written_leaves_nothing_behind) {
   const LevelImage image = flat_image(4, 60, 10, 0);
   const std::string nowhere = picture_path("no_such_folder") + "/fan.png";
-  EXPECT_THAT(message_of(image, options, nowhere, ErrorKind::file),
-              testing::HasSubstr("cannot write " + nowhere));
+  EXPECT_THAT(message_of(image, options, nowhere, ErrorKind::file), testing::HasSubstr("cannot write " + nowhere));
 
   const std::string folder = picture_path("folder.png");
   std::filesystem::create_directories(folder + "/full");
-  EXPECT_THAT(message_of(image, options, folder, ErrorKind::file),
-              testing::HasSubstr("cannot write " + folder));
+  EXPECT_THAT(message_of(image, options, folder, ErrorKind::file), testing::HasSubstr("cannot write " + folder));
   EXPECT_FALSE(file_exists(folder + ".tmp"));
   std::filesystem::remove_all(folder);
 

@@ -17,15 +17,14 @@
 
 namespace insonify::test {
 
-LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db,
-                      bool port_first) {
+LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db, bool port_first) {
   LevelImage image;
   image.fan = make_fan(beams, radians(field_of_view_deg), radians(1), radians(20));
   if (port_first) std::reverse(image.fan.azimuth.begin(), image.fan.azimuth.end());
   image.gate = {1.0, 1.0 + 0.5 * static_cast<double>(bins), 0.5};
   image.unit = "dB re 1 µPa";
-  image.level_db = Grid<float>::Constant(static_cast<Eigen::Index>(beams),
-                                         static_cast<Eigen::Index>(image.gate.bins()), level_db);
+  image.level_db =
+      Grid<float>::Constant(static_cast<Eigen::Index>(beams), static_cast<Eigen::Index>(image.gate.bins()), level_db);
   return image;
 }
 
@@ -56,8 +55,7 @@ int colour_difference(const Rgb& a, const Rgb& b) {
   return largest;
 }
 
-Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom,
-                 double top) {
+Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top) {
   Blob blob;
   for (int y = std::max(0, static_cast<int>(bottom)); y < std::min<double>(picture.height, top); ++y)
     for (int x = std::max(0, static_cast<int>(left)); x < std::min<double>(picture.width, right); ++x)

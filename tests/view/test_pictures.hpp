@@ -30,8 +30,7 @@ struct Blob {
   double x = 0, y = 0;
   int pixels = 0;
 };
-Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom,
-                 double top);
+Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top);
 
 /// A path in the test's own folder for temporary files.
 std::string picture_path(const std::string& name);
