@@ -13,7 +13,7 @@ declare -A why=(
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
 )
 if [[ "${1:-}" == --tests ]]; then
-  why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [git]="tests of the repository itself" [python3]="independent readers in tests")
+  why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format")
 fi
 
 missing=()

@@ -84,6 +84,23 @@ class ContributorTable {
   std::vector<std::uint32_t> begin_, order_;
 };
 
+/// Direction cosine of a beam and how far around it contributors are looked for: first in the beam's own share of the
+/// fan, so that neighbouring beams do not name the same scatterer, then in its whole -3 dB width.
+struct Look {
+  double u = 0, share = 0, width = 0;
+};
+
+std::vector<Look> looks_of(const BeamFan& fan) {
+  std::vector<Look> looks(fan.beams());
+  for (std::size_t b = 0; b < looks.size(); ++b) looks[b].u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
+  for (Look& look : looks) {
+    look.share = look.width = std::sin(std::min(fan.beam_width / 2, pi / 2));
+    for (const Look& other : looks)
+      if (&other != &look) look.share = std::min(look.share, std::abs(other.u - look.u) / 2);
+  }
+  return looks;
+}
+
 void append(Soundings& all, const Soundings& part) {
   const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   join(all.position, part.position);
@@ -126,12 +143,13 @@ Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const
 
   // Beams are independent; their soundings are joined in beam order.
   const ContributorTable contributors(echoes, scatterers, ping.gate);
+  const std::vector<Look> looks = looks_of(ping.fan);
   std::vector<Soundings> of_beam(beams);
   parallel_for(beams, options.threads, [&](std::size_t b) {
-    const double u = std::cos(ping.fan.elevation[b]) * std::sin(ping.fan.azimuth[b]);
-    const double half_width = std::sin(std::min(ping.fan.beam_width / 2, pi / 2));
     for (const Cell cell : detect_in_beam(level, static_cast<Eigen::Index>(b), strongest, options)) {
-      const std::uint32_t contributor = contributors.strongest(cell.bin, u, half_width);
+      std::uint32_t contributor = contributors.strongest(cell.bin, looks[b].u, looks[b].share);
+      if (contributor == ContributorTable::none)
+        contributor = contributors.strongest(cell.bin, looks[b].u, looks[b].width);
       if (contributor != ContributorTable::none) add_sounding(of_beam[b], ping, b, cell, scatterers, contributor);
     }
   });

@@ -86,6 +86,21 @@ TEST(DetectSoundings, gives_no_point_where_nothing_lies_in_the_beam) {
   EXPECT_EQ(scene.detect().size(), 2U);
 }
 
+// Beams 10 degrees wide and 2 degrees apart: both hear both scatterers, but each names its own.
+TEST(DetectSoundings, lets_neighbouring_beams_name_their_own_scatterers) {
+  Scene scene;
+  scene.ping.fan = make_fan(5, radians(10), radians(10), radians(40));  // 2 degrees apart
+  scene.ping.pressure.setZero();
+  scene.mark(2, 25, 100);
+  scene.mark(3, 25, 99);
+  scene.add(3.05, scene.ping.fan.azimuth[3], 0, 6);  // beside the one ahead at the same range, and weaker
+  scene.echoes.amplitude.back() = 0.5;
+  const Soundings s = scene.detect();
+  ASSERT_EQ(s.size(), 2U);
+  EXPECT_EQ(s.material[0], 4U);
+  EXPECT_EQ(s.material[1], 6U);
+}
+
 TEST(DetectSoundings, of_all_bins_keeps_the_flanks_too) {
   Scene scene;
   EXPECT_EQ(scene.detect({.all_bins = true, .above_db = 80}).size(), 6U);
