@@ -25,7 +25,7 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
   verb.add_option("SCENE", o.path, "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv")->required();
   verb.add_option("--viewpoint", o.viewpoint, "x,y,z [m] where the capture stood; orients estimated normals");
   verb.add_option("--materials", o.materials_file, "TOML table of materials for the labels of the cloud");
-  verb.add_option("--material", o.material, "one material for everything, by name, e.g. medium-sand");
+  verb.add_option("--material", o.material, "one material for everything, by name, e.g. sand");
   verb.add_option("--unit", o.unit, "of the file: m, mm, cm, km, ft, or metres per unit");
   verb.add_option("--mesh-spacing", o.mesh_spacing, "[m] between surfels of a mesh; 0: about 200 000 surfels");
 }
@@ -37,7 +37,8 @@ void add_run(CLI::App& verb, CommonOptions& common, RunOptions& o) {
   verb.add_option("--tolerance", o.tolerance, "relative error of the synthesis");
   verb.add_option("--method", o.method, "stamped, or direct: the slow referee")
       ->check(CLI::IsMember({"stamped", "direct"}));
-  verb.add_option("--set", common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times");
+  verb.add_option("--set", common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times")
+      ->allow_extra_args(false);
   verb.add_flag("--force", o.force, "replace an existing run directory");
   verb.add_flag("--no-picture", o.no_picture, "do not draw fan.png");
 }
@@ -52,6 +53,7 @@ struct AllOptions {
   PingOptions ping;
   SynthesizeOptions synthesize;
   ImageOptions image;
+  BeamPatternOptions beampattern;
 };
 
 void add_info(CLI::App& app, AllOptions& all) {
@@ -71,7 +73,7 @@ void add_prepare(CLI::App& app, AllOptions& all) {
   add_common(*verb, all.common, true);
   add_work(*verb, all.common);
   verb->footer(
-      "Examples:\n  insonify prepare reef.pcd -o reef.ply --material medium-sand\n"
+      "Examples:\n  insonify prepare reef.pcd -o reef.ply --material sand\n"
       "  insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2");
 }
 
@@ -113,6 +115,7 @@ void add_ping(CLI::App& app, AllOptions& all) {
   verb->add_option("--rays-per-beam", o.rays_per_beam, "with --sampling rays");
   verb->add_option("--amplitude", o.amplitude, "speckle, random-phase or coherent")
       ->check(CLI::IsMember({"speckle", "random-phase", "coherent"}));
+  verb->add_flag("--noise", o.noise, "add the thermal noise of the array's elements");
   verb->add_option("--threshold", o.threshold_db, "[dB] of a detection above the noise floor");
   verb->add_option("--all-bins-above", o.all_bins_above, "[dB re 1 uPa] every bin above is a returned point");
   add_common(*verb, all.common, true);
@@ -154,6 +157,22 @@ void add_image(CLI::App& app, AllOptions& all) {
   verb->footer("Examples:\n  insonify image out -o fan.png\n  insonify image out --view ascan --beam 128 -o beam.png");
 }
 
+void add_beampattern(CLI::App& app, AllOptions& all) {
+  BeamPatternOptions& o = all.beampattern;
+  CLI::App* verb = app.add_subcommand("beampattern", "width, side lobes and grating lobes of a sonar's beam");
+  verb->add_option("SONAR", o.run.sonar, "preset (see `insonify sonars`) or a .toml file")->required();
+  verb->add_option("--steer", o.steer, "azimuth of the beam [deg], positive to port, within -90 and 90");
+  verb->add_option("-o,--output", o.output, "picture to write, .png");
+  verb->add_option("--set", all.common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times")
+      ->allow_extra_args(false);
+  verb->add_option("--size", o.size, "WIDTHxHEIGHT [pixels]");
+  verb->add_flag("--dark", o.dark, "dark background");
+  add_common(*verb, all.common, true);
+  verb->footer(
+      "Examples:\n  insonify beampattern p900-45 -o pattern.png\n"
+      "  insonify beampattern oculus-m750d --steer=-30 --set sonar.shading=chebyshev --json");
+}
+
 }  // namespace
 
 Command parse_command_line(int argc, char** argv) {
@@ -168,6 +187,7 @@ Command parse_command_line(int argc, char** argv) {
   add_ping(app, *all);
   add_synthesize(app, *all);
   add_image(app, *all);
+  add_beampattern(app, *all);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // help and version: asked for, so on stdout
@@ -185,6 +205,7 @@ Command parse_command_line(int argc, char** argv) {
             if (verb == "ping") ping(all->common, all->ping);
             if (verb == "synthesize") synthesize(all->common, all->synthesize);
             if (verb == "image") image(all->common, all->image);
+            if (verb == "beampattern") beampattern(all->common, all->beampattern);
           },
           0};
 }

@@ -22,9 +22,11 @@ void set_water(Water& water, const Setting& setting) {
     water.depth = value;
   else if (setting.key == "ph")
     water.ph = value;
+  else if (setting.key == "latitude_deg")
+    water.latitude_deg = value;
   else
     fail(ErrorKind::argument, "--set water.", setting.key, ": unknown key; known are temperature_c, salinity_psu, ",
-         "depth_m, ph");
+         "depth_m, ph, latitude_deg");
 }
 
 /// Index of the material called `name`; Error(argument) with the nearest name.
@@ -35,7 +37,8 @@ std::uint16_t material_index(const std::vector<Material>& materials, const std::
   if (at == names.end()) {
     const std::string near = nearest_word(name, names);
     fail(ErrorKind::argument, "--material = '", name, "' is unknown",
-         near.empty() ? "; see data/materials.toml" : "; did you mean '" + near + "'?");
+         near.empty() ? "" : "; did you mean '" + near + "'?", "; known are ",
+         fmt::format("{}", fmt::join(names, ", ")));
   }
   return static_cast<std::uint16_t>(at - names.begin());
 }
@@ -58,6 +61,7 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
       fail(ErrorKind::argument, "--set ", text, ": section '", setting.section, "' is unknown; use sonar or water");
   }
   if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
+  setup.notes = validity_notes(setup.water, setup.spec.centre_frequency);
   setup.medium = medium_of(setup.water, setup.spec.centre_frequency);
   setup.head = make_head(setup.spec, setup.medium.sound_speed);
   return setup;

@@ -16,6 +16,7 @@ struct HeadSetup {
   SonarHead head;
   Water water;
   Medium medium;
+  std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run);

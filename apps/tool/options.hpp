@@ -69,6 +69,7 @@ struct PingOptions {
   std::string amplitude = "speckle";
   double scatterers_per_cell = 10;
   int rays_per_beam = 64;
+  bool noise = false;
   double threshold_db = 11.4;
   std::string all_bins_above;  ///< dB re 1 uPa, or empty
 };
@@ -90,6 +91,14 @@ struct ImageOptions {
   std::size_t ping = 0;
   int beam = -1;  ///< -1: the middle one
   bool raw = false;
+  bool dark = false;
+};
+
+struct BeamPatternOptions {
+  RunOptions run;  ///< of which only the sonar counts
+  std::string steer = "0";
+  std::string output;  ///< picture, or empty: none
+  std::string size = "1400x1050";
   bool dark = false;
 };
 

@@ -17,9 +17,9 @@ std::string run_toml(const CommonOptions& common, const RunOptions& run, const H
   return fmt::format(
       "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
       "tolerance = {}\nmethod = \"{}\"\n{}\n[water]\ntemperature_c = {}\nsalinity_psu = {}\ndepth_m = {}\n"
-      "ph = {}\n\n[sonar]\n{}",
+      "ph = {}\nlatitude_deg = {}\n\n[sonar]\n{}",
       INSONIFY_VERSION, common.seed, run.tolerance, run.method, head, setup.water.temperature_c,
-      setup.water.salinity_psu, setup.water.depth, setup.water.ph, sonar_as_toml(setup.spec));
+      setup.water.salinity_psu, setup.water.depth, setup.water.ph, setup.water.latitude_deg, sonar_as_toml(setup.spec));
 }
 
 Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {

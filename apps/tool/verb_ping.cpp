@@ -33,6 +33,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
                                                 : SurfaceAmplitude::complex_normal;
   s.method = o.run.method == "direct" ? SynthesisMethod::direct : SynthesisMethod::stamped;
   s.tolerance = o.run.tolerance;
+  s.noise = o.noise;
   s.detection.threshold_db = o.threshold_db;
   if (!o.all_bins_above.empty()) {
     s.detection.all_bins = true;
@@ -113,10 +114,10 @@ std::string run_toml_head(const PingOptions& o) {
   return fmt::format(
       "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nviewpoint = {}\n\n[ping]\npose = {}\n"
       "world = {}\nsampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\n"
-      "threshold_db = {}\nall_bins_above = {}\n",
+      "noise = {}\nthreshold_db = {}\nall_bins_above = {}\n",
       toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
       toml_text(o.scene.viewpoint), toml_text(o.pose), toml_text(o.world), toml_text(o.sampling), o.scatterers_per_cell,
-      o.rays_per_beam, toml_text(o.amplitude), o.threshold_db, toml_text(o.all_bins_above));
+      o.rays_per_beam, toml_text(o.amplitude), o.noise, o.threshold_db, toml_text(o.all_bins_above));
 }
 
 void print_summary(const CommonOptions& common, const std::string& output, const ordered_json& manifest) {
@@ -151,18 +152,16 @@ void ping(const CommonOptions& common, const PingOptions& o) {
                            {"seed", common.seed},
                            {"scene", scene_json(loaded)},
                            {"notes", ordered_json::array()}};
-  for (const std::string& note : loading_notes(loaded.report)) {
+  const auto tell = [&](const std::string& note) {
     progress.note(note);
     manifest["notes"].push_back(note);
-  }
+  };
+  for (const std::string& note : setup.notes) tell(note);
+  for (const std::string& note : loading_notes(loaded.report)) tell(note);
 
   progress.step("pinging");
   const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.water, simulation);
-  if (result.scatterers.size() == 0) {
-    const std::string note = silence_note(places);
-    progress.note(note);
-    manifest["notes"].push_back(note);
-  }
+  if (result.scatterers.size() == 0) tell(silence_note(places));
 
   progress.step("writing " + o.run.output);
   start = Clock::now();

@@ -38,6 +38,10 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
                                      {"seed", common.seed},
                                      {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
                                      {"notes", nlohmann::ordered_json::array()}};
+  for (const std::string& note : setup.notes) {
+    progress.note(note);
+    manifest["notes"].push_back(note);
+  }
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, ping, fmt::format("scatterers = {}\n", toml_text(o.scatterers)), manifest,
             progress);

@@ -10,6 +10,7 @@ void make_scene(const CommonOptions& common, const MakeSceneOptions& options);
 void sonars(const CommonOptions& common, const SonarsOptions& options);
 void ping(const CommonOptions& common, const PingOptions& options);
 void synthesize(const CommonOptions& common, const SynthesizeOptions& options);
+void beampattern(const CommonOptions& common, const BeamPatternOptions& options);
 void image(const CommonOptions& common, const ImageOptions& options);
 
 }  // namespace insonify::tool

@@ -10,7 +10,10 @@ namespace {
 /// sinc(x) = sin(pi x) / (pi x) falls to 1/sqrt(2) at this x.
 constexpr double sinc_half_power = 0.4429464715;
 
-double sinc(double x) { return std::abs(x) < 1e-8 ? 1 : std::sin(pi * x) / (pi * x); }
+double sinc(double x) {
+  if (std::abs(x) < 1e-8) return 1;
+  return std::abs(x) < 1e15 ? std::sin(pi * x) / (pi * x) : 0;
+}
 }  // namespace
 
 double elevation_response(ElevationShape shape, double width, double elevation_off_centre) {

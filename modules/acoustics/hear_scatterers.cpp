@@ -66,6 +66,10 @@ Echoes hear_scatterers(const Scatterers& scatterers, std::span<const Material> m
                        const Medium& medium, const HearingOptions& options) {
   require_valid(pulse, "hear_scatterers");
   require_valid(medium, "hear_scatterers");
+  for (const Material& material : materials)
+    if (!(material.lambert_mu >= 0 && std::isfinite(material.lambert_mu)))
+      fail(ErrorKind::argument, "hear_scatterers: lambert_mu of material '", material.name, "' = ", material.lambert_mu,
+           " 1/sr, must be finite and >= 0");
   Echoes echoes = room_for(scatterers.size());
   const Hearing hearing(pulse, medium, options);
   parallel_blocks(scatterers.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -93,7 +97,8 @@ Echoes hear_targets(const Scatterers& scatterers, std::span<const double> sigma,
   Echoes echoes = room_for(n);
   const Hearing hearing(pulse, medium, options);
   for (std::size_t i = 0; i < n; ++i) {
-    if (!(sigma[i] >= 0)) fail(ErrorKind::argument, "hear_targets: sigma[", i, "] = ", sigma[i], " m^2, must be >= 0");
+    if (!(sigma[i] >= 0 && std::isfinite(sigma[i])))
+      fail(ErrorKind::argument, "hear_targets: sigma[", i, "] = ", sigma[i], " m^2, must be finite and >= 0");
     hearing.hear(scatterers, i, sigma[i], xi[i], echoes);
   }
   return echoes;

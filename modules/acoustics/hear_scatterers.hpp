@@ -36,7 +36,7 @@ double lambert_cross_section(double lambert_mu, double cos_incidence, double pro
 /// materials   looked up by scatterers.material
 /// returns     one echo per scatterer, in order; delay = 2 r / c. The phase is reduced to one cycle in double.
 ///
-/// Throws Error if an invalid pulse, medium or material index is met, or a range is not > 0.
+/// Throws Error if an invalid pulse, medium, material or material index is met, or a range is not > 0.
 Echoes hear_scatterers(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
                        const Medium& medium, const HearingOptions& options = {});
 

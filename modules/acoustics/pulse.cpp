@@ -19,8 +19,8 @@ void require_valid(const Pulse& pulse, const char* who) {
   if (!std::isfinite(pulse.bandwidth) || pulse.bandwidth <= 0 || pulse.bandwidth >= 2 * pulse.centre_frequency)
     fail(ErrorKind::argument, who, ": bandwidth = ", pulse.bandwidth, " Hz, must be > 0 and below twice the centre ",
          "frequency (", pulse.centre_frequency, " Hz)");
-  if (!std::isfinite(pulse.source_level_db))
-    fail(ErrorKind::argument, who, ": source_level_db = ", pulse.source_level_db, ", must be finite");
+  if (!(std::abs(pulse.source_level_db) <= 400))
+    fail(ErrorKind::argument, who, ": source_level_db = ", pulse.source_level_db, " dB, must be within -400 and 400");
 }
 
 double source_pressure(const Pulse& pulse) {
@@ -43,13 +43,17 @@ EchoEnvelope echo_envelope(const Pulse& pulse, const Absorption& absorption, dou
   if (!(a > 0))
     fail(ErrorKind::argument, "echo_envelope: absorption curvature ", absorption.a2, " Np/m/Hz^2 at ", range,
          " m turns the pulse into a growing one; use absorption order 0 or 1");
-  return {std::sqrt(a_sent / a) * std::exp(-2 * absorption.a0 * range), a, 2 * absorption.a1 * range};  // (E8)
+  const double b = 2 * absorption.a1 * range;
+  const double gain = std::sqrt(a_sent / a) * std::exp(b * b / (4 * a) - 2 * absorption.a0 * range);  // (E8)
+  if (!(gain <= 1 + 1e-9))
+    fail(ErrorKind::argument, "echo_envelope: absorption slope ", absorption.a1, " Np/m/Hz at ", range,
+         " m turns the pulse into a growing one (gain ", gain, "); use absorption order 0, or a smaller bandwidth");
+  return {gain, a, b};
 }
 
 std::complex<double> EchoEnvelope::at(double t) const {
   const double w = 2 * pi * t;
-  // (b + i w)^2 / 4a, real and imaginary part                                                             (E8)
-  const double magnitude = gain * std::exp((b * b - w * w) / (4 * a));
+  const double magnitude = gain * std::exp(-w * w / (4 * a));  // (E8)
   if (b == 0) return magnitude;
   return std::polar(magnitude, b * w / (2 * a));
 }

@@ -1,26 +1,49 @@
 #pragma once
+#include <string>
+#include <vector>
 
 namespace insonify {
 
 /// The water between head and scene, the same everywhere.
 struct Water {
-  double temperature_c = 10;  ///< [deg C]
+  double temperature_c = 10;  ///< [deg C], scale of 1990
   double salinity_psu = 35;   ///< [psu]; 0: fresh water
-  double depth = 0;           ///< [m], positive down; taken as pressure at 45 deg latitude
+  double depth = 0;           ///< [m], positive down
   double ph = 8;              ///< acidity on the NBS scale
+  double latitude_deg = 45;   ///< [deg], north or south alike: gravity, and so pressure, at depth
 };
 
-enum class SoundSpeedFormula { unesco, mackenzie };
+/// Throws Error unless -4 <= temperature_c <= 100, salinity and depth are finite and >= 0, 0 <= ph <= 14 and
+/// -90 <= latitude_deg <= 90.
+void require_valid(const Water& water, const char* who);
 
-/// Sound speed [m/s]. UNESCO (Chen-Millero 1977, E1): 0..40 deg C, 0..40 psu, 0..1000 bar, 0.05 m/s. Mackenzie
-/// (1981, E2): 2..30 deg C, 25..40 psu, 0..8000 m, 0.07 m/s; 0.8 m/s low in fresh water. Outside these it is an
-/// extrapolation. Throws Error for values that are not finite, salinity or depth < 0.
+/// Pressure above that of the atmosphere [Pa] at the depth and latitude of `water`: the standard ocean (0 deg C,
+/// 35 psu) of Leroy and Parthiot (1998, E24), 0..12000 m. A lake has up to 3 % less.
+double gauge_pressure(const Water& water);
+
+enum class SoundSpeedFormula { unesco, mackenzie, leroy };
+
+/// Sound speed [m/s].
+///   unesco     Chen and Millero (1977, E1): 0..40 deg C, 0..40 psu, 0..1000 bar
+///   mackenzie  Mackenzie (1981, E2): 2..30 deg C, 25..40 psu, 0..8000 m; 0.8 m/s low in fresh water
+///   leroy      Leroy, Robinson and Goldsmith (2008, E23): -1..30 deg C, 0..42 psu, 0..12000 m, 0.2 m/s
+/// At the surface of the sea (2..30 deg C, 30..40 psu) leroy is within 0.2 and mackenzie within 0.31 m/s of unesco.
+/// Outside the ranges above it is an extrapolation (validity_notes says so). Throws Error for values require_valid
+/// refuses, and where the result is not > 0.
 double sound_speed(const Water& water, SoundSpeedFormula formula = SoundSpeedFormula::unesco);
 
-/// Absorption of sound [dB/m] at `frequency` [Hz], Francois and Garrison (1982, E3), with theta = 273 + T as in
-/// the paper. "All oceanic conditions", 200 Hz to 1 MHz, about 5-10 %; above 1 MHz an extrapolation in which the
-/// pure-water term dominates. Throws Error for frequency <= 0 and for values sound_speed refuses.
-double absorption_db_per_m(const Water& water, double frequency);
+enum class AbsorptionFormula { francois_garrison, fisher_simmons, ainslie_mccolm };
+
+/// Absorption of sound [dB/m] at `frequency` [Hz].
+///   francois_garrison  Francois and Garrison (1982, E3), theta = 273 + T as in the paper: 200 Hz to 1 MHz, 5-10 %
+///   fisher_simmons     Fisher and Simmons (1977, E21): 10 to 400 kHz; takes no heed of salinity (35) and pH (8)
+///   ainslie_mccolm     Ainslie and McColm (1998, E22): within about 10 % of Francois and Garrison, 100 Hz to 1 MHz
+/// Above 1 MHz each is an extrapolation in which the pure-water term dominates. At 900 kHz in mild sea water they
+/// differ by 8 %: absorption is never known better. In fresh water (0 psu) the first and last leave pure water.
+/// Throws Error for frequency <= 0, for values require_valid refuses, and where the result is not >= 0 (Fisher and
+/// Simmons above about 70 deg C).
+double absorption_db_per_m(const Water& water, double frequency,
+                           AbsorptionFormula formula = AbsorptionFormula::francois_garrison);
 
 /// Amplitude absorption about a centre frequency f_c: alpha(f) = a0 + a1 (f - f_c) + a2 (f - f_c)^2.
 struct Absorption {
@@ -29,8 +52,9 @@ struct Absorption {
   double a2 = 0;  ///< [Np/m/Hz^2]
 };
 
-/// Taylor coefficients of absorption_db_per_m about `centre_frequency` [Hz] up to `order` 0, 1 or 2 (E3).
-Absorption absorption_about(const Water& water, double centre_frequency, int order);
+/// Taylor coefficients of absorption_db_per_m about `centre_frequency` [Hz] up to `order` 0, 1 or 2 (E3, E21, E22).
+Absorption absorption_about(const Water& water, double centre_frequency, int order,
+                            AbsorptionFormula formula = AbsorptionFormula::francois_garrison);
 
 /// What sound needs to know of the water, worked out once per run.
 struct Medium {
@@ -38,10 +62,21 @@ struct Medium {
   Absorption absorption;
 };
 
-/// Medium of `water` for a pulse about `centre_frequency` [Hz]; absorption to `absorption_order`.
-Medium medium_of(const Water& water, double centre_frequency, int absorption_order = 0);
+/// Medium of `water` for a pulse about `centre_frequency` [Hz]; sound speed by UNESCO, absorption by `formula` to
+/// `absorption_order`.
+Medium medium_of(const Water& water, double centre_frequency, int absorption_order = 0,
+                 AbsorptionFormula formula = AbsorptionFormula::francois_garrison);
 
 /// Throws Error unless sound speed is finite and > 0 and absorption is finite and >= 0 at the centre frequency.
 void require_valid(const Medium& medium, const char* who);
+
+/// One sentence for each input outside the range its formula was made for: value, unit, range, and that the result
+/// is an extrapolation. Empty when all is inside. Ranges are those listed at sound_speed and absorption_db_per_m;
+/// Francois and Garrison: -2..22 deg C, 30..35 psu, 0..3500 m below 500 kHz, and 0..30 deg C, 0..40 psu, 0..10000 m
+/// from there on; Ainslie and McColm: -6..35 deg C, 5..50 psu, 0..7000 m, pH 7.7..8.3. A range no source states is
+/// not judged. Throws as absorption_db_per_m does for frequency [Hz] and water.
+std::vector<std::string> validity_notes(const Water& water, double frequency,
+                                        SoundSpeedFormula sound_speed_formula = SoundSpeedFormula::unesco,
+                                        AbsorptionFormula absorption_formula = AbsorptionFormula::francois_garrison);
 
 }  // namespace insonify

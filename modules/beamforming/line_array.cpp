@@ -26,38 +26,45 @@ double array_response(const LineArray& array, double wavelength, double u, doubl
   return sum / static_cast<double>(n);  // (E10)
 }
 
-double array_beam_width(const LineArray& array, double wavelength) {
-  require_valid(array, "array_beam_width");
+double half_power_offset(const LineArray& array, double wavelength, double most) {
+  require_valid(array, "half_power_offset");
   const auto power = [&](double u) {
     const double b = array_response(array, wavelength, u, 0);
     return b * b;
   };
+  if (array.elements() == 1) return most;
   // Walk out of the main lobe in steps much finer than it, then bisect.
   const double step = 0.02 * wavelength / (array.spacing * static_cast<double>(array.elements()));
   double inside = 0, outside = step;
-  while (outside < 1 && power(outside) > 0.5) inside = outside, outside += step;
-  if (outside >= 1 && power(1) > 0.5) return pi;
-  outside = std::min(outside, 1.0);
+  while (outside < most && power(outside) > 0.5) inside = outside, outside += step;
+  if (outside >= most && power(most) > 0.5) return most;
+  outside = std::min(outside, most);
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (inside + outside);
     (power(middle) > 0.5 ? inside : outside) = middle;
   }
-  return 2 * std::asin(inside);
+  return inside;
 }
 
-double directivity_index_db(const LineArray& array, double wavelength) {
+double array_beam_width(const LineArray& array, double wavelength) {
+  require_valid(array, "array_beam_width");
+  return 2 * std::asin(half_power_offset(array, wavelength, 1));
+}
+
+double directivity_index_db(const LineArray& array, double wavelength, double u_beam) {
   require_valid(array, "directivity_index_db");
   const std::size_t n = array.elements();
-  // Integral of B^2 du over [-1, 1]: pairs of elements at distance x wavelengths give 2 sin(2 pi x) / (2 pi x).
+  // Integral of B^2 du over [-1, 1]: pairs of elements with x radians between them at endfire give
+  // 2 cos(x u_beam) sin(x) / x.
   double integral = 0;
   for (std::size_t lag = 0; lag < n; ++lag) {
     double pairs = 0;
     for (std::size_t m = 0; m + lag < n; ++m) pairs += array.shading[m] * array.shading[m + lag];
     const double x = 2 * pi * array.spacing / wavelength * static_cast<double>(lag);
-    integral += lag == 0 ? 2 * pairs : 2 * pairs * 2 * std::sin(x) / x;
+    integral += lag == 0 ? 2 * pairs : 2 * pairs * 2 * std::cos(x * u_beam) * std::sin(x) / x;
   }
   integral /= static_cast<double>(n) * static_cast<double>(n);
-  return db_from_power(2 / integral);
+  return db_from_power(2 / integral);  // (E34)
 }
 
 }  // namespace insonify

@@ -26,10 +26,15 @@ inline double element_place(std::size_t m, std::size_t elements) {
 /// Direct sum over the elements.
 double array_response(const LineArray& array, double wavelength, double u, double u_beam);
 
+/// Distance |u - u_beam| at which the array's intensity response falls to half, found by bisection; `most` if it
+/// stays above up to there.
+double half_power_offset(const LineArray& array, double wavelength, double most);
+
 /// Full -3 dB width at broadside [rad] of the array's intensity response, found numerically; pi if it has none.
 double array_beam_width(const LineArray& array, double wavelength);
 
-/// Directivity index of the broadside beam [dB] for isotropic noise: 10 log10(2 / integral B^2 du over [-1, 1]).
-double directivity_index_db(const LineArray& array, double wavelength);
+/// Directivity index of the beam steered to u_beam [dB] for isotropic noise (E34):
+/// 10 log10(2 / integral B^2 du over [-1, 1]).
+double directivity_index_db(const LineArray& array, double wavelength, double u_beam = 0);
 
 }  // namespace insonify

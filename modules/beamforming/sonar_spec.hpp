@@ -22,18 +22,22 @@ struct SonarSpec {
   double elevation = 0;        ///< of the fan's axis [rad], positive up
   double elevation_width = 0;  ///< -3 dB [rad]
   ElevationShape elevation_shape = ElevationShape::gaussian;
-  double side_lobe_db = -30;       ///< Taylor shading; 0: uniform array
+  double side_lobe_db = -30;       ///< of Taylor and Chebyshev shading; 0: uniform array
+  std::optional<Shading> shading;  ///< absent: Taylor if side_lobe_db < 0, else uniform
   double min_range = 0;            ///< [m]
   double max_range = 0;            ///< [m]
   std::optional<double> bin_size;  ///< [m]; absent: 0.44 c / 2B
   std::vector<double> azimuths;    ///< [rad]; not empty: these beams instead of an even fan
 };
 
+/// The shading of the array that make_head builds.
+Shading shading_of(const SonarSpec& spec);
+
 /// Throws Error unless the spec describes a sonar that can be built: names key, value, unit and rule.
 void require_valid(const SonarSpec& spec, const char* who);
 
 /// The head for water of `sound_speed` [m/s]. The array is half-wavelength at the nominal sound speed with as many
-/// elements as the beam width needs (E10, E11). Throws Error for an invalid spec, or a bin_size that would
+/// elements as the beam width needs (E10) under its shading (E11, E31, E32). Throws Error for an invalid spec, or a bin_size that would
 /// under-sample the pulse (more than 0.44 c / 2B).
 SonarHead make_head(const SonarSpec& spec, double sound_speed);
 

@@ -7,7 +7,7 @@
 namespace insonify {
 
 struct SynthesisOptions {
-  double tolerance = 1e-4;  ///< the pulse is cut where its envelope falls below this part of its peak
+  double tolerance = 1e-4;  ///< of the image; a pulse is cut where its envelope falls below half this part of its peak
   int threads = 0;          ///< 0: all cores; the result does not depend on it
 };
 

@@ -11,6 +11,7 @@
 #include "acoustics/pulse.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 
@@ -56,7 +57,11 @@ struct SpectrumGrid {
     for (const double delay : echoes.delay) earliest = std::min(earliest, delay), latest = std::max(latest, delay);
     skipped = static_cast<std::size_t>(std::ceil((first_time - earliest + guard) / bin_time));
     start_time = first_time - static_cast<double>(skipped) * bin_time;
-    samples = static_cast<std::size_t>(std::ceil((latest + guard - start_time) / step_time)) + 1;
+    const double wanted = std::ceil((latest + guard - start_time) / step_time) + 1;
+    if (!(wanted <= 0x1p26))
+      fail(ErrorKind::argument, "synthesize_spectrum: echoes between ", earliest, " and ", latest, " s and a pulse of ",
+           guard, " s need ", wanted, " samples, must be at most 2^26; use another method");
+    samples = static_cast<std::size_t>(wanted);
   }
 
   double frequency(std::size_t k) const {

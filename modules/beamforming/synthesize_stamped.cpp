@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acoustics/pulse.hpp"
+#include "beamforming/element_tile_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/stamping_kernels_internal.hpp"
 #include "beamforming/synthesize.hpp"
@@ -13,8 +14,6 @@
 
 namespace insonify {
 namespace {
-
-constexpr std::size_t tile_bins = 64;
 
 /// The time axis of the gate: sample n stands at start + n step, two-way seconds.
 struct TimeAxis {
@@ -33,17 +32,29 @@ struct TimeAxis {
   }
 };
 
+/// How far an echo's pulse reaches to either side of its delay before it falls below the tolerance [s]. Curvature of
+/// the absorption lengthens the pulse on its way (E8).
+struct PulseReach {
+  double half, growth;  // half length as sent [s]; growth of its square per second of delay
+
+  PulseReach(const Pulse& pulse, const Medium& medium, double tolerance)
+      : half(pulse_half_length(pulse, tolerance / 2)),  // two lost samples per echo stay below the tolerance
+        growth(medium.absorption.a2 * medium.sound_speed / echo_envelope(pulse, {}, 0).a) {}
+
+  double at(double delay) const { return half * std::sqrt(std::max(1.0, 1 + growth * delay)); }
+};
+
 /// Which echoes touch which tile of samples, in order of echoes: the same for any number of threads.
 struct TileLists {
   std::vector<std::size_t> begin;  ///< tiles + 1 offsets into `echo`
   std::vector<std::uint32_t> echo;
 
-  TileLists(const Echoes& echoes, const TimeAxis& axis, double half) {
+  TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach) {
     const std::size_t tiles = (axis.bins + tile_bins - 1) / tile_bins;
     begin.assign(tiles + 1, 0);
     const auto each_tile = [&](auto&& visit) {
       for (std::size_t i = 0; i < echoes.size(); ++i) {
-        const auto [first, last] = axis.around(echoes.delay[i], half);
+        const auto [first, last] = axis.around(echoes.delay[i], reach.at(echoes.delay[i]));
         for (std::size_t t = first / tile_bins; first < last && t <= (last - 1) / tile_bins; ++t) visit(t, i);
       }
     };
@@ -55,31 +66,40 @@ struct TileLists {
   }
 };
 
-/// Shading times steering phase of every beam and element: beams x elements, in two planes.
-struct Steering {
-  Grid<double> re, im;
-
-  Steering(const SonarHead& head, double wavelength) {
-    const std::vector<double> u_beam = beam_cosines(head.fan);
-    const std::size_t n = head.array.elements();
-    re.resize(u_beam.size(), n);
-    im.resize(u_beam.size(), n);
-    for (std::size_t b = 0; b < u_beam.size(); ++b)
-      for (std::size_t m = 0; m < n; ++m) {
-        const double phase = -2 * pi * head.array.spacing / wavelength * element_place(m, n) * u_beam[b];
-        const double w = head.array.shading[m] / static_cast<double>(n);
-        re(b, m) = w * std::cos(phase);
-        im(b, m) = w * std::sin(phase);
-      }
+/// Adds the pulses of echoes to the element series of one tile.
+class Stamper {
+ public:
+  Stamper(const Echoes& echoes, const SonarHead& head, const Medium& medium, const TimeAxis& axis,
+          const PulseReach& reach)
+      : echoes_(echoes), head_(head), medium_(medium), axis_(axis), reach_(reach) {
+    phase_step_ = 2 * pi * head.array.spacing * head.pulse.centre_frequency / medium.sound_speed;
   }
-};
 
-/// One tile's time series of every element, samples x elements, in two planes.
-struct ElementTile {
-  Grid<double> re, im;
+  /// Echo i on the samples [tile_first, tile_last): its pulse times each element's phase.
+  void stamp(std::size_t i, std::size_t tile_first, std::size_t tile_last, ElementTile& series) {
+    const std::size_t elements = head_.array.elements();
+    phase_re_.resize(elements);
+    phase_im_.resize(elements);
+    kernels::element_phases(phase_step_ * echoes_.u[i], elements, phase_re_.data(), phase_im_.data());
+    const double delay = echoes_.delay[i];
+    const EchoEnvelope envelope = echo_envelope(head_.pulse, medium_.absorption, 0.5 * medium_.sound_speed * delay);
+    const auto [first, last] = axis_.around(delay, reach_.at(delay));
+    for (std::size_t n = std::max(first, tile_first); n < std::min(last, tile_last); ++n) {
+      const double t = axis_.start + static_cast<double>(n) * axis_.step - delay;
+      const std::complex<double> g = echoes_.amplitude[i] * envelope.at(t);  // (E13)
+      kernels::add_sample(g.real(), g.imag(), phase_re_.data(), phase_im_.data(), elements,
+                          series.re.row(n - tile_first).data(), series.im.row(n - tile_first).data());
+    }
+  }
 
-  explicit ElementTile(std::size_t elements)
-      : re(Grid<double>::Zero(tile_bins, elements)), im(Grid<double>::Zero(tile_bins, elements)) {}
+ private:
+  const Echoes& echoes_;
+  const SonarHead& head_;
+  const Medium& medium_;
+  const TimeAxis& axis_;
+  const PulseReach& reach_;
+  double phase_step_;
+  std::vector<double> phase_re_, phase_im_;
 };
 
 }  // namespace
@@ -88,43 +108,19 @@ ComplexGrid synthesize_stamped(const Echoes& echoes, const SonarHead& head, cons
                                const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize_stamped");
   const TimeAxis axis(head.gate, medium.sound_speed);
-  const double half = pulse_half_length(head.pulse, options.tolerance);
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  const std::size_t elements = head.array.elements(), beams = head.fan.beams();
-  const TileLists lists(echoes, axis, half);
-  const Steering steering(head, wavelength);
-  ComplexGrid pressure(beams, axis.bins);
+  const PulseReach reach(head.pulse, medium, options.tolerance);
+  const TileLists lists(echoes, axis, reach);
+  const BeamSums beams(head, medium.sound_speed / head.pulse.centre_frequency);
+  ComplexGrid pressure(head.fan.beams(), axis.bins);
 
+  // Each tile of samples belongs to one thread, which stamps its echoes in their order and forms its beams.
   parallel_for(lists.begin.size() - 1, options.threads, [&](std::size_t tile) {
-    const std::size_t tile_first = tile * tile_bins, tile_last = std::min(tile_first + tile_bins, axis.bins);
-
-    // Stamp: each echo's pulse times each element's phase, into this tile's samples only.              (E13)
-    ElementTile series(elements);
-    std::vector<double> phase_re(elements), phase_im(elements);
-    for (std::size_t k = lists.begin[tile]; k < lists.begin[tile + 1]; ++k) {
-      const std::size_t i = lists.echo[k];
-      const auto [first, last] = axis.around(echoes.delay[i], half);
-      kernels::element_phases(2 * pi * head.array.spacing / wavelength * echoes.u[i], elements, phase_re.data(),
-                              phase_im.data());
-      const EchoEnvelope envelope =
-          echo_envelope(head.pulse, medium.absorption, 0.5 * medium.sound_speed * echoes.delay[i]);
-      for (std::size_t n = std::max(first, tile_first); n < std::min(last, tile_last); ++n) {
-        const auto t = axis.start + static_cast<double>(n) * axis.step - echoes.delay[i];
-        const std::complex<double> g = echoes.amplitude[i] * envelope.at(t);
-        kernels::add_sample(g.real(), g.imag(), phase_re.data(), phase_im.data(), elements,
-                            series.re.row(n - tile_first).data(), series.im.row(n - tile_first).data());
-      }
-    }
-
-    // Beams: sums over elements; rows of samples now, so that the sums run along time.
-    const Grid<double> re = series.re.transpose(), im = series.im.transpose();
-    double beam_re[tile_bins], beam_im[tile_bins];
-    for (std::size_t b = 0; b < beams; ++b) {
-      kernels::sum_elements(steering.re.row(b).data(), steering.im.row(b).data(), elements, re.data(), im.data(),
-                            tile_bins, tile_last - tile_first, beam_re, beam_im);
-      for (std::size_t n = tile_first; n < tile_last; ++n)
-        pressure(b, n) = {beam_re[n - tile_first], beam_im[n - tile_first]};
-    }
+    const std::size_t first = tile * tile_bins, last = std::min(first + tile_bins, axis.bins);
+    ElementTile series(head.array.elements());
+    Stamper stamper(echoes, head, medium, axis, reach);
+    for (std::size_t k = lists.begin[tile]; k < lists.begin[tile + 1]; ++k)
+      stamper.stamp(lists.echo[k], first, last, series);
+    beams.form_beams(series, first, last, pressure);
   });
   return pressure;
 }

@@ -44,8 +44,9 @@ class ContributorTable {
     std::vector<std::uint32_t> bin(echoes.size());
     const auto bins = static_cast<double>(gate.bins());
     for (std::size_t i = 0; i < echoes.size(); ++i) {
+      // The bins at either end take also what stands on the gate's edge or within one bin of it.
       const double n = std::floor((scatterers.range[i] - gate.min_range) / gate.bin_size);
-      bin[i] = n >= 0 && n < bins ? static_cast<std::uint32_t>(n) : outside;
+      bin[i] = n >= -1 && n <= bins ? static_cast<std::uint32_t>(std::clamp(n, 0.0, bins - 1)) : outside;
       if (bin[i] != outside) ++begin_[bin[i] + 1];
     }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -93,10 +94,16 @@ struct Look {
 std::vector<Look> looks_of(const BeamFan& fan) {
   std::vector<Look> looks(fan.beams());
   for (std::size_t b = 0; b < looks.size(); ++b) looks[b].u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
-  for (Look& look : looks) {
-    look.share = look.width = std::sin(std::min(fan.beam_width / 2, pi / 2));
-    for (const Look& other : looks)
-      if (&other != &look) look.share = std::min(look.share, std::abs(other.u - look.u) / 2);
+  for (Look& look : looks) look.share = look.width = std::sin(std::min(fan.beam_width / 2, pi / 2));
+
+  // A beam's share ends halfway to its neighbours.
+  std::vector<std::size_t> order(looks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return looks[a].u < looks[b].u; });
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    Look &left = looks[order[k - 1]], &right = looks[order[k]];
+    left.share = std::min(left.share, (right.u - left.u) / 2);
+    right.share = std::min(right.share, (right.u - left.u) / 2);
   }
   return looks;
 }

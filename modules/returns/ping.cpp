@@ -3,9 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
+
+ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
+  ComplexGridF stored = pressure.cast<std::complex<float>>();
+  if (!stored.isFinite().all())
+    fail(ErrorKind::content, who, ": pressure of up to ", pressure.abs().maxCoeff(),
+         " Pa, must be below the 3.4e38 of single precision; lower source level, areas or lambert_mu");
+  return stored;
+}
 
 Grid<float> level_db(const Ping& ping, double floor_db) {
   return ping.pressure.unaryExpr([&](const std::complex<float>& p) {

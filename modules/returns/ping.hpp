@@ -18,6 +18,10 @@ struct Ping {
   ComplexGridF pressure;  ///< beams x bins [Pa], analytic baseband, linear
 };
 
+/// Pressure as a ping holds it, in single precision. Throws Error(content) naming `who` if a sample does not fit
+/// (3.4e38 Pa) or is no number.
+ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who);
+
 /// Level of every sample, beams x bins [dB re 1 uPa rms] (E6); samples below `floor_db` (zeros too) give floor_db.
 Grid<float> level_db(const Ping& ping, double floor_db = -200);
 

@@ -10,7 +10,7 @@ namespace insonify {
 
 BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, double elevation_width, double elevation) {
   if (beams == 0) fail(ErrorKind::argument, "make_fan: beams = 0, must be at least 1");
-  if (!(field_of_view > 0 && field_of_view <= 2 * pi))
+  if (!(field_of_view > 0 && field_of_view <= 2 * pi) && !(beams == 1 && field_of_view == 0))
     fail(ErrorKind::argument, "make_fan: field_of_view = ", field_of_view, " rad, must be > 0 and at most 2 pi");
   BeamFan fan;
   fan.beam_width = beam_width;

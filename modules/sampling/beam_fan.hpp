@@ -15,7 +15,7 @@ struct BeamFan {
 };
 
 /// `beams` directions spread evenly in angle over `field_of_view` [rad], centred on azimuth 0 and `elevation`; the
-/// outermost ones stand half a spacing inside the edges. One beam looks straight ahead.
+/// outermost ones stand half a spacing inside the edges. One beam looks straight ahead, also for field_of_view = 0.
 BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, double elevation_width,
                  double elevation = 0);
 

@@ -20,8 +20,8 @@ class SectorTest {
         convex_(sector.max_azimuth - sector.min_azimuth <= pi),
         port_(std::sin(sector.max_azimuth), -std::cos(sector.max_azimuth)),
         starboard_(-std::sin(sector.min_azimuth), std::cos(sector.min_azimuth)),
-        top_(std::sin(sector.max_elevation), std::cos(sector.max_elevation)),
-        bottom_(std::sin(sector.min_elevation), std::cos(sector.min_elevation)) {}
+        top_(std::sin(sector.max_elevation), cos_elevation(sector.max_elevation)),
+        bottom_(std::sin(sector.min_elevation), cos_elevation(sector.min_elevation)) {}
 
   // True if a sphere of radius `margin` round p may reach into the sector; exact for margin 0.
   bool holds(const Vector3d& p, double margin) const {
@@ -34,6 +34,9 @@ class SectorTest {
   }
 
  private:
+  // Nought at +-pi/2, where the rounded cosine would leave out the zenith itself.
+  static double cos_elevation(double elevation) { return std::abs(elevation) < pi / 2 ? std::cos(elevation) : 0; }
+
   bool whole_circle_, convex_;
   Eigen::Vector2d port_, starboard_;  // inward normals of the edges in azimuth
   Eigen::Vector2d top_, bottom_;      // sine and cosine of the edges in elevation

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
@@ -18,6 +19,7 @@ using Eigen::Vector3d;
 // Steps of the R2 sequence (Roberts 2018): 1 / g and 1 / g^2 with g^3 = g + 1, the plastic number.
 constexpr double step_radius = 0.75487766624669276, step_angle = 0.56984029099805327;
 constexpr std::uint32_t most_parts = 4096;
+constexpr std::size_t most_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
   const double cosine = -normal.dot(position) / range;
@@ -121,6 +123,11 @@ Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, const s
     for (std::size_t s = begin; s < end; ++s) first[s + 1] = splitter.parts(surfels[s]);
   });
   for (std::size_t s = 0; s < surfels.size(); ++s) first[s + 1] += first[s];
+  if (first.back() > most_scatterers)
+    fail(ErrorKind::argument, "split_surfels: ", surfels.size(), " surfels make ", first.back(), " scatterers (",
+         first.back() * bytes_per_scatterer >> 30,
+         " GiB), must be at most 2^28; lower scatterers_per_cell = ", options.scatterers_per_cell,
+         ", or thin the scene");
 
   Scatterers scatterers;
   resize(scatterers, first.back());

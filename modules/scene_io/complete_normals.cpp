@@ -1,12 +1,12 @@
-#include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "scene/scene_index.hpp"
-#include "scene_io/complete_scene.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "scene/scene_index.hpp"
+#include "scene_io/complete_scene.hpp"
 
 namespace insonify {
 namespace {
@@ -35,8 +35,7 @@ std::size_t renormalise(std::vector<Vector3f>& normals, bool prepared) {
 
 /// Estimates the normals listed in `bad` and gives each the sign of the good normals around it.
 void repair(RawCloud& raw, const std::vector<std::uint32_t>& bad, const LoadOptions& options) {
-  const std::vector<Vector3f> estimates =
-      estimate_normals(raw.point, bad, options.normal_neighbours, options.threads);
+  const std::vector<Vector3f> estimates = estimate_normals(raw.point, bad, options.normal_neighbours, options.threads);
   const SceneIndex index(raw.point);
   std::vector<Vector3f> repaired = estimates;
   parallel_for(bad.size(), options.threads, [&](std::size_t b) {
@@ -90,9 +89,8 @@ void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
     away += facing(raw.normal[i], raw.point[i], *raw.viewpoint - raw.origin) != raw.normal[i];
   }
   if (4 * away > raw.point.size()) {
-    result.report.notes.push_back(
-        share(away, raw.point.size(), "normals") +
-        " of the file look away from the viewpoint: check that they point outwards");
+    result.report.notes.push_back(share(away, raw.point.size(), "normals") +
+                                  " of the file look away from the viewpoint: check that they point outwards");
   }
 }
 
@@ -105,16 +103,14 @@ void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& re
     if (!usable(raw.normal[i])) bad.push_back(static_cast<std::uint32_t>(i));
   }
   if (bad.size() == raw.normal.size()) {
-    if (!bad.empty())
-      result.report.notes.push_back("all normals of the file are zero or NaN: estimated anew");
+    if (!bad.empty()) result.report.notes.push_back("all normals of the file are zero or NaN: estimated anew");
     estimate_all(raw, options, result);
   } else {
     if (!bad.empty()) repair(raw, bad, options);
     result.report.repaired_normals = bad.size();
     const std::size_t off = renormalise(raw.normal, raw.tags.prepared);
     if (off > 0)
-      result.report.notes.push_back(share(off, raw.normal.size(), "normals") +
-                                    " were not unit vectors: scaled");
+      result.report.notes.push_back(share(off, raw.normal.size(), "normals") + " were not unit vectors: scaled");
     result.scene.normals_oriented = raw.tags.oriented;
     if (!raw.tags.oriented && raw.viewpoint)
       face_viewpoint(raw, result);
@@ -129,8 +125,7 @@ void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& re
     if (usable(raw.normal[i])) keep.push_back(static_cast<std::uint32_t>(i));
   }
   result.report.dropped_without_normal = raw.point.size() - keep.size();
-  result.report.repaired_normals -=
-      std::min(result.report.repaired_normals, result.report.dropped_without_normal);
+  result.report.repaired_normals -= std::min(result.report.repaired_normals, result.report.dropped_without_normal);
   if (keep.empty()) {
     fail(ErrorKind::content, raw.path, ": no usable point: the ", raw.point.size(),
          " finite points give no normal (at least 3 are needed); give a denser cloud");

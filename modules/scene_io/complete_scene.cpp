@@ -1,14 +1,14 @@
 #include "scene_io/complete_scene.hpp"
 
-#include "core/error.hpp"
-#include "scene/surfel_area.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <sstream>
+
+#include "core/error.hpp"
+#include "scene/surfel_area.hpp"
 
 namespace insonify {
 namespace {
@@ -95,9 +95,8 @@ void complete_materials(RawCloud& raw, const LoadOptions& options, LoadedScene& 
     if (scene.materials.empty()) scene.materials = {Material{}};
     const std::uint16_t index = options.material.value_or(0);
     if (index >= scene.materials.size()) {
-      fail(ErrorKind::argument, "load_scene: options.material = ", index,
-           ", must be below the number of materials, ", scene.materials.size(),
-           "; give options.materials too");
+      fail(ErrorKind::argument, "load_scene: options.material = ", index, ", must be below the number of materials, ",
+           scene.materials.size(), "; give options.materials too");
     }
     scene.material.assign(scene.point.size(), index);
     return;
@@ -109,12 +108,10 @@ void complete_materials(RawCloud& raw, const LoadOptions& options, LoadedScene& 
          "materials from 0: correct them, or give one material for all");
   }
   if (scene.materials.empty()) {
-    for (std::size_t m = 0; m <= largest; ++m)
-      scene.materials.push_back({.name = "label " + std::to_string(m)});
+    for (std::size_t m = 0; m <= largest; ++m) scene.materials.push_back({.name = "label " + std::to_string(m)});
     if (largest > 0) {
-      result.report.notes.push_back(
-          "labels 0 to " + std::to_string(largest) +
-          " found, but no materials given: all have the default Lambert coefficient");
+      result.report.notes.push_back("labels 0 to " + std::to_string(largest) +
+                                    " found, but no materials given: all have the default Lambert coefficient");
     }
   }
   if (largest >= scene.materials.size()) {
@@ -163,8 +160,7 @@ void check_options(const LoadOptions& options, const char* who) {
     fail(ErrorKind::argument, who, ": mesh_spacing = ", options.mesh_spacing, " m, must be >= 0 (0: chosen)");
   }
   if (options.normal_neighbours < 3) {
-    fail(ErrorKind::argument, who, ": normal_neighbours = ", options.normal_neighbours,
-         ", must be at least 3");
+    fail(ErrorKind::argument, who, ": normal_neighbours = ", options.normal_neighbours, ", must be at least 3");
   }
   if (options.viewpoint && !options.viewpoint->allFinite()) {
     fail(ErrorKind::argument, who, ": viewpoint must be finite");
@@ -179,9 +175,7 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
     first[i] = i;
     if (!points[i].allFinite()) continue;
     // Adding zero makes -0 the same as 0; the products mix all bits (Fibonacci hashing).
-    const auto bits = [&](int axis) {
-      return std::uint64_t{std::bit_cast<std::uint32_t>(points[i][axis] + 0.0f)};
-    };
+    const auto bits = [&](int axis) { return std::uint64_t{std::bit_cast<std::uint32_t>(points[i][axis] + 0.0f)}; };
     std::uint64_t hash = (bits(0) | bits(1) << 32) * 0x9e3779b97f4a7c15ull;
     hash = ((hash ^ hash >> 29) + bits(2)) * 0xbf58476d1ce4e5b9ull;
     std::size_t slot = (hash ^ hash >> 32) & (slots - 1);

@@ -1,9 +1,9 @@
 #pragma once
-#include "scene_io/load_scene.hpp"
-#include "scene_io/raw_cloud.hpp"
-
 #include <span>
 #include <vector>
+
+#include "scene_io/load_scene.hpp"
+#include "scene_io/raw_cloud.hpp"
 
 // Private to scene_io: from a raw cloud to a scene that can be simulated.
 namespace insonify {
@@ -21,8 +21,7 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
 /// Unit normals of the points listed in `wanted`, from the plane through the `neighbours` nearest points
 /// (PCL); sign undetermined, NaN where no plane can be fitted. Does not depend on `threads`.
 std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
-                                              const std::vector<std::uint32_t>& wanted, int neighbours,
-                                              int threads);
+                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads);
 
 /// Gives every point of `raw` a unit normal, drops points that get none, and reports.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);

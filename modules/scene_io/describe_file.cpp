@@ -1,12 +1,12 @@
 #include "scene_io/describe_file.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/parallel.hpp"
 #include "scene/scene_index.hpp"
 #include "scene_io/complete_scene.hpp"
 #include "scene_io/raw_cloud.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace insonify {
 namespace {
@@ -60,10 +60,9 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
                        " have corners that do not exist: will be dropped");
   }
   if (!file.has_normals && raw.triangle.empty()) {
-    problems.push_back(
-        raw.viewpoint
-            ? "no normals: will be estimated, towards the viewpoint in the file"
-            : "no normals and no viewpoint: estimated normals will have no sides; give a viewpoint");
+    problems.push_back(raw.viewpoint
+                           ? "no normals: will be estimated, towards the viewpoint in the file"
+                           : "no normals and no viewpoint: estimated normals will have no sides; give a viewpoint");
   }
   if (!raw.tags.oriented) problems.push_back("the normals have no sides: both sides will reflect");
   for (std::string& doubt : doubts_about(raw, file.median_spacing, 1)) problems.push_back(std::move(doubt));

@@ -17,7 +17,7 @@ struct FileDescription {
   std::size_t width = 0, height = 0;  ///< height > 1: organised
   std::vector<Field> fields;
   Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of finite points [file units]
-  double median_spacing = 0;                                                    ///< nearest neighbours [file units]
+  double median_spacing = 0;                                                     ///< nearest neighbours [file units]
   bool has_normals = false, has_area = false, has_materials = false;
   std::optional<Eigen::Vector3d> viewpoint;
   std::vector<std::string> problems;  ///< what is wrong or doubtful, with a remedy each

@@ -1,8 +1,8 @@
-#include "scene_io/complete_scene.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+
+#include "scene_io/complete_scene.hpp"
 
 namespace insonify {
 namespace {
@@ -26,10 +26,10 @@ std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, doubl
   // surveys of that size are a few per cent as high as wide. Coarse surveys in metres get a milder sentence.
   if (spacing > 0.5 && diagonal > 100) {
     const bool flat = extent.minCoeff() < 0.05 * diagonal;
-    doubts.push_back(sentence(
-        "typical spacing ", spacing, " m in a box of ", extent.x(), " x ", extent.y(), " x ", extent.z(),
-        " m: ", flat ? "a coarse survey? If the file is not in metres" : "this looks like millimetres. If so",
-        ", give the unit (", 0.001 * unit, " for millimetres, ", 0.01 * unit, " for centimetres)"));
+    doubts.push_back(
+        sentence("typical spacing ", spacing, " m in a box of ", extent.x(), " x ", extent.y(), " x ", extent.z(),
+                 " m: ", flat ? "a coarse survey? If the file is not in metres" : "this looks like millimetres. If so",
+                 ", give the unit (", 0.001 * unit, " for millimetres, ", 0.01 * unit, " for centimetres)"));
   }
   if (diagonal > 0 && diagonal < 0.02) {
     doubts.push_back(sentence("the whole scene is ", 1000 * diagonal,
@@ -42,12 +42,11 @@ std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, doubl
   const double farthest = std::max(raw.box.max.cwiseAbs().maxCoeff(), raw.box.min.cwiseAbs().maxCoeff());
   const double step = farthest > 0 ? std::exp2(std::floor(std::log2(farthest / unit)) - 23) * unit : 0;
   if (raw.float_coordinates && (farthest > 1e5 || (farthest > 1000 && step > 0.1 * spacing))) {
-    doubts.push_back(
-        sentence("coordinates up to ", farthest, " m are stored as float32, in steps of ", 1000 * step,
-                 " mm: precision is lost; export with double coordinates (PLY) or a local origin"));
+    doubts.push_back(sentence("coordinates up to ", farthest, " m are stored as float32, in steps of ", 1000 * step,
+                              " mm: precision is lost; export with double coordinates (PLY) or a local origin"));
   }
-  const double far_from_origin = std::max((raw.box.max - raw.origin).cwiseAbs().maxCoeff(),
-                                          (raw.box.min - raw.origin).cwiseAbs().maxCoeff());
+  const double far_from_origin =
+      std::max((raw.box.max - raw.origin).cwiseAbs().maxCoeff(), (raw.box.min - raw.origin).cwiseAbs().maxCoeff());
   if (far_from_origin > 1e5) {
     doubts.push_back(sentence("the scene reaches ", far_from_origin / 1000,
                               " km from its middle, where float32 steps are ",

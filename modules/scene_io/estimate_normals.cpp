@@ -1,16 +1,15 @@
-#include "core/parallel.hpp"
-#include "scene_io/complete_scene.hpp"
-#include "scene_io/pcl_rows_internal.hpp"
-
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 
+#include "core/parallel.hpp"
+#include "scene_io/complete_scene.hpp"
+#include "scene_io/pcl_rows_internal.hpp"
+
 namespace insonify {
 
 std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
-                                              const std::vector<std::uint32_t>& wanted, int neighbours,
-                                              int threads) {
+                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads) {
   const QuietPcl quiet;
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   cloud->reserve(points.size());

@@ -1,13 +1,13 @@
 #include "scene_io/file_probe.hpp"
 
-#include "core/error.hpp"
-#include "scene_io/raw_cloud.hpp"
-#include "scene_io/text_lines.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+
+#include "core/error.hpp"
+#include "scene_io/raw_cloud.hpp"
+#include "scene_io/text_lines.hpp"
 
 namespace insonify {
 
@@ -28,8 +28,7 @@ void require_readable(const std::string& path) {
   if (!std::ifstream(path, std::ios::binary)) {
     fail(ErrorKind::file, path, ": cannot be opened for reading; check its permissions");
   }
-  if (file_size_of(path) == 0)
-    fail(ErrorKind::content, path, ": the file is empty (0 bytes); write or copy it again");
+  if (file_size_of(path) == 0) fail(ErrorKind::content, path, ": the file is empty (0 bytes); write or copy it again");
 }
 
 std::size_t file_size_of(const std::string& path) {
@@ -59,9 +58,8 @@ std::string what_it_looks_like(const std::string& path) {
   if (begins("<?xml") || begins("<VTKFile")) return "an XML file; a VTK polydata file is named .vtp";
   if (begins("LASF")) return "a LAS/LAZ file; convert it first: pdal translate in.las out.ply";
   if (begins("solid ")) return "an ASCII STL file; rename it to .stl";
-  const bool text = std::all_of(head.begin(), head.end(), [](unsigned char c) {
-    return c >= 128 || std::isprint(c) || std::isspace(c);
-  });
+  const bool text = std::all_of(head.begin(), head.end(),
+                                [](unsigned char c) { return c >= 128 || std::isprint(c) || std::isspace(c); });
   if (!text) return "binary data";
   std::string_view line;
   LineReader(head).next_filled(line);
@@ -78,12 +76,11 @@ RawCloud read_any(const std::string& path, const ReadOptions& options) {
   for (const char* text : {".xyz", ".txt", ".csv", ".asc"}) {
     if (extension == text) return read_text_cloud(path, options);
   }
-  const char* las = extension == ".las" || extension == ".laz" || extension == ".e57"
-                        ? "; convert it first: pdal translate in"
-                        : "";
+  const char* las =
+      extension == ".las" || extension == ".laz" || extension == ".e57" ? "; convert it first: pdal translate in" : "";
   fail(ErrorKind::content, path, ": unknown extension '", extension,
-       "', expected .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv or .asc; it looks like ",
-       what_it_looks_like(path), las, *las ? extension + " out.ply" : "");
+       "', expected .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv or .asc; it looks like ", what_it_looks_like(path),
+       las, *las ? extension + " out.ply" : "");
 }
 
 }  // namespace insonify

@@ -23,19 +23,19 @@ struct LoadOptions {
 
 /// What was in the file and what was done to it. Everything dropped or repaired is counted here.
 struct LoadReport {
-  std::string path, format;                 ///< e.g. "PCD binary_compressed", "PLY binary_big_endian mesh"
+  std::string path, format;  ///< e.g. "PCD binary_compressed", "PLY binary_big_endian mesh"
   std::size_t points_read = 0;
   std::size_t triangles_read = 0;
-  std::size_t dropped_not_finite = 0;       ///< points with NaN, infinite or absurd (> 1e9 m) coordinates
-  std::size_t dropped_duplicates = 0;       ///< points at exactly the place of an earlier one
-  std::size_t dropped_degenerate = 0;       ///< triangles without area, polygons with bad indices
-  std::size_t repaired_normals = 0;         ///< zero or NaN normals replaced by estimates
-  std::size_t dropped_without_normal = 0;   ///< points whose normal could not be estimated
+  std::size_t dropped_not_finite = 0;      ///< points with NaN, infinite or absurd (> 1e9 m) coordinates
+  std::size_t dropped_duplicates = 0;      ///< points at exactly the place of an earlier one
+  std::size_t dropped_degenerate = 0;      ///< triangles without area, polygons with bad indices
+  std::size_t repaired_normals = 0;        ///< zero or NaN normals replaced by estimates
+  std::size_t dropped_without_normal = 0;  ///< points whose normal could not be estimated
   bool normals_estimated = false;
   bool areas_estimated = false;
   bool materials_found = false;
-  std::optional<Eigen::Vector3d> viewpoint; ///< used to orient the normals
-  std::vector<std::string> notes;           ///< sentences for the user: hints, assumptions, suspicions
+  std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
+  std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
 };
 
 struct LoadedScene {

@@ -1,6 +1,6 @@
 #pragma once
-#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -8,18 +8,7 @@
 namespace insonify {
 
 /// Number types of cloud files.
-enum class NumberType : std::uint8_t {
-  int8,
-  uint8,
-  int16,
-  uint16,
-  int32,
-  uint32,
-  int64,
-  uint64,
-  float32,
-  float64
-};
+enum class NumberType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 constexpr std::size_t size_of(NumberType type) {
   constexpr std::array<std::size_t, 10> sizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
@@ -32,41 +21,47 @@ constexpr const char* name_of(NumberType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
-/// The number at `bytes`, byte order turned if `swap`.
 template <typename T>
-T read_as(const char* bytes, bool swap) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), bytes, sizeof(T));
-  if (swap) std::reverse(raw.begin(), raw.end());
+T read_as(const char* bytes) {
   T value;
-  std::memcpy(&value, raw.data(), sizeof(T));
+  std::memcpy(&value, bytes, sizeof(T));
   return value;
 }
 
-inline double read_number(const char* bytes, NumberType type, bool swap) {
+/// The number at `bytes`, in this machine's byte order.
+inline double read_number(const char* bytes, NumberType type) {
   switch (type) {
     case NumberType::int8:
-      return read_as<std::int8_t>(bytes, swap);
+      return read_as<std::int8_t>(bytes);
     case NumberType::uint8:
-      return read_as<std::uint8_t>(bytes, swap);
+      return read_as<std::uint8_t>(bytes);
     case NumberType::int16:
-      return read_as<std::int16_t>(bytes, swap);
+      return read_as<std::int16_t>(bytes);
     case NumberType::uint16:
-      return read_as<std::uint16_t>(bytes, swap);
+      return read_as<std::uint16_t>(bytes);
     case NumberType::int32:
-      return read_as<std::int32_t>(bytes, swap);
+      return read_as<std::int32_t>(bytes);
     case NumberType::uint32:
-      return read_as<std::uint32_t>(bytes, swap);
+      return read_as<std::uint32_t>(bytes);
     case NumberType::int64:
-      return static_cast<double>(read_as<std::int64_t>(bytes, swap));
+      return static_cast<double>(read_as<std::int64_t>(bytes));
     case NumberType::uint64:
-      return static_cast<double>(read_as<std::uint64_t>(bytes, swap));
+      return static_cast<double>(read_as<std::uint64_t>(bytes));
     case NumberType::float32:
-      return read_as<float>(bytes, swap);
+      return read_as<float>(bytes);
     case NumberType::float64:
-      return read_as<double>(bytes, swap);
+      return read_as<double>(bytes);
   }
   return 0;
+}
+
+/// True if a variable of that type can hold the value.
+inline bool fits(double value, NumberType type) {
+  if (type >= NumberType::float32) return true;
+  const bool has_sign =
+      type == NumberType::int8 || type == NumberType::int16 || type == NumberType::int32 || type == NumberType::int64;
+  const double end = std::ldexp(1.0, static_cast<int>(8 * size_of(type)) - (has_sign ? 1 : 0));
+  return value == std::floor(value) && value < end && value >= (has_sign ? -end : 0);
 }
 
 }  // namespace insonify

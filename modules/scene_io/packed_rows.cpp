@@ -20,9 +20,8 @@ void put_position(char*& out, const Eigen::Vector3d& position, bool wide) {
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who) {
   const std::size_t n = soundings.size();
   for (const std::size_t length :
-       {soundings.level_db.size(), soundings.range.size(), soundings.azimuth.size(),
-        soundings.elevation.size(), soundings.ping.size(), soundings.beam.size(), soundings.bin.size(),
-        soundings.material.size()}) {
+       {soundings.level_db.size(), soundings.range.size(), soundings.azimuth.size(), soundings.elevation.size(),
+        soundings.ping.size(), soundings.beam.size(), soundings.bin.size(), soundings.material.size()}) {
     if (length != n) {
       fail(ErrorKind::argument, who, ": soundings have ", n, " positions but a column of length ", length,
            ", must be the same; fill every column");

@@ -1,12 +1,12 @@
 #pragma once
-#include "returns/soundings.hpp"
-#include "scene/scene_cloud.hpp"
-#include "scene_io/number_type.hpp"
-
 #include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "returns/soundings.hpp"
+#include "scene/scene_cloud.hpp"
+#include "scene_io/number_type.hpp"
 
 // Private to scene_io: a cloud as rows of packed little-endian numbers, the body of binary PLY and PCD alike.
 namespace insonify {

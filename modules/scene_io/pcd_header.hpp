@@ -1,7 +1,7 @@
 #pragma once
-#include "scene_io/packed_rows.hpp"
-
 #include <string>
+
+#include "scene_io/packed_rows.hpp"
 
 namespace insonify {
 

@@ -1,13 +1,13 @@
 #include "scene_io/pcl_bridge.hpp"
 
+#include <pcl/conversions.h>
+#include <pcl/io/pcd_io.h>
+
 #include "core/error.hpp"
 #include "scene_io/complete_scene.hpp"
 #include "scene_io/packed_rows.hpp"
 #include "scene_io/pcd_header.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
-
-#include <pcl/conversions.h>
-#include <pcl/io/pcd_io.h>
 
 namespace insonify {
 namespace {
@@ -114,8 +114,8 @@ pcl::PointCloud<pcl::PointNormal> to_pcl(const SceneCloud& scene) {
 }
 
 std::string pcd_header(const PackedRows& rows) {
-  std::string header = pcl::PCDWriter().generateHeaderBinary(empty_cloud(rows), Eigen::Vector4f::Zero(),
-                                                             Eigen::Quaternionf::Identity());
+  std::string header =
+      pcl::PCDWriter().generateHeaderBinary(empty_cloud(rows), Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity());
   std::string comments;
   for (const std::string& comment : rows.comments) comments += "# " + comment + "\n";
   header.insert(header.find('\n') + 1, comments);

@@ -1,17 +1,15 @@
 #pragma once
-#include "scene_io/raw_cloud.hpp"
-
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/console/print.h>
+
+#include "scene_io/raw_cloud.hpp"
 
 namespace insonify {
 
 /// While it lives, PCL prints nothing.
 class QuietPcl {
  public:
-  QuietPcl() : before_(pcl::console::getVerbosityLevel()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  }
+  QuietPcl() : before_(pcl::console::getVerbosityLevel()) { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
   ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
   QuietPcl(const QuietPcl&) = delete;
   QuietPcl& operator=(const QuietPcl&) = delete;

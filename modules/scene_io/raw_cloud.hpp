@@ -1,17 +1,16 @@
 #pragma once
-#include "scene/scene_cloud.hpp"
-#include "scene_io/describe_file.hpp"
-#include "scene_io/number_type.hpp"
-
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "scene/scene_cloud.hpp"
+#include "scene_io/describe_file.hpp"
+#include "scene_io/number_type.hpp"
 
 // Private to scene_io: what the readers hand to complete_scene and describe_file.
 namespace insonify {
@@ -53,7 +52,7 @@ struct RawCloud {
 constexpr std::uint16_t no_label = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; beyond it a coordinate is a mark for "no data"
 
-/// Rows of packed numbers, in a file or in memory.
+/// Rows of packed numbers in memory.
 struct RowTable {
   struct Column {
     std::string name;
@@ -62,16 +61,12 @@ struct RowTable {
   };
   std::vector<Column> columns;
   std::size_t rows = 0, stride = 0;
-  bool swap_bytes = false;
-  /// Bytes of rows [first, first + count); may use `buffer` to hold them. Called from several threads at
-  /// once.
-  std::function<const char*(std::size_t first, std::size_t count, std::vector<char>& buffer)> fetch;
+  const char* bytes = nullptr;
+  std::shared_ptr<const void> owner;  ///< of the bytes, unless they outlive the table
 };
 
 /// Table of doubles, row by row, one column per name.
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers);
-/// Table that lies in a file from byte `offset` on; `fetch` reads the blocks asked for.
-RowTable table_in_file(const std::string& path, std::size_t offset, std::size_t rows, std::size_t stride);
 
 struct ReadOptions {
   double unit = 1;  ///< metres per unit of the file

@@ -1,10 +1,10 @@
+#include <limits>
+#include <unordered_map>
+
 #include "core/error.hpp"
 #include "scene_io/file_probe.hpp"
 #include "scene_io/raw_cloud.hpp"
 #include "scene_io/text_lines.hpp"
-
-#include <limits>
-#include <unordered_map>
 
 // An own reader, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
 namespace insonify {
@@ -42,13 +42,11 @@ std::array<std::int64_t, 2> read_corner(const Obj& obj, std::string_view word, s
   const std::size_t second = first < word.size() ? word.find('/', first + 1) : word.npos;
   std::int64_t position = 0, normal = 0;
   const bool has_normal = second != word.npos && second + 1 < word.size();
-  if (!to_number(word.substr(0, first), position) ||
-      (has_normal && !to_number(word.substr(second + 1), normal))) {
-    fail(ErrorKind::content, obj.path, ":", line, ": expected a corner such as 7 or 7/1/7, found '",
-         shown(word), "'; correct the line, or export the file again if it is cut off");
+  if (!to_number(word.substr(0, first), position) || (has_normal && !to_number(word.substr(second + 1), normal))) {
+    fail(ErrorKind::content, obj.path, ":", line, ": expected a corner such as 7 or 7/1/7, found '", shown(word),
+         "'; correct the line, or export the file again if it is cut off");
   }
-  return {resolve(position, obj.positions.size() / 3),
-          has_normal ? resolve(normal, obj.normals.size() / 3) : none};
+  return {resolve(position, obj.positions.size() / 3), has_normal ? resolve(normal, obj.normals.size() / 3) : none};
 }
 
 Obj parse(const std::string& path, const std::string& text) {
@@ -77,8 +75,7 @@ struct Corners {
 
   std::int64_t vertex_of(const Obj& obj, const std::array<std::int64_t, 2>& corner) {
     const std::size_t normals = obj.normals.size() / 3;
-    const std::int64_t n =
-        corner[1] >= 0 && corner[1] < static_cast<std::int64_t>(normals) ? corner[1] : none;
+    const std::int64_t n = corner[1] >= 0 && corner[1] < static_cast<std::int64_t>(normals) ? corner[1] : none;
     if (corner[0] < 0 || corner[0] >= static_cast<std::int64_t>(obj.positions.size() / 3)) return none;
     const std::uint64_t key = static_cast<std::uint64_t>(corner[0]) << 32 | static_cast<std::uint32_t>(n);
     const auto [entry, is_new] = known.try_emplace(key, static_cast<std::int64_t>(rows.size() / 6));
@@ -97,8 +94,7 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options) {
   const Obj obj = parse(path, text);
   const std::size_t positions = obj.positions.size() / 3;
   if (positions == 0) {
-    fail(ErrorKind::content, path,
-         ": not an OBJ file: expected vertex lines 'v x y z', found none; it looks like ",
+    fail(ErrorKind::content, path, ": not an OBJ file: expected vertex lines 'v x y z', found none; it looks like ",
          what_it_looks_like(path));
   }
   RawCloud raw;
@@ -106,8 +102,7 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options) {
   raw.format = obj.polygons.empty() ? "OBJ points" : "OBJ mesh";
   raw.points_in_file = raw.width = positions;
   raw.fields = {{"x", "text"}, {"y", "text"}, {"z", "text"}};
-  const bool normals =
-      !obj.normals.empty() && (!obj.polygons.empty() || obj.normals.size() == obj.positions.size());
+  const bool normals = !obj.normals.empty() && (!obj.polygons.empty() || obj.normals.size() == obj.positions.size());
   if (normals) raw.fields.insert(raw.fields.end(), {{"nx", "text"}, {"ny", "text"}, {"nz", "text"}});
 
   std::vector<std::string> names = {"x", "y", "z"};
@@ -126,8 +121,8 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options) {
     add_polygon(raw, polygon, std::numeric_limits<std::uint32_t>::max());
   }
   if (corners.rows.empty()) {
-    fail(ErrorKind::content, path, ": no face has corners that exist (", positions, " vertices, ",
-         obj.polygons.size(), " faces); export the mesh again");
+    fail(ErrorKind::content, path, ": no face has corners that exist (", positions, " vertices, ", obj.polygons.size(),
+         " faces); export the mesh again");
   }
   names.insert(names.end(), {"nx", "ny", "nz"});
   fill_cloud(raw, table_of_doubles(names, std::move(corners.rows)), options);

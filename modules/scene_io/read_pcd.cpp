@@ -1,14 +1,14 @@
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include <pcl/io/pcd_io.h>
+
 #include "core/error.hpp"
 #include "scene_io/file_probe.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
 #include "scene_io/raw_cloud.hpp"
 #include "scene_io/text_lines.hpp"
-
-#include <algorithm>
-#include <cstring>
-#include <fstream>
-
-#include <pcl/io/pcd_io.h>
 
 namespace insonify {
 namespace {
@@ -36,8 +36,8 @@ struct Header {
 };
 
 [[noreturn]] void bad_header(const Header& header, const std::string& found, const char* expected) {
-  fail(ErrorKind::content, header.path, ":", header.lines, ": the PCD header says '", shown(found),
-       "', expected ", expected, "; export the file again");
+  fail(ErrorKind::content, header.path, ":", header.lines, ": the PCD header says '", shown(found), "', expected ",
+       expected, "; export the file again");
 }
 
 template <typename T>
@@ -68,9 +68,9 @@ void read_header_line(Header& header, const std::vector<std::string>& words, con
 }
 
 NumberType type_of(const Header& header, const Field& field) {
-  for (const NumberType type : {NumberType::int8, NumberType::uint8, NumberType::int16, NumberType::uint16,
-                                NumberType::int32, NumberType::uint32, NumberType::int64, NumberType::uint64,
-                                NumberType::float32, NumberType::float64}) {
+  for (const NumberType type :
+       {NumberType::int8, NumberType::uint8, NumberType::int16, NumberType::uint16, NumberType::int32,
+        NumberType::uint32, NumberType::int64, NumberType::uint64, NumberType::float32, NumberType::float64}) {
     const char letter = type >= NumberType::float32 ? 'F' : name_of(type)[0] == 'u' ? 'U' : 'I';
     if (letter == field.type && size_of(type) == field.size) return type;
   }
@@ -78,7 +78,7 @@ NumberType type_of(const Header& header, const Field& field) {
              "type F, I or U of size 1, 2, 4 or 8");
 }
 
-void check_header(Header& header) {
+void check_header(const Header& header) {
   if (header.fields.empty()) bad_header(header, "DATA before FIELDS", "FIELDS x y z");
   for (const Field& field : header.fields) {
     if (field.name != "_") type_of(header, field);
@@ -87,10 +87,10 @@ void check_header(Header& header) {
   if (header.width > (1ull << 40) || header.height > (1ull << 20))
     bad_header(header, "WIDTH or HEIGHT", "less than 2^40");
   const std::size_t cells = header.width * header.height;
-  if (header.points == 0) header.points = cells;
   if (cells != 0 && cells != header.points) {
     bad_header(header, "POINTS " + std::to_string(header.points), "WIDTH times HEIGHT");
   }
+  if (header.points == 0) fail(ErrorKind::content, header.path, ": holds no point; export the cloud again");
   if (header.data != "ascii" && header.data != "binary" && header.data != "binary_compressed") {
     bad_header(header, "DATA " + header.data, "DATA ascii, binary or binary_compressed");
   }
@@ -114,12 +114,10 @@ Header read_header(const std::string& path) {
                                  "WIDTH",   "HEIGHT", "POINTS",  "VIEWPOINT", "DATA"};
     if (std::find(std::begin(keys), std::end(keys), words[0]) == std::end(keys)) {
       if (header.fields.empty()) {
-        fail(ErrorKind::content, path,
-             ": not a PCD file: expected header lines VERSION, FIELDS, ... DATA, found ",
+        fail(ErrorKind::content, path, ": not a PCD file: expected header lines VERSION, FIELDS, ... DATA, found ",
              what_it_looks_like(path), "; plain columns of numbers are read from a .xyz, .txt or .csv file");
       }
-      bad_header(header, line,
-                 "VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, POINTS or DATA");
+      bad_header(header, line, "VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, POINTS or DATA");
     }
     read_header_line(header, words, line);
     if (words[0] == "DATA") {
@@ -128,119 +126,105 @@ Header read_header(const std::string& path) {
       return header;
     }
   }
-  fail(ErrorKind::content, path,
-       ": cut off inside the PCD header: expected a DATA line, found the end after ", header.lines,
-       " lines; copy or export the file again");
+  fail(ErrorKind::content, path, ": cut off inside the PCD header: expected a DATA line, found the end after ",
+       header.lines, " lines; copy or export the file again");
 }
 
 [[noreturn]] void cut_off(const Header& header, std::size_t expected, std::size_t found) {
-  fail(ErrorKind::content, header.path, ": cut off: the header announces ", header.points, " points, ",
-       expected, " bytes of data, the file holds ", found, "; copy or export the file again");
+  fail(ErrorKind::content, header.path, ": cut off: the header announces ", header.points, " points, ", expected,
+       " bytes of data, the file holds ", found, "; copy or export the file again");
 }
 
-/// Byte counts of the compressed block against the file and the header, before PCL unpacks it.
-void check_compressed(const Header& header) {
-  const std::size_t held = file_size_of(header.path) - header.end;
+/// Byte counts of the compressed block against the file and the header.
+void check_compressed(const Header& header, std::size_t held) {
+  // PCL unpacks such points into the wrong rows, without a word.
+  if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; })) {
+    fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; save them as ",
+         "DATA binary: pcl_convert_pcd_ascii_binary in.pcd out.pcd 1");
+  }
   if (held < 8) cut_off(header, 8, held);
-  std::ifstream file(header.path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(header.end));
-  std::uint32_t sizes[2] = {0, 0};
-  file.read(reinterpret_cast<char*>(sizes), 8);
-  if (held - 8 < sizes[0]) cut_off(header, sizes[0], held - 8);
-  if (sizes[1] != header.points * header.stride()) {
+  const std::string sizes = read_beginning(header.path, header.end + 8).substr(header.end);
+  const auto packed = read_as<std::uint32_t>(sizes.data()), unpacked = read_as<std::uint32_t>(sizes.data() + 4);
+  if (held - 8 < packed) cut_off(header, packed, held - 8);
+  if (unpacked != header.points * header.stride()) {
     fail(ErrorKind::content, header.path, ": the header announces ", header.points * header.stride(),
-         " bytes of points, the compressed block ", sizes[1], "; export the file again");
+         " bytes of points, the compressed block ", unpacked, "; export the file again");
   }
 }
 
-void read_compressed(const Header& header, RawCloud& raw, const ReadOptions& options) {
-  check_compressed(header);
+void check_text(const Header& header) {
+  std::vector<TextColumn> columns;
+  for (const Field& f : header.fields) {
+    columns.resize(columns.size() + f.count, {f.name == "_" ? NumberType::float64 : type_of(header, f)});
+  }
+  const std::string text = read_whole_file(header.path);
+  LineReader lines(std::string_view(text).substr(header.end), header.lines);
+  check_number_rows(lines, header.points, columns, "point", header.path);
+}
+
+/// What the header announces against the file, before PCL reads the data.
+void check_data(const Header& header) {
+  const std::size_t held = file_size_of(header.path) - header.end, stride = header.stride();
+  if (header.data == "ascii") {
+    if (header.points > held) cut_off(header, header.points, held);
+    check_text(header);
+  } else if (header.data == "binary_compressed") {
+    check_compressed(header, held);
+  } else if (stride == 0 || header.points > held / stride) {
+    cut_off(header, header.points * stride, held);
+  }
+}
+
+pcl::PCLPointCloud2 read_data(const Header& header) {
   const QuietPcl quiet;
   pcl::PCLPointCloud2 cloud;
   Eigen::Vector4f origin;
   Eigen::Quaternionf orientation;
-  int version = 0;
-  int result = -1;
+  int version = 0, result = -1;
   try {
     result = pcl::PCDReader().read(header.path, cloud, origin, orientation, version);
   } catch (const std::exception&) {
     result = -1;
   }
-  if (result < 0 ||
-      cloud.data.size() != static_cast<std::size_t>(cloud.width) * cloud.height * cloud.point_step) {
-    fail(ErrorKind::content, header.path,
-         ": PCL cannot unpack the compressed points; the file is damaged: copy or "
-         "export it again");
+  cloud.row_step = cloud.width * cloud.point_step;  // PCL leaves it out if WIDTH stands before SIZE
+  const std::size_t points = std::size_t{cloud.width} * cloud.height;
+  if (result < 0 || points != header.points || cloud.point_step != header.stride()) {
+    fail(ErrorKind::content, header.path, ": PCL cannot ",
+         header.data == "binary_compressed" ? "unpack the compressed points" : "read the points",
+         "; the file is damaged: copy or export it again");
   }
-  raw.fields.clear();
-  fill_cloud(raw, table_of(cloud, raw), options);
-}
-
-/// Columns of the header's fields: packed as in the file, or as doubles one after the other for text.
-std::vector<RowTable::Column> columns_of(const Header& header, bool text) {
-  std::vector<RowTable::Column> columns;
-  std::size_t at = 0;
-  for (const Field& field : header.fields) {
-    if (field.name != "_")
-      columns.push_back({field.name, text ? NumberType::float64 : type_of(header, field), at});
-    at += (text ? 8 : field.size) * field.count;
-  }
-  return columns;
-}
-
-void read_plain(const Header& header, RawCloud& raw, const ReadOptions& options) {
-  const std::size_t held = file_size_of(header.path) - header.end;
-  if (header.data == "ascii") {
-    if (header.points > held) cut_off(header, header.points, held);
-    std::size_t numbers = 0;
-    for (const Field& f : header.fields) numbers += f.count;
-    const std::string text = read_whole_file(header.path);
-    LineReader lines(std::string_view(text).substr(header.end), header.lines);
-    RowTable table = table_of_doubles(std::vector<std::string>(numbers, ""),
-                                      read_number_rows(lines, header.points, numbers, header.path));
-    table.columns = columns_of(header, true);
-    fill_cloud(raw, table, options);
-    return;
-  }
-  const std::size_t stride = header.stride();
-  if (stride == 0 || header.points > held / stride) cut_off(header, header.points * stride, held);
-  RowTable table = table_in_file(header.path, header.end, header.points, stride);
-  table.columns = columns_of(header, false);
-  fill_cloud(raw, table, options);
+  return cloud;
 }
 
 }  // namespace
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   const Header header = read_header(path);
+  check_data(header);
   RawCloud raw;
   raw.path = path;
   raw.format = "PCD " + header.data;
   raw.tags = header.tags;
-  for (const Field& f : header.fields) {
-    if (f.name != "_") raw.fields.push_back({f.name, name_of(type_of(header, f))});
-  }
-  raw.width = header.width;
-  raw.height = header.height;
   // The identity pose is what writers put when they know nothing.
   if (header.viewpoint != std::vector<double>{0, 0, 0, 1, 0, 0, 0}) {
     raw.viewpoint = Eigen::Vector3d(header.viewpoint[0], header.viewpoint[1], header.viewpoint[2]);
   }
-  if (header.data == "binary_compressed")
-    read_compressed(header, raw, options);
-  else
-    read_plain(header, raw, options);
+  const pcl::PCLPointCloud2 cloud = read_data(header);
+  fill_cloud(raw, table_of(cloud, raw), options);
   return raw;
 }
 
 RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
-  static const NumberType types[] = {NumberType::int8,    NumberType::uint8,  NumberType::int16,
-                                     NumberType::uint16,  NumberType::int32,  NumberType::uint32,
-                                     NumberType::float32, NumberType::float64};
+  // In the order of PCLPointField's datatypes from 1 on.
+  static const std::array types = {NumberType::int8,  NumberType::uint8,  NumberType::int16,   NumberType::uint16,
+                                   NumberType::int32, NumberType::uint32, NumberType::float32, NumberType::float64,
+                                   NumberType::int64, NumberType::uint64};
   RowTable table;
   table.stride = cloud.point_step;
   table.rows = static_cast<std::size_t>(cloud.width) * cloud.height;
-  table.swap_bytes = cloud.is_bigendian != 0;
+  if (cloud.is_bigendian) {
+    fail(ErrorKind::content, raw.path, ": is_bigendian is set; turn the bytes of the numbers and clear it");
+  }
   if (table.rows * table.stride > cloud.data.size()) {
     fail(ErrorKind::content, raw.path, ": width x height x point_step = ", table.rows * table.stride,
          " bytes, the cloud holds ", cloud.data.size(), "; fill the cloud completely");
@@ -250,7 +234,7 @@ RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
          ", must be width x point_step = ", cloud.width * cloud.point_step, "; pack the rows");
   }
   for (const pcl::PCLPointField& field : cloud.fields) {
-    if (field.name == "_" || field.datatype < 1 || field.datatype > 8) continue;
+    if (field.name == "_" || field.datatype < 1 || field.datatype > types.size()) continue;
     const NumberType type = types[field.datatype - 1];
     if (field.offset + size_of(type) > table.stride) {
       fail(ErrorKind::content, raw.path, ": field '", field.name, "' ends beyond point_step = ", table.stride,
@@ -261,9 +245,7 @@ RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
   }
   raw.width = cloud.width;
   raw.height = cloud.height;
-  table.fetch = [&cloud](std::size_t first, std::size_t, std::vector<char>&) {
-    return reinterpret_cast<const char*>(cloud.data.data()) + first * cloud.point_step;
-  };
+  table.bytes = reinterpret_cast<const char*>(cloud.data.data());
   return table;
 }
 

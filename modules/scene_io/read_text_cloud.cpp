@@ -1,11 +1,11 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
 #include "core/error.hpp"
 #include "scene_io/file_probe.hpp"
 #include "scene_io/raw_cloud.hpp"
 #include "scene_io/text_lines.hpp"
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
 
 namespace insonify {
 namespace {
@@ -31,8 +31,7 @@ std::string_view trimmed(std::string_view text) {
 void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   if (delimiter == ' ') {
-    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
-      cells.push_back(word);
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) cells.push_back(word);
     return;
   }
   while (true) {
@@ -48,8 +47,7 @@ bool is_comment(std::string_view line) { return line.rfind("#", 0) == 0 || line.
 
 /// Column names if the line, comment marks aside, names x, y and z.
 std::vector<std::string> names_in(std::string_view line) {
-  while (!line.empty() && (line.front() == '#' || line.front() == '/' || line.front() == ' '))
-    line.remove_prefix(1);
+  while (!line.empty() && (line.front() == '#' || line.front() == '/' || line.front() == ' ')) line.remove_prefix(1);
   std::vector<std::string_view> cells;
   split(line, delimiter_of(line), cells);
   std::vector<std::string> names;
@@ -66,8 +64,8 @@ struct TextRows {
   std::size_t columns = 0, announced = 0;  ///< announced: by a first line that holds one whole number
 };
 
-void add_row(TextRows& rows, const std::vector<std::string_view>& cells, const std::string& path,
-             std::size_t line, std::string_view text) {
+void add_row(TextRows& rows, const std::vector<std::string_view>& cells, const std::string& path, std::size_t line,
+             std::string_view text) {
   for (const std::string_view cell : cells) {
     double value = 0;
     if (!to_number(cell, value)) {
@@ -101,9 +99,9 @@ TextRows read_rows(const std::string& path, const std::string& text) {
       rows.columns = rows.names.empty() ? cells.size() : rows.names.size();
     }
     if (cells.size() != rows.columns || cells.size() < 3) {
-      fail(ErrorKind::content, path, ":", lines.number(), ": expected ",
-           std::max<std::size_t>(rows.columns, 3), " columns (x y z ...), found ", cells.size(), " in '",
-           shown(line), "'; correct the line, or export the file again if it is cut off");
+      fail(ErrorKind::content, path, ":", lines.number(), ": expected ", std::max<std::size_t>(rows.columns, 3),
+           " columns (x y z ...), found ", cells.size(), " in '", shown(line),
+           "'; correct the line, or export the file again if it is cut off");
     }
     add_row(rows, cells, path, lines.number(), line);
   }
@@ -125,20 +123,19 @@ bool has_unit_vectors(const TextRows& rows) {
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options) {
   const std::string text = read_whole_file(path);
   if (text.find('\0') != text.npos) {
-    fail(ErrorKind::content, path, ": not a text file: expected columns x y z, found ",
-         what_it_looks_like(path), "; give the file the extension of its format");
+    fail(ErrorKind::content, path, ": not a text file: expected columns x y z, found ", what_it_looks_like(path),
+         "; give the file the extension of its format");
   }
   TextRows rows = read_rows(path, text);
   RawCloud raw;
   raw.path = path;
   raw.format = "text";
   if (rows.columns == 0)
-    fail(ErrorKind::content, path, ": holds no point; expected lines 'x y z', found ",
-         what_it_looks_like(path));
+    fail(ErrorKind::content, path, ": holds no point; expected lines 'x y z', found ", what_it_looks_like(path));
   const std::size_t found = rows.numbers.size() / rows.columns;
   if (rows.announced > found) {
-    fail(ErrorKind::content, path, ": cut off: the first line announces ", rows.announced, " points, found ",
-         found, "; copy or export the file again");
+    fail(ErrorKind::content, path, ": cut off: the first line announces ", rows.announced, " points, found ", found,
+         "; copy or export the file again");
   }
   // Without names: x y z, then a normal if it is one; what else there may be is not guessed.
   if (rows.names.empty()) {

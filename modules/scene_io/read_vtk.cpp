@@ -66,13 +66,11 @@ class QuietVtk {
 void check_legacy(const std::string& path) {
   const std::string head = read_beginning(path, 2048);
   if (head.rfind("# vtk DataFile", 0) != 0) {
-    fail(ErrorKind::content, path,
-         ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
+    fail(ErrorKind::content, path, ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
          what_it_looks_like(path));
   }
   const std::size_t at = head.find("DATASET ");
-  const std::string kind =
-      at == head.npos ? "nothing" : head.substr(at + 8, head.find_first_of("\r\n", at) - at - 8);
+  const std::string kind = at == head.npos ? "nothing" : head.substr(at + 8, head.find_first_of("\r\n", at) - at - 8);
   if (kind != "POLYDATA") {
     fail(ErrorKind::content, path, ": holds ", shown(kind),
          ", expected DATASET POLYDATA; in ParaView apply 'Extract "
@@ -82,8 +80,7 @@ void check_legacy(const std::string& path) {
 
 void check_xml(const std::string& path) {
   if (read_beginning(path, 4096).find("<VTKFile") == std::string::npos) {
-    fail(ErrorKind::content, path, ": not a VTK XML file: expected '<VTKFile', found ",
-         what_it_looks_like(path));
+    fail(ErrorKind::content, path, ": not a VTK XML file: expected '<VTKFile', found ", what_it_looks_like(path));
   }
 }
 
@@ -92,7 +89,7 @@ void check_stl(const std::string& path) {
   const std::string bytes = read_whole_file(path);
   std::size_t announced = 0;
   if (bytes.size() >= 84) {
-    announced = read_as<std::uint32_t>(bytes.data() + 80, false);
+    announced = read_as<std::uint32_t>(bytes.data() + 80);
     if (84 + 50 * announced == bytes.size()) return;
     const bool binary = what_it_looks_like(path) == "binary data";
     if (binary && announced > 0 && 84 + 50 * announced < bytes.size()) return;
@@ -107,8 +104,7 @@ void check_stl(const std::string& path) {
     fail(ErrorKind::content, path, ": cut off or not an STL file: it announces ", announced, " triangles, ",
          84 + 50 * announced, " bytes, and holds ", bytes.size(), "; copy or export the file again");
   }
-  fail(ErrorKind::content, path,
-       ": not an STL file: expected 'solid ...' or a binary header of 84 bytes, found ",
+  fail(ErrorKind::content, path, ": not an STL file: expected 'solid ...' or a binary header of 84 bytes, found ",
        what_it_looks_like(path));
 }
 
@@ -144,8 +140,7 @@ RowTable table_of(vtkPolyData* data, RawCloud& raw) {
   std::vector<vtkDataArray*> arrays = {data->GetPoints()->GetData()};
   std::vector<std::string> names = {"x", "y", "z"};
   for (const std::string& name : names) raw.fields.push_back({name, arrays[0]->GetDataTypeAsString()});
-  if (vtkDataArray* normals = data->GetPointData()->GetNormals();
-      normals && normals->GetNumberOfComponents() == 3) {
+  if (vtkDataArray* normals = data->GetPointData()->GetNormals(); normals && normals->GetNumberOfComponents() == 3) {
     arrays.push_back(normals);
     for (const char* name : {"nx", "ny", "nz"}) {
       names.push_back(name);

@@ -1,47 +1,18 @@
-#include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "scene_io/raw_cloud.hpp"
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <string>
 
-#include <fcntl.h>
-#include <unistd.h>
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "scene_io/raw_cloud.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t block_rows = 1 << 16;
-
-/// An open file; closed with its last owner.
-struct OpenFile {
-  explicit OpenFile(const std::string& name)
-      : path(name), descriptor(open(name.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor < 0) fail(ErrorKind::file, path, ": cannot be opened for reading: ", std::strerror(errno));
-  }
-  ~OpenFile() { close(descriptor); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  void read_at(std::size_t offset, char* out, std::size_t count) const {
-    while (count > 0) {
-      const ssize_t got = pread(descriptor, out, count, static_cast<off_t>(offset));
-      if (got < 0 && errno == EINTR) continue;
-      if (got <= 0) fail(ErrorKind::file, path, ": reading failed at byte ", offset, "; check the disk");
-      out += got;
-      offset += static_cast<std::size_t>(got);
-      count -= static_cast<std::size_t>(got);
-    }
-  }
-  std::string path;
-  int descriptor;
-};
 
 /// Column whose name is one of `names`, whatever its case and CloudCompare's prefix "scalar_"; null if none.
 const RowTable::Column* find_column(const RowTable& table, std::initializer_list<const char*> names) {
@@ -73,8 +44,7 @@ Columns find_columns(const RowTable& table, const std::string& path) {
   if (!found.position[0] || !found.position[1] || !found.position[2]) {
     std::string names;
     for (const RowTable::Column& column : table.columns) names += (names.empty() ? "" : " ") + column.name;
-    fail(ErrorKind::content, path, ": expected fields x y z, found '", names,
-         "'; rename the coordinate fields");
+    fail(ErrorKind::content, path, ": expected fields x y z, found '", names, "'; rename the coordinate fields");
   }
   return found;
 }
@@ -83,17 +53,12 @@ Columns find_columns(const RowTable& table, const std::string& path) {
 template <typename Body>
 void for_each_block(const RowTable& table, int threads, const Body& body) {
   parallel_blocks(table.rows, block_rows, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<char> buffer;
-    const char* bytes = table.fetch(begin, end - begin, buffer);
-    body(begin, end - begin, bytes);
+    body(begin, end - begin, table.bytes + begin * table.stride);
   });
 }
 
-Eigen::Vector3d read_triple(const RowTable& table, const std::array<const RowTable::Column*, 3>& columns,
-                            const char* row) {
-  const auto number = [&](int axis) {
-    return read_number(row + columns[axis]->offset, columns[axis]->type, table.swap_bytes);
-  };
+Eigen::Vector3d read_triple(const std::array<const RowTable::Column*, 3>& columns, const char* row) {
+  const auto number = [&](int axis) { return read_number(row + columns[axis]->offset, columns[axis]->type); };
   return {number(0), number(1), number(2)};
 }
 
@@ -109,7 +74,7 @@ void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const 
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     Bounds& box = boxes[first / block_rows];
     for (std::size_t i = 0; i < rows; ++i) {
-      const Eigen::Vector3d p = options.unit * read_triple(table, found.position, bytes + i * table.stride);
+      const Eigen::Vector3d p = options.unit * read_triple(found.position, bytes + i * table.stride);
       if (!usable(p)) {
         ++unusable[first / block_rows];
         continue;
@@ -144,7 +109,7 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
   std::atomic<bool> good{true};
   for_each_block(table, threads, [&](std::size_t, std::size_t rows, const char* bytes) {
     for (std::size_t i = 0; i < rows; ++i) {
-      const double id = read_number(bytes + i * table.stride + column.offset, column.type, table.swap_bytes);
+      const double id = read_number(bytes + i * table.stride + column.offset, column.type);
       if (!(id >= 0 && id <= std::numeric_limits<std::uint32_t>::max() && id == std::floor(id))) good = false;
     }
   });
@@ -161,30 +126,15 @@ RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<dou
   table.stride = 8 * names.size();
   table.rows = names.empty() ? 0 : numbers.size() / names.size();
   const auto held = std::make_shared<const std::vector<double>>(std::move(numbers));
-  table.fetch = [held, stride = table.stride](std::size_t first, std::size_t, std::vector<char>&) {
-    return reinterpret_cast<const char*>(held->data()) + first * stride;
-  };
-  return table;
-}
-
-RowTable table_in_file(const std::string& path, std::size_t offset, std::size_t rows, std::size_t stride) {
-  RowTable table;
-  table.rows = rows;
-  table.stride = stride;
-  const auto file = std::make_shared<const OpenFile>(path);
-  table.fetch = [file, offset, stride](std::size_t first, std::size_t count, std::vector<char>& buffer) {
-    buffer.resize(count * stride);
-    file->read_at(offset + first * stride, buffer.data(), buffer.size());
-    return static_cast<const char*>(buffer.data());
-  };
+  table.bytes = reinterpret_cast<const char*>(held->data());
+  table.owner = held;
   return table;
 }
 
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options) {
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1) {
-    fail(ErrorKind::content, raw.path, ": holds ", table.rows,
-         " points, at most 4294967294 can be numbered; split it");
+    fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, at most 4294967294 can be numbered; split it");
   }
   const Columns found = find_columns(table, raw.path);
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
@@ -205,15 +155,12 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;
-      const auto number = [&](const RowTable::Column& c) {
-        return read_number(row + c.offset, c.type, table.swap_bytes);
-      };
-      const Eigen::Vector3d p = options.unit * read_triple(table, found.position, row);
+      const auto number = [&](const RowTable::Column& c) { return read_number(row + c.offset, c.type); };
+      const Eigen::Vector3d p = options.unit * read_triple(found.position, row);
       raw.point[first + i] = usable(p) ? Eigen::Vector3f((p - raw.origin).cast<float>())
                                        : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-      if (normals) raw.normal[first + i] = read_triple(table, found.normal, row).cast<float>();
-      if (found.area)
-        raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
+      if (normals) raw.normal[first + i] = read_triple(found.normal, row).cast<float>();
+      if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
       if (found.label) raw.label[first + i] = label_from(number(*found.label));
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
     }
@@ -231,8 +178,7 @@ void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::s
   }
   raw.triangles_in_file += corners.size() - 3;
   for (std::size_t i = 2; i < corners.size(); ++i) {
-    raw.triangle.push_back({static_cast<std::uint32_t>(corners[0]),
-                            static_cast<std::uint32_t>(corners[i - 1]),
+    raw.triangle.push_back({static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[i - 1]),
                             static_cast<std::uint32_t>(corners[i])});
   }
 }

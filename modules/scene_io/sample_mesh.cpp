@@ -32,8 +32,7 @@ Triangle corners_of(const RawCloud& mesh, std::size_t t) {
 /// Area [m^2]; 0 for a triangle with a corner that is not finite, or thinner than 1e-6 of its length.
 double usable_area(const Triangle& t) {
   const double twice = t.cross().norm();
-  const double longest2 =
-      std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(), (t.a - t.c).squaredNorm()});
+  const double longest2 = std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(), (t.a - t.c).squaredNorm()});
   return twice > 1e-6 * longest2 && std::isfinite(twice) ? 0.5 * twice : 0;
 }
 
@@ -76,14 +75,13 @@ Winding examine_winding(const RawCloud& mesh, const std::vector<double>& area) {
 }
 
 /// Decides from the winding whether face normals have a side, and notes it.
-bool winding_has_sides(const RawCloud& mesh, const std::vector<double>& area,
-                       std::vector<std::string>& notes) {
+bool winding_has_sides(const RawCloud& mesh, const std::vector<double>& area, std::vector<std::string>& notes) {
   const Winding winding = examine_winding(mesh, area);
   if (100 * winding.against > winding.shared) {
-    notes.push_back(
-        "the triangles are wound inconsistently (" + share(winding.against, winding.shared, "shared edges") +
-        "): their normals have no sides, so both sides reflect; orient the mesh, or give the viewpoint of "
-        "the capture");
+    notes.push_back("the triangles are wound inconsistently (" +
+                    share(winding.against, winding.shared, "shared edges") +
+                    "): their normals have no sides, so both sides reflect; orient the mesh, or give the viewpoint of "
+                    "the capture");
     return false;
   }
   if (winding.shared == 0 && mesh.triangle.size() > 1) {
@@ -101,8 +99,8 @@ std::size_t surfels_wanted(double total_area, double spacing) {
   if (spacing == 0) return default_surfels;
   const double wanted = std::round(total_area / (spacing * spacing));
   if (wanted > static_cast<double>(most_surfels)) {
-    fail(ErrorKind::argument, "load_scene: mesh_spacing = ", spacing, " m gives ", wanted, " surfels on ",
-         total_area, " m^2, at most ", most_surfels, "; give a wider spacing");
+    fail(ErrorKind::argument, "load_scene: mesh_spacing = ", spacing, " m gives ", wanted, " surfels on ", total_area,
+         " m^2, at most ", most_surfels, "; give a wider spacing");
   }
   return std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
 }
@@ -156,12 +154,10 @@ Surface measure(const RawCloud& mesh, int threads) {
 
 /// Puts surfel i of scene.size() into the i-th of so many equal parts of the running area, at random inside
 /// it.
-void place_surfel(const RawCloud& mesh, const Surface& surface, std::uint64_t seed, std::size_t i,
-                  SceneCloud& scene) {
+void place_surfel(const RawCloud& mesh, const Surface& surface, std::uint64_t seed, std::size_t i, SceneCloud& scene) {
   const double part = surface.total() / static_cast<double>(scene.size());
   const auto random = random_uniform(seed, RandomStage::mesh_points, {.first = i});
-  const double at =
-      std::min((static_cast<double>(i) + random[0]) * part, std::nextafter(surface.total(), 0.0));
+  const double at = std::min((static_cast<double>(i) + random[0]) * part, std::nextafter(surface.total(), 0.0));
   const auto found = std::upper_bound(surface.end.begin(), surface.end.end(), at);
   const std::size_t t = static_cast<std::size_t>(found - surface.end.begin());
   const double along = std::clamp((at - (surface.end[t] - surface.area[t])) / surface.area[t], 0.0, 1.0);

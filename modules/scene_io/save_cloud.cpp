@@ -1,10 +1,5 @@
 #include "scene_io/save_cloud.hpp"
 
-#include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/packed_rows.hpp"
-#include "scene_io/pcd_header.hpp"
-
 #include <bit>
 #include <cerrno>
 #include <cmath>
@@ -14,8 +9,12 @@
 
 #include <unistd.h>
 
-static_assert(std::endian::native == std::endian::little,
-              "save_cloud.cpp writes numbers as they lie in memory");
+#include "core/error.hpp"
+#include "scene_io/file_probe.hpp"
+#include "scene_io/packed_rows.hpp"
+#include "scene_io/pcd_header.hpp"
+
+static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers as they lie in memory");
 
 namespace insonify {
 namespace {
@@ -73,8 +72,7 @@ CloudFormat format_of(const std::string& path, const char* who) {
 void save_scene(const std::string& path, const SceneCloud& scene) {
   const CloudFormat format = format_of(path, "save_scene");
   require_valid(scene, "save_scene");
-  if (scene.size() == 0)
-    fail(ErrorKind::content, "save_scene: ", path, ": the scene is empty, must hold a surfel");
+  if (scene.size() == 0) fail(ErrorKind::content, "save_scene: ", path, ": the scene is empty, must hold a surfel");
   if (format == CloudFormat::pcd) {
     const Bounds box = bounds(scene);
     const double farthest = std::max(box.max.cwiseAbs().maxCoeff(), box.min.cwiseAbs().maxCoeff());

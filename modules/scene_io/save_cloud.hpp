@@ -7,12 +7,13 @@
 namespace insonify {
 
 /// Writes a prepared scene as binary .ply (x y z nx ny nz area material id) or .pcd (the same, normals named
-/// normal_x ... as PCL expects). Origin, materials (name, coefficient) and whether normals have sides stand in comment
-/// lines of both. PLY coordinates are double when the origin is not zero: load_scene gives back the same scene without
-/// estimating anything, coordinates within a nanometre (an origin of 5000 km), all else bit by bit. PCD coordinates are
-/// float32: a scene that reaches beyond 2000 m from zero, where more than 0.1 mm would be lost, must be a PLY. Written to a temporary name, then renamed.
-/// Throws as require_valid; Error(argument) for another extension or a scene too far for PCD, Error(content) if it is
-/// empty, Error(file) if it cannot be written.
+/// normal_x ... as PCL expects). Origin, materials (name, coefficient) and whether normals have sides stand in
+/// comment lines of both. PLY coordinates are double when the origin is not zero: load_scene gives back the same
+/// scene without estimating anything, coordinates within a nanometre (an origin of 5000 km), all else bit by bit.
+/// PCD coordinates are float32: a scene that reaches beyond 2000 m from zero, where more than 0.1 mm would be lost,
+/// must be a PLY. Written to a temporary name, then renamed.
+/// Throws as require_valid; Error(argument) for another extension or a scene too far for PCD, Error(content) if it
+/// is empty, Error(file) if it cannot be written.
 void save_scene(const std::string& path, const SceneCloud& scene);
 
 /// Writes soundings as .pcd (fields x y z level_db range azimuth elevation ping beam bin material) or .ply (the same,

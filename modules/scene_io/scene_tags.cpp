@@ -1,9 +1,9 @@
+#include <array>
+#include <charconv>
+
 #include "core/error.hpp"
 #include "scene_io/raw_cloud.hpp"
 #include "scene_io/text_lines.hpp"
-
-#include <array>
-#include <charconv>
 
 namespace insonify {
 namespace {
@@ -59,8 +59,7 @@ std::vector<std::string> tag_lines(const SceneCloud& scene) {
     for (char& c : name) {
       if (c == '\n' || c == '\r') c = ' ';
     }
-    lines.push_back("insonify material " + std::to_string(m) + " " + exact(scene.materials[m].lambert_mu) +
-                    " " + name);
+    lines.push_back("insonify material " + std::to_string(m) + " " + exact(scene.materials[m].lambert_mu) + " " + name);
   }
   return lines;
 }

@@ -1,8 +1,8 @@
 #include "scene_io/text_lines.hpp"
 
-#include "core/error.hpp"
-
 #include <cctype>
+
+#include "core/error.hpp"
 
 namespace insonify {
 
@@ -14,33 +14,38 @@ std::string shown(std::string_view line) {
   return text + (line.size() > 60 ? "..." : "");
 }
 
-std::vector<double> read_number_rows(LineReader& lines, std::size_t rows, std::size_t columns,
-                                     const std::string& path) {
-  std::vector<double> numbers;
-  numbers.reserve(rows * columns);
-  std::string_view line;
+void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<TextColumn>& columns,
+                       const std::string& what, const std::string& path) {
+  const bool lists = std::any_of(columns.begin(), columns.end(), [](const TextColumn& c) { return c.is_list; });
+  std::string_view line, rest;
+  // A missing word of a plain row is reported with both counts.
+  const auto take = [&](NumberType type) {
+    const std::string_view word = take_word(rest);
+    double value = 0;
+    if (word.empty() && !lists) return value;
+    if (!to_number(word, value) || !fits(value, type)) {
+      fail(ErrorKind::content, path, ":", lines.number(), ": expected a number in this ", what, " row that fits ",
+           name_of(type), ", found '", shown(word), "'; correct the line, or export the file again if it is cut off");
+    }
+    return value;
+  };
   for (std::size_t row = 0; row < rows; ++row) {
-    if (!lines.next_filled(line)) {
-      fail(ErrorKind::content, path, ": cut off: the header announces ", rows, " points, found ", row,
+    if (!lines.next(line)) {
+      fail(ErrorKind::content, path, ": cut off: the header announces ", rows, " ", what, " rows, found ", row,
            "; copy or export the file again");
     }
-    std::string_view rest = line;
-    std::size_t found = 0;
-    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest), ++found) {
-      double value = 0;
-      if (!to_number(word, value)) {
-        fail(ErrorKind::content, path, ":", lines.number(), ": '", shown(word),
-             "' is not a number; correct the line");
-      }
-      if (found < columns) numbers.push_back(value);
+    rest = line;
+    for (const TextColumn& column : columns) {
+      const double numbers = column.is_list ? take(NumberType::uint32) : 1;
+      for (double i = 0; i < numbers; ++i) take(column.type);
     }
-    if (found != columns) {
-      fail(ErrorKind::content, path, ":", lines.number(), ": expected ", columns,
-           " numbers as the header says, found ", found, " in '", shown(line),
+    const std::size_t found = words_of(line).size();
+    if (lists ? !take_word(rest).empty() : found != columns.size()) {
+      fail(ErrorKind::content, path, ":", lines.number(), ": expected ", columns.size(),
+           lists ? " columns" : " numbers", " as the header says, found ", found, " words in '", shown(line),
            "'; correct the line, or export the file again if it is cut off");
     }
   }
-  return numbers;
 }
 
 }  // namespace insonify

@@ -1,17 +1,19 @@
 #pragma once
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scene_io/number_type.hpp"
+
 namespace insonify {
 
 /// Walks through a text line by line; line ends \n and \r\n.
 class LineReader {
  public:
-  explicit LineReader(std::string_view text, std::size_t lines_before = 0)
-      : rest_(text), number_(lines_before) {}
+  explicit LineReader(std::string_view text, std::size_t lines_before = 0) : rest_(text), number_(lines_before) {}
 
   /// False at the end of the text.
   bool next(std::string_view& line) {
@@ -49,8 +51,7 @@ inline std::string_view take_word(std::string_view& rest) {
 
 inline std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words;
-  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
-    words.emplace_back(word);
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) words.emplace_back(word);
   return words;
 }
 
@@ -65,9 +66,15 @@ bool to_number(std::string_view word, T& value) {
 /// Part of a line fit for a message: at most 60 characters, control characters as '?'.
 std::string shown(std::string_view line);
 
-/// Reads `rows` lines of exactly `columns` numbers each, skipping blank lines. Throws Error(content) naming
-/// `path`, the line, and what is missing.
-std::vector<double> read_number_rows(LineReader& lines, std::size_t rows, std::size_t columns,
-                                     const std::string& path);
+/// A column of a row of text: one number, or a list of them behind their count.
+struct TextColumn {
+  NumberType type = NumberType::float64;
+  bool is_list = false;
+};
+
+/// Refuses what PCL 1.13 reads without a word as NaN, 0 or another number: words that are no number or do not fit
+/// their type, short, long and blank rows. Throws Error(content) naming `path`, the line and, as `what`, the rows.
+void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<TextColumn>& columns,
+                       const std::string& what, const std::string& path);
 
 }  // namespace insonify

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "acoustics/noise.hpp"
+#include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -56,6 +57,7 @@ DetectionOptions detection_options(const SonarHead& head, const Medium& medium, 
 
 SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                             const Water& water, const SimulationOptions& options) {
+  require_valid(head, "simulate_ping");
   SimulatedPing result;
   StopWatch watch;
 
@@ -74,8 +76,11 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
 
   // What the array makes of it: a complex time series per beam.
   const auto synthesize = options.method == SynthesisMethod::direct ? synthesize_direct : synthesize_stamped;
-  const ComplexGrid pressure = synthesize(echoes, head, result.medium, {options.tolerance, options.threads});
-  result.ping = {0, 0, world_from_head, head.fan, head.gate, pressure.cast<std::complex<float>>()};
+  ComplexGrid pressure = synthesize(echoes, head, result.medium, {options.tolerance, options.threads});
+  if (options.noise)
+    pressure +=
+        synthesize_noise(head, result.medium, thermal_noise_level_db(head.pulse), {options.seed, 0, options.threads});
+  result.ping = {0, 0, world_from_head, head.fan, head.gate, stored_pressure(pressure, "simulate_ping")};
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.

@@ -20,6 +20,7 @@ struct SimulationOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   SynthesisMethod method = SynthesisMethod::stamped;
   double tolerance = 1e-4;
+  bool noise = false;            ///< adds thermal noise of independent elements (E18, E41)
   int absorption_order = 0;      ///< 0: absorption of the centre frequency for the whole pulse
   DetectionOptions detection{};  ///< noise floor -inf: thermal noise in the band, less the array's directivity
   int threads = 0;               ///< 0: all cores; the result does not depend on it

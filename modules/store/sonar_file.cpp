@@ -63,6 +63,9 @@ void read_key(SonarFile& file, const std::string& key, const TomlValue& entry) {
 
 // What a file may leave out and what it then means is part of what a reader of the numbers wants to know.
 void note_default(SonarFile& file, const std::string& key) {
+  if (key == "shading")
+    file.numbers.push_back(
+        {key, shading_name(shading_of(file.spec)), "derived", "from side_lobe_db: below 0 taylor, else uniform"});
   if (key != "side_lobe_db" && key != "elevation_deg" && key != "elevation_shape") return;
   std::string text = sonar_key_text(file.spec, key).value_or("");
   text.erase(std::remove(text.begin(), text.end(), '"'), text.end());

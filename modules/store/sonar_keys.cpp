@@ -39,6 +39,8 @@ constexpr std::array shape_names = {ShapeName{"gaussian", ElevationShape::gaussi
                                     ShapeName{"line", ElevationShape::line},
                                     ShapeName{"sector", ElevationShape::sector}};
 
+constexpr std::array shadings = {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev};
+
 const NumberKey* find_number_key(const std::string& key) {
   for (const NumberKey& candidate : number_keys)
     if (key == candidate.name) return &candidate;
@@ -92,6 +94,23 @@ void set_shape(SonarSpec& spec, const SonarValue& value) {
   fail_value("elevation_shape", value, "gaussian, line or sector");
 }
 
+void set_shading(SonarSpec& spec, const SonarValue& value) {
+  const std::string* text = std::get_if<std::string>(&value);
+  for (const Shading shading : shadings)
+    if (text && *text == shading_name(shading)) {
+      spec.shading = shading;
+      return;
+    }
+  fail_value("shading", value, "taylor, uniform, hamming or chebyshev");
+}
+
+// What side_lobe_db alone says about the shading need not be said again.
+bool is_default_shading(const SonarSpec& spec) {
+  SonarSpec plain = spec;
+  plain.shading.reset();
+  return shading_of(spec) == shading_of(plain);
+}
+
 // Beams at given places: the field of view takes in half a mean spacing beyond the outermost ones, as an even
 // fan does, and at least one beam width.
 double field_of_view_of(const std::vector<double>& azimuths, double beam_width) {
@@ -125,9 +144,10 @@ std::string text_of_number(double value) {
 }  // namespace
 
 std::vector<std::string> sonar_key_names() {
-  return {"centre_frequency_hz", "bandwidth_hz",    "range_resolution_m", "source_level_db", "beams",
-          "field_of_view_deg",   "beam_width_deg",  "azimuths_deg",       "side_lobe_db",    "elevation_width_deg",
-          "elevation_deg",       "elevation_shape", "min_range_m",        "max_range_m",     "bin_size_m"};
+  return {"centre_frequency_hz", "bandwidth_hz",   "range_resolution_m", "source_level_db", "beams",
+          "field_of_view_deg",   "beam_width_deg", "azimuths_deg",       "side_lobe_db",    "shading",
+          "elevation_width_deg", "elevation_deg",  "elevation_shape",    "min_range_m",     "max_range_m",
+          "bin_size_m"};
 }
 
 std::vector<std::string> required_sonar_keys() {
@@ -148,6 +168,8 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
     set_beams(spec, value);
   } else if (key == "elevation_shape") {
     set_shape(spec, value);
+  } else if (key == "shading") {
+    set_shading(spec, value);
   } else if (key == "azimuths_deg") {
     set_azimuths(spec, value);
   } else if (key == "bin_size_m") {
@@ -169,6 +191,7 @@ std::optional<std::string> sonar_key_text(const SonarSpec& spec, const std::stri
   if (key == "elevation_shape")
     for (const ShapeName& shape : shape_names)
       if (shape.shape == spec.elevation_shape) return toml_text_of(std::string(shape.name));
+  if (key == "shading" && !is_default_shading(spec)) return toml_text_of(std::string(shading_name(shading_of(spec))));
   if (key == "azimuths_deg" && !spec.azimuths.empty()) {
     std::vector<double> list;
     for (const double azimuth : spec.azimuths) list.push_back(degrees_of(azimuth));

@@ -25,7 +25,8 @@ std::vector<std::string> required_sonar_keys();
 void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& value);
 
 /// Value of a key as TOML text that reads back to the same bits; nothing if the key is left out of files
-/// written from this spec (range_resolution_m always; bin_size_m and azimuths_deg when absent).
+/// written from this spec (range_resolution_m always; bin_size_m and azimuths_deg when absent;
+/// shading when it is what side_lobe_db alone means).
 std::optional<std::string> sonar_key_text(const SonarSpec& spec, const std::string& key);
 
 /// A value as TOML text, numbers with as many digits as it takes to get the same bits back.

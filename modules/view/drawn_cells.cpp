@@ -115,6 +115,13 @@ std::vector<double> cell_edges(const std::vector<double>& bearing, double gap, d
 
 }  // namespace
 
+void require_picture_size(const PictureOptions& options, const char* who) {
+  for (const int pixels : {options.width, options.height})
+    if (pixels < min_pixels || pixels > max_pixels)
+      fail(ErrorKind::argument, who, ": options.width x height = ", options.width, " x ", options.height,
+           " pixels, must be ", min_pixels, " to ", max_pixels, " either way");
+}
+
 void require_drawable(const LevelImage& image, const PictureOptions& options, const char* who) {
   require_valid(image.fan, who);
   require_valid(image.gate, who);
@@ -123,10 +130,7 @@ void require_drawable(const LevelImage& image, const PictureOptions& options, co
   if (rows != image.fan.beams() || columns != image.gate.bins())
     fail(ErrorKind::argument, who, ": image.level_db is ", rows, " x ", columns,
          ", must be beams x bins = ", image.fan.beams(), " x ", image.gate.bins());
-  for (const int pixels : {options.width, options.height})
-    if (pixels < min_pixels || pixels > max_pixels)
-      fail(ErrorKind::argument, who, ": options.width x height = ", options.width, " x ", options.height,
-           " pixels, must be ", min_pixels, " to ", max_pixels, " either way");
+  require_picture_size(options, who);
 }
 
 BeamCells order_beams(const LevelImage& image) {

@@ -7,6 +7,9 @@
 
 namespace insonify {
 
+/// Throws Error(argument) unless the picture has 240 to 8192 pixels either way.
+void require_picture_size(const PictureOptions& options, const char* who);
+
 /// Throws Error(argument) unless fan and gate are valid, level_db is beams x bins, and the picture has 240 to
 /// 8192 pixels either way.
 void require_drawable(const LevelImage& image, const PictureOptions& options, const char* who);

@@ -1,84 +1,63 @@
 #include "acoustics/water.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
 
 using namespace insonify;
 
-// Fofonoff and Millard (1983), p. 48: 1731.995 m/s at S = 40, T68 = 40 deg C (39.9904 on today's scale), p = 1000
-// bar, which Leroy and Parthiot's formula reaches at the depth given.
-TEST(SoundSpeed, unesco_gives_the_published_check_value) {
-  EXPECT_NEAR(sound_speed({40 / 1.00024, 40, 9699.8885, 8}), 1731.995, 1e-3);
+// Fofonoff and Millard (1983): 10000 dbar at 30 deg latitude in the standard ocean is a depth of 9712.653 m. Leroy
+// and Parthiot's fit is good to about 1 part in 10^5.
+TEST(GaugePressure, gives_the_published_depth_of_10000_dbar) {
+  EXPECT_NEAR(gauge_pressure({.depth = 9712.653, .latitude_deg = 30}), 1e8, 1e3);
 }
 
-// Mackenzie (1981): 1550.744 m/s at 25 deg C, 35, 1000 m.
-TEST(SoundSpeed, mackenzie_gives_the_published_check_value) {
-  EXPECT_NEAR(sound_speed({25, 35, 1000, 8}, SoundSpeedFormula::mackenzie), 1550.744, 5e-4);
+TEST(GaugePressure, grows_with_gravity_from_the_equator_to_either_pole) {
+  const auto at = [](double latitude) { return gauge_pressure({.depth = 4000, .latitude_deg = latitude}); };
+  EXPECT_LT(at(0), at(45));
+  EXPECT_LT(at(45), at(90));
+  EXPECT_EQ(at(-60), at(60));
+  EXPECT_NEAR(at(90) / at(0), 9.832186 / 9.780318, 1e-5);  // gravity at pole and equator [m/s^2]
+  EXPECT_EQ(gauge_pressure({.depth = 0, .latitude_deg = 70}), 0);
 }
 
-// Surface values of both formulas and of TEOS-10 (gsw 3.6.16: 1489.788, 1521.479, 1466.529, 1447.284).
-TEST(SoundSpeed, unesco_agrees_with_teos10_to_10_cm_per_s) {
-  EXPECT_NEAR(sound_speed({10, 35, 0, 8}), 1489.831, 1e-3);
-  EXPECT_NEAR(sound_speed({10, 35, 0, 8}), 1489.788, 0.1);
-  EXPECT_NEAR(sound_speed({20, 35, 0, 8}), 1521.479, 0.1);
-  EXPECT_NEAR(sound_speed({4, 35, 0, 8}), 1466.529, 0.1);
-  EXPECT_NEAR(sound_speed({10, 0, 0, 8}), 1447.284, 0.1);
-  EXPECT_NEAR(sound_speed({10, 0, 0, 8}, SoundSpeedFormula::mackenzie), 1446.491, 1e-3);
-}
-
-TEST(SoundSpeed, refuses_impossible_water) {
-  try {
-    sound_speed({10, -1, 0, 8});
-    FAIL() << "accepted a salinity of -1";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    EXPECT_THAT(error.what(), testing::HasSubstr("salinity_psu = -1 psu, must be >= 0"));
+TEST(MediumOf, joins_sound_speed_and_absorption) {
+  const Water water{4, 34, 300, 7.9, 60};
+  for (const auto formula :
+       {AbsorptionFormula::francois_garrison, AbsorptionFormula::fisher_simmons, AbsorptionFormula::ainslie_mccolm}) {
+    const Medium medium = medium_of(water, 450e3, 2, formula);
+    EXPECT_EQ(medium.sound_speed, sound_speed(water));
+    EXPECT_EQ(medium.absorption.a0, absorption_about(water, 450e3, 2, formula).a0);
+    EXPECT_EQ(medium.absorption.a2, absorption_about(water, 450e3, 2, formula).a2);
   }
-  EXPECT_THROW(sound_speed({10, 35, -3, 8}), Error);
-  EXPECT_THROW(sound_speed({std::nan(""), 35, 0, 8}), Error);
+  EXPECT_EQ(medium_of(water, 450e3).absorption.a0,
+            absorption_about(water, 450e3, 0, AbsorptionFormula::francois_garrison).a0);
 }
 
-// Francois and Garrison (1982), evaluated independently in numpy from the paper's formulas, dB/km.
-TEST(Absorption, follows_francois_and_garrison) {
-  struct Case {
-    Water water;
-    double khz, db_per_km;
+TEST(Water, impossible_values_are_refused_by_name) {
+  const auto message_of = [](const Water& water) -> std::string {
+    try {
+      require_valid(water, "somebody");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::argument);
+      return error.what();
+    }
+    return "";
   };
-  const Water cold{4, 35, 0, 8}, mild{10, 35, 0, 8}, warm{30, 35, 0, 8}, fresh{10, 0, 0, 8}, deep{10, 35, 1000, 8};
-  for (const Case& c :
-       {Case{mild, 50, 15.392}, Case{mild, 100, 33.630}, Case{mild, 450, 109.663}, Case{mild, 900, 299.463},
-        Case{mild, 1200, 495.414}, Case{mild, 3000, 2845.22}, Case{cold, 900, 357.095}, Case{warm, 900, 310.969},
-        Case{fresh, 900, 251.748}, Case{fresh, 50, 0.777}, Case{deep, 900, 283.257}})
-    EXPECT_NEAR(absorption_db_per_m(c.water, c.khz * 1e3) * 1e3, c.db_per_km, 6e-4 + 1e-5 * c.db_per_km)
-        << c.khz << " kHz";
+  EXPECT_EQ(message_of({}), "");
+  EXPECT_EQ(message_of({.temperature_c = 101}), "somebody: temperature_c = 101 deg C, must be within -4 and 100");
+  EXPECT_EQ(message_of({.salinity_psu = -1}), "somebody: salinity_psu = -1 psu, must be >= 0");
+  EXPECT_EQ(message_of({.depth = -3}), "somebody: depth = -3 m, must be >= 0");
+  EXPECT_EQ(message_of({.ph = 15}), "somebody: ph = 15, must be within 0 and 14");
+  EXPECT_EQ(message_of({.latitude_deg = 91}), "somebody: latitude_deg = 91 deg, must be within -90 and 90");
+  EXPECT_THAT(message_of({.latitude_deg = std::nan("")}), testing::HasSubstr("latitude_deg = nan"));
 }
 
-// The R package `sonar` prints 13.96602 dB/km at 50 kHz, 0 deg C, 35, pH 6 with theta = 273.15 + T; the paper's
-// 273 + T, used here, gives 13.94619.
-TEST(Absorption, uses_theta_of_the_paper) {
-  EXPECT_NEAR(absorption_db_per_m({0, 35, 0, 6}, 50e3) * 1e3, 13.94619, 1e-4);
+TEST(Medium, of_no_sound_speed_or_of_growing_sound_is_refused) {
+  EXPECT_NO_THROW(require_valid(Medium{1500, {0.03, 0, 0}}, "somebody"));
+  for (const Medium& medium : {Medium{0, {}}, Medium{std::nan(""), {}}, Medium{1500, {-0.01, 0, 0}}})
+    EXPECT_THROW(require_valid(medium, "somebody"), Error);
 }
-
-TEST(Absorption, jumps_by_less_than_a_thousandth_where_the_branches_meet) {
-  const double below = absorption_db_per_m({20, 35, 0, 8}, 900e3),
-               above = absorption_db_per_m({20.0001, 35, 0, 8}, 900e3);
-  EXPECT_NEAR(above / below, 1, 1e-3);
-}
-
-// Taylor coefficients against central differences of the function itself.
-TEST(Absorption, taylor_coefficients_are_its_derivatives) {
-  const Water water;
-  const double f = 900e3, h = 2e3;
-  const Absorption a = absorption_about(water, f, 2);
-  const auto nepers = [&](double x) { return absorption_db_per_m(water, x) * nepers_per_db; };
-  EXPECT_NEAR(a.a0, nepers(f), 1e-15);
-  EXPECT_NEAR(a.a1, (nepers(f + h) - nepers(f - h)) / (2 * h), 1e-5 * a.a1);
-  EXPECT_NEAR(a.a2, (nepers(f + h) - 2 * nepers(f) + nepers(f - h)) / (2 * h * h), 1e-3 * a.a2);
-  EXPECT_EQ(absorption_about(water, f, 0).a1, 0);
-  EXPECT_EQ(absorption_about(water, f, 1).a2, 0);
-}
-
-TEST(Absorption, refuses_a_frequency_of_zero) { EXPECT_THROW(absorption_db_per_m({}, 0), Error); }

@@ -52,6 +52,32 @@ TEST(MakeHead, lengthens_a_shaded_array_to_keep_the_beam_width) {
   EXPECT_NEAR(degrees(array_beam_width(head.array, 1500 / 750e3)), 1, 0.006);
 }
 
+TEST(MakeHead, shades_the_array_as_asked_and_keeps_the_beam_width) {
+  const auto shaded = [](std::optional<Shading> shading, double side_lobe_db) {
+    SonarSpec s = spec();
+    s.shading = shading;
+    s.side_lobe_db = side_lobe_db;
+    return make_head(s, 1490).array;
+  };
+  for (const Shading shading : {Shading::uniform, Shading::taylor, Shading::hamming, Shading::chebyshev}) {
+    const LineArray array = shaded(shading, -35);
+    EXPECT_EQ(array.shading, shading_weights(shading, array.elements(), -35)) << shading_name(shading);
+    EXPECT_NEAR(degrees(array_beam_width(array, 1500 / 750e3)), 1, 0.006) << shading_name(shading);
+  }
+  EXPECT_EQ(shaded({}, -35).shading, shaded(Shading::taylor, -35).shading);
+  EXPECT_EQ(shaded({}, 0).shading, shaded(Shading::uniform, -35).shading);
+}
+
+TEST(MakeHead, refuses_a_shading_without_its_side_lobe_level) {
+  SonarSpec s = spec();
+  for (const Shading shading : {Shading::taylor, Shading::chebyshev}) {
+    s.shading = shading;
+    expect_refused(s, "side_lobe_db = 0 dB, must be within -80 and -13.3 for shading taylor or chebyshev");
+  }
+  s.shading = Shading::hamming;
+  EXPECT_NO_THROW(make_head(s, 1490));
+}
+
 TEST(MakeHead, samples_the_pulse_unless_told_finer) {
   EXPECT_NEAR(make_head(spec(), 1490).gate.bin_size, 0.44 * 1490 / 300e3, 1e-12);
   SonarSpec fine = spec();

@@ -55,8 +55,7 @@ TEST(BadFile, a_file_of_another_format_than_its_name_says_is_named) {
   expect_bad(write_file("g.vtk", text), {"not a legacy VTK file", "# vtk DataFile"});
   expect_bad(write_file("h.vtp", text), {"not a VTK XML file", "<VTKFile"});
   expect_bad(write_file("i.xyz", std::string("\0\1\2\3", 4)), {"not a text file", "binary data"});
-  expect_bad(write_file("j.vtk",
-                        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 0 float\n"),
+  expect_bad(write_file("j.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 0 float\n"),
              {"UNSTRUCTURED_GRID", "expected DATASET POLYDATA", "Extract Surface"});
 }
 
@@ -80,11 +79,28 @@ TEST(BadFile, a_compressed_pcd_cut_off_or_damaged_is_refused) {
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\nPOINTS 4\nDATA "
       "binary_compressed\n";
   expect_bad(write_file("a.pcd", header + "abc"), {"cut off", "announces 4 points"});
-  expect_bad(write_file("b.pcd", header + bytes_of(100u) + bytes_of(48u) + "abc"),
-             {"cut off", "100 bytes", "holds 3"});
+  expect_bad(write_file("b.pcd", header + bytes_of(100u) + bytes_of(48u) + "abc"), {"cut off", "100 bytes", "holds 3"});
   expect_bad(write_file("c.pcd", header + bytes_of(3u) + bytes_of(96u) + "abc"), {"48 bytes", "96"});
-  expect_bad(write_file("d.pcd", header + bytes_of(3u) + bytes_of(48u) + "abc"),
-             {"cannot unpack", "damaged"});
+  expect_bad(write_file("d.pcd", header + bytes_of(3u) + bytes_of(48u) + "abc"), {"cannot unpack", "damaged"});
+}
+
+TEST(BadFile, numbers_that_would_be_misread_are_named_by_line) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
+      "label\nend_header\n";
+  expect_bad(write_file("a.ply", ply + "1 2 3 0\n4 zero 6 0\n"), {":10:", "expected a number", "'zero'"});
+  expect_bad(write_file("b.ply", ply + "1 2 3 300\n4 5 6 0\n"), {":9:", "fits uint8", "'300'"});
+  expect_bad(write_file("c.ply", ply + "1 2 3 0.5\n4 5 6 0\n"), {":9:", "fits uint8", "'0.5'"});
+  const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
+  expect_bad(write_file("d.pcd", pcd + "DATA ascii\n1 2 3\n4 zero 6\n"), {":10:", "expected a number", "'zero'"});
+  expect_bad(write_file("e.pcd", pcd + "DATA ascii\n1 2 3\n \n4 5 6\n"), {":10:", "expected 3 numbers", "found 0"});
+}
+
+TEST(BadFile, a_compressed_pcd_with_padding_is_refused) {
+  expect_bad(write_file("a.pcd",
+                        "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA "
+                        "binary_compressed\n12345678"),
+             {"padding fields '_'", "DATA binary"});
 }
 
 TEST(BadFile, text_lines_are_named_by_number) {
@@ -99,8 +115,7 @@ TEST(BadFile, text_lines_are_named_by_number) {
 }
 
 TEST(BadFile, wrong_headers_are_named) {
-  const std::string pcd =
-      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n";
+  const std::string pcd = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n";
   expect_bad(write_file("a.pcd", pcd + "POINTS 3\nDATA ascii\n"), {"POINTS 3", "WIDTH times HEIGHT"});
   expect_bad(write_file("b.pcd", pcd + "POINTS 2\nDATA zipped\n"), {"DATA zipped", "binary_compressed"});
   expect_bad(write_file("c.pcd", pcd + "POINTS 2\nDATA ascii\n1 2 3\n"), {"cut off"});
@@ -109,15 +124,13 @@ TEST(BadFile, wrong_headers_are_named) {
   expect_bad(write_file("e.pcd", pcd), {"cut off inside the PCD header", "DATA"});
   expect_bad(write_file("f.pcd", "FIELDS x y z\nSIZE 4 4\n"), {":2:", "one entry per field"});
   expect_bad(
-      write_file("g.pcd",
-                 "FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2\n"),
+      write_file("g.pcd", "FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2\n"),
       {"expected fields x y z", "'a b'"});
   expect_bad(write_file("h.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
              {":4:", "unknown PLY number type 'real'"});
   expect_bad(write_file("i.ply", "ply\nformat ascii 1.0\nelement vertex 1\n"),
              {"cut off inside the PLY header", "end_header"});
-  expect_bad(write_file("j.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"),
-             {"no 'vertex' element"});
+  expect_bad(write_file("j.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"), {"no 'vertex' element"});
   expect_bad(write_file("k.ply", "ply\nelement vertex 0\nend_header\n"), {"no 'format' line"});
   expect_bad(write_file("l.ply", "ply\nformat ascii 1.0\ncomment insonify scene 9\nend_header\n"),
              {"insonify scene 9", "save the scene again"});
@@ -131,12 +144,9 @@ TEST(BadFile, meshes_cut_off_are_refused) {
   expect_bad(write_file("b.ply", ply + "3 0 1 2\n3 0 1\n"), {":14:", "expected a number in this face row"});
   const std::string stl = std::string(80, ' ') + bytes_of(2u) + std::string(50, '\0');
   expect_bad(write_file("c.stl", stl), {"cut off", "2 triangles, 184 bytes", "holds 134"});
-  expect_bad(write_file("d.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"),
-             {"cut off", "endsolid"});
-  expect_bad(
-      write_file("e.vtk",
-                 "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 100 float\n0 0 0 1 0"),
-      {"VTK cannot read it"});
+  expect_bad(write_file("d.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"), {"cut off", "endsolid"});
+  expect_bad(write_file("e.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 100 float\n0 0 0 1 0"),
+             {"VTK cannot read it"});
 }
 
 TEST(BadFile, a_cut_off_vtp_is_refused_and_nothing_is_printed) {
@@ -172,12 +182,10 @@ TEST(BadOption, values_that_no_file_can_satisfy_are_argument_errors) {
   expect_error(ErrorKind::argument, {"mesh_spacing = -1 m"}, [&] { load_scene(path, options); });
   options = {};
   options.normal_neighbours = 2;
-  expect_error(ErrorKind::argument, {"normal_neighbours = 2", "at least 3"},
-               [&] { load_scene(path, options); });
+  expect_error(ErrorKind::argument, {"normal_neighbours = 2", "at least 3"}, [&] { load_scene(path, options); });
   options = {};
   options.material = 3;
-  expect_error(ErrorKind::argument, {"material = 3", "number of materials, 1"},
-               [&] { load_scene(path, options); });
+  expect_error(ErrorKind::argument, {"material = 3", "number of materials, 1"}, [&] { load_scene(path, options); });
 }
 
 /// Small good files of all formats that are parsed here or by PCL.
@@ -191,8 +199,7 @@ std::vector<std::pair<std::string, std::string>> good_files() {
       "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n";
   std::string binary = face.substr(0, face.find("0 0 0"));
   binary.replace(binary.find("ascii"), 5, "binary_big_endian");
-  for (const float c : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f})
-    binary += bytes_of(c, true);
+  for (const float c : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f}) binary += bytes_of(c, true);
   for (const auto& [a, b, c] : {std::array{0, 1, 2}, std::array{1, 3, 2}}) {
     binary += '\3';
     for (const int corner : {a, b, c}) binary += bytes_of(corner, true);
@@ -222,8 +229,7 @@ TEST(BadFile, damaged_bytes_give_an_error_or_a_valid_scene_and_nothing_is_printe
   for (const auto& [name, good] : good_files()) {
     for (std::uint64_t trial = 0; trial < 300; ++trial) {
       std::string bytes = good;
-      const auto random =
-          random_uniform(1, RandomStage::scene_points, {.first = trial, .second = good.size()});
+      const auto random = random_uniform(1, RandomStage::scene_points, {.first = trial, .second = good.size()});
       const std::size_t at = static_cast<std::size_t>(random[0] * static_cast<double>(bytes.size()));
       if (trial % 3 == 0) bytes[at] = static_cast<char>(random[1] * 256);
       if (trial % 3 == 1) bytes.erase(at, 1 + static_cast<std::size_t>(random[1] * 4));
@@ -237,8 +243,7 @@ TEST(BadFile, damaged_bytes_give_an_error_or_a_valid_scene_and_nothing_is_printe
         ++read;
       } catch (const Error& error) {
         // A mesh with a coordinate of 1e8 asks for too many surfels: the one error that blames the option.
-        EXPECT_TRUE(error.kind() == ErrorKind::content || error.kind() == ErrorKind::argument)
-            << error.what();
+        EXPECT_TRUE(error.kind() == ErrorKind::content || error.kind() == ErrorKind::argument) << error.what();
         EXPECT_GT(std::string(error.what()).size(), path.size());
         ++refused;
       }

@@ -38,8 +38,7 @@ TEST(CompleteScene, ids_are_row_numbers_so_that_a_dropped_point_renumbers_no_oth
 }
 
 TEST(CompleteScene, ids_that_are_not_unique_are_renumbered_with_a_note) {
-  const LoadedScene loaded =
-      load_scene(write_file("a.csv", "x,y,z,id\n0,0,0,5\n1,0,0,5\n0,1,0,6\n1,1,0,7\n"));
+  const LoadedScene loaded = load_scene(write_file("a.csv", "x,y,z,id\n0,0,0,5\n1,0,0,5\n0,1,0,6\n1,1,0,7\n"));
   EXPECT_EQ(loaded.scene.id, (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_TRUE(has_note(loaded.report, "ids in the file are not unique"));
 }
@@ -66,9 +65,8 @@ TEST(CompleteScene, without_a_viewpoint_normals_have_no_sides_and_a_note_says_so
 }
 
 std::string pcd_text(const std::string& viewpoint, const std::string& rows, int count) {
-  return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
-         std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT " + viewpoint + "\nPOINTS " + std::to_string(count) +
-         "\nDATA ascii\n" + rows;
+  return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string(count) +
+         "\nHEIGHT 1\nVIEWPOINT " + viewpoint + "\nPOINTS " + std::to_string(count) + "\nDATA ascii\n" + rows;
 }
 
 TEST(CompleteScene, the_viewpoint_of_a_pcd_orients_normals_and_turns_no_point) {
@@ -85,8 +83,7 @@ TEST(CompleteScene, the_viewpoint_of_a_pcd_orients_normals_and_turns_no_point) {
   // The caller's word counts more than the file's.
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, 9);
-  for (const auto& n :
-       load_scene(write_file("d.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)), options).scene.normal) {
+  for (const auto& n : load_scene(write_file("d.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)), options).scene.normal) {
     EXPECT_GT(n.z(), 0.999f);
   }
 }
@@ -121,8 +118,7 @@ TEST(CompleteScene, normals_of_another_length_are_scaled_to_one) {
 TEST(CompleteScene, file_normals_that_look_away_from_the_viewpoint_are_noted) {
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, -5);
-  const std::string path =
-      write_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n0,1,0,0,0,1\n1,1,0,0,0,1\n");
+  const std::string path = write_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n0,1,0,0,0,1\n1,1,0,0,0,1\n");
   EXPECT_TRUE(has_note(load_scene(path, options).report, "look away from the viewpoint"));
   EXPECT_FALSE(has_note(load_scene(path).report, "look away"));
 }
@@ -151,8 +147,7 @@ TEST(CompleteScene, unit_scales_coordinates_and_areas) {
 TEST(CompleteScene, unusable_areas_are_estimated) {
   std::string text = "x y z nx ny nz area\n";
   for (int i = 0; i < 100; ++i)
-    text +=
-        std::to_string(i / 10) + " " + std::to_string(i % 10) + " 0 0 0 1 " + (i == 44 ? "-1\n" : "0.5\n");
+    text += std::to_string(i / 10) + " " + std::to_string(i % 10) + " 0 0 0 1 " + (i == 44 ? "-1\n" : "0.5\n");
   const LoadedScene loaded = load_scene(write_file("a.txt", text));
   EXPECT_NEAR(loaded.scene.area[44], 1.0f, 1e-4f);  // the Voronoi cell of a unit grid
   EXPECT_EQ(loaded.scene.area[43], 0.5f);
@@ -171,13 +166,11 @@ TEST(Materials, labels_choose_from_the_table_given) {
   EXPECT_EQ(load_scene(path, options).scene.material, (std::vector<std::uint16_t>{1, 1, 1, 1}));
   options = {};
   options.materials = {{"sand", 0.01}};
-  expect_error(ErrorKind::content, {path, "label 1 found", "1 materials"},
-               [&] { load_scene(path, options); });
+  expect_error(ErrorKind::content, {path, "label 1 found", "1 materials"}, [&] { load_scene(path, options); });
 }
 
 TEST(Materials, labels_without_a_table_keep_their_numbers_under_default_materials) {
-  const LoadedScene loaded =
-      load_scene(write_file("a.csv", "x,y,z,class\n0,0,0,0\n1,0,0,2\n0,1,0,2\n1,1,0,0\n"));
+  const LoadedScene loaded = load_scene(write_file("a.csv", "x,y,z,class\n0,0,0,0\n1,0,0,2\n0,1,0,2\n1,1,0,0\n"));
   EXPECT_EQ(loaded.scene.material[1], 2);
   ASSERT_EQ(loaded.scene.materials.size(), 3u);
   EXPECT_EQ(loaded.scene.materials[2].lambert_mu, Material{}.lambert_mu);
@@ -222,8 +215,8 @@ TEST(Doubts, what_float32_rounds_away_is_said) {
       "ply\nformat binary_little_endian 1.0\nelement vertex 100\nproperty float x\nproperty float "
       "y\nproperty float z\nend_header\n";
   for (int i = 0; i < 100; ++i)
-    bytes += bytes_of(500000.f + static_cast<float>(i / 10)) +
-             bytes_of(4600000.f + static_cast<float>(i % 10)) + bytes_of(0.f);
+    bytes += bytes_of(500000.f + static_cast<float>(i / 10)) + bytes_of(4600000.f + static_cast<float>(i % 10)) +
+             bytes_of(0.f);
   const LoadedScene loaded = load_scene(write_file("a.ply", bytes));
   EXPECT_TRUE(has_note(loaded.report, "stored as float32, in steps of 500 mm"));  // 2^(22-23) m
   EXPECT_FALSE(has_note(load_scene(write_file("b.xyz", plate)).report, "float32"));

@@ -14,8 +14,8 @@ bool has_problem(const FileDescription& file, const std::string& part) {
 }
 
 TEST(DescribeFile, counts_bounds_and_spacing_of_a_plate) {
-  const FileDescription file = describe_file(
-      write_file("a.xyz", plate_text(20, 0.25, 500000, 4600000) + "nan 0 0\n500000 4600000 0\n"));
+  const FileDescription file =
+      describe_file(write_file("a.xyz", plate_text(20, 0.25, 500000, 4600000) + "nan 0 0\n500000 4600000 0\n"));
   EXPECT_EQ(file.format, "text");
   EXPECT_EQ(file.points, 402u);
   EXPECT_EQ(file.not_finite, 1u);

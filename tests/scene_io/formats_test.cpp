@@ -77,8 +77,7 @@ std::string ply_bytes(const Sample& s, Order order, bool wide) {
     const bool big = order == Order::big;
     out << bytes_of(std::uint8_t{7});
     for (const double r : reals) out << (wide ? bytes_of(r, big) : bytes_of(static_cast<float>(r), big));
-    out << bytes_of(static_cast<std::int16_t>(s.label[i]), big)
-        << bytes_of(static_cast<std::int32_t>(s.id[i]), big);
+    out << bytes_of(static_cast<std::int16_t>(s.label[i]), big) << bytes_of(static_cast<std::int32_t>(s.id[i]), big);
   }
   return out.str();
 }
@@ -97,12 +96,38 @@ INSTANTIATE_TEST_SUITE_P(Formats, PlyCase,
                          ::testing::Combine(::testing::Values(Order::ascii, Order::little, Order::big),
                                             ::testing::Bool()));
 
+TEST(Ply, colours_in_any_order_and_obj_info_move_no_coordinate) {
+  const LoadedScene loaded = load_scene(
+      write_file("a.ply",
+                 "ply\nformat ascii 1.0\nobj_info num_cols 1\nobj_info num_rows 1\nelement vertex 3\nproperty uchar "
+                 "blue\nproperty float x\nproperty float y\nproperty uchar red\nproperty float z\nproperty float "
+                 "nx\nproperty float ny\nproperty float nz\nend_header\n"
+                 "9 1 2 8 3 0 0 1\n9 4 5 8 6 0 0 1\n9 7 8 8 10 0 0 1\n"));
+  ASSERT_EQ(loaded.scene.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(world(loaded.scene, i), Eigen::Vector3d(1, 2, 3) + i * Eigen::Vector3d(3, 3, i < 2 ? 3 : 3.5)) << i;
+  }
+}
+
+TEST(Ply, faces_with_indices_of_any_type_are_read) {
+  for (const char* list : {"uchar uchar", "uchar short", "uchar ushort", "ushort int", "uint uint", "uchar float"}) {
+    LoadOptions options;
+    options.mesh_spacing = 0.1;
+    const LoadedScene loaded = load_scene(
+        write_file("a.ply", std::string("ply\nformat ascii 1.0\nelement face 1\nproperty list ") + list +
+                                " vertex_index\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+                                "z\nend_header\n4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
+        options);
+    EXPECT_EQ(loaded.report.triangles_read, 2u) << list;
+    EXPECT_EQ(loaded.scene.size(), 100u) << list;
+  }
+}
+
 pcl::PCLPointCloud2 pcl_cloud(const Sample& s, bool wide) {
   pcl::PCLPointCloud2 cloud;
   const std::uint8_t real = wide ? pcl::PCLPointField::FLOAT64 : pcl::PCLPointField::FLOAT32;
   std::vector<std::pair<std::string, std::uint8_t>> fields;
-  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z", "area"})
-    fields.push_back({name, real});
+  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z", "area"}) fields.push_back({name, real});
   fields.push_back({"label", pcl::PCLPointField::UINT32});
   fields.push_back({"id", pcl::PCLPointField::UINT32});
   for (const auto& [name, type] : fields) {
@@ -166,18 +191,13 @@ std::string text_of(const Sample& s, const std::string& header, const std::strin
 
 TEST(TextCloud, blanks_tabs_commas_and_semicolons_separate_named_columns) {
   const Sample far = sample({500000, 4600000, 0});
-  expect_same(far,
-              load_scene(write_file("a.txt", text_of(far, "x y z nx ny nz area label id\n", " ", "\n"))));
-  expect_same(far,
-              load_scene(write_file("b.csv", text_of(far, "x,y,z,nx,ny,nz,area,material,id\n", ",", "\n"))));
-  expect_same(far,
-              load_scene(write_file("c.csv", text_of(far, "X;Y;Z;Nx;Ny;Nz;Area;Class;ID\n", ";", "\r\n"))));
-  expect_same(far,
-              load_scene(write_file(
-                  "d.asc", text_of(far, "# made by hand\n// X Y Z Nx Ny Nz area label id\n", "\t", "\n"))));
-  expect_same(far,
-              load_scene(write_file(
-                  "e.csv", text_of(far, "\"x\", \"y\", \"z\", nx, ny, nz, area, label, id\n", " , ", "\n"))));
+  expect_same(far, load_scene(write_file("a.txt", text_of(far, "x y z nx ny nz area label id\n", " ", "\n"))));
+  expect_same(far, load_scene(write_file("b.csv", text_of(far, "x,y,z,nx,ny,nz,area,material,id\n", ",", "\n"))));
+  expect_same(far, load_scene(write_file("c.csv", text_of(far, "X;Y;Z;Nx;Ny;Nz;Area;Class;ID\n", ";", "\r\n"))));
+  expect_same(far, load_scene(write_file(
+                       "d.asc", text_of(far, "# made by hand\n// X Y Z Nx Ny Nz area label id\n", "\t", "\n"))));
+  expect_same(far, load_scene(write_file(
+                       "e.csv", text_of(far, "\"x\", \"y\", \"z\", nx, ny, nz, area, label, id\n", " , ", "\n"))));
 }
 
 TEST(TextCloud, without_names_three_columns_are_coordinates_and_unit_vectors_after_them_normals) {
@@ -185,8 +205,7 @@ TEST(TextCloud, without_names_three_columns_are_coordinates_and_unit_vectors_aft
   ASSERT_EQ(with.scene.size(), 2u);
   EXPECT_EQ(world(with.scene, 1), Eigen::Vector3d(1.5, 0, 2));
   EXPECT_EQ(with.scene.normal[1], Eigen::Vector3f(0, 1, 0));
-  const LoadedScene colours =
-      load_scene(write_file("b.xyz", "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 0 0 255\n"));
+  const LoadedScene colours = load_scene(write_file("b.xyz", "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 0 0 255\n"));
   EXPECT_TRUE(colours.report.normals_estimated);
   EXPECT_TRUE(has_note(colours.report, "columns after z were ignored"));
 }
@@ -245,14 +264,12 @@ TEST_P(VtkCase, polydata_written_by_vtk_gives_the_same_surfels) {
     expect_same(sample(shift), loaded);
   } else {
     ASSERT_EQ(loaded.scene.size(), 12u);
-    for (std::size_t i = 0; i < 12; ++i)
-      EXPECT_LT((world(loaded.scene, i) - sample(shift).position[i]).norm(), 1e-4);
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_LT((world(loaded.scene, i) - sample(shift).position[i]).norm(), 1e-4);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, VtkCase,
-                         ::testing::Combine(::testing::Values(".vtk", ".vtp"), ::testing::Bool(),
-                                            ::testing::Bool()));
+                         ::testing::Combine(::testing::Values(".vtk", ".vtp"), ::testing::Bool(), ::testing::Bool()));
 
 TEST(ObjPoints, vertices_without_faces_are_a_cloud_with_the_normals_of_the_same_number) {
   const Sample s = sample({500000, 4600000, 0});

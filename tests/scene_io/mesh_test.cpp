@@ -186,8 +186,7 @@ std::string cube_ply(const std::string& format) {
     }
     out << (ascii ? "1\n" : "\x01");
   }
-  const unsigned faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  const unsigned faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& face : faces) {
     out << (ascii ? "9 4" : "\x09\x04");
     for (const unsigned c : face) {
@@ -238,8 +237,7 @@ TEST(Mesh, stl_and_vtk_files_written_by_vtk_have_the_area_of_a_sphere) {
     LoadOptions options;
     options.mesh_spacing = 0.05;
     const LoadedScene loaded = load_scene(path, options);
-    EXPECT_NEAR(total_area(loaded.scene), 16 * M_PI, 0.005 * 16 * M_PI)
-        << path;  // 64 facets: 1 - pi^2/(2 64^2) ...
+    EXPECT_NEAR(total_area(loaded.scene), 16 * M_PI, 0.005 * 16 * M_PI) << path;  // 64 facets: 1 - pi^2/(2 64^2) ...
     EXPECT_TRUE(loaded.scene.normals_oriented);
     for (std::size_t i = 0; i < loaded.scene.size(); ++i) {
       ASSERT_GT(loaded.scene.normal[i].cast<double>().dot(world(loaded.scene, i)), 1.9) << path;

@@ -62,8 +62,7 @@ TEST(PclBridge, point_normals_come_through_and_go_back) {
 
 TEST(PclBridge, a_polygon_mesh_is_sampled) {
   pcl::PointCloud<pcl::PointXYZ> corners;
-  for (const auto& p :
-       {pcl::PointXYZ(0, 0, 0), pcl::PointXYZ(2, 0, 0), pcl::PointXYZ(2, 3, 0), pcl::PointXYZ(0, 3, 0)})
+  for (const auto& p : {pcl::PointXYZ(0, 0, 0), pcl::PointXYZ(2, 0, 0), pcl::PointXYZ(2, 3, 0), pcl::PointXYZ(0, 3, 0)})
     corners.push_back(p);
   pcl::PolygonMesh mesh;
   pcl::toPCLPointCloud2(corners, mesh.cloud);

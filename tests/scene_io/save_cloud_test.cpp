@@ -62,8 +62,7 @@ TEST(SaveScene, a_far_ply_gives_the_origin_back_and_points_within_a_nanometre) {
   EXPECT_THAT(read_file(path), ::testing::HasSubstr("property double x"));
   const LoadedScene loaded = load_scene(path);
   expect_same_but_points(loaded, scene);
-  for (std::size_t i = 0; i < scene.size(); ++i)
-    EXPECT_LT((loaded.scene.point[i] - scene.point[i]).norm(), 1e-9f);
+  for (std::size_t i = 0; i < scene.size(); ++i) EXPECT_LT((loaded.scene.point[i] - scene.point[i]).norm(), 1e-9f);
 }
 
 TEST(SaveScene, saving_what_was_loaded_gives_the_same_bytes) {
@@ -118,8 +117,7 @@ TEST(SaveScene, refuses_what_it_cannot_write) {
                [&] { save_scene(temporary("a.xyz"), scene); });
   expect_error(ErrorKind::file, {"save_scene: cannot write", "No such file or directory"},
                [&] { save_scene(::testing::TempDir() + "no/such/folder/a.ply", scene); });
-  expect_error(ErrorKind::content, {"save_scene", "empty"},
-               [&] { save_scene(temporary("b.ply"), SceneCloud{}); });
+  expect_error(ErrorKind::content, {"save_scene", "empty"}, [&] { save_scene(temporary("b.ply"), SceneCloud{}); });
   SceneCloud wrong = scene;
   wrong.area.pop_back();
   expect_error(ErrorKind::argument, {"save_scene", "area"}, [&] { save_scene(temporary("c.ply"), wrong); });
@@ -128,8 +126,7 @@ TEST(SaveScene, refuses_what_it_cannot_write) {
 TEST(SaveScene, a_failed_rename_leaves_no_temporary_file) {
   const std::string folder = temporary("folder.ply");
   std::filesystem::create_directories(folder + "/full");
-  expect_error(ErrorKind::file, {"cannot write"},
-               [&] { save_scene(folder, scene_at(Eigen::Vector3d::Zero())); });
+  expect_error(ErrorKind::file, {"cannot write"}, [&] { save_scene(folder, scene_at(Eigen::Vector3d::Zero())); });
   for (const auto& entry : std::filesystem::directory_iterator(temporary_folder())) {
     EXPECT_THAT(entry.path().string(), ::testing::Not(::testing::HasSubstr("folder.ply.tmp")));
   }

@@ -91,8 +91,7 @@ inline std::string plate_text(int side, double spacing, double x0 = 0, double y0
   std::ostringstream text;
   text.precision(17);
   for (int i = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j)
-      text << x0 + i * spacing << ' ' << y0 + j * spacing << ' ' << height << '\n';
+    for (int j = 0; j < side; ++j) text << x0 + i * spacing << ' ' << y0 + j * spacing << ' ' << height << '\n';
   }
   return text.str();
 }

@@ -112,6 +112,20 @@ TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
   EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * head.gate.bin_size);
 }
 
+// Noise adds to the echoes and is what an empty sea holds: thermal level in the band less the array's directivity.
+TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
+  const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
+  const Water water;
+  const SonarHead head = make_head(small_sonar(), sound_speed(water));
+  const auto ping = [&](bool noise) {
+    return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), water,
+                         {.noise = noise});
+  };
+  const SimulatedPing p = ping(true);
+  EXPECT_NEAR(mean_level_db(p.ping, 2, 20), p.noise_floor_db, 0.4);
+  EXPECT_EQ(p.soundings.size(), 0U);
+}
+
 TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const Water water;

@@ -42,6 +42,7 @@ void expect_same_bits(const SonarSpec& a, const SonarSpec& b) {
   EXPECT_EQ(a.elevation_width, b.elevation_width);
   EXPECT_EQ(a.elevation_shape, b.elevation_shape);
   EXPECT_EQ(a.side_lobe_db, b.side_lobe_db);
+  EXPECT_EQ(shading_of(a), shading_of(b));
   EXPECT_EQ(a.min_range, b.min_range);
   EXPECT_EQ(a.max_range, b.max_range);
   EXPECT_EQ(a.bin_size, b.bin_size);
@@ -205,6 +206,40 @@ TEST(SonarFile, random_angles_and_numbers_survive_bit_for_bit) {
   }
 }
 
+// shading says nothing new when it is what side_lobe_db alone means: Taylor below 0, else uniform.
+TEST(SonarFile, shading_is_kept_and_written_only_if_side_lobe_db_does_not_say_it) {
+  for (const double side_lobe_db : {-30.0, 0.0})
+    for (const Shading shading : {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev}) {
+      SonarSpec spec = load(plain).spec;
+      EXPECT_FALSE(spec.shading.has_value());
+      spec.side_lobe_db = side_lobe_db;
+      const bool said = shading_of(spec) == shading;
+      set_sonar_value(spec, "shading", shading_name(shading));
+      EXPECT_EQ(shading_of(spec), shading);
+      const std::string text = sonar_as_toml(spec);
+      EXPECT_EQ(text.find("shading = ") == std::string::npos, said) << text;
+      if (side_lobe_db == 0 && (shading == Shading::taylor || shading == Shading::chebyshev)) {
+        EXPECT_EQ(error_of_sonar(text),
+                  "content: s.toml:9: side_lobe_db = 0 dB, must be within -80 and -13.3 for shading taylor or "
+                  "chebyshev");
+      } else {
+        expect_same_bits(load(text).spec, spec);
+      }
+    }
+}
+
+TEST(SonarFile, shading_is_one_of_four_words) {
+  EXPECT_EQ(load(plain + "shading = \"hamming\"\n").spec.shading, Shading::hamming);
+  EXPECT_EQ(error_of_sonar(plain + "shading = \"hann\"\n"),
+            "content: s.toml:12: shading = \"hann\", must be taylor, uniform, hamming or chebyshev");
+  EXPECT_EQ(error_of_sonar(plain + "shading = 3\n"),
+            "content: s.toml:12: shading = 3.0, must be taylor, uniform, hamming or chebyshev");
+  std::map<std::string, SonarNumber> numbers;
+  for (const auto& number : load(plain + "side_lobe_db = 0\n").numbers) numbers[number.key] = number;
+  EXPECT_EQ(numbers["shading"].value, "uniform");
+  EXPECT_EQ(numbers["shading"].status, "derived");
+}
+
 TEST(SonarFile, given_azimuths_survive_bit_for_bit) {
   SonarSpec spec = load(plain).spec;
   set_sonar_value(spec, "azimuths_deg", "[-33.3, -7.1, 0, 12.34567890123]");
@@ -235,6 +270,7 @@ TEST(SetSonarValue, sets_every_key_that_files_know) {
   set_sonar_value(s, "elevation_deg", "-5");
   set_sonar_value(s, "elevation_shape", "line");
   set_sonar_value(s, "side_lobe_db", "-25");
+  set_sonar_value(s, "shading", "chebyshev");
   set_sonar_value(s, "min_range_m", "1");
   set_sonar_value(s, "max_range_m", "40");
   set_sonar_value(s, "bin_size_m", "2e-3");
@@ -250,6 +286,7 @@ TEST(SetSonarValue, sets_every_key_that_files_know) {
   EXPECT_EQ(s.elevation, radians(-5));
   EXPECT_EQ(s.elevation_shape, ElevationShape::line);
   EXPECT_EQ(s.side_lobe_db, -25);
+  EXPECT_EQ(s.shading, Shading::chebyshev);
   EXPECT_EQ(s.min_range, 1);
   EXPECT_EQ(s.max_range, 40);
   EXPECT_EQ(s.bin_size, 2e-3);

@@ -146,6 +146,28 @@ TEST_F(PingRun, a_view_of_nothing_is_silent_and_says_so) {
   EXPECT_TRUE(std::filesystem::exists(path("out/fan.png")));
 }
 
+// Nothing in view: what is left is thermal noise, a beam's directivity below that of one element.
+TEST_F(PingRun, noise_fills_a_silent_view_at_the_noise_floor) {
+  succeed("ping harbour.ply --sonar p900-45 --pose=30,0,-3,0,-90,0 --range 2:25 --noise --no-picture -q -o out");
+  const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+  const Ping ping = read_cube(path("out/cube.h5")).pings.at(0);
+  EXPECT_NEAR(mean_level_db(ping, 2, 25), manifest["sampling"]["noise_floor_db"].get<double>(), 0.4);
+}
+
+TEST_F(PingRun, water_outside_the_formulas_is_computed_and_noted) {
+  const ToolResult result = run("ping harbour.ply --set water.temperature_c=45 --no-picture -o out" + head);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("45"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("extrapolation"), std::string::npos) << result.err;
+}
+
+TEST_F(PingRun, settings_may_stand_before_the_scene) {
+  succeed(
+      "ping --set sonar.beams=8 --set water.ph=7.9 harbour.ply --sonar p900-45 --pose 0,0,-3,0,10,0 --range 2:9 "
+      "--no-picture -q -o out");
+  EXPECT_EQ(read_cube(path("out/cube.h5")).pings.at(0).fan.beams(), 8U);
+}
+
 TEST_F(PingRun, draws_each_view) {
   succeed("ping harbour.ply -o out --no-picture -q" + head);
   for (const std::string view : {"fan", "rect", "ascan"}) {

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+
+#include "acoustics/water.hpp"
+#include "beamforming/sonar_head.hpp"
+#include "core/grid.hpp"
+
+namespace insonify {
+
+struct NoiseOptions {
+  std::uint64_t seed = 1;
+  std::int64_t ping = 0;  ///< every ping has its own noise
+  int threads = 0;        ///< 0: all cores; the result does not depend on it
+};
+
+/// Noise that every element hears on its own (thermal noise; isotropic noise on half-wavelength elements), formed into
+/// beams, beams x bins [Pa] (E41):
+///
+///   p(b, n) = (1/N) sum_m w_m exp(-2 pi i (d/lambda)(m - (N-1)/2) u_b) x(m, n),   x = sum_k h_k xi(m, n + k)
+///
+/// xi is complex normal, counted by (ping, element, bin); the receive filter h has the pulse's shape and unit energy. So a
+/// beam hears the element level less 10 log10(N^2 / sum w^2), overlapping beams hear related noise, and so do
+/// neighbouring bins.
+///
+/// element_level_db   of one element in the pulse's band [dB re 1 uPa rms], e.g. thermal_noise_level_db
+/// Throws Error for an invalid head or medium, or a level that is not finite.
+ComplexGrid synthesize_noise(const SonarHead& head, const Medium& medium, double element_level_db,
+                             const NoiseOptions& options = {});
+
+}  // namespace insonify

@@ -1,0 +1,99 @@
+#include "view/show_pattern.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/test_pictures.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+class ShowPattern : public testing::Test {
+ protected:
+  void SetUp() override {
+    unsetenv("DISPLAY");
+    for (int i = -90; i <= 90; ++i) azimuth.push_back(radians(i));
+    level_db.assign(azimuth.size(), -50);
+  }
+  void TearDown() override { std::filesystem::remove(path); }
+
+  void expect_refused(const std::string& message) const {
+    try {
+      show_pattern(azimuth, level_db, options, path);
+      FAIL() << "accepted although " << message;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::argument);
+      EXPECT_EQ(error.what(), message);
+    }
+  }
+
+  std::vector<double> azimuth, level_db;
+  PictureOptions options;
+  std::string path = picture_path("pattern.png");
+};
+
+bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }
+
+// Middle height of the line in the column at a share of the picture's width, from the bottom; -1 if there is none.
+double line_height(const ReadPicture& picture, double share) {
+  const int x = static_cast<int>(share * picture.width);
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < picture.height; ++y)
+    if (is_line(picture.at(x, y))) sum += y, ++count;
+  return count > 0 ? sum / count : -1;
+}
+
+}  // namespace
+
+// Azimuth counts to port, bearing to starboard: port is on the left.
+TEST_F(ShowPattern, draws_port_on_the_left_and_level_upwards) {
+  for (std::size_t i = 0; i < azimuth.size(); ++i)
+    if (azimuth[i] > radians(30)) level_db[i] = -10;
+  show_pattern(azimuth, level_db, options, path);
+  const ReadPicture picture = read_png(path);
+  EXPECT_EQ(picture.width, 1400);
+  EXPECT_EQ(picture.height, 1050);
+  const double port = line_height(picture, 0.2), starboard = line_height(picture, 0.8);
+  ASSERT_GT(starboard, 0);
+  // 40 of 60 dB, of a frame that takes most of the picture.
+  EXPECT_GT(port - starboard, 0.5 * picture.height);
+}
+
+TEST_F(ShowPattern, nulls_of_minus_infinity_fall_out_of_the_chart) {
+  level_db.assign(azimuth.size(), -std::numeric_limits<double>::infinity());
+  show_pattern(azimuth, level_db, options, path);
+  EXPECT_EQ(line_height(read_png(path), 0.5), -1);
+}
+
+TEST_F(ShowPattern, is_the_same_bytes_every_time) {
+  options.title = "a sonar";
+  show_pattern(azimuth, level_db, options, path);
+  const std::string first = file_bytes(path);
+  show_pattern(azimuth, level_db, options, path);
+  EXPECT_TRUE(first == file_bytes(path));
+}
+
+TEST_F(ShowPattern, refuses_what_is_no_pattern) {
+  level_db.pop_back();
+  expect_refused("show_pattern: 180 levels for 181 azimuths, must be as many");
+  level_db.push_back(std::nan(""));
+  expect_refused("show_pattern: level_db[180] is NaN, must be a level");
+  level_db.back() = 0;
+  options.min_db = 3;
+  expect_refused("show_pattern: max_db = 0 dB, must exceed min_db = 3 dB");
+  options.width = 3;
+  expect_refused("show_pattern: options.width x height = 3 x 1050 pixels, must be 240 to 8192 either way");
+  azimuth.clear();
+  level_db.clear();
+  expect_refused("show_pattern: 0 points, must be at least 2");
+  EXPECT_FALSE(file_exists(path));
+}
