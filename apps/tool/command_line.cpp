@@ -1,6 +1,7 @@
 #include "tool/command_line.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -17,7 +18,11 @@ void add_common(CLI::App& verb, CommonOptions& o, bool json) {
 }
 
 void add_work(CLI::App& verb, CommonOptions& o) {
-  verb.add_option("-j,--threads", o.threads, "threads; 0: all cores (results do not depend on it)");
+  verb.add_option("-j,--threads", o.threads, "threads, at most 1024; 0: all cores (results do not depend on it)")
+      ->check([](const std::string& text) {
+        const int threads = std::atoi(text.c_str());
+        return threads >= 0 && threads <= 1024 ? "" : text + " must be within 0 and 1024";
+      });
   verb.add_option("--seed", o.seed, "of all random numbers; same seed, same bytes");
 }
 

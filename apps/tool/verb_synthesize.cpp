@@ -29,7 +29,7 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
   const auto method = o.run.method == "direct" ? synthesize_direct : synthesize_stamped;
   const ComplexGrid pressure = method(echoes, head, setup.medium, {o.run.tolerance, common.threads});
-  const Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, pressure.cast<std::complex<float>>()};
+  const Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
   progress.step("writing " + o.run.output);
