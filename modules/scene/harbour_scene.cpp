@@ -83,11 +83,10 @@ double draught(double u) { return 1.5 + 0.3 * u; }
 double ship_x(double u) { return ship_length * (0.5 - u); }
 
 void add_ship_part(std::vector<Patch>& patches, const Vector3d& inside, Patch patch) {
-  Patch placed = patch;
-  placed.at = [at = patch.at](double u, double v) { return from_ship(at(u, v)); };
-  placed.material = steel;
-  placed.density = 3;
-  patches.push_back(facing_away_from(from_ship(inside), std::move(placed)));
+  patch.at = [at = patch.at](double u, double v) { return from_ship(at(u, v)); };
+  patch.material = steel;
+  patch.density = 3;
+  patches.push_back(facing_away_from(from_ship(inside), std::move(patch)));
 }
 
 void add_box(std::vector<Patch>& patches, const Vector3d& low, const Vector3d& size) {
