@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "beamforming/error_text.hpp"
 #include "beamforming/shading.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
 
 using namespace insonify;
@@ -34,16 +34,6 @@ std::vector<double> grating_lobes_deg(double pitch_in_wavelengths, double steeri
 void expect_angles(const std::vector<double>& angles, const std::vector<double>& expected) {
   ASSERT_EQ(angles.size(), expected.size());
   for (std::size_t i = 0; i < angles.size(); ++i) EXPECT_NEAR(angles[i], expected[i], 0.005);
-}
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "beamforming/error_text.hpp"
 #include "beamforming/line_array.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
 
 using namespace insonify;
@@ -18,16 +18,6 @@ namespace {
 constexpr double lambda = 1.5 / 900;
 
 LineArray half_wavelength(const std::vector<double>& weights) { return {lambda / 2, weights}; }
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    return error.what();
-  }
-  return "no error";
-}
 
 /// Levels [dB] of all maxima of |B| for u in (from, 1) under half-wavelength pitch, by a fine scan whose maxima are
 /// completed by the parabola through three points.

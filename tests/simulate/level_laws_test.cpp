@@ -109,8 +109,9 @@ TEST(LevelLaws, sphere_of_lambert_facets_converges_to_two_thirds_pi_mu_a_squared
   EXPECT_NEAR(db_from_power(sigma), -21.76, 0.03);
 }
 
-// Each term of the sonar equation is in: what happens to the mean level of the bottom when it is taken out.
-TEST(LevelLaws, every_term_of_the_sonar_equation_moves_the_level) {
+// Spreading, absorption and Lambert's law stand in the closed form above; what it cannot tell apart is changed here. The
+// elevation pattern falls steeply over the strip of ranges: 1 dB.
+TEST(LevelLaws, source_level_and_elevation_pattern_move_the_level) {
   SonarHead head = bottom_sonar(4, 8);
   const SimulatedPing p = ping_plane(head, 3, 100000, {});
   head.pulse.source_level_db += 7;
