@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/grid.hpp"
 #include "core/pose.hpp"
@@ -8,6 +10,12 @@
 
 namespace insonify {
 
+/// One part of a ping: what came by one kind of path.
+struct Layer {
+  std::string name;       ///< direct, multipath, volume, surface, bottom, noise
+  ComplexGridF pressure;  ///< beams x bins [Pa]
+};
+
 /// What one transmission gave.
 struct Ping {
   std::int64_t number = 0;
@@ -15,7 +23,8 @@ struct Ping {
   Pose world_from_head = Pose::Identity();
   BeamFan fan;
   RangeGate gate;
-  ComplexGridF pressure;  ///< beams x bins [Pa], analytic baseband, linear
+  ComplexGridF pressure;      ///< beams x bins [Pa], analytic baseband, linear
+  std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless they were asked for
 };
 
 /// Pressure as a ping holds it, in single precision. Throws Error(content) naming `who` if a sample does not fit

@@ -25,8 +25,8 @@ struct Cube {
 /// and /elevation [rad], /pose (pings x 4 x 4, world_from_head, row by row), /time [s], /ping (numbers) and,
 /// as root attributes, schema, the members above, beam_width, elevation_width [rad], min_range, max_range,
 /// bin_size [m]. Byte-identical for identical input (no time stamps). Written to a temporary name, then
-/// renamed. Throws Error(argument) if there is no ping or they differ in fan, gate or extent; Error(file) if
-/// it cannot write.
+/// renamed. Layers of the pings stand beside as /layers/NAME, laid out like /pressure. Throws Error(argument) if there is
+/// no ping or they differ in fan, gate, extent or layers; Error(file) if it cannot write.
 void write_cube(const std::string& path, const Cube& cube);
 
 /// Every field of what write_cube was given, bit for bit.

@@ -12,6 +12,8 @@ struct DatasetName {
   const char* unit;
 };
 constexpr DatasetName pressure_name{"/pressure", "Pa"};
+/// Group of the layers, each a dataset like /pressure; absent if none were kept.
+constexpr const char* layers_group = "/layers";
 constexpr DatasetName range_name{"/range", "m"};
 constexpr DatasetName azimuth_name{"/azimuth", "rad"};
 constexpr DatasetName elevation_name{"/elevation", "rad"};

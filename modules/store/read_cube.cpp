@@ -75,28 +75,57 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
   return ping;
 }
 
-void read_pressure(const Place& place, hid_t dataset, const Extent& extent, std::vector<Ping>& pings) {
+// Reads one complex image per ping to where `part` says.
+template <typename Part>
+void read_images(const Place& place, hid_t dataset, const std::string& name, const Extent& extent,
+                 std::vector<Ping>& pings, Part part) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   const Extent one_ping = {1, extent[1], extent[2]};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path), H5Sclose);
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
-    pings[p].pressure.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
+    ComplexGridF& image = part(pings[p]);
+    image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
     const Handle row = select_row(place, dataset, extent, p);
-    place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, pings[p].pressure.data()),
-                  "/pressure cannot be read as {r, i}");
+    place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read as {r, i}");
   }
 }
 
-void require_complex(const Place& place, hid_t dataset) {
-  const Handle type(place.checked(H5Dget_type(dataset), pressure_name.path), H5Tclose);
+void require_complex(const Place& place, hid_t dataset, const std::string& name) {
+  const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
   if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 || H5Tget_member_index(type, "i") < 0)
-    fail(place.kind, place.path, ": /pressure must be compound {r, i}");
+    fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
+}
+
+// Names of the layers in the order in which they were written.
+std::vector<std::string> layer_names(const Place& place, hid_t file) {
+  std::vector<std::string> names;
+  if (H5Lexists(file, layers_group, H5P_DEFAULT) <= 0) return names;
+  const Handle group(place.checked(H5Gopen2(file, layers_group, H5P_DEFAULT), layers_group), H5Gclose);
+  const auto note = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
+    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  place.checked(H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, note, &names), layers_group);
+  return names;
+}
+
+void read_layers(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
+  for (const std::string& layer : layer_names(place, file)) {
+    const std::string path = std::string(layers_group) + "/" + layer;
+    const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
+    if (extent_of(place, dataset, path, 3) != extent)
+      fail(place.kind, place.path, ": ", path, " has another extent than /pressure");
+    require_complex(place, dataset, path);
+    for (Ping& ping : pings) ping.layers.push_back({layer, {}});
+    read_images(place, dataset, path, extent, pings,
+                [](Ping& ping) -> ComplexGridF& { return ping.layers.back().pressure; });
+  }
 }
 
 std::vector<Ping> read_pings(const Place& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
-  require_complex(place, dataset);
+  require_complex(place, dataset, pressure_name.path);
   const auto pose = read_all<double>(place, file, pose_name, {extent[0], 4, 4}, H5T_NATIVE_DOUBLE);
   const auto time = read_all<double>(place, file, time_name, {extent[0]}, H5T_NATIVE_DOUBLE);
   const auto number = read_all<std::int64_t>(place, file, ping_name, {extent[0]}, H5T_NATIVE_INT64);
@@ -109,7 +138,9 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
       for (int column = 0; column < 4; ++column)
         pings[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
   }
-  read_pressure(place, dataset, extent, pings);
+  read_images(place, dataset, pressure_name.path, extent, pings,
+              [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
+  read_layers(place, file, extent, pings);
   return pings;
 }
 

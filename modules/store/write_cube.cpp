@@ -13,6 +13,17 @@ using namespace hdf5;
 
 namespace {
 
+// All pings must have the layers of the first, in the same order and extent.
+void require_same_layers(const Ping& ping, const Ping& first, const std::string& path) {
+  const auto fits = [&](const Layer& layer, const Layer& like) {
+    return layer.name == like.name && layer.pressure.rows() == first.pressure.rows() &&
+           layer.pressure.cols() == first.pressure.cols();
+  };
+  if (!std::equal(ping.layers.begin(), ping.layers.end(), first.layers.begin(), first.layers.end(), fits))
+    fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has other layers than ping ",
+         first.number, "; keep the same ones in every ping");
+}
+
 // All pings must fit one set of axes.
 void require_writable(const Cube& cube, const std::string& path) {
   if (cube.pings.empty()) fail(ErrorKind::argument, "write_cube: ", path, ": no pings, must be at least one");
@@ -32,6 +43,7 @@ void require_writable(const Cube& cube, const std::string& path) {
         ping.gate.min_range != first.gate.min_range || ping.gate.bin_size != first.gate.bin_size)
       fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has another fan or gate than ping ",
            first.number, "; write it to a cube of its own");
+    require_same_layers(ping, first, path);
   }
 }
 
@@ -73,17 +85,33 @@ hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
   return std::clamp<hsize_t>((hsize_t{64} << 20) / bytes_per_beam, 1, std::min<hsize_t>(beams, 64));
 }
 
-void write_pressure(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+// One complex image per ping: the pressure, or the layer `part` says.
+template <typename Part>
+void write_images(const Place& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings, Part part) {
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
   const Extent extent = {pings.size(), beams, bins};
   const Handle stored = complex_type(place, H5T_IEEE_F32LE), here = complex_type(place, H5T_NATIVE_FLOAT);
-  const Handle dataset =
-      create_dataset(place, file, pressure_name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
+  const Handle dataset = create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
   const Extent one_ping = {1, beams, bins};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), pressure_name.path), H5Sclose);
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
     const Handle row = select_row(place, dataset, extent, p);
-    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, pings[p].pressure.data()), pressure_name.path);
+    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, part(pings[p]).data()), name.path);
+  }
+}
+
+void write_layers(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+  const std::vector<Layer>& layers = pings.front().layers;
+  if (layers.empty()) return;
+  const Handle properties(place.checked(H5Pcreate(H5P_GROUP_CREATE), layers_group), H5Pclose);
+  place.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), layers_group);
+  place.checked(H5Pset_obj_track_times(properties, false), layers_group);
+  const Handle group(place.checked(H5Gcreate2(file, layers_group, H5P_DEFAULT, properties, H5P_DEFAULT), layers_group),
+                     H5Gclose);
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const std::string path = std::string(layers_group) + "/" + layers[l].name;
+    write_images(place, file, {path.c_str(), pressure_name.unit}, pings,
+                 [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
   }
 }
 
@@ -140,7 +168,9 @@ void write_cube(const std::string& path, const Cube& cube) {
   write_root_attributes(place, file, cube);
   write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
   write_track(place, file, cube.pings);
-  write_pressure(place, file, cube.pings);
+  write_images(place, file, pressure_name, cube.pings,
+               [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
+  write_layers(place, file, cube.pings);
   place.checked(file.close(), "cannot be written");  // a full disk shows here
   pending.commit();
 }

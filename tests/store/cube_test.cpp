@@ -99,6 +99,27 @@ double raw_number(hid_t file, const char* name) {
 
 }  // namespace
 
+TEST(CubeLayers, come_back_bit_for_bit_in_their_order) {
+  Cube cube = make_cube(2);
+  for (Ping& ping : cube.pings) ping.layers = {{"noise", ping.pressure * 0.5f}, {"direct", ping.pressure * 2.0f}};
+  const Cube back = read_cube(write(cube));
+  ASSERT_EQ(back.pings.size(), 2u);
+  for (std::size_t p = 0; p < 2; ++p) {
+    ASSERT_EQ(back.pings[p].layers.size(), 2u);
+    for (std::size_t l = 0; l < 2; ++l) {
+      EXPECT_EQ(back.pings[p].layers[l].name, cube.pings[p].layers[l].name);
+      EXPECT_TRUE((back.pings[p].layers[l].pressure == cube.pings[p].layers[l].pressure).all());
+    }
+  }
+}
+
+TEST(CubeLayers, must_be_the_same_in_every_ping) {
+  Cube cube = make_cube(2);
+  cube.pings[1].layers = {{"noise", cube.pings[1].pressure}};
+  const std::string error = error_of([&] { write(cube); });
+  EXPECT_NE(error.find("ping 41 has other layers than ping 40"), std::string::npos) << error;
+}
+
 TEST(Cube, comes_back_bit_for_bit) {
   const Cube cube = make_cube();
   const Cube back = read_cube(write(cube));
