@@ -21,7 +21,7 @@ int main() {
   // The pose: 3 m deep, looking along +x, nose 10 degrees down.
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
 
-  const SimulatedPing result = simulate_ping(scene, head, pose, water);
+  const SimulatedPing result = simulate_ping(scene, head, pose, {water});
   std::cout << result.scatterers.size() << " scatterers, " << result.soundings.size() << " soundings, mean level "
             << mean_level_db(result.ping, 5, 20) << " dB re 1 uPa\n";
 }

@@ -5,7 +5,7 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)  # Debian ships no CMake config for FFTW
+pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3 fftw3f)  # Debian ships no CMake config for FFTW
 find_package(HDF5 REQUIRED COMPONENTS C)
 
 # FLANN's pkg-config file pulls in MPI; its templates need only the headers and lz4.

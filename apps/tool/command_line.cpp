@@ -30,6 +30,7 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
   verb.add_option("SCENE", o.path, "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv")->required();
   verb.add_option("--viewpoint", o.viewpoint, "x,y,z [m] where the capture stood; orients estimated normals");
   verb.add_option("--materials", o.materials_file, "TOML table of materials for the labels of the cloud");
+  verb.add_option("--material-field", o.material_field, "field of the cloud that means materials, e.g. classification");
   verb.add_option("--material", o.material, "one material for everything, by name, e.g. sand");
   verb.add_option("--unit", o.unit, "of the file: m, mm, cm, km, ft, or metres per unit");
   verb.add_option("--mesh-spacing", o.mesh_spacing, "[m] between surfels of a mesh; 0: about 200 000 surfels");
@@ -42,7 +43,10 @@ void add_run(CLI::App& verb, CommonOptions& common, RunOptions& o) {
   verb.add_option("--tolerance", o.tolerance, "relative error of the synthesis");
   verb.add_option("--method", o.method, "stamped, or direct: the slow referee")
       ->check(CLI::IsMember({"stamped", "direct"}));
-  verb.add_option("--set", common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times")
+  verb.add_option("--environment", o.environment, "TOML file: [water] [surface] [bottom] [volume] [wind] [noise]");
+  verb.add_option("--profile", o.profile,
+                  "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays");
+  verb.add_option("--set", common.settings, "SECTION.KEY=VALUE of sonar or environment, e.g. water.temperature_c=4")
       ->allow_extra_args(false);
   verb.add_flag("--force", o.force, "replace an existing run directory");
   verb.add_flag("--no-picture", o.no_picture, "do not draw fan.png");
@@ -111,7 +115,10 @@ void add_ping(CLI::App& app, AllOptions& all) {
   CLI::App* verb = app.add_subcommand("ping", "what the sonar hears of the scene: the main job");
   add_scene(*verb, o.scene);
   add_run(*verb, all.common, o.run);
-  verb->add_option("--pose", o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down")->required();
+  verb->add_option("--pose", o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
+  verb->add_option("--trajectory", o.trajectory,
+                   "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg");
+  verb->add_option("--time", o.time, "of transmission on the trajectory [s]");
   verb->add_option("--world", o.world, "z-up, or ned: z down, pitch positive nose up")
       ->check(CLI::IsMember({"z-up", "ned"}));
   verb->add_option("--sampling", o.sampling, "surfels or rays")->check(CLI::IsMember({"surfels", "rays"}));
@@ -120,7 +127,14 @@ void add_ping(CLI::App& app, AllOptions& all) {
   verb->add_option("--rays-per-beam", o.rays_per_beam, "with --sampling rays");
   verb->add_option("--amplitude", o.amplitude, "speckle, random-phase or coherent")
       ->check(CLI::IsMember({"speckle", "random-phase", "coherent"}));
-  verb->add_flag("--noise", o.noise, "add the thermal noise of the array's elements");
+  verb->add_flag("--noise", o.noise,
+                 "add thermal noise, and the wind's and the platform's if the environment has them");
+  verb->add_flag("--multipath", o.multipath, "add echoes by way of the environment's surface and bottom");
+  verb->add_flag("--layers", o.layers, "keep each kind of echo as a layer of the cube");
+  verb->add_option("--absorption-order", o.absorption_order, "0: one absorption for the pulse; 1, 2: slope, curvature")
+      ->check(CLI::Range(0, 2));
+  verb->add_option("--velocity", o.velocity, "vx,vy,vz [m/s] of the head in the world");
+  verb->add_option("--turn-rate", o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world");
   verb->add_option("--threshold", o.threshold_db, "[dB] of a detection above the noise floor");
   verb->add_option("--all-bins-above", o.all_bins_above, "[dB re 1 uPa] every bin above is a returned point");
   add_common(*verb, all.common, true);
@@ -148,10 +162,13 @@ void add_image(CLI::App& app, AllOptions& all) {
   CLI::App* verb = app.add_subcommand("image", "a picture of a run, drawn without a display");
   verb->add_option("RUN", o.run, "run directory or cube.h5")->required();
   verb->add_option("-o,--output", o.output, "picture to write, .png")->required();
-  verb->add_option("--view", o.view, "fan, rect or ascan")->check(CLI::IsMember({"fan", "rect", "ascan"}));
+  verb->add_option("--view", o.view, "fan, rect, ascan, or grey: the bare samples as 8- or 16-bit .png or .pgm")
+      ->check(CLI::IsMember({"fan", "rect", "ascan", "grey"}));
+  verb->add_option("--bits", o.bits, "of grey: 8 or 16")->check(CLI::IsMember({8, 16}));
   verb->add_option("--ping", o.ping, "which ping, from 0");
   verb->add_option("--beam", o.beam, "for ascan, from 0; default: the middle one");
   verb->add_flag("--raw", o.raw, "levels as received; default: spreading and absorption compensated");
+  verb->add_option("--tvg", o.tvg, "[dB per decade of range] compensated; 40: a point, 30: a bottom, 20: the water");
   verb->add_option("--window", o.window_db, "[dB] from darkest to brightest");
   verb->add_option("--max", o.max_db, "[dB] brightest level; default: automatic");
   verb->add_option("--colormap", o.colour_map, "copper, viridis, amber, grey or jet");

@@ -5,29 +5,14 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "store/environment_file.hpp"
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
+#include "store/profile_file.hpp"
 #include "tool/parse_values.hpp"
 
 namespace insonify::tool {
 namespace {
-
-void set_water(Water& water, const Setting& setting) {
-  const double value = parse_number("--set water." + setting.key, setting.value);
-  if (setting.key == "temperature_c")
-    water.temperature_c = value;
-  else if (setting.key == "salinity_psu")
-    water.salinity_psu = value;
-  else if (setting.key == "depth_m")
-    water.depth = value;
-  else if (setting.key == "ph")
-    water.ph = value;
-  else if (setting.key == "latitude_deg")
-    water.latitude_deg = value;
-  else
-    fail(ErrorKind::argument, "--set water.", setting.key, ": unknown key; known are temperature_c, salinity_psu, ",
-         "depth_m, ph, latitude_deg");
-}
 
 /// Index of the material called `name`; Error(argument) with the nearest name.
 std::uint16_t material_index(const std::vector<Material>& materials, const std::string& name) {
@@ -51,18 +36,20 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
   setup.spec = file.spec;
   for (const SonarNumber& n : file.numbers)
     if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
+  if (!run.environment.empty()) setup.environment = load_environment(run.environment);
+  if (!run.profile.empty()) setup.environment.profile = load_sound_speed_profile(run.profile);
   for (const std::string& text : common.settings) {
     const Setting setting = parse_setting(text);
     if (setting.section == "sonar")
       set_sonar_value(setup.spec, setting.key, setting.value);
-    else if (setting.section == "water")
-      set_water(setup.water, setting);
     else
-      fail(ErrorKind::argument, "--set ", text, ": section '", setting.section, "' is unknown; use sonar or water");
+      set_environment_value(setup.environment, setting.section, setting.key, setting.value);
   }
   if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
-  setup.notes = validity_notes(setup.water, setup.spec.centre_frequency);
-  setup.medium = medium_of(setup.water, setup.spec.centre_frequency);
+  require_valid(setup.environment, "environment");
+  setup.notes = validity_notes(setup.environment.water, setup.spec.centre_frequency,
+                               setup.environment.sound_speed_formula, setup.environment.absorption_formula);
+  setup.medium = medium_of(setup.environment, setup.spec.centre_frequency);
   setup.head = make_head(setup.spec, setup.medium.sound_speed);
   return setup;
 }
@@ -79,8 +66,11 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
   }
   if (!scene.materials_file.empty() || !scene.material.empty()) {
     const std::string path = scene.materials_file.empty() ? data_folder() + "/materials.toml" : scene.materials_file;
-    options.materials = materials_by_label(load_materials(path));
+    const MaterialTable table = load_materials(path);
+    options.materials = materials_by_label(table);
+    options.material_field = table.field;
   }
+  if (!scene.material_field.empty()) options.material_field.name = scene.material_field;
   if (!scene.material.empty()) options.material = material_index(options.materials, scene.material);
   return options;
 }

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/water.hpp"
+#include "acoustics/environment.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/sonar_file.hpp"
@@ -10,11 +10,11 @@
 
 namespace insonify::tool {
 
-/// Sonar and water of a run: preset or file, then --set, then --range.
+/// Sonar and environment of a run: presets or files, then --set, then --range.
 struct HeadSetup {
   SonarSpec spec;
   SonarHead head;
-  Water water;
+  Environment environment;
   Medium medium;
   std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest

@@ -21,6 +21,7 @@ struct SceneOptions {
   std::string viewpoint;       ///< "x,y,z" [m] or empty
   std::string materials_file;  ///< TOML table
   std::string material;        ///< name for every surfel, or empty
+  std::string material_field;  ///< field of the cloud whose numbers mean materials, or empty: found by name
   std::string unit = "m";
   double mesh_spacing = 0;
 };
@@ -52,7 +53,9 @@ struct SonarsOptions {
 /// What a run of the acoustics needs beside a scene.
 struct RunOptions {
   std::string sonar;
-  std::string range;  ///< "min:max" [m] or empty: the sonar's own
+  std::string range;        ///< "min:max" [m] or empty: the sonar's own
+  std::string environment;  ///< TOML file, or empty
+  std::string profile;      ///< CSV of sound speed against depth, or empty
   std::string output;
   double tolerance = 1e-4;
   std::string method = "stamped";
@@ -70,6 +73,13 @@ struct PingOptions {
   double scatterers_per_cell = 10;
   int rays_per_beam = 64;
   bool noise = false;
+  bool multipath = false;
+  bool layers = false;
+  int absorption_order = 0;
+  std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
+  double time = 0;         ///< of transmission [s]
+  std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
+  std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = 11.4;
   std::string all_bins_above;  ///< dB re 1 uPa, or empty
 };
@@ -91,6 +101,8 @@ struct ImageOptions {
   std::size_t ping = 0;
   int beam = -1;  ///< -1: the middle one
   bool raw = false;
+  double tvg = 40;  ///< [dB per decade of range]
+  int bits = 8;     ///< of view grey
   bool dark = false;
 };
 

@@ -55,6 +55,11 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   return values;
 }
 
+Eigen::Vector3d parse_vector(const std::string& option, const std::string& text, const char* meaning) {
+  const auto v = parse_numbers(option, text, 3, meaning);
+  return {v[0], v[1], v[2]};
+}
+
 Pose parse_pose(const std::string& text, const std::string& world) {
   const auto v =
       parse_numbers("--pose", text, 6, "x,y,z,yaw,pitch,roll in metres and degrees, e.g. --pose=0,0,-3,0,10,0");

@@ -12,6 +12,9 @@ namespace insonify::tool {
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
                                   const char* meaning);
 
+/// "x,y,z" to a vector; `meaning` as in parse_numbers.
+Eigen::Vector3d parse_vector(const std::string& option, const std::string& text, const char* meaning);
+
 /// "x,y,z,yaw,pitch,roll" in metres and degrees; world "z-up" (pitch positive nose down) or "ned" (z down, pitch
 /// positive nose up, yaw clockwise).
 Pose parse_pose(const std::string& text, const std::string& world);

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "store/environment_file.hpp"
 #include "view/show_fan.hpp"
 
 namespace insonify::tool {
@@ -16,10 +17,9 @@ std::string run_toml(const CommonOptions& common, const RunOptions& run, const H
                      const std::string& head) {
   return fmt::format(
       "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
-      "tolerance = {}\nmethod = \"{}\"\n{}\n[water]\ntemperature_c = {}\nsalinity_psu = {}\ndepth_m = {}\n"
-      "ph = {}\nlatitude_deg = {}\n\n[sonar]\n{}",
-      INSONIFY_VERSION, common.seed, run.tolerance, run.method, head, setup.water.temperature_c,
-      setup.water.salinity_psu, setup.water.depth, setup.water.ph, setup.water.latitude_deg, sonar_as_toml(setup.spec));
+      "tolerance = {}\nmethod = \"{}\"\nprofile = {}\n{}\n{}\n[sonar]\n{}",
+      INSONIFY_VERSION, common.seed, run.tolerance, run.method, toml_text(run.profile), head,
+      environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
 }
 
 Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
@@ -67,25 +67,29 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
   if (!run.no_picture) try {
       PictureOptions options;
       options.title = picture_title(setup.head.name, ping);
-      show_fan(level_image(ping, absorption, false), options, directory.file("fan.png"));
+      show_fan(level_image(ping, Tvg{40, absorption}), options, directory.file("fan.png"));
     } catch (const Error& error) {  // a machine without GL still gets its data
       progress.note(std::string("no fan.png: ") + error.what());
       manifest["notes"].push_back(std::string("no fan.png: ") + error.what());
     }
 
   manifest["sonar"] = sonar_json(setup);
-  manifest["water"] = {{"temperature_c", setup.water.temperature_c},
-                       {"salinity_psu", setup.water.salinity_psu},
-                       {"depth_m", setup.water.depth},
-                       {"ph", setup.water.ph},
+  const Water& water = setup.environment.water;
+  manifest["water"] = {{"temperature_c", water.temperature_c},
+                       {"salinity_psu", water.salinity_psu},
+                       {"depth_m", water.depth},
+                       {"ph", water.ph},
                        {"sound_speed", setup.medium.sound_speed},
                        {"absorption_db_per_m", absorption}};
   manifest["peak_memory_mib"] = peak_memory_mib();
 }
 
-LevelImage level_image(const Ping& ping, double absorption_db_per_m, bool raw) {
-  return {ping.fan, ping.gate, raw ? level_db(ping) : range_compensated_level_db(ping, absorption_db_per_m),
-          raw ? "dB re 1 µPa" : "dB re 1 µPa at 1 m, range compensated"};
+LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
+  Grid<float> level = level_db(ping);
+  if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa"};
+  const std::string unit = tvg->spreading == 40 ? "dB re 1 µPa at 1 m, range compensated"
+                                                : fmt::format("dB re 1 µPa, gain {:g} log r", tvg->spreading);
+  return {ping.fan, ping.gate, apply_tvg(std::move(level), ping.gate, *tvg), unit};
 }
 
 std::string picture_title(const std::string& sonar, const Ping& ping) {

@@ -1,9 +1,11 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "returns/ping.hpp"
+#include "returns/quantise.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
 #include "tool/head_setup.hpp"
@@ -19,8 +21,8 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
                const HeadSetup& setup, const Ping& ping, const std::string& run_toml_head,
                nlohmann::ordered_json& manifest, Progress& progress);
 
-/// Levels of a ping as they are drawn: range compensated unless raw.
-LevelImage level_image(const Ping& ping, double absorption_db_per_m, bool raw);
+/// Levels of a ping as they are drawn: with `tvg` unless absent.
+LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 
 /// Title of a picture.
 std::string picture_title(const std::string& sonar, const Ping& ping);

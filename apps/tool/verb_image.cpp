@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "tool/verbs.hpp"
 #include "view/show_ascan.hpp"
 #include "view/show_fan.hpp"
+#include "view/show_grey.hpp"
 #include "view/show_rect.hpp"
 
 namespace insonify::tool {
@@ -21,6 +23,16 @@ std::string cube_path(const std::string& run) {
   const std::string path = run + "/cube.h5";
   if (!std::filesystem::exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
   return path;
+}
+
+/// The samples as grey values, from the brightest level down to the window's end.
+void write_grey(const LevelImage& levels, const PictureOptions& picture, int bits, const std::string& path) {
+  const double max_db = std::isnan(picture.max_db) ? levels.level_db.maxCoeff() : picture.max_db;
+  const GreyWindow window{max_db - picture.window_db, max_db};
+  if (bits == 8)
+    show_grey(quantise_8(levels.level_db, window), levels.fan, path);
+  else
+    show_grey(quantise_16(levels.level_db, window), levels.fan, path);
 }
 
 }  // namespace
@@ -46,11 +58,13 @@ void image(const CommonOptions& common, const ImageOptions& o) {
   if (beam >= beams) fail(ErrorKind::argument, "--beam = ", beam, ", must be below ", beams, ", the number of beams");
 
   progress.step("drawing " + o.output);
-  const LevelImage levels = level_image(ping, cube.absorption_db_per_m, o.raw);
+  const LevelImage levels =
+      level_image(ping, o.raw ? std::nullopt : std::optional(Tvg{o.tvg, cube.absorption_db_per_m}));
   picture.title = o.title.empty() ? picture_title(cube.sonar, ping) : o.title;
   if (o.view == "fan") show_fan(levels, picture, o.output);
   if (o.view == "rect") show_rect(levels, picture, o.output);
   if (o.view == "ascan") show_ascan(levels, static_cast<std::size_t>(beam), picture, o.output);
+  if (o.view == "grey") write_grey(levels, picture, o.bits, o.output);
   fmt::print("{}\n", o.output);
 }
 

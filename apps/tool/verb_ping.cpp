@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "store/trajectory_file.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/run_files.hpp"
 #include "tool/verbs.hpp"
@@ -34,12 +35,42 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.method = o.run.method == "direct" ? SynthesisMethod::direct : SynthesisMethod::stamped;
   s.tolerance = o.run.tolerance;
   s.noise = o.noise;
+  s.multipath = o.multipath;
+  s.keep_layers = o.layers;
+  s.absorption_order = o.absorption_order;
+  if (!o.velocity.empty()) s.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
+  if (!o.turn_rate.empty())
+    s.motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
   s.detection.threshold_db = o.threshold_db;
   if (!o.all_bins_above.empty()) {
     s.detection.all_bins = true;
     s.detection.above_db = parse_number("--all-bins-above", o.all_bins_above);
   }
   return s;
+}
+
+/// Where the head is, and how it moves if a trajectory says so.
+struct Track {
+  Pose pose;
+  Motion motion;
+};
+
+Track track_of(const PingOptions& o) {
+  if (o.pose.empty() == o.trajectory.empty())
+    fail(ErrorKind::argument, "--pose or --trajectory must be given, one of them, e.g. --pose=0,0,-3,0,10,0");
+  if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), {}};
+  if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
+  if (!o.velocity.empty() || !o.turn_rate.empty())
+    fail(ErrorKind::argument, "--velocity and --turn-rate follow from --trajectory; leave them out");
+  const Trajectory trajectory = load_trajectory(o.trajectory);
+  return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
+}
+
+/// Boundaries must be there to send anything back.
+void require_boundaries(const PingOptions& o, const Environment& environment) {
+  if (o.multipath && !environment.surface && !environment.bottom)
+    fail(ErrorKind::argument, "--multipath: the environment has neither surface nor bottom; give their heights, e.g. ",
+         "--set surface.height_m=0");
 }
 
 /// Places of about 10 000 surfels, as seen from the head.
@@ -65,6 +96,15 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
     fail(ErrorKind::content, path, ": the middle point is ", range,
          " m from the head, less than a tenth of the min range of ", gate.min_range,
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
+}
+
+/// What refraction does here, and whether it was left out.
+std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
+  const std::string bound =
+      fmt::format("straight rays would be off by at most {:.2g} m in range and {:.2g} deg in angle", r.bound.range,
+                  degrees(r.bound.elevation));
+  if (!r.bent) return fmt::format("refraction left out: {} (bin {:.3g} m)", bound, gate.bin_size);
+  return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
 }
 
 /// What to tell a user whose ping is silent: where the scene is.
@@ -93,8 +133,16 @@ ordered_json scene_json(const LoadedScene& loaded) {
           {"repaired_normals", r.repaired_normals},
           {"normals", r.normals_estimated ? "estimated" : "from file"},
           {"normals_oriented", loaded.scene.normals_oriented},
+          {"material_field", r.material_field},
+          {"outside_intervals", r.outside_intervals},
           {"areas", r.areas_estimated ? "estimated" : "from file"},
           {"origin", {loaded.scene.origin.x(), loaded.scene.origin.y(), loaded.scene.origin.z()}}};
+}
+
+ordered_json layers_json(const std::vector<LayerReport>& layers) {
+  ordered_json json = ordered_json::array();
+  for (const LayerReport& layer : layers) json.push_back({{"name", layer.name}, {"echoes", layer.echoes}});
+  return json;
 }
 
 ordered_json sampling_json(const SimulatedPing& p) {
@@ -114,10 +162,14 @@ std::string run_toml_head(const PingOptions& o) {
   return fmt::format(
       "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nviewpoint = {}\n\n[ping]\npose = {}\n"
       "world = {}\nsampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\n"
-      "noise = {}\nthreshold_db = {}\nall_bins_above = {}\n",
+      "noise = {}\nmultipath = {}\nlayers = {}\nabsorption_order = {}\ntrajectory = {}\ntime = {}\nvelocity = "
+      "{}\nturn_rate = {}\nthreshold_db = "
+      "{}\nall_bins_above = {}\n",
       toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
       toml_text(o.scene.viewpoint), toml_text(o.pose), toml_text(o.world), toml_text(o.sampling), o.scatterers_per_cell,
-      o.rays_per_beam, toml_text(o.amplitude), o.noise, o.threshold_db, toml_text(o.all_bins_above));
+      o.rays_per_beam, toml_text(o.amplitude), o.noise, o.multipath, o.layers, o.absorption_order,
+      toml_text(o.trajectory), o.time, toml_text(o.velocity), toml_text(o.turn_rate), o.threshold_db,
+      toml_text(o.all_bins_above));
 }
 
 void print_summary(const CommonOptions& common, const std::string& output, const ordered_json& manifest) {
@@ -135,9 +187,13 @@ void print_summary(const CommonOptions& common, const std::string& output, const
 void ping(const CommonOptions& common, const PingOptions& o) {
   // Everything that can be wrong on the command line is found before any work.
   Progress progress(common, 4);
-  const Pose pose = parse_pose(o.pose, o.world);
+  const Track track = track_of(o);
+  const Pose& pose = track.pose;
   const HeadSetup setup = set_up_head(common, o.run);
-  const SimulationOptions simulation = simulation_options(common, o);
+  SimulationOptions simulation = simulation_options(common, o);
+  if (!o.trajectory.empty()) simulation.motion = track.motion;
+  simulation.time = o.time;
+  require_boundaries(o, setup.environment);
   const LoadOptions loading = load_options(common, o.scene);
   RunDirectory directory(o.run.output, o.run.force);
 
@@ -160,7 +216,7 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   for (const std::string& note : loading_notes(loaded.report)) tell(note);
 
   progress.step("pinging");
-  const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.water, simulation);
+  const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.environment, simulation);
   if (result.scatterers.size() == 0) tell(silence_note(places));
 
   progress.step("writing " + o.run.output);
@@ -168,6 +224,8 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   save_soundings(directory.file("returns.pcd"), result.soundings);
   save_soundings(directory.file("returns.ply"), result.soundings);
   manifest["sampling"] = sampling_json(result);
+  manifest["layers"] = layers_json(result.layers);
+  if (setup.environment.profile) tell(refraction_note(result.refraction, setup.head.gate));
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, result.ping, run_toml_head(o), manifest, progress);
   manifest["seconds"] = {{"load", load_seconds},

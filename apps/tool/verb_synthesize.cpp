@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "acoustics/hear_scatterers.hpp"
+#include "beamforming/head_patterns.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
 #include "store/scatterer_table.hpp"
@@ -24,11 +25,11 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   progress.step("synthesizing");
   const auto start = Clock::now();
   const SonarHead& head = setup.head;
-  const HearingOptions hearing{SurfaceAmplitude::coherent, head.elevation_shape, head.fan.elevation_width,
-                               head.fan.elevation[0],      common.seed,          common.threads};
+  const HearingOptions hearing =
+      with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
   const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
-  const auto method = o.run.method == "direct" ? synthesize_direct : synthesize_stamped;
-  const ComplexGrid pressure = method(echoes, head, setup.medium, {o.run.tolerance, common.threads});
+  const auto method = o.run.method == "direct" ? SynthesisMethod::direct : SynthesisMethod::stamped;
+  const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
   const Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
 

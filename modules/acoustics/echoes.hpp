@@ -11,8 +11,11 @@ struct Echoes {
   std::vector<double> u;                        ///< direction cosine along the array (+port): cos(el) sin(az)
   std::vector<std::complex<double>> amplitude;  ///< [Pa], peak of the analytic signal before absorption; carries the
                                                 ///< two-way carrier phase exp(2 i k r)
+  std::vector<double> v{};        ///< direction cosine upwards, sin(el); empty: not needed, the head has one elevation
+  std::vector<double> doppler{};  ///< shift of the carrier [Hz], positive when closing; empty: nothing moves
 
   std::size_t size() const { return delay.size(); }
+  double doppler_of(std::size_t i) const { return doppler.empty() ? 0 : doppler[i]; }
 };
 
 }  // namespace insonify

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "acoustics/surface_amplitude.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
@@ -12,12 +13,6 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t block = 4096;
-
-std::complex<double> surface_amplitude(SurfaceAmplitude law, std::uint64_t seed, std::uint64_t id) {
-  if (law == SurfaceAmplitude::coherent) return 1;
-  const auto xi = random_complex_normal(seed, RandomStage::surface_amplitude, {id, 0, 0});  // (E9)
-  return law == SurfaceAmplitude::random_phase ? xi / std::abs(xi) : xi;
-}
 
 /// What every echo of one ping has in common.
 struct Hearing {
@@ -37,13 +32,14 @@ struct Hearing {
     const double r = s.range[i];
     if (!(r > 0) || !std::isfinite(r))
       fail(ErrorKind::argument, "hear_scatterers: range[", i, "] = ", r, " m, must be > 0");
-    const double pattern = options.elevation_width > 0
-                               ? elevation_response(options.elevation_shape, options.elevation_width,
-                                                    s.elevation[i] - options.elevation_centre)
-                               : 1;
+    double pattern = options.elevation_width > 0 ? elevation_response(options.elevation_shape, options.elevation_width,
+                                                                      s.elevation[i] - options.elevation_centre)
+                                                 : 1;
+    if (options.transmit_width > 0) pattern *= transmit_response(options.transmit_width, s.azimuth[i]);
     const double phase = 2 * pi * reduced_cycles(cycles_per_m * r);
     echoes.delay[i] = 2 * r / sound_speed;
     echoes.u[i] = std::cos(s.elevation[i]) * std::sin(s.azimuth[i]);
+    echoes.v[i] = std::sin(s.elevation[i]);
     echoes.amplitude[i] = xi * std::polar(source * std::sqrt(sigma) * pattern / (r * r), phase);  // (E7)
   }
 };
@@ -52,11 +48,25 @@ Echoes room_for(std::size_t n) {
   Echoes echoes;
   echoes.delay.resize(n);
   echoes.u.resize(n);
+  echoes.v.resize(n);
   echoes.amplitude.resize(n);
   return echoes;
 }
 
 }  // namespace
+
+std::complex<double> surface_amplitude(const HearingOptions& options, double coherent_fraction, std::uint64_t id) {
+  if (options.amplitude == SurfaceAmplitude::coherent) return 1;
+  auto xi = random_complex_normal(options.seed, RandomStage::surface_amplitude, {id, 0, 0});  // (E9)
+  if (options.amplitude == SurfaceAmplitude::random_phase) xi /= std::abs(xi);
+  if (coherent_fraction == 0) return xi;
+  return std::sqrt(coherent_fraction) + std::sqrt(1 - coherent_fraction) * xi;  // (E53)
+}
+
+double transmit_response(double width, double azimuth) {
+  const double x = azimuth / width;
+  return std::exp2(-2 * x * x);  // (E57) intensity 2^(-(2x)^2): one half at x = 1/2
+}
 
 double lambert_cross_section(double lambert_mu, double cos_incidence, double projected_area) {
   return lambert_mu * cos_incidence * projected_area;  // (E4)
@@ -66,10 +76,7 @@ Echoes hear_scatterers(const Scatterers& scatterers, std::span<const Material> m
                        const Medium& medium, const HearingOptions& options) {
   require_valid(pulse, "hear_scatterers");
   require_valid(medium, "hear_scatterers");
-  for (const Material& material : materials)
-    if (!(material.lambert_mu >= 0 && std::isfinite(material.lambert_mu)))
-      fail(ErrorKind::argument, "hear_scatterers: lambert_mu of material '", material.name, "' = ", material.lambert_mu,
-           " 1/sr, must be finite and >= 0");
+  for (const Material& material : materials) require_valid(material, "hear_scatterers");
   Echoes echoes = room_for(scatterers.size());
   const Hearing hearing(pulse, medium, options);
   parallel_blocks(scatterers.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -79,7 +86,8 @@ Echoes hear_scatterers(const Scatterers& scatterers, std::span<const Material> m
         fail(ErrorKind::argument, "hear_scatterers: material[", i, "] = ", m, ", but there are ", materials.size());
       const double sigma =
           lambert_cross_section(materials[m].lambert_mu, scatterers.cos_incidence[i], scatterers.projected_area[i]);
-      hearing.hear(scatterers, i, sigma, surface_amplitude(options.amplitude, options.seed, scatterers.id[i]), echoes);
+      hearing.hear(scatterers, i, sigma, surface_amplitude(options, materials[m].coherent_fraction, scatterers.id[i]),
+                   echoes);
     }
   });
   return echoes;

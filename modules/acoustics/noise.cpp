@@ -37,11 +37,11 @@ double ambient_noise_spectrum_level_db(double frequency, double wind_speed) {
 
 double ambient_noise_level_db(const Pulse& pulse, double wind_speed) {
   require_valid(pulse, "ambient_noise_level_db");
-  return ambient_noise_spectrum_level_db(pulse.centre_frequency, wind_speed) + db_from_power(pulse.bandwidth);
+  return ambient_noise_spectrum_level_db(pulse.centre_frequency, wind_speed) + db_from_power(noise_bandwidth(pulse));
 }
 
 double thermal_noise_level_db(const Pulse& pulse) {
-  return thermal(pulse.centre_frequency * 1e-3) + db_from_power(pulse.bandwidth);
+  return thermal(pulse.centre_frequency * 1e-3) + db_from_power(noise_bandwidth(pulse));
 }
 
 }  // namespace insonify

@@ -1,9 +1,10 @@
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "beamforming/element_kernels_internal.hpp"
 #include "beamforming/element_tile_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
-#include "beamforming/stamping_kernels_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -23,10 +24,17 @@ BeamSums::BeamSums(const SonarHead& head, double wavelength) {
 }
 
 void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::size_t last, ComplexGrid& pressure) const {
+  std::vector<std::size_t> all(re_.rows());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  form_beams(series, first, last, all, pressure);
+}
+
+void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::size_t last,
+                          std::span<const std::size_t> beams, ComplexGrid& pressure) const {
   // One row per element now, so that the sums run along time.
   const Grid<double> re = series.re.transpose(), im = series.im.transpose();
   double beam_re[tile_bins], beam_im[tile_bins];
-  for (Eigen::Index b = 0; b < re_.rows(); ++b) {
+  for (const std::size_t b : beams) {
     kernels::sum_elements(re_.row(b).data(), im_.row(b).data(), re_.cols(), re.data(), im.data(), tile_bins,
                           last - first, beam_re, beam_im);
     for (std::size_t n = first; n < last; ++n) pressure(b, n) = {beam_re[n - first], beam_im[n - first]};

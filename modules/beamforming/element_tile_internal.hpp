@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <span>
 
 #include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
@@ -23,6 +24,9 @@ class BeamSums {
 
   /// pressure(b, n) for the bins [first, last) of one tile: the sum over elements (E10).
   void form_beams(const ElementTile& series, std::size_t first, std::size_t last, ComplexGrid& pressure) const;
+  /// The same for some of the beams: rows of a planar array hear other series than their neighbours.
+  void form_beams(const ElementTile& series, std::size_t first, std::size_t last, std::span<const std::size_t> beams,
+                  ComplexGrid& pressure) const;
 
  private:
   Grid<double> re_, im_;  // beams x elements

@@ -14,13 +14,28 @@ void require_synthesis(const Echoes& echoes, const SonarHead& head, const Medium
   if (echoes.u.size() != echoes.size() || echoes.amplitude.size() != echoes.size())
     fail(ErrorKind::argument, who, ": echoes have ", echoes.size(), " delays, ", echoes.u.size(), " directions and ",
          echoes.amplitude.size(), " amplitudes; must be one of each per echo");
+  const auto fits = [&](const std::vector<double>& x) { return x.empty() || x.size() == echoes.size(); };
+  if (!fits(echoes.v) || !fits(echoes.doppler))
+    fail(ErrorKind::argument, who, ": ", echoes.size(), " echoes have ", echoes.v.size(), " values of v and ",
+         echoes.doppler.size(), " of doppler; must be none, or one of each per echo");
   for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const double v = echoes.v.empty() ? 0 : echoes.v[i];
+    if (!std::isfinite(v) || !std::isfinite(echoes.doppler_of(i)))
+      fail(ErrorKind::argument, who, ": echo ", i, " has v ", v, ", doppler ", echoes.doppler_of(i),
+           " Hz; all must be finite");
     const auto& a = echoes.amplitude[i];
     if (!std::isfinite(echoes.delay[i]) || !std::isfinite(echoes.u[i]) || !std::isfinite(a.real()) ||
         !std::isfinite(a.imag()))
       fail(ErrorKind::argument, who, ": echo ", i, " has delay ", echoes.delay[i], " s, u ", echoes.u[i],
            ", amplitude ", a, " Pa; all must be finite");
   }
+}
+
+void require_one_row(const SonarHead& head, const char* who) {
+  const std::size_t rows = fan_rows(head.fan).size();
+  if (head.column || rows > 1)
+    fail(ErrorKind::argument, who, ": head '", head.name, "' has ", rows, " rows of beams",
+         head.column ? " and a column" : "", ", must be one row of a line array; use synthesize");
 }
 
 std::vector<double> beam_cosines(const BeamFan& fan) {

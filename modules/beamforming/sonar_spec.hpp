@@ -22,13 +22,22 @@ struct SonarSpec {
   double elevation = 0;        ///< of the fan's axis [rad], positive up
   double elevation_width = 0;  ///< -3 dB [rad]
   ElevationShape elevation_shape = ElevationShape::gaussian;
-  double side_lobe_db = -30;       ///< of Taylor and Chebyshev shading; 0: uniform array
-  std::optional<Shading> shading;  ///< absent: Taylor if side_lobe_db < 0, else uniform
-  double min_range = 0;            ///< [m]
-  double max_range = 0;            ///< [m]
-  std::optional<double> bin_size;  ///< [m]; absent: 0.44 c / 2B
-  std::vector<double> azimuths;    ///< [rad]; not empty: these beams instead of an even fan
+  double side_lobe_db = -30;         ///< of Taylor and Chebyshev shading; 0: uniform array
+  std::optional<Shading> shading;    ///< absent: Taylor if side_lobe_db < 0, else uniform
+  double min_range = 0;              ///< [m]
+  double max_range = 0;              ///< [m]
+  std::optional<double> bin_size;    ///< [m]; absent: 0.44 c / 2B
+  std::vector<double> azimuths;      ///< [rad]; not empty: these beams instead of an even fan
+  std::vector<double> elevations{};  ///< [rad]; with azimuths: one for each; without: a row of `beams` beams at each
+  double column_beam_width = 0;      ///< -3 dB, elevation, of a planar array's beam [rad]; 0: a line array
+  double transmit_width = 0;         ///< -3 dB, azimuth, of the transmitter's intensity [rad]; 0: fills the fan evenly
+  PulseShape pulse = PulseShape::gaussian;
+  std::optional<double> pulse_length{};           ///< of a linear FM sweep [s]
+  std::optional<ReplicaWindow> replica_window{};  ///< of its matched filter; absent: Hamming
 };
+
+/// Number of beams of the head that make_head builds: rows times `beams`, or one per azimuth given.
+std::size_t beams_of(const SonarSpec& spec);
 
 /// The shading of the array that make_head builds.
 Shading shading_of(const SonarSpec& spec);
@@ -37,8 +46,9 @@ Shading shading_of(const SonarSpec& spec);
 void require_valid(const SonarSpec& spec, const char* who);
 
 /// The head for water of `sound_speed` [m/s]. The array is half-wavelength at the nominal sound speed with as many
-/// elements as the beam width needs (E10) under its shading (E11, E31, E32). Throws Error for an invalid spec, or a bin_size that would
-/// under-sample the pulse (more than 0.44 c / 2B).
+/// elements as the beam width needs (E10) under its shading (E11, E31, E32), and so is the column of a planar array.
+/// Rows of beams stand one after another in the order of `elevations`. Throws Error for an invalid spec, or a bin_size
+/// that would under-sample the pulse (more than 0.44 c / 2B).
 SonarHead make_head(const SonarSpec& spec, double sound_speed);
 
 }  // namespace insonify

@@ -33,8 +33,10 @@ ComplexGrid beam_weights(const Echoes& echoes, std::size_t first, std::size_t la
 ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                               const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize_direct");
+  require_one_row(head, "synthesize_direct");
   const std::size_t beams = head.fan.beams(), bins = head.gate.bins();
   ComplexGrid pressure = ComplexGrid::Zero(beams, bins);
+  const EchoShapes shapes(head.pulse, medium);
 
   // Blocks of echoes in order; inside a block, each tile of bins belongs to one thread.
   for (std::size_t first = 0; first < echoes.size(); first += echoes_at_once) {
@@ -43,8 +45,7 @@ ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const
     parallel_blocks(bins, bins_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
       Eigen::ArrayXcd pulse(end - begin);
       for (std::size_t i = first; i < last; ++i) {
-        const EchoEnvelope envelope =
-            echo_envelope(head.pulse, medium.absorption, 0.5 * medium.sound_speed * echoes.delay[i]);
+        const EchoEnvelope envelope = shapes.of(echoes.delay[i], echoes.doppler_of(i));
         for (std::size_t n = begin; n < end; ++n)
           pulse[n - begin] = envelope.at(2 * head.gate.centre(n) / medium.sound_speed - echoes.delay[i]);
         for (std::size_t b = 0; b < beams; ++b)

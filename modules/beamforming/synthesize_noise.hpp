@@ -18,9 +18,12 @@ struct NoiseOptions {
 ///
 ///   p(b, n) = (1/N) sum_m w_m exp(-2 pi i (d/lambda)(m - (N-1)/2) u_b) x(m, n),   x = sum_k h_k xi(m, n + k)
 ///
-/// xi is complex normal, counted by (ping, element, bin); the receive filter h has the pulse's shape and unit energy. So a
+/// xi is complex normal, counted by (ping, element, bin); the receive filter h has the pulse's shape, or
+/// is the replica of a sweep, and unit energy. So a
 /// beam hears the element level less 10 log10(N^2 / sum w^2), overlapping beams hear related noise, and so do
-/// neighbouring bins.
+/// neighbouring bins. The elements of a planar array are formed over the column first (E56), so beams of different rows
+/// are related as far as their column patterns overlap; rows of a head without column have elements of their own.
+/// Of a planar array this is thermal and self noise: isotropic noise would be up to 2 dB weaker (directivity_index_db).
 ///
 /// element_level_db   of one element in the pulse's band [dB re 1 uPa rms], e.g. thermal_noise_level_db
 /// Throws Error for an invalid head or medium, or a level that is not finite.

@@ -1,14 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
-#include <mutex>
-#include <numbers>
 #include <vector>
 
-#include <fftw3.h>
-
 #include "acoustics/pulse.hpp"
+#include "beamforming/echo_spectrum_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/error.hpp"
@@ -20,25 +16,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A forward complex FFT of one length, in place; ESTIMATE plans, so that bits do not depend on timing.
-class ForwardFft {
- public:
-  explicit ForwardFft(std::size_t n) : plan_(nullptr, &fftw_destroy_plan) {
-    static std::mutex planning;  // FFTW's planner is not thread-safe; executing is
-    const std::scoped_lock lock(planning);
-    std::vector<Complex> room(n);
-    auto* raw = reinterpret_cast<fftw_complex*>(room.data());
-    plan_.reset(fftw_plan_dft_1d(static_cast<int>(n), raw, raw, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED));
-  }
-  void run(std::vector<Complex>& data) const {
-    auto* raw = reinterpret_cast<fftw_complex*>(data.data());
-    fftw_execute_dft(plan_.get(), raw, raw);
-  }
-
- private:
-  std::unique_ptr<std::remove_pointer_t<fftw_plan>, void (*)(fftw_plan)> plan_;
-};
-
 /// Frequencies of the sum: M equally spaced ones over `oversampling` times the output's sampling rate, wide enough
 /// for the pulse, in a window that holds every echo with its pulse so that nothing wraps round.
 struct SpectrumGrid {
@@ -48,7 +25,8 @@ struct SpectrumGrid {
 
   SpectrumGrid(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
     const double bin_time = 2 * head.gate.bin_size / medium.sound_speed;
-    const double band = 10 * head.pulse.bandwidth;  // at +-5 B the spectrum is down to e^-34, 1e-15 of its peak
+    // At +-5 B a Gaussian's spectrum is down to e^-34, 1e-15 of its peak; a sweep's ends leave more behind them.
+    const double band = (head.pulse.shape == PulseShape::linear_fm ? 64 : 10) * head.pulse.bandwidth;
     oversampling = static_cast<std::size_t>(std::ceil(band * bin_time));
     step_time = bin_time / static_cast<double>(oversampling);
     const double guard = 2 * pulse_half_length(head.pulse, 1e-16);
@@ -64,18 +42,50 @@ struct SpectrumGrid {
     samples = static_cast<std::size_t>(wanted);
   }
 
-  double frequency(std::size_t k) const {
-    const auto n = static_cast<std::ptrdiff_t>(samples);
-    const auto signed_k = static_cast<std::ptrdiff_t>(k) < (n + 1) / 2 ? static_cast<std::ptrdiff_t>(k)
-                                                                       : static_cast<std::ptrdiff_t>(k) - n;
-    return static_cast<double>(signed_k) / (static_cast<double>(samples) * step_time);
-  }
+  FrequencyGrid frequencies() const { return {samples, step_time}; }
 };
 
-/// Pulse spectrum in baseband, 1/Hz, integral 1: envelope peak 1 (E8).
-double pulse_spectrum(double f, double bandwidth) {
-  const double x = f / bandwidth;
-  return std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / bandwidth;
+/// Spectrum of one beam per hertz, for echoes that are all the same Gaussian pulse:
+/// S(f) sum_i A_i B(u_i) exp(+2 pi i f (delay - start)) exp(-2 alpha(f) r).
+std::vector<Complex> gaussian_beam_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                            const SpectrumGrid& grid, double u_beam) {
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  std::vector<Complex> weight(echoes.size()), spectrum(grid.samples);
+  for (std::size_t i = 0; i < echoes.size(); ++i)
+    weight[i] = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam);
+  const FrequencyGrid frequencies = grid.frequencies();
+  const Absorption& a = medium.absorption;
+  for (std::size_t k = 0; k < grid.samples; ++k) {
+    const double f = frequencies.at(k), alpha = a.a0 + a.a1 * f + a.a2 * f * f;
+    Complex sum = 0;
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const double r = 0.5 * medium.sound_speed * echoes.delay[i];
+      const double phase = 2 * pi * reduced_cycles(f * (echoes.delay[i] - grid.start_time));
+      sum += weight[i] * std::polar(std::exp(-2 * alpha * r), phase);
+    }
+    spectrum[k] = gaussian_spectrum(f, head.pulse.bandwidth) * frequencies.step() * sum;
+  }
+  return spectrum;
+}
+
+/// Spectra of all beams, beams x frequencies, for echoes that each have their own: sweeps, or Doppler shifts.
+ComplexGrid beam_spectra(const Echoes& echoes, const SonarHead& head, const Medium& medium, const SpectrumGrid& grid,
+                         const std::vector<double>& u_beam, int threads) {
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  const FrequencyGrid frequencies = grid.frequencies();
+  const EchoSpectrum shapes(head.pulse, medium, frequencies);
+  ComplexGrid spectra = ComplexGrid::Zero(u_beam.size(), grid.samples);
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    std::vector<Complex> echo = shapes.of(0.5 * medium.sound_speed * echoes.delay[i], echoes.doppler_of(i));
+    for (std::size_t k = 0; k < grid.samples; ++k)
+      echo[k] *= std::polar(frequencies.step(),
+                            2 * pi * reduced_cycles(frequencies.at(k) * (echoes.delay[i] - grid.start_time)));
+    parallel_for(u_beam.size(), threads, [&](std::size_t b) {
+      const Complex weight = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam[b]);
+      for (std::size_t k = 0; k < grid.samples; ++k) spectra(b, k) += weight * echo[k];
+    });
+  }
+  return spectra;
 }
 
 }  // namespace
@@ -83,30 +93,21 @@ double pulse_spectrum(double f, double bandwidth) {
 ComplexGrid synthesize_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                 const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize_spectrum");
+  require_one_row(head, "synthesize_spectrum");
   const SpectrumGrid grid(echoes, head, medium);
   const std::vector<double> u_beam = beam_cosines(head.fan);
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  const double df = 1 / (static_cast<double>(grid.samples) * grid.step_time);
+  const bool alike = head.pulse.shape == PulseShape::gaussian && echoes.doppler.empty();
+  ComplexGrid spectra;
+  if (!alike) spectra = beam_spectra(echoes, head, medium, grid, u_beam, options.threads);
   ComplexGrid pressure(u_beam.size(), head.gate.bins());
 
   const ForwardFft fft(grid.samples);
   parallel_for(u_beam.size(), options.threads, [&](std::size_t b) {
-    std::vector<Complex> weight(echoes.size()), spectrum(grid.samples);
-    for (std::size_t i = 0; i < echoes.size(); ++i)
-      weight[i] = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam[b]);
-
-    // Spectrum: S(f) sum_i A_i B(u_i) exp(+2 pi i f (delay - start)) exp(-2 alpha(f) r), per hertz.
-    const Absorption& a = medium.absorption;
-    for (std::size_t k = 0; k < grid.samples; ++k) {
-      const double f = grid.frequency(k), alpha = a.a0 + a.a1 * f + a.a2 * f * f;
-      Complex sum = 0;
-      for (std::size_t i = 0; i < echoes.size(); ++i) {
-        const double r = 0.5 * medium.sound_speed * echoes.delay[i];
-        const double phase = 2 * pi * reduced_cycles(f * (echoes.delay[i] - grid.start_time));
-        sum += weight[i] * std::polar(std::exp(-2 * alpha * r), phase);
-      }
-      spectrum[k] = pulse_spectrum(f, head.pulse.bandwidth) * df * sum;
-    }
+    std::vector<Complex> spectrum;
+    if (alike)
+      spectrum = gaussian_beam_spectrum(echoes, head, medium, grid, u_beam[b]);
+    else
+      spectrum.assign(spectra.row(b).data(), spectra.row(b).data() + grid.samples);
     fft.run(spectrum);  // p(t) = sum_k P(f_k) exp(-2 pi i f_k t)
     for (std::size_t n = 0; n < head.gate.bins(); ++n)
       pressure(b, n) = spectrum[(n + grid.skipped) * grid.oversampling];

@@ -13,7 +13,11 @@ enum class RandomStage : std::uint64_t {
   noise = 3,              ///< counted by (ping, beam, bin)
   scene_points = 4,       ///< counted by (part of the scene, point)
   mesh_points = 5,        ///< counted by sample
-  ray_jitter = 6          ///< counted by (beam, ray)
+  ray_jitter = 6,         ///< counted by (beam, ray)
+  micro_relief = 7,       ///< counted by (octave, triad of waves, what)
+  volume = 8,             ///< reverberation, counted by (ping, range cell, direction cell)
+  sea_surface = 9,        ///< reverberation, counted by (ping, range cell, direction cell)
+  flat_bottom = 10        ///< reverberation, counted by (place of the head, range cell, direction cell)
 };
 
 /// Where in a stage's stream a number stands.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -36,11 +38,16 @@ std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const
   return cells;
 }
 
+/// How far around a beam contributors are looked for: in direction cosine, and in elevation [rad].
+struct Reach {
+  double u = 0, elevation = std::numeric_limits<double>::infinity();
+};
+
 /// Echoes sorted by range bin and, inside a bin, by direction cosine: finds what a sample heard.
 class ContributorTable {
  public:
   ContributorTable(const Echoes& echoes, const Scatterers& scatterers, const RangeGate& gate)
-      : echoes_(echoes), begin_(gate.bins() + 1, 0) {
+      : echoes_(echoes), scatterers_(scatterers), begin_(gate.bins() + 1, 0) {
     std::vector<std::uint32_t> bin(echoes.size());
     const auto bins = static_cast<double>(gate.bins());
     for (std::size_t i = 0; i < echoes.size(); ++i) {
@@ -60,16 +67,17 @@ class ContributorTable {
       });
   }
 
-  /// The strongest echo of bins bin-1 .. bin+1 within half_width of direction u, or `none`.
-  std::uint32_t strongest(std::uint32_t bin, double u, double half_width) const {
+  /// The strongest echo of bins bin-1 .. bin+1 within `reach` of direction u and elevation, or `none`.
+  std::uint32_t strongest(std::uint32_t bin, double u, double elevation, Reach reach) const {
     std::uint32_t best = none;
     double best_power = 0;
     const std::size_t first = bin > 0 ? bin - 1 : 0, last = std::min<std::size_t>(bin + 2, begin_.size() - 1);
     for (std::size_t n = first; n < last; ++n) {
       const auto end = order_.begin() + begin_[n + 1];
-      auto at = std::lower_bound(order_.begin() + begin_[n], end, u - half_width,
+      auto at = std::lower_bound(order_.begin() + begin_[n], end, u - reach.u,
                                  [&](std::uint32_t i, double value) { return echoes_.u[i] < value; });
-      for (; at != end && echoes_.u[*at] <= u + half_width; ++at) {
+      for (; at != end && echoes_.u[*at] <= u + reach.u; ++at) {
+        if (!(std::abs(scatterers_.elevation[*at] - elevation) <= reach.elevation)) continue;
         const double power = std::norm(echoes_.amplitude[*at]);
         if (power > best_power) best_power = power, best = *at;
       }
@@ -82,28 +90,49 @@ class ContributorTable {
  private:
   static constexpr std::uint32_t outside = 0xffffffff;
   const Echoes& echoes_;
+  const Scatterers& scatterers_;
   std::vector<std::uint32_t> begin_, order_;
 };
 
-/// Direction cosine of a beam and how far around it contributors are looked for: first in the beam's own share of the
-/// fan, so that neighbouring beams do not name the same scatterer, then in its whole -3 dB width.
+/// Direction of a beam and how far around it contributors are looked for: first in the beam's own share of the fan, so
+/// that neighbouring beams do not name the same scatterer, then in its whole -3 dB width. A fan of one row hears all
+/// elevations alike.
 struct Look {
-  double u = 0, share = 0, width = 0;
+  double u = 0, elevation = 0;
+  Reach share, width;
 };
+
+/// Cuts the half widths of places back to half the way to their neighbours.
+void share_out(std::vector<std::pair<double, double*>> places) {
+  std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const double gap = (places[k].first - places[k - 1].first) / 2;
+    *places[k - 1].second = std::min(*places[k - 1].second, gap);
+    *places[k].second = std::min(*places[k].second, gap);
+  }
+}
 
 std::vector<Look> looks_of(const BeamFan& fan) {
   std::vector<Look> looks(fan.beams());
-  for (std::size_t b = 0; b < looks.size(); ++b) looks[b].u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
-  for (Look& look : looks) look.share = look.width = std::sin(std::min(fan.beam_width / 2, pi / 2));
+  const std::vector<FanRow> rows = fan_rows(fan);
+  const double row_width = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
+  const bool hears_elevation = rows.size() > 1 || fan.row_width > 0;
+  std::vector<double> row_share(rows.size(), row_width / 2);
+  std::vector<std::pair<double, double*>> row_places;
+  for (std::size_t r = 0; r < rows.size(); ++r) row_places.emplace_back(rows[r].elevation, &row_share[r]);
+  share_out(row_places);
 
-  // A beam's share ends halfway to its neighbours.
-  std::vector<std::size_t> order(looks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return looks[a].u < looks[b].u; });
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    Look &left = looks[order[k - 1]], &right = looks[order[k]];
-    left.share = std::min(left.share, (right.u - left.u) / 2);
-    right.share = std::min(right.share, (right.u - left.u) / 2);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::vector<std::pair<double, double*>> beam_places;
+    for (const std::size_t b : rows[r].beams) {
+      Look& look = looks[b];
+      look.u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
+      look.elevation = fan.elevation[b];
+      look.share.u = look.width.u = std::sin(std::min(fan.beam_width / 2, pi / 2));
+      if (hears_elevation) look.share.elevation = row_share[r], look.width.elevation = row_width / 2;
+      beam_places.emplace_back(look.u, &look.share.u);
+    }
+    share_out(beam_places);
   }
   return looks;
 }
@@ -154,9 +183,10 @@ Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const
   std::vector<Soundings> of_beam(beams);
   parallel_for(beams, options.threads, [&](std::size_t b) {
     for (const Cell cell : detect_in_beam(level, static_cast<Eigen::Index>(b), strongest, options)) {
-      std::uint32_t contributor = contributors.strongest(cell.bin, looks[b].u, looks[b].share);
+      const Look& look = looks[b];
+      std::uint32_t contributor = contributors.strongest(cell.bin, look.u, look.elevation, look.share);
       if (contributor == ContributorTable::none)
-        contributor = contributors.strongest(cell.bin, looks[b].u, looks[b].width);
+        contributor = contributors.strongest(cell.bin, look.u, look.elevation, look.width);
       if (contributor != ContributorTable::none) add_sounding(of_beam[b], ping, b, cell, scatterers, contributor);
     }
   });

@@ -20,7 +20,8 @@ struct DetectionOptions {
 /// Turns a ping into points (E19). Per beam, each local maximum along range that exceeds the noise floor by the
 /// threshold and is no side lobe gives one sounding; with all_bins, every bin above a level. Its direction is that
 /// of the strongest contributing scatterer within one bin length, in the beam's own share of the fan or, if there is
-/// none, in its -3 dB width; its range is the bin's. Samples without a contributor (leakage through side lobes) give none.
+/// none, in its -3 dB width, in azimuth and, for a fan of several rows or a planar array, in elevation; its range is the
+/// bin's. Samples without a contributor (leakage through side lobes) give none.
 ///
 /// scatterers and echoes are those the ping was made from, index by index.
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,

@@ -23,7 +23,7 @@ struct Ping {
   Pose world_from_head = Pose::Identity();
   BeamFan fan;
   RangeGate gate;
-  ComplexGridF pressure;      ///< beams x bins [Pa], analytic baseband, linear
+  ComplexGridF pressure;        ///< beams x bins [Pa], analytic baseband, linear
   std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless they were asked for
 };
 

@@ -12,7 +12,7 @@ struct Soundings {
   std::vector<float> level_db;            ///< dB re 1 uPa
   std::vector<float> range;               ///< [m]
   std::vector<float> azimuth;             ///< of the beam [rad]
-  std::vector<float> elevation;           ///< of the strongest contributor [rad]: truth, a real head hears no elevation
+  std::vector<float> elevation;           ///< of the strongest contributor [rad]: truth: a head of one row hears none
   std::vector<std::uint32_t> ping;
   std::vector<std::uint32_t> beam;
   std::vector<std::uint32_t> bin;

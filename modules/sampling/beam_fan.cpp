@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -37,6 +39,16 @@ void require_valid(const BeamFan& fan, const char* who) {
     fail(ErrorKind::argument, who, ": fan.beam_width = ", fan.beam_width, " rad, must be > 0");
   if (!(fan.elevation_width > 0 && std::isfinite(fan.elevation_width)))
     fail(ErrorKind::argument, who, ": fan.elevation_width = ", fan.elevation_width, " rad, must be > 0");
+  if (!(fan.row_width >= 0 && std::isfinite(fan.row_width)))
+    fail(ErrorKind::argument, who, ": fan.row_width = ", fan.row_width, " rad, must be >= 0; 0: no planar array");
+}
+
+std::vector<FanRow> fan_rows(const BeamFan& fan) {
+  std::map<double, FanRow> by_elevation;
+  for (std::size_t b = 0; b < fan.beams(); ++b) by_elevation[fan.elevation[b]].beams.push_back(b);
+  std::vector<FanRow> rows;
+  for (auto& [elevation, row] : by_elevation) rows.push_back({elevation, std::move(row.beams)});
+  return rows;
 }
 
 Sector insonified_sector(const BeamFan& fan, double elevation_half_extent) {

@@ -121,7 +121,7 @@ std::size_t count_different(std::vector<std::uint32_t> values) {
 
 }  // namespace
 
-std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector, double elevation_half_extent) {
+std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
   // Columns: beams of one azimuth, measured from the sector's starboard edge, so that +-pi is no seam.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t b = 0; b < fan.beams(); ++b) {
@@ -145,8 +145,7 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector, dou
     std::sort(columns[c].begin(), columns[c].end());
     std::vector<double> elevation;
     for (const auto& [e, b] : columns[c]) elevation.push_back(e);
-    const auto cuts = midpoints(elevation, std::max(-pi / 2, elevation.front() - elevation_half_extent),
-                                std::min(pi / 2, elevation.back() + elevation_half_extent));
+    const auto cuts = midpoints(elevation, sector.min_elevation, sector.max_elevation);
     for (std::size_t e = 0; e < elevation.size(); ++e)
       shares[columns[c][e].second] = {azimuth_cuts[c], azimuth_cuts[c + 1], cuts[e], cuts[e + 1]};
   }

@@ -16,9 +16,9 @@ struct BeamShare {
 };
 
 /// Shares of all beams: they tile `sector` in azimuth, cut at the midpoints between neighbouring beams. Beams
-/// of one azimuth share its elevations in the same way, from elevation_half_extent below the lowest to as
-/// much above.
-std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector, double elevation_half_extent);
+/// of one azimuth share the sector's elevations in the same way. So every direction belongs to one beam, also when
+/// rows are staggered or no two beams have an azimuth in common: rays serve all beams, not only their own.
+std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector);
 
 struct CastResult {
   Scatterers scatterers;

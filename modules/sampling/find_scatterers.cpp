@@ -11,6 +11,7 @@
 #include "sampling/gate_surfels.hpp"
 #include "sampling/split_surfels.hpp"
 #include "sampling/surfel_visibility.hpp"
+#include "sampling/tilt_by_relief.hpp"
 
 namespace insonify {
 namespace {
@@ -26,6 +27,7 @@ void require_valid(const SamplingOptions& options, const BeamFan& fan) {
   require(at_least_0(options.range_resolution), "range_resolution", options.range_resolution, ">= 0 m");
   require(at_least_0(options.elevation_half_extent), "elevation_half_extent", options.elevation_half_extent,
           ">= 0 rad");
+  require(at_least_0(options.relief_outer_scale), "relief_outer_scale", options.relief_outer_scale, ">= 0 m");
   require(options.footprint > 0 && std::isfinite(options.footprint), "footprint", options.footprint, "> 0");
   require(options.rays_per_beam >= 1, "rays_per_beam", options.rays_per_beam, "at least 1");
   const double rays = static_cast<double>(fan.beams()) * options.rays_per_beam;
@@ -80,7 +82,7 @@ Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, c
 
   if (options.kind == SamplingKind::rays) {
     const DirectionIndex index(surfels, options.projection, options.threads);
-    CastResult cast = cast_rays(scene, surfels, index, beam_shares(fan, sector, half_extent), gate, options);
+    CastResult cast = cast_rays(scene, surfels, index, beam_shares(fan, sector), gate, options);
     result.scatterers = std::move(cast.scatterers);
     report.rays_missed = cast.missed;
     report.visible = cast.met_surfels;
@@ -90,8 +92,11 @@ Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, c
     const auto visible = select_visible(surfels, index.get(), options.threads, report);
     const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
     result.scatterers = split_surfels(
-        scene, head, visible, {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads});
+        scene, head, visible,
+        {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width});
   }
+  if (const auto relief = relief_of(scene, {options.seed, options.relief_outer_scale}))
+    tilt_by_relief(scene, world_from_head, *relief, options.threads, result.scatterers);
   report.scatterers = result.scatterers.size();
   return result;
 }

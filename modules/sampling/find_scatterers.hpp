@@ -30,6 +30,7 @@ struct SamplingOptions {
   bool occlusion = true;             ///< false: everything is seen (for tests and closed forms)
   std::uint64_t seed = 1;            ///< of the jitter of parts and rays
   int threads = 0;                   ///< 0: all cores
+  double relief_outer_scale = 0;     ///< longest wavelength of micro-relief [m]; 0: the mean surfel spacing sqrt(area)
 };
 
 /// What sampling met on its way, for the log and the manifest.
@@ -58,8 +59,12 @@ struct Sampling {
 /// Rays tile the insonified sector: a beam's share goes to the midpoints between neighbours, the outermost ones' to
 /// the edge of the sector. The cell of a ray is r^2 cos(elevation) times its share.
 ///
-/// Depends on relative position only: world and head moved together give the same scatterers (turned together, the
-/// parts of split surfels turn within their surfels). The result does not depend on `threads`. Throws Error for an
+/// Where a material has a relief_slope, incidence and projected area are those of facets tilted by micro-relief (E52);
+/// what is visible is still decided by the smooth surfels. The relief belongs to the world, so that a place keeps its
+/// slope from ping to ping and for every splitting.
+///
+/// Without micro-relief only relative position counts: world and head moved together give the same scatterers (turned
+/// together, the parts of split surfels turn within their surfels). The result does not depend on `threads`. Throws Error for an
 /// invalid scene, fan, gate, pose or option. Nothing in view: no scatterers.
 Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
                          const RangeGate& gate, const SamplingOptions& options = {});

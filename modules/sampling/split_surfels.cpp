@@ -110,7 +110,14 @@ std::uint32_t parts_of(double area, double range, double cos_incidence, const Sp
   const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
   const double dr = options.range_resolution, level = 2 * std::sqrt(2 * range * dr);
   const double length = sine * level > dr ? dr / sine : level;
-  const double parts = std::ceil(options.scatterers_per_cell * area / (length * range * options.beam_width));  // (E17)
+  double cell = length * range * options.beam_width;
+  if (options.row_width > 0) {
+    const double narrower = std::min(options.beam_width, options.row_width);
+    const double cross_section = range * options.beam_width * range * options.row_width;
+    cell = cross_section < cos_incidence * length * range * narrower ? cross_section / cos_incidence
+                                                                     : length * range * narrower;
+  }
+  const double parts = std::ceil(options.scatterers_per_cell * area / cell);  // (E17)
   return parts < most_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : most_parts;
 }
 

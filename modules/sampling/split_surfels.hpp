@@ -14,6 +14,7 @@ struct SplitOptions {
   double beam_width = 0;            ///< its width [rad]
   std::uint64_t seed = 1;
   int threads = 0;
+  double row_width = 0;  ///< its height [rad] for a planar array; 0: as high as the surface goes
 };
 
 /// Number of parts that put `scatterers_per_cell` of them in one resolution cell (E17):
@@ -21,7 +22,9 @@ struct SplitOptions {
 ///   parts = ceil(scatterers_per_cell area / (length width)), 1 .. 4096
 ///   width = range beam_width, length = min(dr / sin(incidence), 2 sqrt(2 range dr))
 ///
-/// The second length is what a plane at normal incidence shows within dr.
+/// The second length is what a plane at normal incidence shows within dr. A planar array sees no more of a surface
+/// than its beam's cross-section, range^2 beam_width row_width / cos_incidence, and a slice of it that may lie along
+/// either side: the cell is the smaller of that and of length x range x the narrower of both widths.
 std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options);
 
 /// Scatterers of the given surfels (indices in the scene), in order. Part 0 is the surfel's centre; part k

@@ -52,10 +52,7 @@ void require_valid(const SceneCloud& scene, const char* who) {
   require_length(scene.material.size(), scene.size(), "material", who);
   require_length(scene.id.size(), scene.size(), "id", who);
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
-  for (const Material& material : scene.materials)
-    if (!(material.lambert_mu >= 0 && std::isfinite(material.lambert_mu)))
-      fail(ErrorKind::content, who, ": lambert_mu of material '", material.name, "' = ", material.lambert_mu,
-           " 1/sr, must be finite and >= 0");
+  for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
   for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
 }
 

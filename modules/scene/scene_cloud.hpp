@@ -30,7 +30,7 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
                 std::uint16_t material = 0);
 
 /// Throws Error unless all arrays have one length, points are finite, normals are unit vectors within 1e-3, areas
-/// are finite and >= 0, materials exist, and every lambert_mu is finite and >= 0. `who` names the caller.
+/// are finite and >= 0, materials exist and are valid themselves. `who` names the caller.
 void require_valid(const SceneCloud& scene, const char* who);
 
 /// The surfels listed in `keep`, in that order, with their ids.

@@ -85,27 +85,46 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
   }
 }
 
+/// Gives every surfel the material with this index.
+void give_one_material(std::uint16_t index, SceneCloud& scene) {
+  if (scene.materials.empty()) scene.materials = {Material{}};
+  if (index >= scene.materials.size()) {
+    fail(ErrorKind::argument, "load_scene: options.material = ", index, ", must be below the number of materials, ",
+         scene.materials.size(), "; give options.materials too");
+  }
+  scene.material.assign(scene.point.size(), index);
+}
+
+/// Surfels whose number lies in no interval get a material of their own, and are counted.
+void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScene& result) {
+  SceneCloud& scene = result.scene;
+  const auto outsiders = std::count(scene.material.begin(), scene.material.end(), no_label);
+  if (outsiders == 0) return;
+  const auto outside = static_cast<std::uint16_t>(scene.materials.size());
+  std::replace(scene.material.begin(), scene.material.end(), no_label, outside);
+  scene.materials.push_back({.name = "outside"});
+  result.report.outside_intervals = static_cast<std::size_t>(outsiders);
+  result.report.notes.push_back(share(result.report.outside_intervals, scene.size(), "surfels") + " have a '" +
+                                raw.label_field + "' in none of the " +
+                                std::to_string(options.material_field.intervals.size()) +
+                                " intervals: their Lambert coefficient is the default, -27 dB");
+}
+
 /// The table of materials: the caller's, the file's, or a default one per label.
-void complete_materials(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
+void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneCloud& scene = result.scene;
   const std::vector<std::uint16_t>& labels = scene.material;
   scene.materials = !options.materials.empty() ? options.materials : raw.tags.materials;
   result.report.materials_found = !labels.empty() || !raw.tags.materials.empty();
-  if (options.material || labels.empty()) {
-    if (scene.materials.empty()) scene.materials = {Material{}};
-    const std::uint16_t index = options.material.value_or(0);
-    if (index >= scene.materials.size()) {
-      fail(ErrorKind::argument, "load_scene: options.material = ", index, ", must be below the number of materials, ",
-           scene.materials.size(), "; give options.materials too");
-    }
-    scene.material.assign(scene.point.size(), index);
-    return;
-  }
+  if (options.material || labels.empty()) return give_one_material(options.material.value_or(0), scene);
+  result.report.material_field = raw.label_field;
+  if (!options.material_field.intervals.empty()) return place_outsiders(options, raw, result);
   const std::uint16_t largest = *std::max_element(labels.begin(), labels.end());
   if (largest == no_label) {
     fail(ErrorKind::content, raw.path,
          ": a label is negative, above 65534 or no whole number; labels are indices of "
-         "materials from 0: correct them, or give one material for all");
+         "materials from 0: correct them, give one material for all, or map intervals of field '",
+         raw.label_field, "' to materials");
   }
   if (scene.materials.empty()) {
     for (std::size_t m = 0; m <= largest; ++m) scene.materials.push_back({.name = "label " + std::to_string(m)});
@@ -117,6 +136,29 @@ void complete_materials(RawCloud& raw, const LoadOptions& options, LoadedScene& 
   if (largest >= scene.materials.size()) {
     fail(ErrorKind::content, raw.path, ": label ", largest, " found, but there are ", scene.materials.size(),
          " materials (labels from 0); give a material for every label");
+  }
+}
+
+/// Intervals must hold a number, name a material that is given, and not overlap.
+void check_intervals(const LoadOptions& options, const char* who) {
+  const std::vector<MaterialInterval>& intervals = options.material_field.intervals;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const MaterialInterval& a = intervals[i];
+    if (!(a.from < a.to)) {
+      fail(ErrorKind::argument, who, ": material_field.intervals[", i, "] = ", a.from, " .. ", a.to,
+           ", from must be below to");
+    }
+    if (a.material >= options.materials.size() || options.materials.size() >= no_label) {
+      fail(ErrorKind::argument, who, ": material_field.intervals[", i, "].material = ", a.material,
+           ", must be below the number of options.materials, ", options.materials.size());
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const MaterialInterval& b = intervals[j];
+      if (a.from < b.to && b.from < a.to) {
+        fail(ErrorKind::argument, who, ": material_field.intervals[", j, "] = ", b.from, " .. ", b.to, " and [", i,
+             "] = ", a.from, " .. ", a.to, " overlap, a number must mean one material");
+      }
+    }
   }
 }
 
@@ -165,6 +207,7 @@ void check_options(const LoadOptions& options, const char* who) {
   if (options.viewpoint && !options.viewpoint->allFinite()) {
     fail(ErrorKind::argument, who, ": viewpoint must be finite");
   }
+  check_intervals(options, who);
 }
 
 std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "scene/material_field.hpp"
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {
@@ -19,6 +20,7 @@ struct LoadOptions {
   std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
   std::uint64_t seed = 1;                    ///< of mesh sampling
   int threads = 0;                           ///< 0: all cores
+  MaterialField material_field{};            ///< which scalar field says the material, and how; unused with `material`
 };
 
 /// What was in the file and what was done to it. Everything dropped or repaired is counted here.
@@ -36,6 +38,8 @@ struct LoadReport {
   bool materials_found = false;
   std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
+  std::string material_field;                ///< as the file calls it; empty: none was read
+  std::size_t outside_intervals = 0;         ///< surfels whose number lies in no interval: of a default material
 };
 
 struct LoadedScene {
@@ -48,6 +52,10 @@ struct LoadedScene {
 /// two-sided; without areas, Voronoi areas (E15). Meshes are sampled, area-preserving and stratified; their normals
 /// are the file's, else follow the winding, two-sided if more than 1 % of the shared edges contradict it. Ids are the
 /// file's if unique, else row numbers (meshes: sample numbers).
+/// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
+/// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
+/// are counted. A surfel of a mesh takes the number of its nearest corner. Error(content) lists the file's fields if it
+/// has none of the name asked for.
 /// Coordinates may be float or double; the centre of the bounding box, in whole metres, becomes the origin.
 /// Throws Error(file) if missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds
 /// no usable point: always naming the file and what to do.

@@ -48,7 +48,7 @@ RawCloud raw_from(const pcl::PCLPointCloud2& cloud, const LoadOptions& options) 
   RawCloud raw;
   raw.path = "from_pcl";
   raw.format = "PCL cloud";
-  fill_cloud(raw, table_of(cloud, raw), {options.unit, options.threads});
+  fill_cloud(raw, table_of(cloud, raw), read_options(options));
   return raw;
 }
 

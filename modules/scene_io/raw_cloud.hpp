@@ -8,8 +8,10 @@
 
 #include <Eigen/Core>
 
+#include "scene/material_field.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/describe_file.hpp"
+#include "scene_io/load_scene.hpp"
 #include "scene_io/number_type.hpp"
 
 // Private to scene_io: what the readers hand to complete_scene and describe_file.
@@ -39,7 +41,8 @@ struct RawCloud {
   std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite
   std::vector<Eigen::Vector3f> normal;
   std::vector<float> area;           ///< [m^2]
-  std::vector<std::uint16_t> label;  ///< no_label where the number is no index
+  std::vector<std::uint16_t> label;  ///< no_label where the number is no index, or in no interval
+  std::string label_field;           ///< where the labels come from, as the file calls it
   std::vector<std::uint32_t> id;
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
@@ -71,10 +74,15 @@ RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<dou
 struct ReadOptions {
   double unit = 1;  ///< metres per unit of the file
   int threads = 0;
+  MaterialField material_field{};  ///< where labels come from
 };
 
+/// What to read of a file for `options`: nothing of its labels if all surfels get one material.
+ReadOptions read_options(const LoadOptions& options);
+
 /// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, found by name.
-/// Raw's viewpoint is scaled too. Throws Error(content) if x, y or z is missing or no point is finite.
+/// Raw's viewpoint is scaled too. Throws Error(content) if x, y or z or the material field asked for is missing, or no
+/// point is finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// Appends polygon corners as a fan of triangles; counts it as bad if a corner is not in [0, vertices).

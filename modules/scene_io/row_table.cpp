@@ -14,18 +14,37 @@ namespace {
 
 constexpr std::size_t block_rows = 1 << 16;
 
-/// Column whose name is one of `names`, whatever its case and CloudCompare's prefix "scalar_"; null if none.
-const RowTable::Column* find_column(const RowTable& table, std::initializer_list<const char*> names) {
-  for (const char* name : names) {
+/// A field's name without its case and CloudCompare's prefix "scalar_", blanks as CloudCompare writes them.
+std::string plain_name(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return c == ' ' ? '_' : static_cast<char>(std::tolower(c)); });
+  return name.rfind("scalar_", 0) == 0 ? name.substr(7) : name;
+}
+
+/// Column whose plain name is one of `names`, the first of them that is there; null if none.
+const RowTable::Column* find_column(const RowTable& table, std::initializer_list<std::string> names) {
+  for (const std::string& name : names) {
     for (const RowTable::Column& column : table.columns) {
-      std::string plain = column.name;
-      std::transform(plain.begin(), plain.end(), plain.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      if (plain.rfind("scalar_", 0) == 0) plain.erase(0, 7);
-      if (plain == name) return &column;
+      if (plain_name(column.name) == name) return &column;
     }
   }
   return nullptr;
+}
+
+std::string names_of(const RowTable& table) {
+  std::string names;
+  for (const RowTable::Column& column : table.columns) names += (names.empty() ? "" : " ") + column.name;
+  return names;
+}
+
+const RowTable::Column* find_label(const RowTable& table, const std::string& path, const std::string& name) {
+  if (name.empty()) return find_column(table, {"label", "material", "class", "classification"});
+  const RowTable::Column* found = find_column(table, {plain_name(name)});
+  if (!found) {
+    fail(ErrorKind::content, path, ": no field '", name, "' to take materials from; its fields are '", names_of(table),
+         "': name one of them");
+  }
+  return found;
 }
 
 struct Columns {
@@ -33,19 +52,18 @@ struct Columns {
   const RowTable::Column *area, *label, *id;
 };
 
-Columns find_columns(const RowTable& table, const std::string& path) {
+Columns find_columns(const RowTable& table, const std::string& path, const std::string& material_field) {
   Columns found;
   found.position = {find_column(table, {"x"}), find_column(table, {"y"}), find_column(table, {"z"})};
   found.normal = {find_column(table, {"nx", "normal_x"}), find_column(table, {"ny", "normal_y"}),
                   find_column(table, {"nz", "normal_z"})};
   found.area = find_column(table, {"area"});
-  found.label = find_column(table, {"label", "material", "class", "classification"});
   found.id = find_column(table, {"id"});
   if (!found.position[0] || !found.position[1] || !found.position[2]) {
-    std::string names;
-    for (const RowTable::Column& column : table.columns) names += (names.empty() ? "" : " ") + column.name;
-    fail(ErrorKind::content, path, ": expected fields x y z, found '", names, "'; rename the coordinate fields");
+    fail(ErrorKind::content, path, ": expected fields x y z, found '", names_of(table),
+         "'; rename the coordinate fields");
   }
+  found.label = find_label(table, path, material_field);
   return found;
 }
 
@@ -104,6 +122,15 @@ std::uint16_t label_from(double number) {
                                                                           : no_label;
 }
 
+/// The material of the interval that holds `number`, no_label if none does; intervals do not overlap.
+std::uint16_t label_from(double number, const std::vector<MaterialInterval>& intervals) {
+  if (intervals.empty()) return label_from(number);
+  for (const MaterialInterval& interval : intervals) {
+    if (number >= interval.from && number < interval.to) return interval.material;
+  }
+  return no_label;
+}
+
 /// True if every number of the column is a whole one that fits 32 bits.
 bool holds_ids(const RowTable& table, const RowTable::Column& column, int threads) {
   std::atomic<bool> good{true};
@@ -136,7 +163,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1) {
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, at most 4294967294 can be numbered; split it");
   }
-  const Columns found = find_columns(table, raw.path);
+  const Columns found = find_columns(table, raw.path, options.material_field.name);
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
   if (raw.viewpoint) *raw.viewpoint *= options.unit;
@@ -147,7 +174,10 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   const bool normals = found.normal[0] && found.normal[1] && found.normal[2];
   if (normals) raw.normal.resize(table.rows);
   if (found.area) raw.area.resize(table.rows);
-  if (found.label) raw.label.resize(table.rows);
+  if (found.label) {
+    raw.label.resize(table.rows);
+    raw.label_field = found.label->name;
+  }
   const bool ids = found.id && holds_ids(table, *found.id, options.threads);
   if (ids) raw.id.resize(table.rows);
   if (found.id && !ids)
@@ -161,7 +191,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
                                        : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
       if (normals) raw.normal[first + i] = read_triple(found.normal, row).cast<float>();
       if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
-      if (found.label) raw.label[first + i] = label_from(number(*found.label));
+      if (found.label) raw.label[first + i] = label_from(number(*found.label), options.material_field.intervals);
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
     }
   });

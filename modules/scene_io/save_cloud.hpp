@@ -7,7 +7,7 @@
 namespace insonify {
 
 /// Writes a prepared scene as binary .ply (x y z nx ny nz area material id) or .pcd (the same, normals named
-/// normal_x ... as PCL expects). Origin, materials (name, coefficient) and whether normals have sides stand in
+/// normal_x ... as PCL expects). Origin, materials (name and numbers) and whether normals have sides stand in
 /// comment lines of both. PLY coordinates are double when the origin is not zero: load_scene gives back the same
 /// scene without estimating anything, coordinates within a nanometre (an origin of 5000 km), all else bit by bit.
 /// PCD coordinates are float32: a scene that reaches beyond 2000 m from zero, where more than 0.1 mm would be lost,

@@ -46,6 +46,12 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     if (!rest.empty()) rest.remove_prefix(1);
     material.name = std::string(rest);
     tags.materials.push_back(material);
+  } else if (key == "surface") {
+    std::size_t index = 0;
+    if (!to_number(take_word(rest), index) || index >= tags.materials.size()) bad();
+    Material& material = tags.materials[index];
+    if (!to_number(take_word(rest), material.coherent_fraction)) bad();
+    if (!to_number(take_word(rest), material.relief_slope)) bad();
   }
 }
 
@@ -59,7 +65,11 @@ std::vector<std::string> tag_lines(const SceneCloud& scene) {
     for (char& c : name) {
       if (c == '\n' || c == '\r') c = ' ';
     }
-    lines.push_back("insonify material " + std::to_string(m) + " " + exact(scene.materials[m].lambert_mu) + " " + name);
+    const Material& material = scene.materials[m];
+    lines.push_back("insonify material " + std::to_string(m) + " " + exact(material.lambert_mu) + " " + name);
+    if (material.coherent_fraction == 0 && material.relief_slope == 0) continue;
+    lines.push_back("insonify surface " + std::to_string(m) + " " + exact(material.coherent_fraction) + " " +
+                    exact(material.relief_slope));
   }
   return lines;
 }

@@ -1,15 +1,17 @@
 #pragma once
 #include <cstdint>
 
+#include "acoustics/bend_paths.hpp"
+#include "acoustics/environment.hpp"
+#include "acoustics/hear_multipath.hpp"
 #include "acoustics/hear_scatterers.hpp"
+#include "acoustics/motion.hpp"
 #include "beamforming/synthesize.hpp"
 #include "returns/detect_soundings.hpp"
 #include "returns/ping.hpp"
 #include "sampling/find_scatterers.hpp"
 
 namespace insonify {
-
-enum class SynthesisMethod { stamped, direct };
 
 struct SimulationOptions {
   std::uint64_t seed = 1;
@@ -20,15 +22,34 @@ struct SimulationOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   SynthesisMethod method = SynthesisMethod::stamped;
   double tolerance = 1e-4;
-  bool noise = false;            ///< adds thermal noise of independent elements (E18, E41)
+  bool multipath = false;        ///< adds echoes by way of the environment's surface and bottom (E48)
+  bool noise = false;            ///< adds thermal, wind and self noise of independent elements (E18, E25, E41)
+  Motion motion{};               ///< of the head during the ping (E44); boundaries and water are heard as at rest
   int absorption_order = 0;      ///< 0: absorption of the centre frequency for the whole pulse
-  DetectionOptions detection{};  ///< noise floor -inf: thermal noise in the band, less the array's directivity
+  DetectionOptions detection{};  ///< noise floor -inf: all noise in the band, less the array's gain
+  std::int64_t ping = 0;         ///< number of the ping: noise, water and waves are new in every one
+  double time = 0;               ///< of transmission [s]
+  bool keep_layers = false;      ///< keeps each kind of echo as a layer of its own
   int threads = 0;               ///< 0: all cores; the result does not depend on it
 };
 
 /// Wall time of each stage [s].
 struct StageSeconds {
   double sampling = 0, acoustics = 0, synthesis = 0, detection = 0;
+};
+
+/// What refraction does to this scene. Rays are bent only when the error of straight ones would reach a range bin, or 2 %
+/// of the elevation width.
+struct RefractionReport {
+  RefractionBound bound;     ///< of leaving refraction out
+  bool bent = false;         ///< the scatterers stand where they seem to be
+  std::size_t silenced = 0;  ///< scatterers in a shadow zone
+};
+
+/// How many echoes each layer was made of.
+struct LayerReport {
+  std::string name;
+  std::size_t echoes = 0;
 };
 
 /// A ping and everything worth knowing about how it came about.
@@ -38,12 +59,15 @@ struct SimulatedPing {
   Soundings soundings;
   SamplingReport sampling;
   Medium medium;
-  double noise_floor_db = 0;  ///< used by the detection [dB re 1 uPa]
+  RefractionReport refraction;
+  std::vector<LayerReport> layers;  ///< in the order in which they were added
+  double noise_floor_db = 0;        ///< used by the detection [dB re 1 uPa]
   StageSeconds seconds;
 };
 
-/// One ping: the whole signal path. Start reading here.
+/// One ping: the whole signal path. Start reading here. What the environment does not hold and the options do not ask
+/// for is not computed.
 SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
-                            const Water& water, const SimulationOptions& options = {});
+                            const Environment& environment, const SimulationOptions& options = {});
 
 }  // namespace insonify

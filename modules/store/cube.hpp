@@ -23,7 +23,7 @@ struct Cube {
 
 /// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth
 /// and /elevation [rad], /pose (pings x 4 x 4, world_from_head, row by row), /time [s], /ping (numbers) and,
-/// as root attributes, schema, the members above, beam_width, elevation_width [rad], min_range, max_range,
+/// as root attributes, schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad], min_range, max_range,
 /// bin_size [m]. Byte-identical for identical input (no time stamps). Written to a temporary name, then
 /// renamed. Layers of the pings stand beside as /layers/NAME, laid out like /pressure. Throws Error(argument) if there is
 /// no ping or they differ in fan, gate, extent or layers; Error(file) if it cannot write.

@@ -11,6 +11,7 @@ namespace insonify {
 namespace {
 
 constexpr int materials_schema = 1;
+constexpr double steepest_relief = 1;
 constexpr double highest_mu_db = -4.97;  // 1/pi, rounded as it is written in tables
 
 // A surface that sends back more than it receives is refused; -inf is a silent one.
@@ -31,23 +32,65 @@ int label_of(const std::string& path, const TomlValue& entry, std::size_t place)
   return static_cast<int>(label);
 }
 
+double number_within(const std::string& path, const TomlValue& entry, const char* key, double most, const char* rule) {
+  const TomlValue* value = entry.find(key);
+  if (!value) return 0;
+  const double number = toml_number(path, entry, key);
+  if (!(number >= 0 && number <= most)) fail_in_file(path, value->line, key, " = ", number, ", must be ", rule);
+  return number;
+}
+
 SourcedMaterial read_material(const std::string& path, const TomlValue& entry, std::size_t place) {
   if (entry.kind != TomlValue::Kind::table) fail_in_file(path, entry.line, "material must be a table: [[material]]");
-  require_known_keys(path, entry, {"name", "label", "lambert_mu_db", "status", "source"});
+  require_known_keys(
+      path, entry,
+      {"name", "label", "from", "to", "lambert_mu_db", "coherent_fraction", "relief_slope", "status", "source"});
   SourcedMaterial result;
   result.material.name = toml_text(path, entry, "name");
   result.material.lambert_mu = lambert_mu_of(path, entry);
+  result.material.coherent_fraction = number_within(path, entry, "coherent_fraction", 1, "within 0 and 1");
+  result.material.relief_slope =
+      number_within(path, entry, "relief_slope", steepest_relief, "within 0 and 1 (rise over run, rms: 45 degrees)");
   result.label = label_of(path, entry, place);
   result.status = entry.find("status") ? toml_text(path, entry, "status") : "user";
   if (entry.find("source")) result.source = toml_text(path, entry, "source");
   return result;
 }
 
+/// The interval of a material that has one; [from, to) must not share a number with one listed before.
+void read_interval(const std::string& path, const TomlValue& entry, const SourcedMaterial& of, MaterialTable& table) {
+  MaterialInterval next;
+  const TomlValue *from = entry.find("from"), *to = entry.find("to");
+  if (!from && !to) return;
+  if (from) next.from = toml_number(path, entry, "from");
+  if (to) next.to = toml_number(path, entry, "to");
+  next.material = static_cast<std::uint16_t>(of.label);
+  const int line = (from ? from : to)->line;
+  if (!(next.from < next.to))
+    fail_in_file(path, line, "from = ", next.from, " of '", of.material.name, "', must be below to = ", next.to);
+  for (const MaterialInterval& other : table.field.intervals)
+    if (next.from < other.to && other.from < next.to)
+      fail_in_file(path, line, "interval ", next.from, " .. ", next.to, " of '", of.material.name, "' overlaps ",
+                   other.from, " .. ", other.to, ", listed before; a number means one material");
+  table.field.intervals.push_back(next);
+}
+
+/// Refuses a name or label that stands in the table already.
+void require_new(const std::string& path, int line, const SourcedMaterial& next, const MaterialTable& table) {
+  for (const SourcedMaterial& other : table.materials) {
+    if (other.material.name == next.material.name)
+      fail_in_file(path, line, "material '", next.material.name, "' is listed twice");
+    if (other.label == next.label)
+      fail_in_file(path, line, "label ", next.label, " of '", next.material.name, "' belongs to '", other.material.name,
+                   "' already");
+  }
+}
+
 }  // namespace
 
-std::vector<SourcedMaterial> load_materials(const std::string& path) {
+MaterialTable load_materials(const std::string& path) {
   const TomlValue document = load_toml(path);
-  require_known_keys(path, document, {"schema", "material"});
+  require_known_keys(path, document, {"schema", "field", "material"});
   if (const double schema = toml_number(path, document, "schema"); schema != materials_schema)
     fail_in_file(path, document.find("schema")->line, "schema = ", schema, ", this insonify reads schema ",
                  materials_schema);
@@ -55,26 +98,22 @@ std::vector<SourcedMaterial> load_materials(const std::string& path) {
   if (!list || list->kind != TomlValue::Kind::array || list->items.empty())
     fail_in_file(path, list ? list->line : 1, "no [[material]] in the file");
 
-  std::vector<SourcedMaterial> materials;
+  MaterialTable table;
+  if (document.find("field")) table.field.name = toml_text(path, document, "field");
   for (const TomlValue& entry : list->items) {
-    const SourcedMaterial next = read_material(path, entry, materials.size());
-    for (const SourcedMaterial& other : materials) {
-      if (other.material.name == next.material.name)
-        fail_in_file(path, entry.line, "material '", next.material.name, "' is listed twice");
-      if (other.label == next.label)
-        fail_in_file(path, entry.line, "label ", next.label, " of '", next.material.name, "' belongs to '",
-                     other.material.name, "' already");
-    }
-    materials.push_back(next);
+    const SourcedMaterial next = read_material(path, entry, table.materials.size());
+    require_new(path, entry.line, next, table);
+    read_interval(path, entry, next, table);
+    table.materials.push_back(next);
   }
-  return materials;
+  return table;
 }
 
-std::vector<Material> materials_by_label(const std::vector<SourcedMaterial>& materials) {
+std::vector<Material> materials_by_label(const MaterialTable& table) {
   Material unlabelled;
   unlabelled.name = "unlabelled";
   std::vector<Material> by_label;
-  for (const SourcedMaterial& m : materials) {
+  for (const SourcedMaterial& m : table.materials) {
     const auto label = static_cast<std::size_t>(m.label);
     if (by_label.size() <= label) by_label.resize(label + 1, unlabelled);
     by_label[label] = m.material;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "scene/material.hpp"
+#include "scene/material_field.hpp"
 
 namespace insonify {
 
@@ -13,11 +14,19 @@ struct SourcedMaterial {
   std::string status, source;
 };
 
-/// Reads a table of materials from TOML: [[material]] name, lambert_mu_db, label (default: its place),
-/// status, source. Unknown keys are errors with file, line and the nearest known key.
-std::vector<SourcedMaterial> load_materials(const std::string& path);
+/// A file of materials, and how the points of a cloud say which of them they are of.
+struct MaterialTable {
+  std::vector<SourcedMaterial> materials;
+  MaterialField field;  ///< its intervals name materials by label, the index in materials_by_label
+};
+
+/// Reads a table of materials from TOML: [[material]] name, lambert_mu_db, coherent_fraction (0), relief_slope (0),
+/// label (its place), status, source. `field` at the top names the scalar field that holds the labels; or each material
+/// gives the half-open interval of values that mean it, `from` (included) and `to` (not included), of which one may be
+/// left out. Unknown keys, overlapping intervals and numbers that no surface can have are errors with file and line.
+MaterialTable load_materials(const std::string& path);
 
 /// Materials ordered so that index = label; gaps are filled by Material{} named "unlabelled".
-std::vector<Material> materials_by_label(const std::vector<SourcedMaterial>& materials);
+std::vector<Material> materials_by_label(const MaterialTable& table);
 
 }  // namespace insonify

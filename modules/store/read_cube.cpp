@@ -60,6 +60,7 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
   ping.fan.elevation = read_all<double>(place, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
   ping.fan.beam_width = read_number(place, file, "beam_width");
   ping.fan.elevation_width = read_number(place, file, "elevation_width");
+  if (H5Aexists(file, "row_width") > 0) ping.fan.row_width = read_number(place, file, "row_width");
   ping.gate = {read_number(place, file, "min_range"), read_number(place, file, "max_range"),
                read_number(place, file, "bin_size")};
   try {

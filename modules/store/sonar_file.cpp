@@ -66,6 +66,7 @@ void note_default(SonarFile& file, const std::string& key) {
   if (key == "shading")
     file.numbers.push_back(
         {key, shading_name(shading_of(file.spec)), "derived", "from side_lobe_db: below 0 taylor, else uniform"});
+  if (key == "elevation_deg" && !file.spec.elevations.empty()) return;
   if (key != "side_lobe_db" && key != "elevation_deg" && key != "elevation_shape") return;
   std::string text = sonar_key_text(file.spec, key).value_or("");
   text.erase(std::remove(text.begin(), text.end(), '"'), text.end());
@@ -80,6 +81,8 @@ void require_complete(const std::string& path, const TomlValue& table) {
     fail_in_file(path, table.line, "missing key 'bandwidth_hz' (or 'range_resolution_m')");
   if (table.find("bandwidth_hz") && resolution)
     fail_in_file(path, resolution->line, "bandwidth_hz and range_resolution_m say the same thing; leave one out");
+  if (const TomlValue* tilt = table.find("elevation_deg"); tilt && table.find("elevations_deg"))
+    fail_in_file(path, tilt->line, "elevation_deg follows from elevations_deg; leave it out");
   const bool given_beams = table.find("azimuths_deg") != nullptr;
   for (const std::string key : {"beams", "field_of_view_deg"}) {
     const TomlValue* value = table.find(key);
@@ -171,7 +174,8 @@ void set_sonar_value(SonarSpec& spec, const std::string& key, const std::string&
          nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
   }
   SonarValue parsed = value_from_text(value);
-  if (key == "azimuths_deg" && std::holds_alternative<double>(parsed)) parsed = std::vector{std::get<double>(parsed)};
+  const bool is_list = key == "azimuths_deg" || key == "elevations_deg";
+  if (is_list && std::holds_alternative<double>(parsed)) parsed = std::vector{std::get<double>(parsed)};
   try {
     set_sonar_key(spec, key, parsed);
   } catch (const Error& error) {

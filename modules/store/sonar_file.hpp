@@ -23,7 +23,8 @@ struct SonarFile {
 
 /// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table
 /// {value, status, source}; plain ones have status "user". Of bandwidth_hz and range_resolution_m (B = 1500
-/// m/s / 2 dr) one is given; azimuths_deg replaces beams and field_of_view_deg. `numbers` also lists a
+/// m/s / 2 dr) one is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg:
+/// with azimuths_deg a table of beams, without it a row of beams at each elevation. `numbers` also lists a
 /// derived bandwidth and the defaults of what was left out. Unknown or missing keys, wrong types and values
 /// that make no sonar are errors with file, line and remedy. Throws Error(file) or Error(content).
 SonarFile load_sonar_file(const std::string& path);

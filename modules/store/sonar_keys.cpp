@@ -29,6 +29,8 @@ constexpr std::array number_keys = {
     NumberKey{"side_lobe_db", &SonarSpec::side_lobe_db, false},
     NumberKey{"min_range_m", &SonarSpec::min_range, false},
     NumberKey{"max_range_m", &SonarSpec::max_range, false},
+    NumberKey{"column_beam_width_deg", &SonarSpec::column_beam_width, true},
+    NumberKey{"transmit_width_deg", &SonarSpec::transmit_width, true},
 };
 
 struct ShapeName {
@@ -39,7 +41,12 @@ constexpr std::array shape_names = {ShapeName{"gaussian", ElevationShape::gaussi
                                     ShapeName{"line", ElevationShape::line},
                                     ShapeName{"sector", ElevationShape::sector}};
 
+constexpr std::array pulse_shapes = {PulseShape::gaussian, PulseShape::linear_fm};
+constexpr std::array replica_windows = {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming};
 constexpr std::array shadings = {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev};
+
+// Widths of parts that a sonar may lack: nought in the spec.
+bool is_optional_width(const std::string& key) { return key == "column_beam_width_deg" || key == "transmit_width_deg"; }
 
 const NumberKey* find_number_key(const std::string& key) {
   for (const NumberKey& candidate : number_keys)
@@ -76,12 +83,19 @@ double number_of(const std::string& key, const SonarValue& value) {
   return *number;
 }
 
+// Back to an even fan: the elevations of a table go with its azimuths, those of rows stay.
+void drop_table(SonarSpec& spec) {
+  if (spec.azimuths.empty()) return;
+  spec.azimuths.clear();
+  spec.elevations.clear();
+}
+
 void set_beams(SonarSpec& spec, const SonarValue& value) {
   const double beams = number_of("beams", value);
   if (beams != std::floor(beams) || beams < 1 || beams > 65536)
     fail_value("beams", value, "a whole number within 1 and 65536");
   spec.beams = static_cast<std::size_t>(beams);
-  spec.azimuths.clear();
+  drop_table(spec);
 }
 
 void set_shape(SonarSpec& spec, const SonarValue& value) {
@@ -92,6 +106,26 @@ void set_shape(SonarSpec& spec, const SonarValue& value) {
       return;
     }
   fail_value("elevation_shape", value, "gaussian, line or sector");
+}
+
+void set_pulse(SonarSpec& spec, const SonarValue& value) {
+  const std::string* text = std::get_if<std::string>(&value);
+  for (const PulseShape shape : pulse_shapes)
+    if (text && *text == pulse_shape_name(shape)) {
+      spec.pulse = shape;
+      return;
+    }
+  fail_value("pulse", value, "gaussian or linear_fm");
+}
+
+void set_replica_window(SonarSpec& spec, const SonarValue& value) {
+  const std::string* text = std::get_if<std::string>(&value);
+  for (const ReplicaWindow window : replica_windows)
+    if (text && *text == replica_window_name(window)) {
+      spec.replica_window = window;
+      return;
+    }
+  fail_value("replica_window", value, "uniform, hann or hamming");
 }
 
 void set_shading(SonarSpec& spec, const SonarValue& value) {
@@ -119,14 +153,24 @@ double field_of_view_of(const std::vector<double>& azimuths, double beam_width) 
   return std::clamp((*high - *low) * n / std::max(n - 1, 1.0), std::min(beam_width, 2 * pi), 2 * pi);
 }
 
-void set_azimuths(SonarSpec& spec, const SonarValue& value) {
+std::vector<double> angles_of(const std::string& key, const SonarValue& value, double most_deg, const char* rule) {
   const auto* list = std::get_if<std::vector<double>>(&value);
-  const auto is_angle = [](double azimuth) { return std::abs(azimuth) <= 180; };
-  if (!list || list->empty() || !std::all_of(list->begin(), list->end(), is_angle))
-    fail_value("azimuths_deg", value, "a list of numbers within -180 and 180");
-  spec.azimuths.clear();
-  for (const double azimuth : *list) spec.azimuths.push_back(radians(azimuth));
-  spec.beams = list->size();
+  const auto is_angle = [&](double angle) { return std::abs(angle) <= most_deg; };
+  if (!list || list->empty() || !std::all_of(list->begin(), list->end(), is_angle)) fail_value(key, value, rule);
+  std::vector<double> angles;
+  for (const double angle : *list) angles.push_back(radians(angle));
+  return angles;
+}
+
+void set_azimuths(SonarSpec& spec, const SonarValue& value) {
+  spec.azimuths = angles_of("azimuths_deg", value, 180, "a list of numbers within -180 and 180");
+  spec.beams = spec.azimuths.size();
+}
+
+std::string text_of_angles(const std::vector<double>& angles) {
+  std::vector<double> list;
+  for (const double angle : angles) list.push_back(degrees_of(angle));
+  return toml_text_of(list);
 }
 
 // The shortest digits that give the same bits back; no exponent for numbers of everyday size.
@@ -144,10 +188,11 @@ std::string text_of_number(double value) {
 }  // namespace
 
 std::vector<std::string> sonar_key_names() {
-  return {"centre_frequency_hz", "bandwidth_hz",   "range_resolution_m", "source_level_db", "beams",
-          "field_of_view_deg",   "beam_width_deg", "azimuths_deg",       "side_lobe_db",    "shading",
-          "elevation_width_deg", "elevation_deg",  "elevation_shape",    "min_range_m",     "max_range_m",
-          "bin_size_m"};
+  return {"centre_frequency_hz", "bandwidth_hz",   "range_resolution_m", "source_level_db",     "beams",
+          "field_of_view_deg",   "beam_width_deg", "azimuths_deg",       "elevations_deg",      "column_beam_width_deg",
+          "side_lobe_db",        "shading",        "transmit_width_deg", "elevation_width_deg", "elevation_deg",
+          "elevation_shape",     "min_range_m",    "max_range_m",        "bin_size_m",          "pulse",
+          "pulse_length_s",      "replica_window"};
 }
 
 std::vector<std::string> required_sonar_keys() {
@@ -159,7 +204,9 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
   if (const NumberKey* number = find_number_key(key)) {
     const double x = number_of(key, value);
     spec.*(number->field) = number->in_degrees ? radians(x) : x;
-    if (key == "field_of_view_deg") spec.azimuths.clear();
+    if (key == "field_of_view_deg") drop_table(spec);
+    if (key == "elevation_deg") spec.elevations.clear();
+    if (is_optional_width(key) && !(x > 0)) fail_value(key, value, "> 0; leave the key out if there is none");
   } else if (key == "range_resolution_m") {
     const double resolution = number_of(key, value);
     if (!(resolution > 0)) fail_value(key, value, "> 0");
@@ -172,8 +219,17 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
     set_shading(spec, value);
   } else if (key == "azimuths_deg") {
     set_azimuths(spec, value);
+  } else if (key == "elevations_deg") {
+    spec.elevation = 0;
+    spec.elevations = angles_of(key, value, 90, "a list of numbers within -90 and 90");
   } else if (key == "bin_size_m") {
     spec.bin_size = number_of(key, value);
+  } else if (key == "pulse") {
+    set_pulse(spec, value);
+  } else if (key == "pulse_length_s") {
+    spec.pulse_length = number_of(key, value);
+  } else if (key == "replica_window") {
+    set_replica_window(spec, value);
   } else {
     fail(ErrorKind::runtime, "set_sonar_key: no key '", key, "'");
   }
@@ -182,21 +238,25 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
 
 std::optional<std::string> sonar_key_text(const SonarSpec& spec, const std::string& key) {
   if (const NumberKey* number = find_number_key(key)) {
-    if (key == "field_of_view_deg" && !spec.azimuths.empty()) return std::nullopt;
     const double x = spec.*(number->field);
+    if (key == "field_of_view_deg" && !spec.azimuths.empty()) return std::nullopt;
+    if (key == "elevation_deg" && !spec.elevations.empty()) return std::nullopt;
+    if (is_optional_width(key) && x == 0) return std::nullopt;
     return text_of_number(number->in_degrees ? degrees_of(x) : x);
   }
   if (key == "beams" && spec.azimuths.empty()) return std::to_string(spec.beams);
   if (key == "bin_size_m" && spec.bin_size) return text_of_number(*spec.bin_size);
+  if (key == "pulse" && spec.pulse != PulseShape::gaussian)
+    return toml_text_of(std::string(pulse_shape_name(spec.pulse)));
+  if (key == "pulse_length_s" && spec.pulse_length) return text_of_number(*spec.pulse_length);
+  if (key == "replica_window" && spec.replica_window)
+    return toml_text_of(std::string(replica_window_name(*spec.replica_window)));
   if (key == "elevation_shape")
     for (const ShapeName& shape : shape_names)
       if (shape.shape == spec.elevation_shape) return toml_text_of(std::string(shape.name));
   if (key == "shading" && !is_default_shading(spec)) return toml_text_of(std::string(shading_name(shading_of(spec))));
-  if (key == "azimuths_deg" && !spec.azimuths.empty()) {
-    std::vector<double> list;
-    for (const double azimuth : spec.azimuths) list.push_back(degrees_of(azimuth));
-    return toml_text_of(list);
-  }
+  if (key == "azimuths_deg" && !spec.azimuths.empty()) return text_of_angles(spec.azimuths);
+  if (key == "elevations_deg" && !spec.elevations.empty()) return text_of_angles(spec.elevations);
   return std::nullopt;
 }
 

@@ -152,6 +152,7 @@ void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
   const Ping& ping = cube.pings.front();
   write_attribute(place, file, "beam_width", ping.fan.beam_width);
   write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
+  if (ping.fan.row_width > 0) write_attribute(place, file, "row_width", ping.fan.row_width);
   write_attribute(place, file, "min_range", ping.gate.min_range);
   write_attribute(place, file, "max_range", ping.gate.max_range);
   write_attribute(place, file, "bin_size", ping.gate.bin_size);

@@ -113,6 +113,16 @@ std::vector<double> cell_edges(const std::vector<double>& bearing, double gap, d
   return edges;
 }
 
+// How far apart bearings of one cell may be. A grid of rows has its beams one above another; of rows that are staggered,
+// or of a table without order, each cell takes in half a beam width.
+double cell_reach(const BeamFan& fan, const std::vector<double>& ascending_bearing) {
+  std::size_t distinct = 1;
+  for (std::size_t i = 1; i < ascending_bearing.size(); ++i)
+    distinct += ascending_bearing[i] - ascending_bearing[i - 1] > same_bearing;
+  const std::size_t rows = fan_rows(fan).size();
+  return rows == 1 || distinct * rows == fan.beams() ? same_bearing : std::max(same_bearing, fan.beam_width / 2);
+}
+
 }  // namespace
 
 void require_picture_size(const PictureOptions& options, const char* who) {
@@ -135,30 +145,41 @@ void require_drawable(const LevelImage& image, const PictureOptions& options, co
 
 BeamCells order_beams(const LevelImage& image) {
   const OrderedBearings ordered = order_bearings(image.fan);
-  std::vector<double> distinct;
-  std::vector<std::vector<std::size_t>> beams;  // of each distinct bearing
+  const double reach = cell_reach(image.fan, ordered.bearing);
+  std::vector<double> low, high;
+  std::vector<std::vector<std::size_t>> beams;  // of each cell
   for (std::size_t i = 0; i < ordered.beam.size(); ++i) {
-    if (distinct.empty() || ordered.bearing[i] - distinct.back() > same_bearing) {
-      distinct.push_back(ordered.bearing[i]);
+    if (low.empty() || ordered.bearing[i] - low.back() > reach) {
+      low.push_back(ordered.bearing[i]);
       beams.emplace_back();
     }
+    high.resize(low.size());
+    high.back() = ordered.bearing[i];
     beams.back().push_back(ordered.beam[i]);
   }
 
   BeamCells cells;
+  cells.elevations = fan_rows(image.fan).size();
+  std::vector<double> bearing;
+  for (std::size_t c = 0; c < low.size(); ++c)
+    bearing.push_back(high[c] - low[c] > same_bearing ? (low[c] + high[c]) / 2 : low[c]);
   const double lone_width = image.fan.beam_width > 0 ? std::min(image.fan.beam_width, 2 * pi) : radians(2);
-  cells.edges = cell_edges(distinct, ordered.gap, lone_width);
-  cells.level_db.resize(static_cast<Eigen::Index>(distinct.size()), image.level_db.cols());
-  parallel_for(distinct.size(), 0, [&](std::size_t cell) {
-    const auto row = static_cast<Eigen::Index>(cell);
-    if (beams[cell].size() == 1) {
-      cells.level_db.row(row) = image.level_db.row(static_cast<Eigen::Index>(beams[cell][0]));
-      return;
+  cells.edges = cell_edges(bearing, ordered.gap, lone_width);
+  cells.level_db.resize(static_cast<Eigen::Index>(bearing.size()), image.level_db.cols());
+  parallel_for(bearing.size(), 0, [&](std::size_t cell) {
+    auto row = cells.level_db.row(static_cast<Eigen::Index>(cell));
+    row = image.level_db.row(static_cast<Eigen::Index>(beams[cell][0]));
+    for (const std::size_t b : beams[cell]) {
+      const auto other = image.level_db.row(static_cast<Eigen::Index>(b));
+      row = (other > row || row.isNaN()).select(other, row);
     }
-    for (Eigen::Index bin = 0; bin < cells.level_db.cols(); ++bin)
-      cells.level_db(row, bin) = mean_power_db(image.level_db.col(bin)(beams[cell]));
   });
   return cells;
+}
+
+std::string unit_text(const std::string& unit, const BeamCells& cells) {
+  if (cells.elevations < 2) return unit;
+  return unit + ", strongest of " + std::to_string(cells.elevations) + " elevations";
 }
 
 std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate, double pixels_per_metre) {

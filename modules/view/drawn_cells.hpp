@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/grid.hpp"
@@ -19,16 +20,21 @@ void require_drawable(const LevelImage& image, const PictureOptions& options, co
 /// across the stern and full scans come out in one piece; bearings then ascend and may lie outside [-pi, pi].
 /// Beam b fills [edges[b], edges[b+1]]: edges halfway between neighbours, the outermost half a spacing
 /// beyond; a lone beam is as wide as fan.beam_width (2 degrees if that is 0). Beams of one bearing share a
-/// cell: their mean power.
+/// cell, which shows the strongest of them, range by range; of a fan with several elevations that is no grid,
+/// beams within half a beam width do.
 struct BeamCells {
-  std::vector<double> edges;  ///< beams + 1, ascending [rad]
-  Grid<float> level_db;       ///< beams x bins
+  std::vector<double> edges;   ///< beams + 1, ascending [rad]
+  Grid<float> level_db;        ///< beams x bins
+  std::size_t elevations = 1;  ///< different ones among the fan's beams
 
   double low() const { return edges.front(); }
   double high() const { return edges.back(); }
   double mean_width() const { return (high() - low()) / static_cast<double>(level_db.rows()); }
 };
 BeamCells order_beams(const LevelImage& image);
+
+/// The unit for the colour bar; says so if cells show the strongest of several elevations.
+std::string unit_text(const std::string& unit, const BeamCells& cells);
 
 /// A rectangle of cells in bearing and range, combined by mean power until none is much smaller than a pixel.
 struct CellPatch {

@@ -51,8 +51,8 @@ void show_fan(const LevelImage& image, const PictureOptions& options, const std:
 
   // Find a place for everything, then draw it.
   const VtkMessages messages;
-  const FanLayout layout =
-      lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale, image.unit);
+  const FanLayout layout = lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale,
+                                       unit_text(image.unit, cells));
   Canvas canvas(options, who);
   const double step = std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
   for (const CellPatch& patch : fan_patches(cells, image.gate, layout.pixels_per_metre))

@@ -11,8 +11,8 @@ namespace insonify {
 /// lives in `view` alone.
 ///
 /// A cell reaches halfway to its neighbours in azimuth, in whatever order the beams come; fans across the
-/// stern and full circles are one piece. Beams of equal azimuth are drawn as their mean power, whatever their
-/// elevation. Display product: cells smaller than half a pixel (more than two bins per pixel of radius, or
+/// stern and full circles are one piece. Of beams of one azimuth but several elevations the strongest is drawn, range
+/// by range, and the colour bar says so. Display product: cells smaller than half a pixel (more than two bins per pixel of radius, or
 /// beams near the apex) are combined with their neighbours by mean power first, so none vanishes by chance. A
 /// larger picture shows them singly. Two renderings of one image on one machine have the same bytes.
 ///

@@ -43,7 +43,8 @@ void show_rect(const LevelImage& image, const PictureOptions& options, const std
   const auto title = place_title(options);
   const double bottom = 0.8 * font + room_below(font);
   const double top = (title ? title->box().bottom : options.height) - font;
-  const ColourBar bar = upright_colour_bar(scale, image.unit, font, options.width - 0.8 * font, bottom, top);
+  const ColourBar bar =
+      upright_colour_bar(scale, unit_text(image.unit, cells), font, options.width - 0.8 * font, bottom, top);
   const AxisTicks ranges = round_ticks(min_range, max_range, std::min(10.0, (top - bottom) / (2.5 * font)));
   Axes axes{{0.8 * font + room_left(ranges, font), bar.bar.left - 1.2 * font, bottom, top},
             cells.low(),

@@ -79,6 +79,23 @@ TEST(HearScatterers, applies_the_elevation_pattern) {
   EXPECT_NEAR(ratio, std::sqrt(0.5), 1e-12);
 }
 
+TEST(HearScatterers, applies_the_transmit_pattern_in_azimuth) {
+  HearingOptions options = coherent;
+  options.transmit_width = 1.2;
+  const double ahead = std::abs(echo_of(one_scatterer(7), options));
+  EXPECT_EQ(ahead, std::abs(echo_of(one_scatterer(7), coherent)));
+  for (const double side : {-1, 1}) {
+    EXPECT_NEAR(std::abs(echo_of(one_scatterer(7, side * 0.6), options)) / ahead, std::sqrt(0.5), 1e-12);
+    EXPECT_NEAR(std::abs(echo_of(one_scatterer(7, side * 1.2), options)) / ahead, 0.25, 1e-12);
+  }
+}
+
+TEST(HearScatterers, tells_the_direction_cosine_upwards) {
+  const std::vector<Material> materials{{"m", 0.1}};
+  const Echoes e = hear_scatterers(one_scatterer(7.5, 0.3, -0.2), materials, pulse, medium, coherent);
+  EXPECT_DOUBLE_EQ(e.v[0], std::sin(-0.2));
+}
+
 TEST(HearScatterers, binds_speckle_to_the_scatterer_id_and_seed) {
   const HearingOptions speckle;
   const auto a = echo_of(one_scatterer(7, 0, 0, 5), speckle);
@@ -90,6 +107,35 @@ TEST(HearScatterers, binds_speckle_to_the_scatterer_id_and_seed) {
   // The same patch seen from elsewhere keeps its own amplitude: only geometry differs.
   const auto b = echo_of(one_scatterer(14, 0.2, 0.1, 5), speckle) / echo_of(one_scatterer(14, 0.2, 0.1, 5), coherent);
   EXPECT_LT(std::abs(b - a / echo_of(one_scatterer(7), coherent)), 1e-12);
+}
+
+TEST(HearScatterers, coherent_fraction_mixes_1_and_the_random_amplitude_at_mean_power_1) {
+  const auto xi = [](double fraction, SurfaceAmplitude law) {
+    const std::vector<Material> materials{{"m", 0.1, fraction, 0}};
+    HearingOptions options{.amplitude = law};
+    const auto echo = hear_scatterers(one_scatterer(7, 0, 0, 5), materials, pulse, medium, options).amplitude[0];
+    return echo / echo_of(one_scatterer(7), coherent);
+  };
+  for (const SurfaceAmplitude law : {SurfaceAmplitude::complex_normal, SurfaceAmplitude::random_phase}) {
+    const auto z = xi(0, law);
+    for (const double g : {0.25, 0.9})
+      EXPECT_LT(std::abs(xi(g, law) - (std::sqrt(g) + std::sqrt(1 - g) * z)), 1e-12) << g;
+    EXPECT_LT(std::abs(xi(1, law) - 1.0), 1e-15);
+  }
+  EXPECT_EQ(xi(0.5, SurfaceAmplitude::coherent), xi(0, SurfaceAmplitude::coherent));
+}
+
+TEST(HearScatterers, coherent_fraction_must_be_a_fraction) {
+  for (const double fraction : {-0.1, 1.1}) {
+    const std::vector<Material> materials{{"mud", 0.1, fraction, 0}};
+    try {
+      hear_scatterers(one_scatterer(7), materials, pulse, medium, coherent);
+      ADD_FAILURE() << "accepted " << fraction;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("hear_scatterers: coherent_fraction of material 'mud' = "));
+      EXPECT_THAT(error.what(), testing::HasSubstr(", must be within 0 and 1"));
+    }
+  }
 }
 
 TEST(HearScatterers, gives_silence_for_a_grazing_patch_without_dividing) {

@@ -94,6 +94,34 @@ TEST(MakeHead, takes_given_beams) {
   EXPECT_EQ(make_head(s, 1490).fan.azimuth, s.azimuths);
 }
 
+TEST(MakeHead, builds_rows_of_beams_and_the_column_of_a_planar_array) {
+  SonarSpec s = spec();
+  s.elevations = {-0.1, 0.05};
+  s.column_beam_width = radians(2);
+  s.transmit_width = 0.8;
+  s.side_lobe_db = -30;
+  const SonarHead head = make_head(s, 1490);
+  ASSERT_EQ(head.fan.beams(), 128U);
+  EXPECT_EQ(head.fan.elevation[63], -0.1);
+  EXPECT_EQ(head.fan.elevation[64], 0.05);
+  EXPECT_EQ(head.fan.azimuth[64], head.fan.azimuth[0]);
+  EXPECT_EQ(head.transmit_width, 0.8);
+  EXPECT_EQ(head.fan.row_width, radians(2));
+  EXPECT_NEAR(degrees(array_beam_width(*head.column, 1500 / 750e3)), 2, 0.02);
+  EXPECT_EQ(head.column->shading, taylor_shading(head.column->elements(), -30));
+  EXPECT_FALSE(make_head(spec(), 1490).column);
+}
+
+TEST(MakeHead, takes_a_table_of_beams) {
+  SonarSpec s = spec();
+  s.azimuths = {-0.3, 0.1, 0.15}, s.elevations = {0.1, 0.2, 0.1};
+  const SonarHead head = make_head(s, 1490);
+  EXPECT_EQ(head.fan.azimuth, s.azimuths);
+  EXPECT_EQ(head.fan.elevation, s.elevations);
+  s.elevations.pop_back();
+  expect_refused(s, "elevations_deg = 2 numbers, must be as many as the 3 of azimuths_deg");
+}
+
 TEST(MakeHead, names_key_value_unit_and_rule) {
   SonarSpec s = spec();
   s.max_range = 0.1;

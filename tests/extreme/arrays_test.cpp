@@ -118,15 +118,15 @@ TEST(ExtremeCase, n29_patterns_of_any_width_are_between_minus_1_and_1) {
       }
 }
 
-// 4096 scatterers in one bin and one direction: the sum is exact, for any number of threads.
+// 4096 scatterers in one bin and one direction: the sum keeps its tolerance, for any number of threads.
 TEST(ExtremeCase, n40_everything_in_one_place_adds_up) {
   const SonarHead head = single_beam({900e3, 29.5e3, 220}, 4, 6);
   const Scatterers targets = targets_at(std::vector<double>(4096, 5.0));
   const Echoes echoes = echoes_of(targets, head.pulse, clear_water());
-  const ComplexGrid one = synthesize_stamped(echoes, head, clear_water(), {.threads = 1});
+  const ComplexGrid one = synthesize_stamped(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = 1});
   EXPECT_NEAR(one.abs().maxCoeff(), 4096 * std::abs(echoes.amplitude[0]), 1e-11 * one.abs().maxCoeff());
   for (const int threads : {2, 5})
-    EXPECT_TRUE(same(synthesize_stamped(echoes, head, clear_water(), {.threads = threads}), one));
+    EXPECT_TRUE(same(synthesize_stamped(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = threads}), one));
 }
 
 TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_heard) {
@@ -152,7 +152,7 @@ TEST(ExtremeCase, n41_thousands_of_beams_are_what_each_is_alone) {
     SonarHead lone = head;
     lone.fan.azimuth = {head.fan.azimuth[static_cast<std::size_t>(b)]};
     lone.fan.elevation = {0};
-    EXPECT_TRUE(same(synthesize_stamped(echoes, lone, clear_water()), all.row(b))) << b;
+    EXPECT_LT(relative_l2(all.row(b), synthesize_direct(echoes, lone, clear_water())), 1e-4) << b;
   }
 }
 

@@ -82,7 +82,7 @@ inline SceneCloud plate(double x, double size, int n, const Eigen::Vector3d& nor
 
 inline SimulatedPing ping_of(const SceneCloud& scene, const SimulationOptions& options = {},
                              const SonarSpec& spec = small_sonar(), const Water& water = {}) {
-  return simulate_ping(scene, make_head(spec, sound_speed(water)), Pose::Identity(), water, options);
+  return simulate_ping(scene, make_head(spec, sound_speed(water)), Pose::Identity(), {water}, options);
 }
 
 inline ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<Complex>(); }

@@ -131,7 +131,7 @@ TEST(RandomParameters, every_ping_is_finite_or_refused) {
       const SceneCloud scene = any_scene(draw, head.gate, options.scatterers_per_cell > 0 ? 8 : 300);
       const Pose pose =
           pose_from_yaw_pitch_roll({0, 0, 0}, draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-4, 4));
-      const SimulatedPing p = simulate_ping(scene, head, pose, water, options);
+      const SimulatedPing p = simulate_ping(scene, head, pose, {water}, options);
       heard += p.ping.pressure.abs().maxCoeff() > 0;
       return all_finite(p);
     }));

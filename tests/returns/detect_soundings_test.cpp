@@ -101,6 +101,27 @@ TEST(DetectSoundings, lets_neighbouring_beams_name_their_own_scatterers) {
   EXPECT_EQ(s.material[1], 6U);
 }
 
+// Two rows of a planar array, 4 degrees apart, and a target in each at one range and bearing: each row names its own.
+TEST(DetectSoundings, of_a_planar_array_name_scatterers_of_their_own_row) {
+  Scene scene;
+  scene.ping.fan = {{0, 0}, {radians(-2), radians(2)}, radians(2), radians(40), radians(2)};
+  scene.ping.pressure = ComplexGridF::Zero(2, 100);
+  scene.scatterers = {}, scene.echoes = {};
+  scene.add(3.05, 0, radians(-2.3), 5);
+  scene.add(3.05, 0, radians(2.4), 6);
+  scene.echoes.amplitude.back() = 3;
+  scene.add(3.05, 0, radians(12), 7);  // far above both rows, and strongest
+  scene.echoes.amplitude.back() = 100;
+  scene.mark(0, 25, 100);
+  scene.mark(1, 25, 101);
+  const Soundings s = scene.detect();
+  ASSERT_EQ(s.size(), 2U);
+  EXPECT_EQ(s.material[0], 5U);
+  EXPECT_EQ(s.material[1], 6U);
+  EXPECT_NEAR(s.elevation[1], radians(2.4), 1e-6);
+  EXPECT_LT((s.position[1] - 3.05 * unit_vector({0, radians(2.4)})).norm(), 1e-9);
+}
+
 TEST(DetectSoundings, of_all_bins_keeps_the_flanks_too) {
   Scene scene;
   EXPECT_EQ(scene.detect({.all_bins = true, .above_db = 80}).size(), 6U);

@@ -64,7 +64,7 @@ TEST(BeamShares, tile_the_sector) {
        {make_fan(5, 1, 0.1, 0.3), irregular, make_fan(1, 1, 0.1, 0.3), make_fan(36, 2 * pi, 0.2, 0.3)}) {
     const Sector sector = insonified_sector(fan, 0.3);
     double sum = 0;
-    const auto shares = beam_shares(fan, sector, 0.3);
+    const auto shares = beam_shares(fan, sector);
     for (std::size_t b = 0; b < fan.beams(); ++b) {
       sum += shares[b].max_azimuth - shares[b].min_azimuth;
       const double off = std::remainder(fan.azimuth[b] - (shares[b].min_azimuth + shares[b].max_azimuth) / 2, 2 * pi);
@@ -76,9 +76,43 @@ TEST(BeamShares, tile_the_sector) {
 
 TEST(BeamShares, of_beams_in_a_column_share_its_elevations) {
   const BeamFan grid{{0, 0, 0.1, 0.1}, {-0.1, 0.1, -0.1, 0.1}, 0.1, 0.2};
-  const auto shares = beam_shares(grid, insonified_sector(grid, 0.2), 0.2);
+  const auto shares = beam_shares(grid, insonified_sector(grid, 0.2));
   EXPECT_NEAR(shares[0].min_elevation, -0.3, 1e-12);
   EXPECT_NEAR(shares[0].max_elevation, 0.0, 1e-12);
   EXPECT_NEAR(shares[1].max_elevation, 0.3, 1e-12);
   EXPECT_NEAR(shares[3].min_azimuth, 0.05, 1e-12);
+}
+
+// Rows whose beams stand between those of the next: every direction of the sector belongs to one beam all the same.
+TEST(BeamShares, of_staggered_rows_and_of_tables_tile_the_whole_sector) {
+  BeamFan staggered{{}, {}, 0.02, 0.02}, table = staggered;
+  for (int b = 0; b < 40; ++b) {
+    staggered.azimuth.push_back(0.01 * b), staggered.elevation.push_back(b % 2 ? 0.1 : -0.1);
+    table.azimuth.push_back(0.3 * std::sin(1.7 * b)), table.elevation.push_back(0.2 * std::cos(2.9 * b));
+  }
+  for (const BeamFan& fan : {staggered, table}) {
+    const Sector sector = insonified_sector(fan, 0.05);
+    double area = 0;
+    for (const BeamShare& share : beam_shares(fan, sector))
+      area += (share.max_azimuth - share.min_azimuth) * (share.max_elevation - share.min_elevation);
+    EXPECT_NEAR(area, (sector.max_azimuth - sector.min_azimuth) * (sector.max_elevation - sector.min_elevation), 1e-12);
+  }
+}
+
+TEST(Sector, of_several_rows_reaches_beyond_the_lowest_and_the_highest) {
+  const BeamFan rows{{0, 0.2, 0}, {-0.3, 0.1, 0.2}, 0.1, 0.2};
+  const Sector s = insonified_sector(rows, 0.05);
+  EXPECT_DOUBLE_EQ(s.min_elevation, -0.35);
+  EXPECT_DOUBLE_EQ(s.max_elevation, 0.25);
+}
+
+TEST(FanRows, gather_beams_of_one_elevation_by_ascending_elevation) {
+  const BeamFan fan{{0, 0.1, 0.2, 0.3, 0.4}, {0.5, -0.1, 0.5, -0.1, 0.2}, 0.1, 0.2};
+  const std::vector<FanRow> rows = fan_rows(fan);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].elevation, -0.1);
+  EXPECT_EQ(rows[0].beams, (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(rows[1].beams, (std::vector<std::size_t>{4}));
+  EXPECT_EQ(rows[2].beams, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(fan_rows(make_fan(7, 1, 0.1, 0.2, 0.3)).size(), 1U);
 }

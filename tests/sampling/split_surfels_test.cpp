@@ -44,6 +44,16 @@ TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell) {
   EXPECT_EQ(parts_of(1, 10, 0.5, {.scatterers_per_cell = 0}), 1u);
 }
 
+// A planar array at range 10 m, beams of 0.02 rad each way: its cross-section is 0.2 x 0.2 m, at 45 degrees still longer
+// than the cell; a beam only 0.005 rad high cuts the cell to a quarter.
+TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell_of_a_planar_array) {
+  SplitOptions options{.scatterers_per_cell = 10, .range_resolution = 0.02, .beam_width = 0.02, .row_width = 0.02};
+  EXPECT_EQ(parts_of(1, 10, std::sqrt(0.5), options), 1768u);
+  EXPECT_EQ(parts_of(0.1, 10, 1, options), 25u);
+  options.row_width = 0.005;
+  EXPECT_EQ(parts_of(0.25, 10, std::sqrt(0.5), options), 1768u);
+}
+
 TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {
   const SceneCloud scene = small_wall();
   const Scatterers whole = find_scatterers(scene, at(0, 0, 0), fan, gate, unsplit()).scatterers;

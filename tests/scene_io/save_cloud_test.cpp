@@ -14,7 +14,7 @@ namespace {
 SceneCloud scene_at(const Eigen::Vector3d& origin, bool oriented = true) {
   SceneCloud scene;
   scene.origin = origin;
-  scene.materials = {{"fine sand", 0.1 + 1e-17}, {"rock, grey", 1.0 / 30}, {"", 0}};
+  scene.materials = {{"fine sand", 0.1 + 1e-17}, {"rock, grey", 1.0 / 30, 0.1 + 1e-17, 1.0 / 3}, {"", 0}};
   scene.normals_oriented = oriented;
   for (int i = 0; i < 50; ++i) {
     scene.point.push_back({0.731f * static_cast<float>(i % 7) - 2.1f, 0.377f * static_cast<float>(i),
@@ -38,6 +38,8 @@ void expect_same_but_points(const LoadedScene& loaded, const SceneCloud& scene) 
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     EXPECT_EQ(loaded.scene.materials[m].name, scene.materials[m].name);
     EXPECT_EQ(loaded.scene.materials[m].lambert_mu, scene.materials[m].lambert_mu);
+    EXPECT_EQ(loaded.scene.materials[m].coherent_fraction, scene.materials[m].coherent_fraction);
+    EXPECT_EQ(loaded.scene.materials[m].relief_slope, scene.materials[m].relief_slope);
   }
   EXPECT_FALSE(loaded.report.normals_estimated);
   EXPECT_FALSE(loaded.report.areas_estimated);
@@ -86,6 +88,23 @@ TEST(SaveScene, a_pcd_gives_the_same_scene_back_and_opens_in_pcl) {
     EXPECT_EQ(cloud[i].getVector3fMap(), world(scene, i).cast<float>());
     EXPECT_EQ(Eigen::Vector3f(cloud[i].getNormalVector3fMap()), scene.normal[i]);
   }
+}
+
+TEST(SaveScene, scenes_without_relief_and_coherence_have_the_lines_they_always_had) {
+  SceneCloud scene = scene_at(Eigen::Vector3d::Zero());
+  const std::string with = temporary("with.ply"), without = temporary("without.ply");
+  save_scene(with, scene);
+  scene.materials[1] = {"rock, grey", 1.0 / 30};
+  save_scene(without, scene);
+  EXPECT_THAT(read_file(with),
+              ::testing::HasSubstr("comment insonify surface 1 0.10000000000000002 0.3333333333333333\n"));
+  EXPECT_THAT(read_file(with), ::testing::HasSubstr("comment insonify material 1 0.03333333333333333 rock, grey\n"));
+  EXPECT_THAT(read_file(without), ::testing::Not(::testing::HasSubstr("insonify surface")));
+  std::string damaged = read_file(with);
+  damaged.replace(damaged.find("surface 1"), 9, "surface 7");
+  const std::string path = write_file("damaged.ply", damaged);
+  expect_error(ErrorKind::content, {path, "cannot understand the comment line 'insonify surface 7"},
+               [&] { load_scene(path); });
 }
 
 TEST(SaveScene, unit_scales_a_saved_scene_too) {

@@ -35,7 +35,7 @@ SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector
   const Water water;
   const SonarHead head = make_head(small_sonar(), sound_speed(water));
   return simulate_ping(scene, head, pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0),
-                       water, options);
+                       {water}, options);
 }
 
 /// A flat bottom 3 m below a head at y, looking 15 degrees down.
@@ -43,7 +43,7 @@ SimulatedPing ping_plane(double y, const SimulationOptions& options) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 100000, .size = {30, 30}});
   const Water water;
   const SonarHead head = make_head(small_sonar(), sound_speed(water));
-  return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, y, 3}, 0, radians(15), 0), water, options);
+  return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, y, 3}, 0, radians(15), 0), {water}, options);
 }
 
 ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<std::complex<double>>(); }
@@ -103,7 +103,7 @@ TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {30, 30}});
   const Water water;
   const SonarHead head = make_head(small_sonar(), sound_speed(water));
-  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), water);
+  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), {water});
   ASSERT_GT(p.soundings.size(), 500U);
   std::vector<double> off;
   for (const auto& x : p.soundings.position) off.push_back(std::abs(x.z()));
@@ -118,7 +118,7 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
   const Water water;
   const SonarHead head = make_head(small_sonar(), sound_speed(water));
   const auto ping = [&](bool noise) {
-    return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), water,
+    return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water},
                          {.noise = noise});
   };
   const SimulatedPing p = ping(true);
@@ -130,7 +130,8 @@ TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const Water water;
   const SonarHead head = make_head(small_sonar(), sound_speed(water));
-  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), water);
+  const SimulatedPing p =
+      simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water});
   EXPECT_EQ(p.scatterers.size(), 0U);
   EXPECT_EQ(p.ping.pressure.abs().maxCoeff(), 0);
   EXPECT_EQ(p.soundings.size(), 0U);

@@ -113,6 +113,13 @@ TEST(CubeLayers, come_back_bit_for_bit_in_their_order) {
   }
 }
 
+TEST(Cube, keeps_the_row_width_of_a_planar_array) {
+  Cube cube = make_cube(1);
+  EXPECT_EQ(read_cube(write(cube, "line.h5")).pings[0].fan.row_width, 0);
+  cube.pings[0].fan.row_width = radians(2);
+  EXPECT_EQ(read_cube(write(cube)).pings[0].fan.row_width, radians(2));
+}
+
 TEST(CubeLayers, must_be_the_same_in_every_ping) {
   Cube cube = make_cube(2);
   cube.pings[1].layers = {{"noise", cube.pings[1].pressure}};

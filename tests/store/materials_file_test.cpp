@@ -1,5 +1,8 @@
 #include "store/materials_file.hpp"
 
+#include <limits>
+#include <tuple>
+
 #include "core/units.hpp"
 #include "store_testing.hpp"
 
@@ -13,7 +16,7 @@ std::string error_of_materials(const std::string& text) {
 }
 
 Material shipped(const std::string& name) {
-  for (const auto& m : load_materials(INSONIFY_DATA "/materials.toml"))
+  for (const auto& m : load_materials(INSONIFY_DATA "/materials.toml").materials)
     if (m.material.name == name) return m.material;
   ADD_FAILURE() << "no material " << name;
   return {};
@@ -25,7 +28,9 @@ TEST(Materials, are_read_with_their_origin) {
   const auto list = load_materials(own_file("m.toml",
                                             "schema = 1\n[[material]]\nname = \"mud\"\nlambert_mu_db = -20\nstatus = "
                                             "\"sourced\"\nsource = \"a paper\"\n"
-                                            "[[material]]\nname = \"weed\"\nlabel = 5\nlambert_mu_db = -30.0\n"));
+                                            "[[material]]\nname = \"weed\"\nlabel = 5\nlambert_mu_db = -30.0\n"
+                                            "coherent_fraction = 0.25\nrelief_slope = 0.1\n"))
+                        .materials;
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0].material.name, "mud");
   EXPECT_DOUBLE_EQ(list[0].material.lambert_mu, 0.01);
@@ -34,14 +39,69 @@ TEST(Materials, are_read_with_their_origin) {
   EXPECT_EQ(list[0].source, "a paper");
   EXPECT_EQ(list[1].label, 5);
   EXPECT_EQ(list[1].status, "user");
+  EXPECT_EQ(list[0].material.coherent_fraction, 0);
+  EXPECT_EQ(list[0].material.relief_slope, 0);
+  EXPECT_EQ(list[1].material.coherent_fraction, 0.25);
+  EXPECT_EQ(list[1].material.relief_slope, 0.1);
+}
+
+TEST(Materials, may_be_intervals_of_any_scalar_field) {
+  const MaterialTable table =
+      load_materials(own_file("m.toml",
+                              "schema = 1\nfield = \"Intensity\"\n"
+                              "[[material]]\nname = \"mud\"\nlambert_mu_db = -20\nto = 80\n"
+                              "[[material]]\nname = \"weed\"\nlambert_mu_db = -30\nlabel = 7\nfrom = 80\nto = 120.5\n"
+                              "[[material]]\nname = \"rock\"\nlambert_mu_db = -10\nfrom = 200\n"
+                              "[[material]]\nname = \"unused\"\nlambert_mu_db = -10\n"));
+  EXPECT_EQ(table.field.name, "Intensity");
+  ASSERT_EQ(table.field.intervals.size(), 3u);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double from[] = {-infinity, 80, 200}, to[] = {80, 120.5, infinity};
+  const std::uint16_t label[] = {0, 7, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(table.field.intervals[i].from, from[i]);
+    EXPECT_EQ(table.field.intervals[i].to, to[i]);
+    EXPECT_EQ(materials_by_label(table)[table.field.intervals[i].material].name, table.materials[i].material.name);
+    EXPECT_EQ(table.field.intervals[i].material, label[i]);
+  }
+  const MaterialTable shipped_table = load_materials(INSONIFY_DATA "/materials.toml");
+  EXPECT_EQ(shipped_table.field.name, "");
+  EXPECT_TRUE(shipped_table.field.intervals.empty());
+}
+
+TEST(Materials, refuse_intervals_that_overlap_or_hold_nothing) {
+  const auto two = [](const std::string& first, const std::string& second) {
+    return "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = -20\n" + first +
+           "\n[[material]]\nname = \"y\"\nlambert_mu_db = -20\n" + second + "\n";
+  };
+  EXPECT_EQ(error_of_materials(two("to = 10", "from = 9.5")),
+            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; a number means one "
+            "material");
+  EXPECT_EQ(error_of_materials(two("from = 4", "from = 3\nto = 3")),
+            "content: m.toml:9: from = 3 of 'y', must be below to = 3");
+  EXPECT_EQ(error_of_materials(two("from = nan", "")), "content: m.toml:5: from = nan of 'x', must be below to = inf");
+  EXPECT_EQ(error_of_materials(two("from = \"a\"", "")), "content: m.toml:5: from must be a number");
+  EXPECT_EQ(load_materials(own_file("touching.toml", two("to = 10", "from = 10"))).field.intervals.size(), 2u);
+}
+
+TEST(Materials, refuse_fractions_and_slopes_that_no_surface_has) {
+  const std::string start = "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = -20\n";
+  EXPECT_EQ(error_of_materials(start + "coherent_fraction = 1.5\n"),
+            "content: m.toml:5: coherent_fraction = 1.5, must be within 0 and 1");
+  EXPECT_EQ(error_of_materials(start + "coherent_fraction = -0.1\n"),
+            "content: m.toml:5: coherent_fraction = -0.1, must be within 0 and 1");
+  EXPECT_EQ(error_of_materials(start + "relief_slope = 20\n"),
+            "content: m.toml:5: relief_slope = 20, must be within 0 and 1 (rise over run, rms: 45 degrees)");
+  EXPECT_EQ(error_of_materials(start + "relief_slop = 0.1\n"),
+            "content: m.toml:5: unknown key 'relief_slop'; did you mean 'relief_slope'?");
 }
 
 TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
   const auto with = [](const std::string& db) {
     return "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = " + db + "\n";
   };
-  EXPECT_EQ(load_materials(own_file("m.toml", with("-inf")))[0].material.lambert_mu, 0);
-  EXPECT_EQ(load_materials(own_file("m.toml", with("-4.97")))[0].material.lambert_mu, 1 / pi);
+  EXPECT_EQ(load_materials(own_file("m.toml", with("-inf"))).materials[0].material.lambert_mu, 0);
+  EXPECT_EQ(load_materials(own_file("m.toml", with("-4.97"))).materials[0].material.lambert_mu, 1 / pi);
   EXPECT_EQ(error_of_materials(with("-4.9")),
             "content: m.toml:4: lambert_mu_db = -4.9 dB, must be at most -4.97 dB (1/pi: no surface sends "
             "back more "
@@ -95,7 +155,7 @@ TEST(Materials, refuse_a_label_or_name_given_twice) {
 }
 
 TEST(ShippedMaterials, start_with_the_default_and_have_a_source_each) {
-  const auto list = load_materials(INSONIFY_DATA "/materials.toml");
+  const auto list = load_materials(INSONIFY_DATA "/materials.toml").materials;
   EXPECT_GE(list.size(), 20u);
   EXPECT_EQ(list[0].label, 0);
   EXPECT_EQ(list[0].material.name, "default");
@@ -115,6 +175,11 @@ TEST(ShippedMaterials, hard_ones_are_bounded_by_their_reflectivity) {
   const double water = 1026 * 1500, steel = 7850 * 5900;
   const double r = (steel - water) / (steel + water);
   EXPECT_NEAR(db_from_power(shipped("steel").lambert_mu), db_from_power(r * r / pi), 0.02);
+  for (const auto& [name, density, speed] : {std::tuple("titanium", 4500, 6070), std::tuple("aluminium", 2700, 6320),
+                                             std::tuple("polyethylene", 950, 2400)}) {
+    const double z = 1.0 * density * speed, ratio = (z - water) / (z + water);
+    EXPECT_NEAR(db_from_power(shipped(name).lambert_mu), db_from_power(ratio * ratio / pi), 0.03) << name;
+  }
   EXPECT_NEAR(shipped("concrete").lambert_mu, 0.705 * 0.705 / pi, 3e-4);
   EXPECT_NEAR(shipped("pvc").lambert_mu, 0.362 * 0.362 / pi, 3e-4);
 }

@@ -47,6 +47,12 @@ void expect_same_bits(const SonarSpec& a, const SonarSpec& b) {
   EXPECT_EQ(a.max_range, b.max_range);
   EXPECT_EQ(a.bin_size, b.bin_size);
   EXPECT_EQ(a.azimuths, b.azimuths);
+  EXPECT_EQ(a.elevations, b.elevations);
+  EXPECT_EQ(a.column_beam_width, b.column_beam_width);
+  EXPECT_EQ(a.transmit_width, b.transmit_width);
+  EXPECT_EQ(a.pulse, b.pulse);
+  EXPECT_EQ(a.pulse_length, b.pulse_length);
+  EXPECT_EQ(a.replica_window, b.replica_window);
 }
 
 }  // namespace
@@ -240,6 +246,39 @@ TEST(SonarFile, shading_is_one_of_four_words) {
   EXPECT_EQ(numbers["shading"].status, "derived");
 }
 
+TEST(SonarFile, takes_a_sweep_with_its_length_and_window) {
+  const SonarSpec s = load(plain + "pulse = \"linear_fm\"\npulse_length_s = 2.1e-3\n").spec;
+  EXPECT_EQ(s.pulse, PulseShape::linear_fm);
+  EXPECT_EQ(s.pulse_length, 2.1e-3);
+  EXPECT_FALSE(s.replica_window.has_value());
+  expect_same_bits(load(sonar_as_toml(s)).spec, s);
+  for (const ReplicaWindow window : {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming}) {
+    SonarSpec other = s;
+    set_sonar_value(other, "replica_window", replica_window_name(window));
+    EXPECT_EQ(other.replica_window, window);
+    expect_same_bits(load(sonar_as_toml(other)).spec, other);
+  }
+  for (const char* key : {"pulse =", "pulse_length_s", "replica_window"})
+    EXPECT_EQ(sonar_as_toml(load(plain).spec).find(key), std::string::npos) << key;
+}
+
+TEST(SonarFile, refuses_halves_of_a_sweep_with_line) {
+  EXPECT_EQ(error_of_sonar(plain + "pulse = \"chirp\"\n"),
+            "content: s.toml:12: pulse = \"chirp\", must be gaussian or linear_fm");
+  EXPECT_EQ(error_of_sonar(plain + "pulse = \"linear_fm\"\npulse_length_s = \"long\"\n"),
+            "content: s.toml:13: pulse_length_s = \"long\", must be a number");
+  EXPECT_EQ(error_of_sonar(plain + "pulse = \"linear_fm\"\n"),
+            "content: s.toml:12: pulse = linear_fm, must come with pulse_length_s, the duration of the sweep");
+  EXPECT_EQ(error_of_sonar(plain + "pulse_length_s = 0.001\n"),
+            "content: s.toml:12: pulse_length_s = 0.001 s, must be left out for pulse gaussian, whose length follows "
+            "from its bandwidth; use pulse = \"linear_fm\"");
+  EXPECT_EQ(error_of_sonar(plain + "pulse = \"linear_fm\"\npulse_length_s = 0.001\nreplica_window = \"kaiser\"\n"),
+            "content: s.toml:14: replica_window = \"kaiser\", must be uniform, hann or hamming");
+  EXPECT_EQ(error_of_sonar(plain + "replica_window = \"hann\"\n"),
+            "content: s.toml:12: replica_window = hann, must be left out for pulse gaussian; use pulse = "
+            "\"linear_fm\"");
+}
+
 TEST(SonarFile, given_azimuths_survive_bit_for_bit) {
   SonarSpec spec = load(plain).spec;
   set_sonar_value(spec, "azimuths_deg", "[-33.3, -7.1, 0, 12.34567890123]");
@@ -250,6 +289,52 @@ TEST(SonarFile, given_azimuths_survive_bit_for_bit) {
   set_sonar_value(spec, "beam_width_deg", "2.5");
   EXPECT_EQ(spec.field_of_view, radians(2.5));
   expect_same_bits(load(sonar_as_toml(spec)).spec, spec);
+}
+
+TEST(SonarFile, takes_rows_of_beams_and_a_planar_array) {
+  const std::string text =
+      plain + "elevations_deg = [-10, 0.1, 20]\ncolumn_beam_width_deg = 3\ntransmit_width_deg = 70\n";
+  const SonarSpec s = load(text).spec;
+  EXPECT_EQ(s.elevations, (std::vector<double>{radians(-10), radians(0.1), radians(20)}));
+  EXPECT_EQ(s.column_beam_width, radians(3));
+  EXPECT_EQ(s.transmit_width, radians(70));
+  EXPECT_EQ(s.beams, 128u);
+  EXPECT_EQ(beams_of(s), 384u);
+  expect_same_bits(load(sonar_as_toml(s)).spec, s);
+  const SonarSpec line = load(plain).spec;
+  for (const char* key : {"elevations_deg", "column_beam_width_deg", "transmit_width_deg"})
+    EXPECT_EQ(sonar_as_toml(line).find(key), std::string::npos) << key;
+}
+
+TEST(SonarFile, takes_a_table_of_beams) {
+  const std::string text = replaced(plain, "beams = 128\nfield_of_view_deg = 90\n",
+                                    "azimuths_deg = [-20, 0, 30]\nelevations_deg = [1, -2, 3]\n");
+  const SonarSpec s = load(text).spec;
+  EXPECT_EQ(beams_of(s), 3u);
+  EXPECT_EQ(s.elevations, (std::vector<double>{radians(1), radians(-2), radians(3)}));
+  expect_same_bits(load(sonar_as_toml(s)).spec, s);
+  EXPECT_EQ(
+      error_of_sonar(replaced(text, "[1, -2, 3]", "[1, -2]")),
+      "content: s.toml:7: elevations_deg = 2 numbers, must be as many as the 3 of azimuths_deg, one for each beam");
+  EXPECT_EQ(error_of_sonar(replaced(text, "[1, -2, 3]", "[1, -2, 93]")),
+            "content: s.toml:7: elevations_deg = [1.0, -2.0, 93.0], must be a list of numbers within -90 and 90");
+  EXPECT_EQ(error_of_sonar(text + "elevation_deg = 3\n"),
+            "content: s.toml:12: elevation_deg follows from elevations_deg; leave it out");
+}
+
+TEST(SonarFile, refuses_widths_and_rows_that_make_no_array) {
+  EXPECT_EQ(error_of_sonar(plain + "column_beam_width_deg = 0\n"),
+            "content: s.toml:12: column_beam_width_deg = 0.0, must be > 0; leave the key out if there is none");
+  EXPECT_EQ(error_of_sonar(plain + "transmit_width_deg = -4\n"),
+            "content: s.toml:12: transmit_width_deg = -4.0, must be > 0; leave the key out if there is none");
+  EXPECT_EQ(
+      error_of_sonar(plain + "transmit_width_deg = 400\n"),
+      "content: s.toml:12: transmit_width_deg = 400 deg, must be > 0 and at most 360; leave it out for a transmitter "
+      "that fills the fan evenly");
+  std::string rows = "elevations_deg = [0";
+  for (int r = 0; r < 512; ++r) rows += ", 1";
+  EXPECT_EQ(error_of_sonar(plain + rows + "]\n"),
+            "content: s.toml:12: elevations_deg = 513 rows of 128 beams, must be at most 65536 beams in all");
 }
 
 TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
@@ -274,8 +359,14 @@ TEST(SetSonarValue, sets_every_key_that_files_know) {
   set_sonar_value(s, "min_range_m", "1");
   set_sonar_value(s, "max_range_m", "40");
   set_sonar_value(s, "bin_size_m", "2e-3");
+  set_sonar_value(s, "pulse", "linear_fm");
+  set_sonar_value(s, "pulse_length_s", "2e-3");
+  set_sonar_value(s, "replica_window", "uniform");
   set_sonar_value(s, "name", "other");
   EXPECT_EQ(s.name, "other");
+  EXPECT_EQ(s.pulse, PulseShape::linear_fm);
+  EXPECT_EQ(s.pulse_length, 2e-3);
+  EXPECT_EQ(s.replica_window, ReplicaWindow::uniform);
   EXPECT_EQ(s.centre_frequency, 700e3);
   EXPECT_EQ(s.bandwidth, 75e3);
   EXPECT_EQ(s.source_level_db, 215.5);
@@ -296,6 +387,15 @@ TEST(SetSonarValue, sets_every_key_that_files_know) {
   set_sonar_value(s, "beams", "16");  // an even fan again
   EXPECT_TRUE(s.azimuths.empty());
   EXPECT_EQ(s.beams, 16u);
+  set_sonar_value(s, "elevations_deg", "-1,1");
+  set_sonar_value(s, "beams", "32");  // rows stay rows
+  EXPECT_EQ(beams_of(s), 64u);
+  set_sonar_value(s, "elevation_deg", "7");  // one row again
+  EXPECT_EQ(beams_of(s), 32u);
+  set_sonar_value(s, "column_beam_width_deg", "4");
+  set_sonar_value(s, "transmit_width_deg", "80");
+  EXPECT_EQ(s.column_beam_width, radians(4));
+  EXPECT_EQ(s.transmit_width, radians(80));
 }
 
 TEST(SetSonarValue, names_the_nearest_key_and_the_rule) {

@@ -98,7 +98,7 @@ TEST(Presets, shade_their_array_except_the_thesis) {
 TEST(Presets, build_a_head_in_nominal_water) {
   for (const auto& sonar : list_sonars()) {
     const SonarHead head = make_head(sonar.spec, nominal_sound_speed);
-    EXPECT_EQ(head.fan.beams(), sonar.spec.beams) << sonar.spec.name;
+    EXPECT_EQ(head.fan.beams(), beams_of(sonar.spec)) << sonar.spec.name;
     EXPECT_GT(head.gate.bins(), 100u) << sonar.spec.name;
     EXPECT_LT(head.gate.bins(), 200000u) << sonar.spec.name;
   }

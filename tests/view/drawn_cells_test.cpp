@@ -87,14 +87,27 @@ TEST(BeamCells, a_lone_beam_is_as_wide_as_its_beam_width) {
   EXPECT_THAT(edges_deg(order_beams(image)), Pointwise(DoubleNear(1e-9), {-26.5, -23.5}));
 }
 
-// Levels 0 and 10 dB are powers 1 and 10: their mean is 5.5, or 7.4036 dB.
-TEST(BeamCells, beams_of_one_azimuth_share_a_cell_of_their_mean_power) {
+TEST(BeamCells, beams_of_one_azimuth_share_a_cell_that_shows_the_strongest) {
   LevelImage image = image_at({-10, 5, 5});
-  image.level_db.row(1) = 0;
-  image.level_db.row(2) = 10;
+  image.fan.elevation = {0, 0, 0.1};
+  image.level_db.row(1) << 0, 10, -200;
+  image.level_db.row(2) << 10, 0, -100;
   const BeamCells cells = order_beams(image);
   ASSERT_EQ(cells.level_db.rows(), 2);
-  EXPECT_NEAR(cells.level_db(0, 1), db_from_power(5.5), 1e-5);
+  EXPECT_THAT(std::vector<float>(cells.level_db.row(0).begin(), cells.level_db.row(0).end()),
+              ElementsAre(10, 10, -100));
+  EXPECT_EQ(unit_text("dB", cells), "dB, strongest of 2 elevations");
+  EXPECT_EQ(unit_text("dB", order_beams(image_at({-10, 5}))), "dB");
+}
+
+// Rows half a spacing aside from each other, beams 2 degrees wide: one cell for two beams, not stripes of either row.
+TEST(BeamCells, of_staggered_rows_take_in_half_a_beam_width) {
+  LevelImage image = image_at({-4, -3.5, -2, -1.5, 0, 0.5});
+  image.fan.beam_width = radians(2);
+  for (std::size_t b = 1; b < 6; b += 2) image.fan.elevation[b] = 0.1;
+  const BeamCells cells = order_beams(image);
+  EXPECT_THAT(first_levels(cells), ElementsAre(5, 3, 1));
+  EXPECT_THAT(edges_deg(cells), Pointwise(DoubleNear(1e-9), {-1.25, 0.75, 2.75, 4.75}));
 }
 
 TEST(FanPatches, of_cells_larger_than_pixels_hold_them_unchanged) {

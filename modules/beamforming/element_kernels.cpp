@@ -1,14 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beamforming/stamping_kernels_internal.hpp"
-
-// Sanitizers start after the loader has chosen a variant, and crash on it: they get the plain one.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define INSONIFY_CLONES
-#else
-#define INSONIFY_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#endif
+#include "beamforming/element_kernels_internal.hpp"
+#include "beamforming/target_clones_internal.hpp"
 
 namespace insonify::kernels {
 namespace {
@@ -46,15 +40,6 @@ void element_phases(double step, std::size_t elements, double* re, double* im) {
   for (std::size_t l = 0; m < elements; ++m, ++l) {
     re[m] = r[l];
     im[m] = i[l];
-  }
-}
-
-INSONIFY_CLONES
-void add_sample(double g_re, double g_im, const double* __restrict e_re, const double* __restrict e_im,
-                std::size_t elements, double* __restrict x_re, double* __restrict x_im) {
-  for (std::size_t m = 0; m < elements; ++m) {
-    x_re[m] += g_re * e_re[m] - g_im * e_im[m];
-    x_im[m] += g_re * e_im[m] + g_im * e_re[m];
   }
 }
 

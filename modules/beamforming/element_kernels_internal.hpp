@@ -8,10 +8,6 @@ namespace insonify::kernels {
 /// Phases exp(i step (m - (N-1)/2)) of the N elements for one echo, as two rows of N. Relative error below 1e-13.
 void element_phases(double step, std::size_t elements, double* re, double* im);
 
-/// One sample of one echo added to all elements: x += g e, complex, over N elements.
-void add_sample(double g_re, double g_im, const double* e_re, const double* e_im, std::size_t elements, double* x_re,
-                double* x_im);
-
 /// beam(n) = sum_m steering(m) x(m, n) for `bins` <= 64 samples; x is elements x stride, one row per element.
 void sum_elements(const double* s_re, const double* s_im, std::size_t elements, const double* x_re, const double* x_im,
                   std::size_t stride, std::size_t bins, double* beam_re, double* beam_im);

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+namespace insonify::thesis {
+
+struct FigureOptions {
+  std::string folder;
+  int width = 900, height = 675;  ///< of the charts [pixels]; images have five eighths of it
+};
+
+/// Draws figures 13 to 21 of the thesis, and three that explain them, as PNG files into the folder; prints the name of
+/// each, and the numbers read off them as lines of a markdown table.
+void draw_figures(const FigureOptions& options);
+
+}  // namespace insonify::thesis

@@ -1,0 +1,84 @@
+#include "thesis/run_times.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "beamforming/synthesize.hpp"
+#include "returns/compare.hpp"
+#include "thesis/scene.hpp"
+
+namespace insonify::thesis {
+namespace {
+
+/// The thesis' order of work as a plain loop in one thread: rays into columns, columns into beams (eq. 21 to 37 put
+/// right). It needs all rays of a column to have one azimuth, which no captured scene has.
+ComplexGrid plain_loop(const Echoes& echoes, const Case& which, const SonarHead& head) {
+  const std::size_t bins = head.gate.bins();
+  const double wavelength = speed_of_sound / head.pulse.centre_frequency;
+  ComplexGrid columns = ComplexGrid::Zero(which.beams, bins), beams = columns;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const EchoEnvelope pulse = echo_envelope(head.pulse, medium().absorption, 0.5 * speed_of_sound * echoes.delay[i]);
+    for (std::size_t n = 0; n < bins; ++n)
+      columns(i / which.rays, n) +=
+          echoes.amplitude[i] * pulse.at(2 * head.gate.centre(n) / speed_of_sound - echoes.delay[i]);
+  }
+  for (std::size_t b = 0; b < which.beams; ++b)
+    for (std::size_t column = 0; column < which.beams; ++column) {
+      const double u = echoes.u[column * which.rays];
+      const double weight = array_response(head.array, wavelength, u, std::sin(head.fan.azimuth[b]));
+      for (std::size_t n = 0; n < bins; ++n) beams(b, n) += weight * columns(column, n);
+    }
+  return beams;
+}
+
+struct Timing {
+  std::string median;
+  double seconds = 0;
+  ComplexGrid pressure;
+};
+
+/// The first run warms caches and is not counted; no more runs are begun after ten seconds.
+Timing time_runs(int runs, const std::function<ComplexGrid()>& run) {
+  Timing timing{{}, 0, run()};
+  std::vector<double> seconds;
+  double spent = 0;
+  for (int i = 0; i < runs && spent < 10; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    timing.pressure = run();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    spent += seconds.back();
+  }
+  std::sort(seconds.begin(), seconds.end());
+  timing.seconds = seconds[seconds.size() / 2];
+  timing.median = fmt::format("{:.3g} ms", 1e3 * timing.seconds);
+  return timing;
+}
+
+double thesis_seconds(std::size_t beams) { return beams == 51 ? 0.31 : beams == 101 ? 0.77 : 1.84; }
+
+}  // namespace
+
+void print_run_times(const std::vector<std::size_t>& beam_counts, int runs) {
+  fmt::print(
+      "\n| beams x rays | thesis, MATLAB | spectrum | direct | plain loop | stamped | its error | thesis / stamped |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  for (const std::size_t beams : beam_counts) {
+    const Case which{beams};
+    const Echoes echoes = hear_object(make_object(which));
+    const SonarHead head = make_sonar(beams, 18, default_bin_size(table_2_pulse(), speed_of_sound));
+    const Timing spectrum = time_runs(runs, [&] { return synthesize_spectrum(echoes, head, medium()); });
+    const Timing direct = time_runs(runs, [&] { return synthesize_direct(echoes, head, medium()); });
+    const Timing plain = time_runs(runs, [&] { return plain_loop(echoes, which, head); });
+    const Timing stamped = time_runs(runs, [&] { return synthesize_stamped(echoes, head, medium()); });
+    fmt::print("| {} x {} | {:.0f} ms | {} | {} | {} | {} | {:.1g} | {:.0f} |\n", beams, which.rays,
+               1e3 * thesis_seconds(beams), spectrum.median, direct.median, plain.median, stamped.median,
+               compare_images(stamped.pressure, direct.pressure).relative_l2, thesis_seconds(beams) / stamped.seconds);
+  }
+}
+
+}  // namespace insonify::thesis

@@ -1,0 +1,77 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "acoustics/hear_scatterers.hpp"
+#include "beamforming/sonar_head.hpp"
+#include "core/grid.hpp"
+#include "sampling/scatterers.hpp"
+
+// The simulation of chapter IV of A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval
+// Postgraduate School). The thesis describes its object in one sentence, "a matrix of diagonal lines in range-angle
+// space", equally separated, extending 1.5 m; ranges and period below are a reconstruction that gives its pictures.
+namespace insonify::thesis {
+
+constexpr double speed_of_sound = 1500;        ///< [m/s]
+constexpr double field_of_view = 45;           ///< of the BlueView P900-45 [deg]; the thesis does not state it
+constexpr double beam_width = 0.1;             ///< [rad], Table 2
+constexpr double ray_width = 0.0175;           ///< of a ray's cell in azimuth and elevation [rad]
+constexpr double lambert_mu = 1e-3;            ///< [1/sr]
+constexpr double first_range = 1.5;            ///< of the object [m]
+constexpr double object_depth = 1.5;           ///< [m]
+constexpr double printed_absorption = 0.0354;  ///< "dB/m at 900 kHz"
+
+/// Table 2. The spectrum of eq. 22 (put right) is exp(-(f - fc)^2 pi^2 / b^2) with b = 295 kHz: -3 dB width 110.6 kHz.
+Pulse table_2_pulse();
+
+/// 1500 m/s, absorption of sea water of 10 deg C by Francois and Garrison (E3).
+Medium medium();
+
+/// One of the three cases: columns of 21 rays, one column in each of 51, 101 or 256 beams.
+struct Case {
+  std::size_t beams = 51;
+  std::size_t rays = 21;
+  std::size_t period = 51;  ///< columns after which the diagonal lines begin again
+};
+
+/// The object: scatterer column x rays + ray.
+Scatterers make_object(const Case& which);
+
+/// Range [m] of ray 11 in column 26, where the thesis cuts its slices.
+double slice_range();
+
+/// Echoes of the object (E7) with complex-normal amplitudes from `seed`.
+Echoes hear_object(const Scatterers& object, std::uint64_t seed = 1);
+
+/// Echoes whose index passes `keep`.
+template <typename Keep>
+Echoes select(const Echoes& echoes, Keep keep) {
+  Echoes kept;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    if (!keep(i)) continue;
+    kept.delay.push_back(echoes.delay[i]);
+    kept.u.push_back(echoes.u[i]);
+    kept.amplitude.push_back(echoes.amplitude[i]);
+  }
+  return kept;
+}
+
+/// Uniform array of the length whose continuous line has the thesis' beam width: L = 0.442946 lambda / sin(0.05).
+/// 144 elements, a sixteenth of a wavelength apart, stand for the line; 18 are an array as built, half a wavelength.
+LineArray aperture(std::size_t elements);
+
+/// The sonar: beams from edge to edge of the field of view, a gate around the object.
+SonarHead make_sonar(std::size_t beams, std::size_t elements = 144, double bin_size = 1e-3);
+
+/// Every column heard alone, before beams are formed: columns x bins [Pa]. In the thesis' way: spectrum, then FFT.
+ComplexGrid hear_columns(const Echoes& echoes, const Case& which, const SonarHead& head);
+
+/// The highest sample of a series near `range` [m], and the top of the parabola through it and the levels beside it.
+struct Peak {
+  double sample_range = 0;  ///< [m]
+  double range = 0;         ///< [m]
+  double level_db = 0;      ///< dB re 1 uPa
+};
+Peak find_peak(const ComplexGrid& series, std::size_t row, const RangeGate& gate, double range, double within);
+
+}  // namespace insonify::thesis

@@ -1,0 +1,187 @@
+#include "acoustics/bend_paths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "acoustics/refraction_table.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t block = 4096;
+
+void require_valid_call(const char* who, const SoundSpeedProfile& profile, double head_depth, const Pose& pose) {
+  require_valid(profile, who);
+  if (!std::isfinite(head_depth)) fail(ErrorKind::argument, who, ": head_depth = ", head_depth, " m, must be finite");
+  if (!pose.matrix().allFinite()) fail(ErrorKind::argument, who, ": world_from_head must be finite");
+}
+
+double checked_range(const char* who, const Scatterers& s, std::size_t i) {
+  const double r = s.range[i];
+  if (!(r > 0) || !std::isfinite(r))
+    fail(ErrorKind::argument, who, ": range[", i, "] = ", r, " m, must be finite and > 0");
+  return r;
+}
+
+struct Interval {
+  double low = INFINITY, high = -INFINITY;
+  void add(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+};
+
+// Values of a cos(x) + b sin(x) for x within an interval.
+Interval wave_within(double a, double b, const Interval& x) {
+  Interval y;
+  const auto at = [&](double angle) { y.add(a * std::cos(angle) + b * std::sin(angle)); };
+  at(x.low);
+  at(x.high);
+  const double crest = std::atan2(b, a);
+  for (double extremum = crest - 4 * pi; extremum < 5 * pi; extremum += pi)
+    if (extremum > x.low && extremum < x.high) at(extremum);
+  return y;
+}
+
+/// The box of ranges and directions that holds all scatterers, and how far below the head they may be.
+struct Extent {
+  Interval range, azimuth, elevation;
+
+  explicit Extent(const Scatterers& s) {
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      range.add(checked_range("refraction_bound", s, i));
+      azimuth.add(s.azimuth[i]);
+      elevation.add(s.elevation[i]);
+    }
+  }
+  // Height per range is cos(elevation) (a cos(azimuth) + b sin(azimuth)) + c sin(elevation).
+  Interval depths(double head_depth, const Pose& pose) const {
+    const Eigen::RowVector3d up = pose.linear().row(2);
+    const Interval across = wave_within(up.x(), up.y(), azimuth);
+    Interval sine, depth;
+    for (const double a : {across.low, across.high}) {
+      const Interval part = wave_within(a, up.z(), elevation);
+      sine.add(part.low);
+      sine.add(part.high);
+    }
+    depth.add(head_depth);
+    for (const double s : {sine.low, sine.high}) depth.add(head_depth - range.high * s);
+    return depth;
+  }
+};
+
+/// Slowest and fastest sound, and the greatest gradient, within a span of depths.
+struct SpeedSpan {
+  double slowest, fastest, gradient = 0;
+
+  SpeedSpan(const SoundSpeedProfile& p, const Interval& depth) {
+    Interval speed;
+    speed.add(sound_speed_at(p, depth.low));
+    speed.add(sound_speed_at(p, depth.high));
+    for (std::size_t i = 0; i < p.depth.size(); ++i) {
+      if (p.depth[i] > depth.low && p.depth[i] < depth.high) speed.add(p.sound_speed[i]);
+      if (i > 0 && p.depth[i] > depth.low && p.depth[i - 1] < depth.high)
+        gradient =
+            std::max(gradient, std::abs(p.sound_speed[i] - p.sound_speed[i - 1]) / (p.depth[i] - p.depth[i - 1]));
+    }
+    slowest = speed.low;
+    fastest = speed.high;
+  }
+  // By Snell's law no ray that turns in it is steeper: so high it climbs at most over half of `way`.
+  double climb(double way) const { return 0.5 * way * std::sqrt((fastest / slowest - 1) * (fastest / slowest + 1)); }
+};
+
+struct Place {
+  double depth = 0, horizontal = 0;
+};
+
+Place place_of(const Pose& pose, double head_depth, double range, const Eigen::Vector3d& direction) {
+  const double up = pose.linear().row(2).dot(direction);
+  return {head_depth - range * up, range * std::sqrt(std::max((1 - up) * (1 + up), 0.0))};
+}
+
+DepthBox box_of(const std::vector<Place>& places) {
+  Interval depth, horizontal;
+  for (const Place& place : places) {
+    depth.add(place.depth);
+    horizontal.add(place.horizontal);
+  }
+  return {depth.low, depth.high, horizontal.low, horizontal.high, places.size()};
+}
+
+// The direction in head axes whose world elevation is that of `seen`, in the vertical plane through `direction`.
+Direction seen_direction(const Pose& pose, const Eigen::Vector3d& direction, const SeenPoint& seen) {
+  const Eigen::Vector3d world = pose.linear() * direction;
+  const double across = std::hypot(world.x(), world.y());
+  if (across == 0) return direction_of(direction);
+  const double stretch = seen.horizontal / across;
+  return direction_of(pose.linear().transpose() * Eigen::Vector3d(stretch * world.x(), stretch * world.y(), seen.up));
+}
+
+}  // namespace
+
+RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                                 const Scatterers& scatterers) {
+  require_valid_call("refraction_bound", profile, head_depth, world_from_head);
+  if (scatterers.size() == 0) return {};
+  const Extent extent(scatterers);
+  const Interval scene = extent.depths(head_depth, world_from_head);
+  const double far = extent.range.high;
+
+  // Depths that rays can reach: from those the whole profile would allow to what is left of them.
+  SpeedSpan span(profile, {-INFINITY, INFINITY});
+  for (int pass = 0; pass < 4; ++pass) {
+    const double climb = span.climb(far);
+    span = SpeedSpan(profile, {scene.low - climb, scene.high + climb});
+  }
+  if (span.fastest == span.slowest) return {};
+
+  // A ray is at least as long as the chord, its sound at most the fastest; one that turns has the invariant p with
+  // 1/p at most the fastest, and takes horizontal / (p c^2). (E43)
+  const double c = sound_speed_at(profile, head_depth);
+  const double early = 1 - c / span.fastest, late = c * span.fastest / (span.slowest * span.slowest) - 1;
+  // Somewhere a ray runs along its chord; on its way from there it turns by |gradient| dx / c at most.
+  const double snell = 2 * std::acos(span.slowest / span.fastest);
+  return {far * std::max(early, late), std::min(far * span.gradient / span.slowest, snell)};
+}
+
+std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, Scatterers& s,
+                       int threads) {
+  constexpr const char* who = "bend_paths";
+  require_valid_call(who, profile, head_depth, world_from_head);
+  for (std::size_t i = 0; i < s.size(); ++i) checked_range(who, s, i);
+  const RefractionBound bound = refraction_bound(profile, head_depth, world_from_head, s);
+  if (bound.range == 0 && bound.elevation == 0) return 0;
+
+  // Where the scatterers are, and the rays that get there.
+  std::vector<Place> places(s.size());
+  parallel_blocks(s.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      places[i] = place_of(world_from_head, head_depth, s.range[i], unit_vector({s.azimuth[i], s.elevation[i]}));
+  });
+  const RefractionTable table(profile, head_depth, box_of(places), threads);
+
+  std::atomic<std::size_t> silenced{0};
+  parallel_blocks(s.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto seen = table.see(places[i].depth, places[i].horizontal);
+      if (!seen) {
+        s.projected_area[i] = 0;
+        ++silenced;
+        continue;
+      }
+      const Direction direction = seen_direction(world_from_head, unit_vector({s.azimuth[i], s.elevation[i]}), *seen);
+      s.range[i] = seen->range;
+      s.azimuth[i] = direction.azimuth;
+      s.elevation[i] = direction.elevation;
+    }
+  });
+  return silenced;
+}
+
+}  // namespace insonify

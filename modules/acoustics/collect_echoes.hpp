@@ -1,0 +1,52 @@
+#pragma once
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "acoustics/echoes.hpp"
+#include "core/parallel.hpp"
+
+namespace insonify {
+
+inline void add_echo(Echoes& echoes, double delay, double u, double v, std::complex<double> amplitude) {
+  echoes.delay.push_back(delay);
+  echoes.u.push_back(u);
+  echoes.v.push_back(v);
+  echoes.amplitude.push_back(amplitude);
+}
+
+/// Adds the echoes of all parts, in order; frees the parts on the way.
+inline void join_echoes(std::vector<Echoes>&& parts, Echoes& all) {
+  if (parts.size() == 1 && all.size() == 0) {
+    all = std::move(parts[0]);
+    return;
+  }
+  std::size_t total = all.size();
+  for (const Echoes& part : parts) total += part.size();
+  const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  all.delay.reserve(total);
+  all.u.reserve(total);
+  all.v.reserve(total);
+  all.amplitude.reserve(total);
+  for (Echoes& part : parts) {
+    append(all.delay, part.delay);
+    append(all.u, part.u);
+    append(all.v, part.v);
+    append(all.amplitude, part.amplitude);
+    part = {};
+  }
+}
+
+/// Calls body(begin, end, echoes) for blocks that tile [0, n), each with echoes of its own to add to; joined in order,
+/// so that the result does not depend on `threads`.
+template <typename Body>
+Echoes collect_echoes(std::size_t n, std::size_t block, int threads, Body&& body) {
+  std::vector<Echoes> parts((n + block - 1) / block);
+  parallel_blocks(n, block, threads,
+                  [&](std::size_t begin, std::size_t end) { body(begin, end, parts[begin / block]); });
+  Echoes all;
+  join_echoes(std::move(parts), all);
+  return all;
+}
+
+}  // namespace insonify

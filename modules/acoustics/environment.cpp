@@ -1,0 +1,72 @@
+#include "acoustics/environment.hpp"
+
+#include <cmath>
+
+#include "acoustics/noise.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+void require(bool holds, const char* who, const char* key, double value, const char* unit, const char* rule) {
+  if (!holds) fail(ErrorKind::argument, who, ": ", key, " = ", value, *unit ? " " : "", unit, ", must be ", rule);
+}
+
+void require_valid(const SeaSurface& s, const char* who) {
+  const double rms = s.rms_height.value_or(0), strength = s.scattering_strength_db.value_or(0);
+  require(std::isfinite(s.height), who, "surface.height", s.height, "m", "finite");
+  require(rms >= 0 && std::isfinite(rms), who, "surface.rms_height", rms, "m", "finite and >= 0");
+  require(strength <= 10 && std::isfinite(strength), who, "surface.scattering_strength_db", strength, "dB",
+          "finite and at most 10");
+}
+
+void require_valid(const FlatBottom& b, const char* who) {
+  const double mu = b.lambert_mu.value_or(0);
+  require(std::isfinite(b.height), who, "bottom.height", b.height, "m", "finite");
+  require(b.density_ratio > 0 && b.density_ratio < 100, who, "bottom.density_ratio", b.density_ratio, "",
+          "> 0 and below 100");
+  require(b.sound_speed_ratio > 0 && b.sound_speed_ratio < 100, who, "bottom.sound_speed_ratio", b.sound_speed_ratio,
+          "", "> 0 and below 100");
+  require(b.loss >= 0 && b.loss < 1, who, "bottom.loss", b.loss, "", ">= 0 and below 1");
+  require(b.rms_height >= 0 && std::isfinite(b.rms_height), who, "bottom.rms_height", b.rms_height, "m",
+          "finite and >= 0");
+  require(mu >= 0 && mu <= 1 / pi, who, "bottom.lambert_mu", mu, "1/sr", "within 0 and 1/pi");
+}
+
+}  // namespace
+
+void require_valid(const Environment& e, const char* who) {
+  require_valid(e.water, who);
+  if (e.profile) require_valid(*e.profile, who);
+  if (e.surface) require_valid(*e.surface, who);
+  if (e.bottom) require_valid(*e.bottom, who);
+  if (e.surface && e.bottom && !(e.bottom->height < e.surface->height))
+    fail(ErrorKind::argument, who, ": bottom.height = ", e.bottom->height,
+         " m, must be below surface.height = ", e.surface->height, " m");
+  const double volume = e.volume_scattering_db.value_or(-70), self = e.self_noise_db.value_or(0);
+  const double wind = e.wind_speed.value_or(0);
+  require(volume <= 0 && std::isfinite(volume), who, "volume.scattering_db", volume, "dB", "finite and at most 0");
+  require(wind >= 0 && wind <= 100, who, "wind_speed", wind, "m/s", "within 0 and 100");
+  require(std::abs(self) <= 400, who, "self_noise_db", self, "dB re 1 uPa^2/Hz", "within -400 and 400");
+}
+
+Medium medium_of(const Environment& e, double centre_frequency, int absorption_order) {
+  Medium medium = medium_of(e.water, centre_frequency, absorption_order, e.absorption_formula);
+  medium.sound_speed =
+      e.profile ? sound_speed_at(*e.profile, e.water.depth) : sound_speed(e.water, e.sound_speed_formula);
+  return medium;
+}
+
+double element_noise_level_db(const Environment& e, const Pulse& pulse) {
+  require_valid(e, "element_noise_level_db");
+  const double thermal_db = thermal_noise_level_db(pulse), f = pulse.centre_frequency;
+  if (!e.wind_speed && !e.self_noise_db) return thermal_db;
+  const double band_db = thermal_db - thermal_noise_spectrum_level_db(f);
+  double power = power_from_db(thermal_db);
+  if (e.wind_speed) power += power_from_db(wind_noise_spectrum_level_db(f, *e.wind_speed) + band_db);
+  if (e.self_noise_db) power += power_from_db(*e.self_noise_db + band_db);
+  return db_from_power(power);
+}
+
+}  // namespace insonify

@@ -1,0 +1,53 @@
+#pragma once
+#include <optional>
+
+#include "acoustics/pulse.hpp"
+#include "acoustics/sound_speed_profile.hpp"
+#include "acoustics/water.hpp"
+
+namespace insonify {
+
+/// The sea surface: a plane in the world, with waves on it.
+struct SeaSurface {
+  double height = 0;                   ///< world z [m]
+  std::optional<double> rms_height{};  ///< of the waves [m]; absent: of a fully developed sea in the wind
+  /// Backscatter [dB re 1 m^2 per m^2]; absent: no reverberation from it.
+  std::optional<double> scattering_strength_db{};
+};
+
+/// A flat sea bed below what was captured, or instead of it. Defaults: medium sand of the APL-UW handbook (1994).
+struct FlatBottom {
+  double height = 0;                   ///< world z [m]
+  double density_ratio = 1.845;        ///< sediment to water
+  double sound_speed_ratio = 1.1782;   ///< sediment to water
+  double loss = 0.01624;               ///< imaginary to real part of the wavenumber in the sediment
+  double rms_height = 0;               ///< of its relief [m]
+  std::optional<double> lambert_mu{};  ///< [1/sr]; absent: no reverberation from it
+};
+
+/// Everything around head and scene. What is absent has no effect and costs nothing.
+struct Environment {
+  Water water;
+  SoundSpeedFormula sound_speed_formula = SoundSpeedFormula::unesco;
+  AbsorptionFormula absorption_formula = AbsorptionFormula::francois_garrison;
+  std::optional<SoundSpeedProfile> profile{};  ///< absent: one sound speed everywhere, straight rays
+  std::optional<SeaSurface> surface{};
+  std::optional<FlatBottom> bottom{};
+  std::optional<double> volume_scattering_db{};  ///< backscatter of the water itself [dB re 1 m^2 per m^3]
+  std::optional<double> wind_speed{};            ///< 10 m above the sea [m/s]: waves and noise; absent: neither
+  std::optional<double> self_noise_db{};         ///< spectrum level of platform and electronics at an element
+                                                 ///< [dB re 1 uPa^2/Hz]
+};
+
+/// Throws Error naming the value, its unit and its rule.
+void require_valid(const Environment& environment, const char* who);
+
+/// Medium at the head for a pulse about `centre_frequency` [Hz]; where a profile is given, its sound speed at the
+/// depth water.depth.
+Medium medium_of(const Environment& environment, double centre_frequency, int absorption_order = 0);
+
+/// Level of all noise at one element in the pulse's band [dB re 1 uPa]: thermal (E18), with the wind's (E25) and the
+/// platform's own where given. Throws Error for an invalid pulse or environment.
+double element_noise_level_db(const Environment& environment, const Pulse& pulse);
+
+}  // namespace insonify

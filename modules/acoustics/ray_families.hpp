@@ -1,0 +1,84 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "acoustics/sound_speed_profile.hpp"
+
+/// Rays through layers of constant gradient, named by their steepness. With c_m the highest sound speed between the
+/// two ends, a ray of steepness Q (square of the tangent of its slope where sound speed is c_m) has at sound speed c
+/// the sine sqrt(Q + delta) / sqrt(1 + Q), delta = (c_m - c)(c_m + c) / c_m^2: no cancellation however flat the ray.
+namespace insonify {
+
+/// Part of a layer that a ray crosses from one end to the other.
+struct LayerCrossing {
+  double height = 0;      ///< [m]
+  double gradient = 0;    ///< absolute [1/s]
+  double root_speed = 0;  ///< geometric mean of the sound speeds at its ends
+  double reach = 0;       ///< height (c_1 + c_2) / c_m
+  double delta_1 = 0, delta_2 = 0;
+  double horizontal(double steepness) const;
+};
+
+/// Where rays that leave through one end turn: within one layer, behind some crossings of that side.
+struct TurningInterval {
+  double steepness_min = 0, steepness_max = 0;
+  std::size_t crossings = 0;  ///< how many of the side lie before the turning layer
+  double delta = 0;           ///< where the turning layer begins
+  double gradient = 0;        ///< absolute, of the turning layer [1/s]
+  double speed = 0;           ///< where the turning layer begins [m/s]
+};
+
+/// All that lies above the upper end, or below the lower one.
+struct RaySide {
+  std::vector<LayerCrossing> crossings;  ///< outwards
+  std::vector<TurningInterval> turning;  ///< by rising steepness
+};
+
+/// How often a ray of a family runs through the water between its ends, and turns above and below it.
+struct RayFamily {
+  int between = 1, above = 0, below = 0;
+  const TurningInterval* turn_above = nullptr;
+  const TurningInterval* turn_below = nullptr;
+};
+
+/// The water around two depths, upper <= lower, for rays that go at most `horizontal` far.
+class RayWater {
+ public:
+  RayWater(const SoundSpeedProfile& profile, double upper, double lower, double horizontal);
+
+  const RaySide& above() const { return above_; }
+  const RaySide& below() const { return below_; }
+  bool has_between() const { return !between_.empty(); }
+
+  /// How far a ray of `steepness` gets.
+  double horizontal(const RayFamily& family, double steepness) const {
+    return horizontal(family, steepness, steepness);
+  }
+  /// The same with crossings, that shrink with steepness, and turns, that grow with it, at a steepness of their own: with
+  /// the ends of an interval a bound over it.
+  double horizontal(const RayFamily& family, double crossing_steepness, double turning_steepness) const;
+  /// Steepness of the ray that runs straight from end to end and gets `horizontal` far; none if none gets so far.
+  std::optional<double> direct_steepness(double horizontal) const;
+  /// Time along the chords of its arcs, these stretched to end exactly at `horizontal`: by Fermat's principle an error
+  /// of `steepness` enters squared.
+  double travel_time(const RayFamily& family, double steepness, double horizontal) const;
+  /// Tangents of its slope at both ends, not negative.
+  double tangent_upper(double steepness) const;
+  double tangent_lower(double steepness) const;
+
+ private:
+  double delta(double speed) const { return (highest_ - speed) * (highest_ + speed) / (highest_ * highest_); }
+  void add_crossing(std::vector<LayerCrossing>& list, double height, double speed_1, double speed_2) const;
+  RaySide side(const SoundSpeedProfile& profile, double from, int step, double horizontal) const;
+
+  double highest_ = 0;  ///< c_m [m/s]
+  double speed_upper_ = 0, speed_lower_ = 0;
+  std::vector<LayerCrossing> between_;
+  RaySide above_, below_;
+};
+
+/// Travel time [s] of the arc over a chord [m] in water of constant absolute gradient [1/s] (E43); `root_speed` is the
+/// geometric mean of the sound speeds at its ends.
+double arc_time(double chord, double gradient, double root_speed);
+
+}  // namespace insonify

@@ -1,0 +1,32 @@
+#pragma once
+#include <complex>
+
+#include "acoustics/environment.hpp"
+
+namespace insonify {
+
+/// Plane-wave pressure reflection coefficient of a fluid sediment that absorbs (Rayleigh, E45) at `grazing` [rad].
+///
+///   R = (m sin g - q) / (m sin g + q),  q = sqrt(n^2 - cos^2 g),  n = (1 + i loss) / sound_speed_ratio
+///
+/// with m the density ratio. Never more than 1 in size; -1 at grazing 0, unless the sediment is as fast as water and
+/// without loss. Shear waves, layers and grains that are not small against the wavelength are left out: sand and mud.
+/// Throws Error unless 0 <= grazing <= pi / 2.
+std::complex<double> bottom_reflection(const FlatBottom& bottom, double grazing);
+
+/// Rms height of the waves of a fully developed sea [m] (E46): 0.00561 s^2/m U^2 with U the wind speed [m/s] 10 m above
+/// the sea. From the spectrum of Pierson and Moskowitz (1964), a = 0.0081, b = 0.74, U19 the wind at 19.5 m:
+/// h = sqrt(a / b) U19^2 / (2 g), which is H_s = 4 h = 0.21 U19^2 / g; U19 = 1.026 U as Stewart, Introduction to
+/// Physical Oceanography, ch. 16, takes it. Long swell from elsewhere is not in it, and a sea of short fetch is lower.
+/// Throws Error unless wind_speed is finite and >= 0.
+double rms_wave_height(double wind_speed);
+
+/// Rms height of the waves on `surface`: its own, or that of the environment's wind, or 0.
+double rms_wave_height(const Environment& environment);
+
+/// What is left of the amplitude of a mirror's coherent reflection on relief of `rms_height` [m] (Eckart 1953, E47):
+/// exp(-2 (k h sin g)^2), k the wavenumber [rad/m]. Heights are normally distributed and slopes gentle; what is lost
+/// here is scattered, not absorbed.
+double coherent_reflection_loss(double wavenumber, double rms_height, double grazing);
+
+}  // namespace insonify

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+namespace insonify {
+
+/// Sound speed against depth: linear between neighbouring entries, constant beyond the outermost ones.
+struct SoundSpeedProfile {
+  std::vector<double> depth;        ///< [m], positive down, strictly ascending
+  std::vector<double> sound_speed;  ///< [m/s]
+};
+
+/// Throws Error unless there is an entry, both columns have one length, depths are finite and ascend strictly and
+/// speeds lie within 1300 and 1700 m/s. The message names the entry.
+void require_valid(const SoundSpeedProfile& profile, const char* who);
+
+/// Sound speed at `depth` [m] (E42). The profile must be valid, the depth finite (not checked: it is called often).
+double sound_speed_at(const SoundSpeedProfile& profile, double depth);
+
+}  // namespace insonify

@@ -1,0 +1,83 @@
+#pragma once
+#include <algorithm>
+#include <complex>
+#include <cstddef>
+#include <new>
+
+#include <fftw3.h>
+
+namespace insonify {
+
+/// FFTW for one precision, under one set of names.
+template <typename Real>
+struct Fftw;
+
+template <>
+struct Fftw<double> {
+  using Plan = fftw_plan;
+  static void destroy(Plan plan) { fftw_destroy_plan(plan); }
+  static Plan make(int n, int batch, std::complex<double>* room, int sign) {
+    auto* raw = reinterpret_cast<fftw_complex*>(room);
+    return fftw_plan_many_dft(1, &n, batch, raw, nullptr, batch, 1, raw, nullptr, batch, 1, sign, FFTW_ESTIMATE);
+  }
+  static void run(Plan plan, std::complex<double>* data) {
+    auto* raw = reinterpret_cast<fftw_complex*>(data);
+    fftw_execute_dft(plan, raw, raw);
+  }
+  static void* allocate(std::size_t bytes) { return fftw_malloc(bytes); }
+  static void release(void* p) { fftw_free(p); }
+};
+
+template <>
+struct Fftw<float> {
+  using Plan = fftwf_plan;
+  static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
+  static Plan make(int n, int batch, std::complex<float>* room, int sign) {
+    auto* raw = reinterpret_cast<fftwf_complex*>(room);
+    return fftwf_plan_many_dft(1, &n, batch, raw, nullptr, batch, 1, raw, nullptr, batch, 1, sign, FFTW_ESTIMATE);
+  }
+  static void run(Plan plan, std::complex<float>* data) {
+    auto* raw = reinterpret_cast<fftwf_complex*>(data);
+    fftwf_execute_dft(plan, raw, raw);
+  }
+  static void* allocate(std::size_t bytes) { return fftwf_malloc(bytes); }
+  static void release(void* p) { fftwf_free(p); }
+};
+
+/// An array aligned as FFTW wants it.
+template <typename T, typename Real>
+class AlignedArray {
+ public:
+  explicit AlignedArray(std::size_t n) : size_(n), data_(static_cast<T*>(Fftw<Real>::allocate(n * sizeof(T)))) {
+    if (!data_) throw std::bad_alloc();
+    clear();
+  }
+  ~AlignedArray() { Fftw<Real>::release(data_); }
+  AlignedArray(const AlignedArray&) = delete;
+  AlignedArray& operator=(const AlignedArray&) = delete;
+  T* data() { return data_; }
+  T& operator[](std::size_t i) { return data_[i]; }
+  void clear() { std::fill_n(data_, size_, T{}); }
+
+ private:
+  std::size_t size_;
+  T* data_;
+};
+
+/// FFT of length n of `batch` series at once, in place; entry k of series s stands at k * batch + s. Plans are ESTIMATE,
+/// so that bits do not depend on timing.
+template <typename Real>
+class FftAlongRows {
+ public:
+  FftAlongRows(std::size_t n, std::size_t batch, int sign);
+  ~FftAlongRows();
+  FftAlongRows(const FftAlongRows&) = delete;
+  FftAlongRows& operator=(const FftAlongRows&) = delete;
+  /// `data` from AlignedArray; may run from several threads at once.
+  void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data); }
+
+ private:
+  typename Fftw<Real>::Plan plan_;
+};
+
+}  // namespace insonify

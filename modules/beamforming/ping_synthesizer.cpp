@@ -1,0 +1,95 @@
+#include "beamforming/ping_synthesizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "beamforming/require_synthesis_internal.hpp"
+#include "beamforming/spread_synthesis_internal.hpp"
+#include "core/error.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double finest = 1e-13;
+/// So few echoes cost the direct sum no more than the transforms of the bins they touch; and it is exact.
+constexpr std::size_t few = 2;
+/// Errors of the kernel and of rounding go into all beams alike, so what a kernel may do is the tolerance times the share
+/// of the stamped energy that beams hear. From here on single precision is good enough for that.
+constexpr double single_precision_from = 2e-6;
+/// The finest kernel there is.
+constexpr double finest_kernel = 1e-15;
+
+/// Share that an echo in the fan has in the image (see SpreadImage): the pattern's mean square over the fan's span.
+double expected_share(const SonarHead& head, double wavelength) {
+  const std::vector<double> u = beam_cosines(head.fan);
+  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+  double squares = 0;
+  for (const double w : head.array.shading) squares += w * w;
+  const auto n = static_cast<double>(head.array.elements());
+  const double lobe = wavelength / head.array.spacing * squares / (n * n);  // integral of the pattern squared over u
+  return std::sqrt(lobe / std::max(*high - *low, lobe));
+}
+
+}  // namespace
+
+/// Either precision of the same synthesis, good for images with a share of at least half of `share`.
+struct PingSynthesizer::Plan {
+  SonarHead head;
+  Medium medium;
+  SynthesisOptions options;
+  double share;
+  std::unique_ptr<SpreadSynthesis<float>> in_single;
+  std::unique_ptr<SpreadSynthesis<double>> in_double;
+
+  Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in, double share_in)
+      : head(head_in), medium(medium_in), options(options_in), share(share_in) {
+    const double kernel_tolerance = options.tolerance * share;
+    if (kernel_tolerance >= single_precision_from)
+      in_single = std::make_unique<SpreadSynthesis<float>>(head, medium, options, kernel_tolerance);
+    else
+      in_double = std::make_unique<SpreadSynthesis<double>>(head, medium, options, kernel_tolerance);
+  }
+  SpreadImage image(const Echoes& echoes) const {
+    return in_single ? in_single->image(echoes) : in_double->image(echoes);
+  }
+};
+
+PingSynthesizer::PingSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
+  require_synthesis({}, head, medium, options, "PingSynthesizer");
+  require_one_row(head, "PingSynthesizer");
+  if (!(options.tolerance >= finest))
+    fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ", finest,
+         "; below that use the direct method");
+  plan_ = std::make_unique<Plan>(head, medium, options,
+                                 expected_share(head, medium.sound_speed / head.pulse.centre_frequency));
+}
+
+PingSynthesizer::~PingSynthesizer() = default;
+PingSynthesizer::PingSynthesizer(PingSynthesizer&&) noexcept = default;
+PingSynthesizer& PingSynthesizer::operator=(PingSynthesizer&&) noexcept = default;
+
+const SynthesisChoice& PingSynthesizer::choice() const {
+  return plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();
+}
+
+ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
+  const Plan& plan = *plan_;
+  require_synthesis(echoes, plan.head, plan.medium, plan.options, "PingSynthesizer");
+  if (echoes.size() <= few) return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
+  SpreadImage image = plan.image(echoes);
+  if (image.share >= 0.5 * plan.share) return std::move(image.pressure);
+  // So little is heard of so much that the errors weigh: once more with as many digits as it takes.
+  if (plan.options.tolerance * image.share < finest_kernel)
+    return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
+  return Plan(plan.head, plan.medium, plan.options, image.share).image(echoes).pressure;
+}
+
+ComplexGrid synthesize_stamped(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                               const SynthesisOptions& options) {
+  require_synthesis(echoes, head, medium, options, "synthesize_stamped");
+  require_one_row(head, "synthesize_stamped");
+  return PingSynthesizer(head, medium, options).pressure(echoes);
+}
+
+}  // namespace insonify

@@ -1,0 +1,127 @@
+#include "beamforming/spread_kernels_internal.hpp"
+#include "beamforming/target_clones_internal.hpp"
+
+namespace insonify::kernels {
+namespace {
+
+#define INSONIFY_INLINE [[gnu::always_inline]] inline
+
+/// Horner's rule on all lanes at once.
+template <std::size_t lanes, typename Real>
+INSONIFY_INLINE void evaluate(Pieces<Real> p, Real t, Real* value) {
+  for (std::size_t l = 0; l < lanes; ++l) value[l] = p.coefficient[l];
+  for (std::size_t k = 1; k <= p.degree; ++k)
+    for (std::size_t l = 0; l < lanes; ++l) value[l] = value[l] * t + p.coefficient[k * lanes + l];
+}
+
+template <std::size_t lanes, typename Real>
+INSONIFY_INLINE void add_row(Real g_re, Real g_im, const Real* kernel, Real* __restrict x_re, Real* __restrict x_im) {
+  for (std::size_t l = 0; l < lanes; ++l) x_re[l] += g_re * kernel[l];
+  for (std::size_t l = 0; l < lanes; ++l) x_im[l] += g_im * kernel[l];
+}
+
+template <std::size_t lanes, typename Real>
+INSONIFY_INLINE void stamp_all(const Stamps<Real>& s, std::size_t count, Pieces<Real> rows_of, std::size_t rows,
+                               Pieces<Real> columns_of, Real* __restrict pulse, Real* x_re, Real* x_im,
+                               std::size_t stride) {
+  for (std::size_t i = 0; i < count; ++i) {
+    Real kernel[lanes];
+    evaluate<lanes>(columns_of, s.column_offset[i], kernel);
+    for (std::size_t first = 0; first < rows_of.lanes; first += 8) {
+      // The polynomials of eight rows at a time; their coefficients are rows_of.lanes apart.
+      Real value[8];
+      for (std::size_t l = 0; l < 8; ++l) value[l] = rows_of.coefficient[first + l];
+      for (std::size_t k = 1; k <= rows_of.degree; ++k)
+        for (std::size_t l = 0; l < 8; ++l)
+          value[l] = value[l] * s.row_offset[i] + rows_of.coefficient[k * rows_of.lanes + first + l];
+      for (std::size_t l = 0; l < 8; ++l) pulse[first + l] = value[l];
+    }
+    const std::size_t start = s.row[i] * stride + s.column[i];
+    for (std::size_t n = 0; n < rows; ++n)
+      add_row<lanes>(s.re[i] * pulse[n], s.im[i] * pulse[n], kernel, x_re + start + n * stride,
+                     x_im + start + n * stride);
+  }
+}
+
+template <std::size_t lanes, typename Real>
+INSONIFY_INLINE void stamp_samples(const double* pulse_re, const double* pulse_im, std::size_t rows, Real offset,
+                                   Pieces<Real> columns_of, Real* x_re, Real* x_im, std::size_t stride) {
+  Real kernel[lanes];
+  evaluate<lanes>(columns_of, offset, kernel);
+  for (std::size_t n = 0; n < rows; ++n)
+    add_row<lanes>(static_cast<Real>(pulse_re[n]), static_cast<Real>(pulse_im[n]), kernel, x_re + n * stride,
+                   x_im + n * stride);
+}
+
+template <typename Real>
+INSONIFY_INLINE void interpolate_rows(const Real* weight, const std::uint32_t* row, std::size_t terms, const Real* grid,
+                                      std::size_t stride, std::size_t count, double* sum) {
+  // Blocks of samples stay in registers while the terms are added.
+  constexpr std::size_t block = 32;
+  std::size_t n = 0;
+  for (; n + block <= count; n += block) {
+    Real part[block] = {};
+    for (std::size_t k = 0; k < terms; ++k) {
+      const Real* x = grid + row[k] * stride + n;
+      for (std::size_t l = 0; l < block; ++l) part[l] += weight[k] * x[l];
+    }
+    for (std::size_t l = 0; l < block; ++l) sum[n + l] = static_cast<double>(part[l]);
+  }
+  for (; n < count; ++n) {
+    Real part = 0;
+    for (std::size_t k = 0; k < terms; ++k) part += weight[k] * grid[row[k] * stride + n];
+    sum[n] = static_cast<double>(part);
+  }
+}
+
+}  // namespace
+
+INSONIFY_CLONES
+void stamp(const Stamps<float>& s, std::size_t count, Pieces<float> rows_of, std::size_t rows, Pieces<float> columns_of,
+           float* scratch, float* x_re, float* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    stamp_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
+  else
+    stamp_all<16>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void stamp(const Stamps<double>& s, std::size_t count, Pieces<double> rows_of, std::size_t rows,
+           Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    stamp_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
+  else
+    stamp_all<16>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void stamp_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, float offset,
+                 Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    stamp_samples<8>(pulse_re, pulse_im, rows, offset, columns_of, x_re, x_im, stride);
+  else
+    stamp_samples<16>(pulse_re, pulse_im, rows, offset, columns_of, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void stamp_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, double offset,
+                 Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    stamp_samples<8>(pulse_re, pulse_im, rows, offset, columns_of, x_re, x_im, stride);
+  else
+    stamp_samples<16>(pulse_re, pulse_im, rows, offset, columns_of, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void interpolate(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid,
+                 std::size_t stride, std::size_t count, double* sum) {
+  interpolate_rows(weight, row, terms, grid, stride, count, sum);
+}
+
+INSONIFY_CLONES
+void interpolate(const double* weight, const std::uint32_t* row, std::size_t terms, const double* grid,
+                 std::size_t stride, std::size_t count, double* sum) {
+  interpolate_rows(weight, row, terms, grid, stride, count, sum);
+}
+
+}  // namespace insonify::kernels

@@ -1,0 +1,45 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+// Kernels over raw pointers, compiled for several instruction sets and chosen at run time. They see no Eigen, so
+// wider registers are safe here; without fused multiply-add every variant gives the same bits.
+namespace insonify::kernels {
+
+/// Polynomials for all columns or rows of one echo: (degree + 1) x lanes, highest power first.
+template <typename Real>
+struct Pieces {
+  const Real* coefficient;
+  std::size_t degree, lanes;
+};
+
+/// Where and how strongly echoes are stamped: one entry per echo in every array.
+template <typename Real>
+struct Stamps {
+  const std::uint32_t* row;     ///< first row
+  const std::uint32_t* column;  ///< first column
+  const Real* row_offset;       ///< t in [-1, 1] for the row polynomials
+  const Real* column_offset;    ///< t in [-1, 1] for the column polynomials
+  const Real *re, *im;          ///< amplitude
+};
+
+/// Adds amplitude x pulse(row) x kernel(column) to the planes x_re, x_im (rows x stride), over `rows` rows and the
+/// columns' lanes, 8 or 16. `scratch` holds rows.lanes numbers.
+void stamp(const Stamps<float>& stamps, std::size_t count, Pieces<float> rows_of, std::size_t rows,
+           Pieces<float> columns_of, float* scratch, float* x_re, float* x_im, std::size_t stride);
+void stamp(const Stamps<double>& stamps, std::size_t count, Pieces<double> rows_of, std::size_t rows,
+           Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride);
+
+/// The same for one echo whose pulse is given sample by sample, complex.
+void stamp_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, float column_offset,
+                 Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);
+void stamp_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, double column_offset,
+                 Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride);
+
+/// sum(n) = sum_k weight[k] grid[row[k] * stride + n] for n < count: one beam from the rows of a grid.
+void interpolate(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid,
+                 std::size_t stride, std::size_t count, double* sum);
+void interpolate(const double* weight, const std::uint32_t* row, std::size_t terms, const double* grid,
+                 std::size_t stride, std::size_t count, double* sum);
+
+}  // namespace insonify::kernels

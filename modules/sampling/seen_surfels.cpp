@@ -1,0 +1,44 @@
+#include "sampling/seen_surfels.hpp"
+
+#include "core/error.hpp"
+#include "sampling/direction_index.hpp"
+#include "sampling/gate_surfels.hpp"
+#include "sampling/split_surfels.hpp"
+#include "sampling/surfel_visibility.hpp"
+
+namespace insonify {
+
+std::vector<Sight> find_sight(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
+                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
+                              const SamplingOptions& options) {
+  require_valid(fan, "find_sight");
+  require_valid(gate, "find_sight");
+  if (asked.size() != scene.size())
+    fail(ErrorKind::argument, "find_sight: asked has ", asked.size(), " entries, must have one per surfel (",
+         scene.size(), ")");
+  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
+  auto surfels = gate_surfels(scene, HeadFrame(scene, world_from_head), insonified_sector(fan, half_extent), gate,
+                              options.footprint, options.threads);
+  // find_hidden looks at what is in the gate: the rest only blocks.
+  for (GatedSurfel& s : surfels) s.in_gate = s.in_gate && asked[s.surfel];
+  std::vector<std::uint8_t> hidden(surfels.size(), 0);
+  if (options.occlusion)
+    hidden = find_hidden(surfels, DirectionIndex(surfels, options.projection, options.threads), options.threads);
+
+  std::vector<Sight> sight(scene.size());
+  for (std::size_t i = 0; i < sight.size(); ++i) sight[i] = asked[i] ? Sight::outside : Sight::not_asked;
+  for (std::size_t s = 0; s < surfels.size(); ++s)
+    if (surfels[s].in_gate)
+      sight[surfels[s].surfel] = !surfels[s].facing ? Sight::turned_away : hidden[s] ? Sight::hidden : Sight::seen;
+  return sight;
+}
+
+Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
+                        const std::vector<std::uint32_t>& surfels, const SamplingOptions& options) {
+  const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
+  return split_surfels(
+      scene, HeadFrame(scene, world_from_head), surfels,
+      {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width});
+}
+
+}  // namespace insonify

@@ -1,0 +1,49 @@
+#include "sampling/tilt_by_relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "sampling/beam_fan.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t block = 1024;
+constexpr double edge_on = 1e-9;  // cosines below it are of surfaces that show the head nothing
+
+struct Tilter {
+  const SceneCloud& scene;
+  const Pose& world_from_head;
+  const ReliefField& relief;
+
+  void tilt(Scatterers& s, std::size_t i) const {
+    const Vector3d outward = world_from_head.linear() * unit_vector({s.azimuth[i], s.elevation[i]});
+    const Vector3d place = world_from_head.translation() + s.range[i] * outward;
+    const Vector3d normal = scene.normal[s.surfel[i]].cast<double>().normalized();
+    const Vector3d facet = tilted_normal(relief, scene.materials[s.material[i]].relief_slope, place, normal);
+
+    // A surface without sides turns the one that the head sees towards it, relief and all.
+    const double smooth = -normal.dot(outward);
+    const bool seen = scene.normals_oriented ? smooth > edge_on : std::abs(smooth) > edge_on;
+    const double tilted = std::clamp(smooth < 0 ? facet.dot(outward) : -facet.dot(outward), 0.0, 1.0);
+    const double gain = seen ? tilted / std::abs(smooth) : 0;
+    s.cos_incidence[i] = static_cast<float>(seen ? tilted : 0);
+    s.projected_area[i] = static_cast<float>(s.projected_area[i] * gain);  // (E52)
+  }
+};
+
+}  // namespace
+
+void tilt_by_relief(const SceneCloud& scene, const Pose& world_from_head, const ReliefField& relief, int threads,
+                    Scatterers& scatterers) {
+  const Tilter tilter{scene, world_from_head, relief};
+  parallel_blocks(scatterers.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (scene.materials[scatterers.material[i]].relief_slope > 0) tilter.tilt(scatterers, i);
+  });
+}
+
+}  // namespace insonify

@@ -1,0 +1,35 @@
+#include "simulate/layer_sum.hpp"
+
+#include "beamforming/synthesize_noise.hpp"
+
+namespace insonify {
+
+LayerSum::LayerSum(const SonarHead& head, const Medium& medium, const SimulationOptions& options)
+    : head_(head), medium_(medium), options_(options) {}
+
+void LayerSum::add(const std::string& name, const Echoes& echoes) {
+  add_pressure(name, echoes.size(),
+               synthesize(echoes, head_, medium_, options_.method, {options_.tolerance, options_.threads}));
+}
+
+void LayerSum::add_noise(const Environment& environment) {
+  add_pressure("noise", 0,
+               synthesize_noise(head_, medium_, element_noise_level_db(environment, head_.pulse),
+                                {options_.seed, options_.ping, options_.threads}));
+}
+
+void LayerSum::add_pressure(const std::string& name, std::size_t echoes, const ComplexGrid& pressure) {
+  if (sum_.size() == 0)
+    sum_ = pressure;
+  else
+    sum_ += pressure;
+  report_.push_back({name, echoes});
+  if (options_.keep_layers) layers_.push_back({name, stored_pressure(pressure, "simulate_ping")});
+}
+
+Ping LayerSum::ping(const Pose& world_from_head) const {
+  return {options_.ping, options_.time, world_from_head, head_.fan, head_.gate, stored_pressure(sum_, "simulate_ping"),
+          layers_};
+}
+
+}  // namespace insonify

@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "simulate/simulate_ping.hpp"
+
+namespace insonify {
+
+/// Forms beams of one kind of echo after another and adds them up.
+class LayerSum {
+ public:
+  LayerSum(const SonarHead& head, const Medium& medium, const SimulationOptions& options);
+
+  /// Synthesizes `echoes` and adds them; kept as a layer called `name` if the options ask for it.
+  void add(const std::string& name, const Echoes& echoes);
+  /// Adds what the elements hear without any echo.
+  void add_noise(const Environment& environment);
+
+  /// The sum in single precision, with its layers.
+  Ping ping(const Pose& world_from_head) const;
+  const std::vector<LayerReport>& report() const { return report_; }
+
+ private:
+  void add_pressure(const std::string& name, std::size_t echoes, const ComplexGrid& pressure);
+
+  const SonarHead& head_;
+  const Medium& medium_;
+  const SimulationOptions& options_;
+  ComplexGrid sum_;
+  std::vector<Layer> layers_;
+  std::vector<LayerReport> report_;
+};
+
+}  // namespace insonify

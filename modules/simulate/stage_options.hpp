@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "simulate/simulate_ping.hpp"
+
+/// What each stage of simulate_ping needs to be told, from head, medium and the options of the ping.
+namespace insonify {
+
+SamplingOptions sampling_options(const SonarHead& head, const Medium& medium, const SimulationOptions& options);
+HearingOptions hearing_options(const SonarHead& head, const SimulationOptions& options);
+/// A noise floor of -inf becomes that of all noise in the band, less the array's gain.
+DetectionOptions detection_options(const SonarHead& head, const Environment& environment,
+                                   const SimulationOptions& options);
+
+/// Bends the rays to the scatterers if straight ones would be off by a range bin, or by an angle that the elevation
+/// pattern feels; says what was done.
+RefractionReport refract(const Environment& environment, const View& view, Scatterers& scatterers);
+
+/// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
+struct Reverberation {
+  const char* name;
+  Echoes echoes;
+};
+std::vector<Reverberation> hear_reverberation(const Environment& environment, const View& view,
+                                              const Transmission& transmission, std::int64_t ping);
+
+}  // namespace insonify

@@ -1,0 +1,224 @@
+#include "store/environment_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "store/nearest_word.hpp"
+#include "store/sonar_keys.hpp"
+#include "store/toml_tree.hpp"
+
+namespace insonify {
+namespace {
+
+/// A key of the file: how a number goes in, and how it comes out if there is one.
+struct NumberKey {
+  const char* section;
+  const char* key;
+  std::function<void(Environment&, double)> set;
+  std::function<std::optional<double>(const Environment&)> get;
+};
+
+NumberKey water_key(const char* key, double Water::*field) {
+  return {"water", key, [field](Environment& e, double x) { e.water.*field = x; },
+          [field](const Environment& e) { return e.water.*field; }};
+}
+
+/// A number of a part of the environment that need not be there: setting it makes the part present.
+template <typename Part, typename Field>
+NumberKey part_key(const char* section, const char* key, std::optional<Part> Environment::*part, Field Part::*field) {
+  return {section, key,
+          [=](Environment& e, double x) {
+            if (!(e.*part)) e.*part = Part{};
+            (*(e.*part)).*field = x;
+          },
+          [=](const Environment& e) -> std::optional<double> {
+            if (!(e.*part)) return std::nullopt;
+            return (*(e.*part)).*field;
+          }};
+}
+
+NumberKey plain_key(const char* section, const char* key, std::optional<double> Environment::*field) {
+  return {section, key, [field](Environment& e, double x) { e.*field = x; },
+          [field](const Environment& e) { return e.*field; }};
+}
+
+/// The Lambert coefficient stands in files as 10 log10.
+NumberKey bottom_mu_key() {
+  NumberKey mu = part_key("bottom", "lambert_mu_db", &Environment::bottom, &FlatBottom::lambert_mu);
+  mu.set = [set = mu.set](Environment& e, double x) { set(e, power_from_db(x)); };
+  mu.get = [get = mu.get](const Environment& e) {
+    const auto value = get(e);
+    return value ? std::optional(db_from_power(*value)) : value;
+  };
+  return mu;
+}
+
+const std::vector<NumberKey>& number_keys() {
+  using E = Environment;
+  static const std::vector<NumberKey> keys = {
+      water_key("temperature_c", &Water::temperature_c),
+      water_key("salinity_psu", &Water::salinity_psu),
+      water_key("depth_m", &Water::depth),
+      water_key("ph", &Water::ph),
+      water_key("latitude_deg", &Water::latitude_deg),
+      part_key("surface", "height_m", &E::surface, &SeaSurface::height),
+      part_key("surface", "rms_height_m", &E::surface, &SeaSurface::rms_height),
+      part_key("surface", "scattering_db", &E::surface, &SeaSurface::scattering_strength_db),
+      part_key("bottom", "height_m", &E::bottom, &FlatBottom::height),
+      part_key("bottom", "density_ratio", &E::bottom, &FlatBottom::density_ratio),
+      part_key("bottom", "sound_speed_ratio", &E::bottom, &FlatBottom::sound_speed_ratio),
+      part_key("bottom", "loss", &E::bottom, &FlatBottom::loss),
+      part_key("bottom", "rms_height_m", &E::bottom, &FlatBottom::rms_height),
+      bottom_mu_key(),
+      plain_key("volume", "scattering_db", &E::volume_scattering_db),
+      plain_key("wind", "speed_m_s", &E::wind_speed),
+      plain_key("noise", "self_db", &E::self_noise_db)};
+  return keys;
+}
+
+struct SoundSpeedName {
+  const char* name;
+  SoundSpeedFormula formula;
+};
+constexpr SoundSpeedName sound_speed_names[] = {{"unesco", SoundSpeedFormula::unesco},
+                                                {"mackenzie", SoundSpeedFormula::mackenzie},
+                                                {"leroy", SoundSpeedFormula::leroy}};
+struct AbsorptionName {
+  const char* name;
+  AbsorptionFormula formula;
+};
+constexpr AbsorptionName absorption_names[] = {{"francois-garrison", AbsorptionFormula::francois_garrison},
+                                               {"fisher-simmons", AbsorptionFormula::fisher_simmons},
+                                               {"ainslie-mccolm", AbsorptionFormula::ainslie_mccolm}};
+
+/// The formula called `name`; Error(argument) listing the names.
+template <typename Names, typename Formula>
+void set_formula(const Names& names, const std::string& key, const std::string& name, Formula& formula) {
+  std::string known;
+  for (const auto& candidate : names) {
+    if (name == candidate.name) {
+      formula = candidate.formula;
+      return;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(candidate.name);
+  }
+  fail(ErrorKind::argument, key, " = \"", name, "\", must be one of ", known);
+}
+
+template <typename Names, typename Formula>
+std::string name_of(const Names& names, Formula formula) {
+  for (const auto& candidate : names)
+    if (candidate.formula == formula) return candidate.name;
+  return {};
+}
+
+bool is_formula(const std::string& name) {
+  return name == "water.sound_speed_formula" || name == "water.absorption_formula";
+}
+
+void set_formula_key(Environment& e, const std::string& name, const std::string& value) {
+  if (name == "water.sound_speed_formula")
+    set_formula(sound_speed_names, name, value, e.sound_speed_formula);
+  else
+    set_formula(absorption_names, name, value, e.absorption_formula);
+}
+
+/// Error(argument) unless the key exists: with the nearest key, or the sections there are.
+void require_known(const std::string& name) {
+  const std::vector<std::string> known = environment_key_names();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  const std::string near = nearest_word(name, known);
+  if (!near.empty()) fail(ErrorKind::argument, name, " is unknown; did you mean ", near, "?");
+  std::string all;
+  for (const std::string& key : known) all += (all.empty() ? "" : ", ") + key;
+  fail(ErrorKind::argument, name, " is unknown; known are ", all);
+}
+
+void set_number(Environment& e, const std::string& section, const std::string& key, double value) {
+  for (const NumberKey& candidate : number_keys())
+    if (section == candidate.section && key == candidate.key) candidate.set(e, value);
+}
+
+void read_key(const std::string& path, const std::string& section, const std::string& key, const TomlValue& value,
+              Environment& e) {
+  const std::string name = section + "." + key;
+  try {
+    require_known(name);
+    if (is_formula(name) != (value.kind == TomlValue::Kind::text) || (!is_formula(name) && !value.is_number()))
+      fail(ErrorKind::argument, name, " must be ", is_formula(name) ? "the name of a formula" : "a number");
+    if (is_formula(name))
+      set_formula_key(e, name, value.text);
+    else
+      set_number(e, section, key, value.number);
+  } catch (const Error& error) {
+    fail_in_file(path, value.line, error.what());
+  }
+}
+
+}  // namespace
+
+Environment load_environment(const std::string& path) {
+  const TomlValue document = load_toml(path);
+  Environment e;
+  for (std::size_t i = 0; i < document.keys.size(); ++i) {
+    const TomlValue& table = document.items[i];
+    const std::string& section = document.keys[i];
+    if (table.kind != TomlValue::Kind::table)
+      fail_in_file(path, table.line, section, " must be a table: [", section, "]");
+    if (section == "surface") e.surface = SeaSurface{};
+    if (section == "bottom") e.bottom = FlatBottom{};
+    for (std::size_t k = 0; k < table.keys.size(); ++k) read_key(path, section, table.keys[k], table.items[k], e);
+  }
+  try {
+    require_valid(e, path.c_str());
+  } catch (const Error& error) {
+    fail(ErrorKind::content, error.what());
+  }
+  return e;
+}
+
+void set_environment_value(Environment& e, const std::string& section, const std::string& key,
+                           const std::string& value) {
+  const std::string name = section + "." + key;
+  require_known(name);
+  if (is_formula(name)) {
+    set_formula_key(e, name, value);
+    return;
+  }
+  double number = 0;
+  const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  if (error != std::errc() || stop != value.data() + value.size() || !std::isfinite(number))
+    fail(ErrorKind::argument, name, " = '", value, "', must be a number");
+  set_number(e, section, key, number);
+}
+
+std::string environment_as_toml(const Environment& e) {
+  std::string text, section;
+  for (const NumberKey& key : number_keys()) {
+    const auto value = key.get(e);
+    if (!value) continue;
+    if (section != key.section) text += (text.empty() ? "[" : "\n[") + (section = key.section) + "]\n";
+    text += std::string(key.key) + " = " + toml_text_of(*value) + "\n";
+    if (key.key == std::string("latitude_deg"))
+      text += "sound_speed_formula = \"" + name_of(sound_speed_names, e.sound_speed_formula) +
+              "\"\nabsorption_formula = \"" + name_of(absorption_names, e.absorption_formula) + "\"\n";
+  }
+  return text;
+}
+
+std::vector<std::string> environment_key_names() {
+  std::vector<std::string> names;
+  for (const NumberKey& key : number_keys()) {
+    names.push_back(std::string(key.section) + "." + key.key);
+    if (names.back() == "water.latitude_deg")
+      names.insert(names.end(), {"water.sound_speed_formula", "water.absorption_formula"});
+  }
+  return names;
+}
+
+}  // namespace insonify

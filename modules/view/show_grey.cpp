@@ -1,0 +1,97 @@
+#include "view/show_grey.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include <vtkErrorCode.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "core/error.hpp"
+#include "view/vtk_messages_internal.hpp"
+#include "view/write_file.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr const char* who = "show_grey";
+
+// The beams from port to starboard.
+std::vector<Eigen::Index> columns_of(const BeamFan& fan) {
+  std::vector<Eigen::Index> beams(fan.beams());
+  std::iota(beams.begin(), beams.end(), 0);
+  std::stable_sort(beams.begin(), beams.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return fan.azimuth[static_cast<std::size_t>(a)] > fan.azimuth[static_cast<std::size_t>(b)];
+  });
+  return beams;
+}
+
+// Row 0 is the nearest bin: VTK's origin is the lower left corner.
+template <typename Grey>
+void write_png(const Grid<Grey>& grey, const std::vector<Eigen::Index>& columns, const std::string& path) {
+  const VtkMessages messages;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), 1);
+  image->AllocateScalars(sizeof(Grey) == 1 ? VTK_UNSIGNED_CHAR : VTK_UNSIGNED_SHORT, 1);
+  auto* pixel = static_cast<Grey*>(image->GetScalarPointer());
+  for (Eigen::Index n = 0; n < grey.cols(); ++n)
+    for (const Eigen::Index beam : columns) *pixel++ = grey(beam, n);
+
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* png = writer->GetResult();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
+    fail(ErrorKind::file, who, ": cannot make the PNG for ", path, ": ",
+         vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  messages.throw_first_error(who);
+  write_file_atomically(path, png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfTuples()), who);
+}
+
+// Rows from the farthest bin down; sixteen bits with the high byte first.
+template <typename Grey>
+void write_pgm(const Grid<Grey>& grey, const std::vector<Eigen::Index>& columns, const std::string& path) {
+  std::string bytes = "P5\n" + std::to_string(grey.rows()) + " " + std::to_string(grey.cols()) + "\n" +
+                      std::to_string(std::numeric_limits<Grey>::max()) + "\n";
+  for (Eigen::Index n = grey.cols(); n-- > 0;)
+    for (const Eigen::Index beam : columns) {
+      const unsigned value = grey(beam, n);
+      if (sizeof(Grey) == 2) bytes += static_cast<char>(value >> 8);
+      bytes += static_cast<char>(value & 0xFF);
+    }
+  write_file_atomically(path, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), who);
+}
+
+template <typename Grey>
+void write_grey(const Grid<Grey>& grey, const BeamFan& fan, const std::string& path) {
+  if (grey.size() == 0 || static_cast<std::size_t>(grey.rows()) != fan.beams())
+    fail(ErrorKind::argument, who, ": picture of ", grey.rows(), " beams x ", grey.cols(), " bins for a fan of ",
+         fan.beams(), " beams, must have as many and one bin at least");
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (ending == ".png")
+    write_png(grey, columns_of(fan), path);
+  else if (ending == ".pgm")
+    write_pgm(grey, columns_of(fan), path);
+  else
+    fail(ErrorKind::argument, who, ": ", path, " must end with .png or .pgm");
+}
+
+}  // namespace
+
+void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::string& path) {
+  write_grey(grey, fan, path);
+}
+
+void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path) {
+  write_grey(grey, fan, path);
+}
+
+}  // namespace insonify

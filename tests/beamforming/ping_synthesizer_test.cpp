@@ -1,0 +1,216 @@
+#include "beamforming/ping_synthesizer.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/error_text.hpp"
+#include "beamforming/sonar_spec.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+
+using namespace insonify;
+
+namespace {
+
+constexpr double speed_of_sound = 1500;
+
+struct Case {
+  std::size_t echoes = 200, beams = 32, bins = 256;
+  double bandwidth = 30e3;
+  double dynamic_range_db = 40;  ///< from the first bin to the last
+  double field_of_view = radians(60);
+  double beam_width = radians(2);
+  int absorption_order = 0;
+};
+
+SonarHead head_of(const Case& c) {
+  SonarSpec s;
+  s.name = "test";
+  s.centre_frequency = 600e3;
+  s.bandwidth = c.bandwidth;
+  s.beams = c.beams;
+  s.field_of_view = c.field_of_view;
+  s.beam_width = c.beam_width;
+  s.elevation_width = radians(20);
+  s.min_range = 1;
+  s.bin_size = 0.44 * speed_of_sound / (2 * c.bandwidth);
+  s.max_range = 1 + (static_cast<double>(c.bins) - 0.5) * *s.bin_size;
+  return make_head(s, speed_of_sound);
+}
+
+/// Absorption that lowers the last bin by the dynamic range against the first.
+Medium medium_of(const Case& c, const SonarHead& head) {
+  Medium m;
+  m.sound_speed = speed_of_sound;
+  m.absorption.a0 = c.dynamic_range_db * nepers_per_db / (2 * (head.gate.max_range - head.gate.min_range));
+  if (c.absorption_order >= 1) m.absorption.a1 = m.absorption.a0 / head.pulse.centre_frequency;
+  if (c.absorption_order >= 2) m.absorption.a2 = m.absorption.a0 / std::pow(head.pulse.centre_frequency, 2);
+  return m;
+}
+
+/// Complex-normal echoes in and a little beyond fan and gate.
+Echoes echoes_of(const Case& c, const SonarHead& head) {
+  Echoes e;
+  const double length = head.gate.max_range - head.gate.min_range;
+  for (std::size_t i = 0; i < c.echoes; ++i) {
+    const auto at = random_uniform(7, RandomStage::scene_points, {i, 0, 0});
+    e.delay.push_back(2 * (head.gate.min_range + length * (1.02 * at[0] - 0.01)) / speed_of_sound);
+    e.u.push_back(std::sin((at[1] - 0.5) * (c.field_of_view + c.beam_width)));
+    e.amplitude.push_back(random_complex_normal(7, RandomStage::noise, {i, 0, 0}));
+  }
+  return e;
+}
+
+double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
+  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
+}
+
+/// Largest relative error of the eighths of the range axis, each measured by its own level.
+double local_error(const ComplexGrid& a, const ComplexGrid& b) {
+  double worst = 0;
+  const Eigen::Index part = b.cols() / 8;
+  for (Eigen::Index k = 0; k < 8; ++k)
+    if (b.middleCols(k * part, part).abs2().sum() > 0)
+      worst = std::max(worst, relative_l2(a.middleCols(k * part, part), b.middleCols(k * part, part)));
+  return worst;
+}
+
+ComplexGrid synthesized(const Case& c, double tolerance, int threads = 0) {
+  const SonarHead head = head_of(c);
+  return PingSynthesizer(head, medium_of(c, head), {tolerance, threads}).pressure(echoes_of(c, head));
+}
+
+ComplexGrid referee(const Case& c) {
+  const SonarHead head = head_of(c);
+  return synthesize_direct(echoes_of(c, head), head, medium_of(c, head));
+}
+
+}  // namespace
+
+class PingSynthesizerPromise : public testing::TestWithParam<Case> {};
+
+TEST_P(PingSynthesizerPromise, holds_for_the_image_and_for_every_part_of_the_range_axis) {
+  const ComplexGrid exact = referee(GetParam());
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    const ComplexGrid image = synthesized(GetParam(), tolerance);
+    EXPECT_LE(relative_l2(image, exact), tolerance) << tolerance;
+    if (GetParam().echoes >= 200) {  // fewer leave parts of the axis without an echo
+      EXPECT_LE(local_error(image, exact), tolerance) << tolerance;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sweep, PingSynthesizerPromise,
+                         testing::Values(Case{.echoes = 1}, Case{.echoes = 10, .beams = 17, .bins = 251},
+                                         Case{.echoes = 1000}, Case{.echoes = 30000, .beams = 16},
+                                         Case{.beams = 1, .field_of_view = radians(2)},
+                                         Case{.beams = 256, .bins = 127, .beam_width = radians(1)},
+                                         Case{.bandwidth = 300e3}, Case{.bandwidth = 3e3},
+                                         Case{.dynamic_range_db = 150}, Case{.dynamic_range_db = 0},
+                                         Case{.bins = 31, .beam_width = radians(60)}, Case{.absorption_order = 1},
+                                         Case{.bandwidth = 100e3, .dynamic_range_db = 60, .absorption_order = 2},
+                                         Case{.beams = 61, .field_of_view = radians(170), .beam_width = radians(5)}));
+
+// 400 dB from one end of the axis to the other: what is near cannot disturb what is far.
+TEST(PingSynthesizer, error_is_local_in_single_precision_over_400_db) {
+  const Case c{.echoes = 2000, .dynamic_range_db = 400};
+  EXPECT_LE(local_error(synthesized(c, 1e-4), referee(c)), 1e-4);
+}
+
+TEST(PingSynthesizer, same_bits_for_any_number_of_threads) {
+  for (const double tolerance : {1e-4, 1e-8}) {
+    const Case c{.echoes = 5000, .bins = 1000};
+    const ComplexGrid one = synthesized(c, tolerance, 1);
+    for (const int threads : {2, 7}) EXPECT_TRUE((one == synthesized(c, tolerance, threads)).all());
+  }
+}
+
+TEST(PingSynthesizer, same_plan_serves_many_pings) {
+  const Case c;
+  const SonarHead head = head_of(c);
+  const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});
+  const Echoes e = echoes_of(c, head);
+  const ComplexGrid first = plan.pressure(e);
+  plan.pressure({});
+  EXPECT_TRUE((first == plan.pressure(e)).all());
+}
+
+TEST(PingSynthesizer, no_echoes_and_echoes_beyond_the_gate_give_silence) {
+  const Case c;
+  const SonarHead head = head_of(c);
+  const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});
+  EXPECT_EQ(plan.pressure({}).abs().maxCoeff(), 0);
+  Echoes far;
+  far.delay = {1.0, 1e-6};
+  far.u = {0.1, 0.1};
+  far.amplitude = {{1, 0}, {1, 0}};
+  EXPECT_EQ(plan.pressure(far).abs().maxCoeff(), 0);
+}
+
+TEST(PingSynthesizer, all_echoes_in_one_bin_and_direction_add_coherently) {
+  const Case c;
+  const SonarHead head = head_of(c);
+  Echoes hot;
+  hot.delay.assign(100000, 2 * head.gate.centre(100) / speed_of_sound);
+  hot.u.assign(100000, 0.2);
+  hot.amplitude.assign(100000, {1, 0});
+  Echoes one = hot;
+  one.delay.resize(1), one.u.resize(1), one.amplitude = {{1e5, 0}};
+  const Medium m = medium_of(c, head);
+  EXPECT_LE(relative_l2(PingSynthesizer(head, m, {1e-4, 0}).pressure(hot), synthesize_direct(one, head, m)), 1e-4);
+}
+
+// Echoes of which no beam hears more than side lobes, and echoes that cancel: the image is weak against what was stamped.
+TEST(PingSynthesizer, keeps_its_promise_where_no_beam_looks) {
+  Case c{.echoes = 300, .beams = 8, .field_of_view = radians(8)};
+  const SonarHead head = head_of(c);
+  Echoes e = echoes_of(c, head);
+  for (std::size_t i = 0; i < e.size(); ++i) e.u[i] = 0.6 + 0.001 * static_cast<double>(i % 300);
+  const Medium m = medium_of(c, head);
+  const ComplexGrid exact = synthesize_direct(e, head, m);
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8})
+    EXPECT_LE(relative_l2(PingSynthesizer(head, m, {tolerance, 0}).pressure(e), exact), tolerance) << tolerance;
+}
+
+TEST(PingSynthesizer, keeps_its_promise_for_echoes_that_cancel) {
+  const Case c{.echoes = 300};
+  const SonarHead head = head_of(c);
+  Echoes e = echoes_of(c, head);
+  const std::size_t n = e.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    e.delay.push_back(e.delay[i]);
+    e.u.push_back(e.u[i]);
+    e.amplitude.push_back(-e.amplitude[i] * (1 + 1e-4));
+  }
+  const Medium m = medium_of(c, head);
+  const ComplexGrid exact = synthesize_direct(e, head, m);
+  EXPECT_LE(relative_l2(PingSynthesizer(head, m, {1e-4, 0}).pressure(e), exact), 1e-4);
+}
+
+TEST(PingSynthesizer, says_what_it_chose) {
+  const Case c;
+  const SonarHead head = head_of(c);
+  const SynthesisChoice coarse = PingSynthesizer(head, medium_of(c, head), {1e-3, 0}).choice();
+  const SynthesisChoice fine = PingSynthesizer(head, medium_of(c, head), {1e-10, 0}).choice();
+  EXPECT_TRUE(coarse.single_precision);
+  EXPECT_FALSE(fine.single_precision);
+  EXPECT_LT(coarse.kernel_width, fine.kernel_width);
+  EXPECT_LT(coarse.pulse_samples, fine.pulse_samples);
+  EXPECT_GE(coarse.grid, 2 * head.array.elements());
+}
+
+TEST(PingSynthesizer, refuses_a_tolerance_it_cannot_keep_and_a_nan) {
+  const Case c;
+  const SonarHead head = head_of(c);
+  EXPECT_NE(error_of([&] {
+              PingSynthesizer(head, medium_of(c, head), {1e-15, 0});
+            }).find("tolerance = 1e-15, must be at least 1e-13"),
+            std::string::npos);
+  Echoes e = echoes_of(c, head);
+  e.amplitude[5] = {NAN, 0};
+  EXPECT_NE(error_of([&] {
+              PingSynthesizer(head, medium_of(c, head), {1e-4, 0}).pressure(e);
+            }).find("5"),
+            std::string::npos);
+}

@@ -1,0 +1,109 @@
+#include "returns/quantise.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "returns/ping.hpp"
+
+using namespace insonify;
+
+namespace {
+
+Grid<float> row(std::initializer_list<float> levels) {
+  Grid<float> grid(1, static_cast<Eigen::Index>(levels.size()));
+  Eigen::Index n = 0;
+  for (const float level : levels) grid(0, n++) = level;
+  return grid;
+}
+
+template <typename Call>
+std::string refusal(Call&& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Steps of 1 dB for eight bits.
+const GreyWindow window{-155, 100};
+
+}  // namespace
+
+TEST(Quantise, is_zero_at_or_below_the_floor_and_nowhere_else) {
+  const auto grey =
+      quantise_8(row({-200, -155, std::nextafter(-155.0F, 0.0F), -std::numeric_limits<float>::infinity()}), window);
+  EXPECT_EQ(grey(0, 0), 0);
+  EXPECT_EQ(grey(0, 1), 0);
+  EXPECT_EQ(grey(0, 2), 1);
+  EXPECT_EQ(grey(0, 3), 0);
+}
+
+TEST(Quantise, is_linear_in_decibels_and_clamps) {
+  const auto grey =
+      quantise_8(row({-154, -153.5F, 0, 99.5F, 100, 180, std::numeric_limits<float>::infinity()}), window);
+  const int expected[] = {1, 2, 155, 255, 255, 255, 255};
+  for (int n = 0; n < 7; ++n) EXPECT_EQ(grey(0, n), expected[n]) << n;
+}
+
+TEST(Quantise, has_257_steps_of_sixteen_bits_in_one_of_eight) {
+  Grid<float> levels(1, 2551);
+  for (Eigen::Index n = 0; n < levels.cols(); ++n) levels(0, n) = -155 + 0.1F * static_cast<float>(n);
+  const auto coarse = quantise_8(levels, window);
+  const auto fine = quantise_16(levels, window);
+  for (Eigen::Index n = 0; n < levels.cols(); ++n) EXPECT_EQ(coarse(0, n), (fine(0, n) + 256) / 257) << n;
+  EXPECT_EQ(fine(0, 2550), 65535);
+}
+
+TEST(Quantise, comes_back_within_half_a_step) {
+  Grid<float> levels(1, 1000);
+  for (Eigen::Index n = 0; n < levels.cols(); ++n) levels(0, n) = -154.9F + 0.2549F * static_cast<float>(n);
+  const auto coarse = quantise_8(levels, window);
+  const auto fine = quantise_16(levels, window);
+  for (Eigen::Index n = 0; n < levels.cols(); ++n) {
+    EXPECT_NEAR(level_of_grey(coarse(0, n), 8, window), levels(0, n), 0.5 + 1e-6);
+    EXPECT_NEAR(level_of_grey(fine(0, n), 16, window), levels(0, n), 0.5 / 257 + 1e-6);
+  }
+  EXPECT_EQ(level_of_grey(0, 8, window), -155);
+}
+
+TEST(Quantise, refuses_bad_windows_and_levels) {
+  EXPECT_EQ(refusal([] {
+              quantise_8(row({0}), {10, 10});
+            }),
+            "quantise_8: window from min_db = 10 to max_db = 10 dB, must be finite with min_db below max_db");
+  EXPECT_NE(refusal([] { quantise_16(row({0}), {NAN, 10}); }), "");
+  EXPECT_EQ(refusal([] { quantise_16(row({0, NAN}), {0, 10}); }), "quantise_16: level(0, 1) is not a number");
+  EXPECT_EQ(refusal([] { level_of_grey(256, 8, window); }), "level_of_grey: value = 256, must be at most 255");
+  EXPECT_EQ(refusal([] { level_of_grey(1, 12, window); }), "level_of_grey: bits = 12, must be 8 or 16");
+}
+
+TEST(Tvg, agrees_with_range_compensation_and_leaves_the_ping_alone) {
+  Ping ping;
+  ping.gate = {1, 21, 0.5};
+  ping.pressure = ComplexGridF::Constant(3, 40, {0.5F, -1});
+  ping.pressure(1, 7) = 0;
+  const ComplexGridF before = ping.pressure;
+  const Grid<float> levels = apply_tvg(level_db(ping), ping.gate, {40, 0.3});
+  EXPECT_TRUE((levels == range_compensated_level_db(ping, 0.3)).all());
+  EXPECT_EQ(levels(1, 7), -200);
+  EXPECT_TRUE((ping.pressure == before).all());
+}
+
+TEST(Tvg, follows_its_law) {
+  EXPECT_NEAR(gain_db({20, 0}, 10), 20, 1e-13);
+  EXPECT_NEAR(gain_db({0, 0.3}, 10), 6, 1e-13);
+  EXPECT_NEAR(gain_db({30, 0.05}, 100), 70, 1e-12);
+}
+
+TEST(Tvg, refuses_another_gate_and_values_that_are_not_finite) {
+  EXPECT_EQ(refusal([] {
+              apply_tvg(row({1, 2}), {1, 2, 0.1}, {});
+            }),
+            "apply_tvg: levels of 2 bins, but the gate has 10");
+  EXPECT_NE(refusal([] { apply_tvg(row({1, 2}), {1, 2, 0.5}, {NAN, 0}); }), "");
+}

@@ -1,0 +1,64 @@
+#include "sampling/seen_surfels.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sampling/sampling_scenes.hpp"
+#include "scene/built_in_scenes.hpp"
+
+using namespace insonify;
+
+namespace {
+
+std::vector<std::uint32_t> seen_of(const std::vector<Sight>& sight) {
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t i = 0; i < sight.size(); ++i)
+    if (sight[i] == Sight::seen) list.push_back(i);
+  return list;
+}
+
+}  // namespace
+
+TEST(FindSight, sees_what_find_scatterers_sees) {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
+  const Pose pose = at(0, 0, -3, 0, 10);
+  const BeamFan fan = make_fan(91, radians(90), radians(1), radians(20));
+  const RangeGate gate{1, 40, 0.02};
+  for (const bool occlusion : {true, false}) {
+    SamplingOptions options = unsplit();
+    options.occlusion = occlusion;
+    const Sampling expected = find_scatterers(scene, pose, fan, gate, options);
+    const auto sight = find_sight(scene, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options);
+    EXPECT_EQ(seen_of(sight), expected.scatterers.surfel);
+    EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::hidden), expected.report.hidden);
+    EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::turned_away), expected.report.back_facing);
+    EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::outside), scene.size() - expected.report.in_gate);
+  }
+}
+
+TEST(FindSight, surfels_not_asked_about_still_block) {
+  SceneCloud scene;
+  add_surfel(scene, {10, 0, 0}, {-1, 0, 0}, 1e-4);
+  add_wall(scene, 5, 1, 1, 0.1);
+  std::vector<std::uint8_t> asked(scene.size(), 0);
+  asked[0] = 1;
+  const auto sight = find_sight(scene, Pose::Identity(), wide_fan(), long_gate(), asked, unsplit());
+  EXPECT_EQ(sight[0], Sight::hidden);
+  EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::not_asked), scene.size() - 1);
+}
+
+TEST(FindSight, refuses_a_list_of_another_length) {
+  SceneCloud scene;
+  add_wall(scene, 5, 1, 1, 1);
+  EXPECT_EQ(message_of([&] { find_sight(scene, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
+            "find_sight: asked has 0 entries, must have one per surfel (4)");
+}
+
+TEST(SplitListed, splits_as_find_scatterers_does) {
+  SceneCloud scene;
+  add_wall(scene, 5, 2, 2, 0.2);
+  const Sampling expected = find_scatterers(scene, Pose::Identity(), wide_fan(), long_gate());
+  ASSERT_GT(expected.scatterers.size(), 2 * scene.size());
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < scene.size(); ++i) all.push_back(i);
+  EXPECT_TRUE(equal(split_listed(scene, Pose::Identity(), wide_fan(), long_gate(), all, {}), expected.scatterers));
+}

@@ -1,0 +1,80 @@
+#include "store/environment_file.hpp"
+
+#include "store_testing.hpp"
+
+using namespace insonify;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string error_of_file(const std::string& text) {
+  return error_of([&] { load_environment(own_file("e.toml", text)); });
+}
+
+}  // namespace
+
+TEST(EnvironmentFile, an_empty_file_is_plain_sea_water) {
+  const Environment e = load_environment(own_file("e.toml", ""));
+  EXPECT_EQ(e.water.temperature_c, 10);
+  EXPECT_FALSE(e.surface || e.bottom || e.volume_scattering_db || e.wind_speed || e.self_noise_db || e.profile);
+}
+
+TEST(EnvironmentFile, a_table_makes_its_part_present) {
+  const Environment e = load_environment(own_file("e.toml", "[surface]\n[bottom]\nheight_m = -12\n"));
+  ASSERT_TRUE(e.surface && e.bottom);
+  EXPECT_EQ(e.surface->height, 0);
+  EXPECT_EQ(e.bottom->height, -12);
+  EXPECT_FALSE(e.bottom->lambert_mu);
+}
+
+TEST(EnvironmentFile, everything_set_by_key_reads_back_from_its_toml) {
+  Environment e;
+  double x = 0.5;
+  for (const std::string& name : environment_key_names()) {
+    const auto dot = name.find('.');
+    const std::string value = name == "water.sound_speed_formula"  ? "leroy"
+                              : name == "water.absorption_formula" ? "ainslie-mccolm"
+                              : name == "bottom.height_m"          ? "-20"
+                              : name == "bottom.lambert_mu_db"     ? "-27"
+                              : name == "surface.scattering_db"    ? "-30"
+                              : name == "volume.scattering_db"     ? "-70"
+                                                                   : std::to_string(x += 0.01);
+    set_environment_value(e, name.substr(0, dot), name.substr(dot + 1), value);
+  }
+  const std::string text = environment_as_toml(e);
+  const Environment back = load_environment(own_file("e.toml", text));
+  EXPECT_EQ(environment_as_toml(back), text);
+  EXPECT_EQ(back.water.ph, e.water.ph);
+  EXPECT_EQ(back.surface->rms_height, e.surface->rms_height);
+  EXPECT_EQ(back.sound_speed_formula, SoundSpeedFormula::leroy);
+  EXPECT_EQ(back.absorption_formula, AbsorptionFormula::ainslie_mccolm);
+  EXPECT_NEAR(*back.bottom->lambert_mu, 0.00199526, 1e-8);
+  for (const std::string& name : environment_key_names())
+    EXPECT_TRUE(holds(text, name.substr(name.find('.') + 1) + " = ")) << name;
+}
+
+TEST(EnvironmentFile, names_line_and_nearest_key_of_a_mistake) {
+  EXPECT_TRUE(holds(error_of_file("[water]\ntemprature_c = 4\n"),
+                    ":2: water.temprature_c is unknown; did you mean "
+                    "water.temperature_c?"));
+  EXPECT_TRUE(holds(error_of_file("[water]\nph = \"acid\"\n"), ":2: water.ph must be a number"));
+  EXPECT_TRUE(holds(error_of_file("[water]\nabsorption_formula = \"thorp\"\n"),
+                    ":2: water.absorption_formula = \"thorp\", must be one of francois-garrison"));
+  EXPECT_TRUE(holds(error_of_file("depth_m = 3\n"), ":1: depth_m must be a table"));
+}
+
+TEST(EnvironmentFile, refuses_values_that_make_no_environment_with_value_unit_and_rule) {
+  EXPECT_TRUE(holds(error_of_file("[wind]\nspeed_m_s = -3\n"), "wind_speed = -3 m/s, must be within 0 and 100"));
+  EXPECT_TRUE(holds(error_of_file("[surface]\nheight_m = 0\n[bottom]\nheight_m = 1\n"),
+                    "bottom.height = 1 m, must be below surface.height = 0 m"));
+  EXPECT_TRUE(holds(error_of_file("[bottom]\nlambert_mu_db = 3\nheight_m = -5\n"), "must be within 0 and 1/pi"));
+}
+
+TEST(EnvironmentFile, refuses_text_that_is_no_number) {
+  Environment e;
+  EXPECT_EQ(error_of([&] { set_environment_value(e, "wind", "speed_m_s", "strong"); }),
+            "argument: wind.speed_m_s = 'strong', must be a number");
+  EXPECT_EQ(error_of([&] { set_environment_value(e, "wind", "sped_m_s", "1"); }),
+            "argument: wind.sped_m_s is unknown; did you mean wind.speed_m_s?");
+}

@@ -1,0 +1,64 @@
+#include "store/profile_file.hpp"
+
+#include "acoustics/water.hpp"
+#include "store_testing.hpp"
+
+using namespace insonify;
+
+namespace {
+std::string error_of_profile(const std::string& text) {
+  const std::string path = own_file("cast.csv", text);
+  return replaced(error_of([&] { load_sound_speed_profile(path); }), path, "cast.csv");
+}
+}  // namespace
+
+TEST(ProfileFile, reads_depths_and_sound_speeds_in_any_order_of_columns) {
+  const auto p =
+      load_sound_speed_profile(own_file("p.csv", "# cast 7\nsound_speed, depth_m\n1510,-1\n\n# warm\n1500.5,2.5\n"));
+  EXPECT_EQ(p.depth, (std::vector<double>{-1, 2.5}));
+  EXPECT_EQ(p.sound_speed, (std::vector<double>{1510, 1500.5}));
+}
+
+TEST(ProfileFile, turns_temperature_and_salinity_into_sound_speed_at_their_depth) {
+  const auto p = load_sound_speed_profile(own_file("p.csv", "salinity_psu,depth_m,temperature_c\n35,0,20\n0,50,4\n"));
+  Water top, deep;
+  top.temperature_c = 20;
+  top.salinity_psu = 35;
+  deep.temperature_c = 4;
+  deep.salinity_psu = 0;
+  deep.depth = 50;
+  EXPECT_EQ(p.depth, (std::vector<double>{0, 50}));
+  EXPECT_EQ(p.sound_speed, (std::vector<double>{sound_speed(top), sound_speed(deep)}));
+}
+
+TEST(ProfileFile, names_a_header_that_is_neither) {
+  EXPECT_EQ(error_of_profile("depth_m,temperature_c\n"), "content: cast.csv:1: missing column 'salinity_psu'");
+  EXPECT_EQ(error_of_profile("depth_m\n"), "content: cast.csv:1: missing column 'sound_speed'");
+  EXPECT_EQ(error_of_profile("depth,sound_speed\n"),
+            "content: cast.csv:1: unknown column 'depth'; did you mean 'depth_m'?");
+  EXPECT_EQ(error_of_profile("depth_m,sound_speed,salinity_psu\n"),
+            "content: cast.csv:1: column 'salinity_psu' does not go with 'sound_speed'");
+  EXPECT_EQ(error_of_profile("depth_m,depth_m\n"), "content: cast.csv:1: column 'depth_m' stands there twice");
+  EXPECT_EQ(error_of_profile(""),
+            "content: cast.csv: has no header, must start with depth_m,sound_speed or "
+            "depth_m,temperature_c,salinity_psu");
+}
+
+TEST(ProfileFile, names_line_column_value_and_rule) {
+  const std::string speeds = "depth_m,sound_speed\n0,1500\n", water = "depth_m,temperature_c,salinity_psu\n";
+  EXPECT_EQ(error_of_profile(speeds + "0,1500\n"),
+            "content: cast.csv:3: depth_m = 0 m, must be deeper than the line before it, 0 m");
+  EXPECT_EQ(error_of_profile(speeds + "1,343\n"),
+            "content: cast.csv:3: sound_speed = 343 m/s, must be within 1300 and 1700 m/s");
+  EXPECT_EQ(error_of_profile(speeds + "1,fast\n"),
+            "content: cast.csv:3: sound_speed = 'fast', must be a finite number");
+  EXPECT_EQ(error_of_profile(speeds + "1\n"), "content: cast.csv:3: has 1 fields, the header has 2");
+  EXPECT_EQ(error_of_profile(water + "-1,10,35\n"),
+            "content: cast.csv:2: depth_m = -1 m, must be >= 0 (it is positive down)");
+  EXPECT_EQ(error_of_profile(water + "1,290,35\n"),
+            "content: cast.csv:2: temperature_c = 290 deg C, must be within -4 and 100");
+  EXPECT_EQ(error_of_profile(water + "1,10,-35\n"),
+            "content: cast.csv:2: salinity_psu = -35 psu, must be within 0 and 400");
+  EXPECT_EQ(error_of_profile("depth_m,sound_speed\n"),
+            "content: cast.csv: has a header only, must have one entry at least");
+}

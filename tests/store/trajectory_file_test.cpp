@@ -1,0 +1,46 @@
+#include "store/trajectory_file.hpp"
+
+#include "core/units.hpp"
+#include "store_testing.hpp"
+
+using namespace insonify;
+
+namespace {
+const std::string angles = "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n";
+const std::string quaternions = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
+
+std::string error_of_way(const std::string& text) {
+  const std::string path = own_file("way.csv", text);
+  return replaced(error_of([&] { load_trajectory(path); }), path, "way.csv");
+}
+}  // namespace
+
+TEST(TrajectoryFile, reads_yaw_pitch_and_roll_in_degrees) {
+  const auto t = load_trajectory(own_file("t.csv", "# run 3\n" + angles + "0,1,2,-3,30,15,-5\n0.5,1,2,-4,-90,0,0\n"));
+  EXPECT_EQ(t.time, (std::vector<double>{0, 0.5}));
+  EXPECT_TRUE(t.pose[0].isApprox(pose_from_yaw_pitch_roll({1, 2, -3}, radians(30), radians(15), radians(-5)), 1e-15));
+  EXPECT_TRUE(t.pose[1].isApprox(pose_from_yaw_pitch_roll({1, 2, -4}, -pi / 2, 0, 0), 1e-15));
+}
+
+TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
+  // Half a right angle about z is (0, 0, sin 45, cos 45) for yaw 90.
+  const auto t = load_trajectory(
+      own_file("t.csv", "qw,qx,qy,qz,time_s,x_m,y_m,z_m\n0.7071,0,0,0.7071,0,1,2,3\n-0.7071,0,0,-0.7071,1,1,2,3\n"));
+  const Pose port = pose_from_yaw_pitch_roll({1, 2, 3}, pi / 2, 0, 0);
+  EXPECT_TRUE(t.pose[0].isApprox(port, 1e-12));
+  EXPECT_TRUE(t.pose[1].isApprox(port, 1e-12));
+}
+
+TEST(TrajectoryFile, names_line_column_value_and_rule) {
+  EXPECT_EQ(error_of_way(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
+            "content: way.csv:3: time_s = 0 s, must be later than the line before it, 0 s");
+  EXPECT_EQ(error_of_way(angles + "0,0,0,0,0,1000,0\n"),
+            "content: way.csv:2: pitch_deg = 1000 degrees, must be within -360 and 360");
+  EXPECT_EQ(error_of_way(quaternions + "0,0,0,0,0,0,0,2\n"),
+            "content: way.csv:2: length of (qx, qy, qz, qw) = 2, must be 1 within 0.001");
+  EXPECT_EQ(error_of_way(angles + "0,0,nan,0,0,0,0\n"), "content: way.csv:2: y_m = 'nan', must be a finite number");
+  EXPECT_EQ(error_of_way("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n"), "content: way.csv:1: missing column 'roll_deg'");
+  EXPECT_EQ(error_of_way("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"),
+            "content: way.csv:1: unknown column 'time'; did you mean 'time_s'?");
+  EXPECT_EQ(error_of_way(angles + "0,0,0,0,0,0,0\n"), "content: way.csv: has 1 entries, must have two at least");
+}
