@@ -13,7 +13,8 @@ declare -A why=(
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
 )
 if [[ "${1:-}" == --tests ]]; then
-  why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format")
+  why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
+    [libbenchmark-dev]="benchmarks")
 fi
 
 missing=()

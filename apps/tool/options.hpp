@@ -81,7 +81,8 @@ struct PingOptions {
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = 11.4;
-  std::string all_bins_above;  ///< dB re 1 uPa, or empty
+  std::string all_bins_above;              ///< dB re 1 uPa, or empty
+  std::vector<std::string> with, without;  ///< stages of the plan forced in or out
 };
 
 struct SynthesizeOptions {
@@ -93,6 +94,7 @@ struct ImageOptions {
   std::string run;
   std::string output;
   std::string view = "fan";
+  std::string layer;  ///< name, or empty: the whole pressure
   std::string colour_map = "copper";
   std::string size = "1400x1050";
   std::string title;
@@ -104,6 +106,16 @@ struct ImageOptions {
   double tvg = 40;  ///< [dB per decade of range]
   int bits = 8;     ///< of view grey
   bool dark = false;
+};
+
+struct AccuracyOptions {
+  SceneOptions scene;  ///< path empty: built-in tasks
+  RunOptions run;      ///< of which sonar, range, environment, output, force and no_picture count
+  std::string pose;
+  std::string world = "z-up";
+  std::vector<std::string> methods, tolerances;  ///< empty: all
+  int repeats = 5;
+  bool full = false, quick = false;
 };
 
 struct BeamPatternOptions {

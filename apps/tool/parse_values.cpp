@@ -79,6 +79,13 @@ std::pair<double, double> parse_range(const std::string& text) {
   return {*min, *max};
 }
 
+SynthesisMethod parse_method(const std::string& text) {
+  if (text == "stamped") return SynthesisMethod::stamped;
+  if (text == "direct") return SynthesisMethod::direct;
+  if (text == "element-exact") return SynthesisMethod::element_exact;
+  fail(ErrorKind::argument, "--method = '", text, "' must be stamped, direct or element-exact");
+}
+
 std::pair<int, int> parse_size(const std::string& text) {
   const std::vector<std::string> parts = split(text, 'x');
   const auto width = number(parts[0]), height = number(parts.back());

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "beamforming/synthesize.hpp"
 #include "core/pose.hpp"
 
 /// Text from the command line to values; every failure is Error(argument) naming option, value, rule and an example.
@@ -21,6 +22,9 @@ Pose parse_pose(const std::string& text, const std::string& world);
 
 /// "min:max" in metres, 0 < min < max.
 std::pair<double, double> parse_range(const std::string& text);
+
+/// "stamped", "direct" or "element-exact".
+SynthesisMethod parse_method(const std::string& text);
 
 /// "1400x1050" pixels.
 std::pair<int, int> parse_size(const std::string& text);

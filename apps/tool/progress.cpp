@@ -31,8 +31,12 @@ void Progress::clear_bar() {
   bar_shown_ = false;
 }
 
-void Progress::step(const std::string& what) {
+void Progress::check() const {
   if (interrupted) throw Interrupted{};
+}
+
+void Progress::step(const std::string& what) {
+  check();
   if (verbose_) std::fprintf(stderr, "[%d/%d] %s\n", done_ + 1, steps_, what.c_str());
   if (bar_) {
     constexpr int width = 24;

@@ -21,6 +21,8 @@ class Progress {
 
   /// Starts the next step. Throws Interrupted after Ctrl-C.
   void step(const std::string& what);
+  /// Throws Interrupted after Ctrl-C: for steps that take long.
+  void check() const;
   /// A sentence for the user, shown unless quiet.
   void note(const std::string& sentence);
 

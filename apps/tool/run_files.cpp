@@ -17,9 +17,9 @@ std::string run_toml(const CommonOptions& common, const RunOptions& run, const H
                      const std::string& head) {
   return fmt::format(
       "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
-      "tolerance = {}\nmethod = \"{}\"\nprofile = {}\n{}\n{}\n[sonar]\n{}",
-      INSONIFY_VERSION, common.seed, run.tolerance, run.method, toml_text(run.profile), head,
-      environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
+      "tolerance = {}\nmethod = \"{}\"\nenvironment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
+      INSONIFY_VERSION, common.seed, run.tolerance, run.method, toml_text(run.environment), toml_text(run.profile),
+      head, environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
 }
 
 Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {

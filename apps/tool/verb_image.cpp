@@ -25,6 +25,17 @@ std::string cube_path(const std::string& run) {
   return path;
 }
 
+/// The ping with one of its layers in place of its pressure.
+Ping layer_of(const Ping& ping, const std::string& name, const std::string& run) {
+  std::string known;
+  for (const Layer& layer : ping.layers) {
+    if (layer.name == name) return {ping.number, ping.time, ping.world_from_head, ping.fan, ping.gate, layer.pressure};
+    known += (known.empty() ? "" : ", ") + layer.name;
+  }
+  fail(ErrorKind::argument, "--layer = '", name, "' is not in ", run,
+       known.empty() ? "; it has none: ping with --layers" : "; it has " + known);
+}
+
 /// The samples as grey values, from the brightest level down to the window's end.
 void write_grey(const LevelImage& levels, const PictureOptions& picture, int bits, const std::string& path) {
   const double max_db = std::isnan(picture.max_db) ? levels.level_db.maxCoeff() : picture.max_db;
@@ -44,7 +55,9 @@ void image(const CommonOptions& common, const ImageOptions& o) {
   picture.colour_map = o.colour_map;
   picture.window_db = o.window_db;
   picture.dark = o.dark;
-  if (!(o.window_db > 0)) fail(ErrorKind::argument, "--window = ", o.window_db, " dB, must be > 0");
+  if (!(o.window_db > 0 && o.window_db <= 1000))
+    fail(ErrorKind::argument, "--window = ", o.window_db, " dB, must be > 0 and at most 1000");
+  if (!(std::abs(o.tvg) <= 1000)) fail(ErrorKind::argument, "--tvg = ", o.tvg, " dB, must be within -1000 and 1000");
   if (!o.max_db.empty()) picture.max_db = parse_number("--max", o.max_db);
 
   progress.step("reading " + o.run);
@@ -52,7 +65,8 @@ void image(const CommonOptions& common, const ImageOptions& o) {
   if (o.ping >= cube.pings.size())
     fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ",
          o.run);
-  const Ping& ping = cube.pings[o.ping];
+  const Ping& whole = cube.pings[o.ping];
+  const Ping ping = o.layer.empty() ? whole : layer_of(whole, o.layer, o.run);
   const auto beams = static_cast<int>(ping.fan.beams());
   const int beam = o.beam < 0 ? beams / 2 : o.beam;
   if (beam >= beams) fail(ErrorKind::argument, "--beam = ", beam, ", must be below ", beams, ", the number of beams");
@@ -60,7 +74,8 @@ void image(const CommonOptions& common, const ImageOptions& o) {
   progress.step("drawing " + o.output);
   const LevelImage levels =
       level_image(ping, o.raw ? std::nullopt : std::optional(Tvg{o.tvg, cube.absorption_db_per_m}));
-  picture.title = o.title.empty() ? picture_title(cube.sonar, ping) : o.title;
+  const std::string title = picture_title(cube.sonar, ping) + (o.layer.empty() ? "" : ", " + o.layer + " alone");
+  picture.title = o.title.empty() ? title : o.title;
   if (o.view == "fan") show_fan(levels, picture, o.output);
   if (o.view == "rect") show_rect(levels, picture, o.output);
   if (o.view == "ascan") show_ascan(levels, static_cast<std::size_t>(beam), picture, o.output);

@@ -56,6 +56,8 @@ void print_cloud(const FileDescription& d) {
 
 ordered_json cube_json(const std::string& path, const Cube& cube) {
   const Ping& first = cube.pings.front();
+  ordered_json layers = ordered_json::array();
+  for (const Layer& layer : first.layers) layers.push_back(layer.name);
   return {{"path", path},
           {"format", "insonify ping cube"},
           {"sonar", cube.sonar},
@@ -65,6 +67,7 @@ ordered_json cube_json(const std::string& path, const Cube& cube) {
           {"min_range_m", first.gate.min_range},
           {"max_range_m", first.gate.max_range},
           {"bin_size_m", first.gate.bin_size},
+          {"layers", layers},
           {"centre_frequency_hz", cube.centre_frequency},
           {"bandwidth_hz", cube.bandwidth},
           {"source_level_db", cube.source_level_db},

@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "acoustics/reflection.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/trajectory_file.hpp"
 #include "tool/parse_values.hpp"
+#include "tool/plan_report.hpp"
 #include "tool/run_files.hpp"
 #include "tool/verbs.hpp"
 
@@ -32,7 +34,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.amplitude = o.amplitude == "coherent"       ? SurfaceAmplitude::coherent
                 : o.amplitude == "random-phase" ? SurfaceAmplitude::random_phase
                                                 : SurfaceAmplitude::complex_normal;
-  s.method = o.run.method == "direct" ? SynthesisMethod::direct : SynthesisMethod::stamped;
+  s.method = parse_method(o.run.method);
   s.tolerance = o.run.tolerance;
   s.noise = o.noise;
   s.multipath = o.multipath;
@@ -56,6 +58,7 @@ struct Track {
 };
 
 Track track_of(const PingOptions& o) {
+  if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
   if (o.pose.empty() == o.trajectory.empty())
     fail(ErrorKind::argument, "--pose or --trajectory must be given, one of them, e.g. --pose=0,0,-3,0,10,0");
   if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), {}};
@@ -105,6 +108,20 @@ std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
                   degrees(r.bound.elevation));
   if (!r.bent) return fmt::format("refraction left out: {} (bin {:.3g} m)", bound, gate.bin_size);
   return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
+}
+
+/// What to tell a user who asked for multipath and hears none: most often the sea is too rough.
+std::string no_multipath_note(const Environment& environment) {
+  const double waves = environment.surface ? rms_wave_height(environment) : 0;
+  const std::string sea = waves > 0
+                              ? fmt::format("waves of {:.2g} m rms scatter what a smooth surface would reflect", waves)
+                              : std::string("boundaries are out of reach, hidden or off the pattern");
+  return "no echo comes by way of surface or bottom: " + sea;
+}
+
+ordered_json motion_json(const Motion& motion) {
+  const auto list = [](const Eigen::Vector3d& v) { return ordered_json{v.x(), v.y(), v.z()}; };
+  return {{"velocity_m_s", list(motion.velocity)}, {"turn_rate_deg_s", list(motion.turn_rate * degrees(1))}};
 }
 
 /// What to tell a user whose ping is silent: where the scene is.
@@ -160,16 +177,15 @@ ordered_json sampling_json(const SimulatedPing& p) {
 
 std::string run_toml_head(const PingOptions& o) {
   return fmt::format(
-      "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nviewpoint = {}\n\n[ping]\npose = {}\n"
-      "world = {}\nsampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\n"
-      "noise = {}\nmultipath = {}\nlayers = {}\nabsorption_order = {}\ntrajectory = {}\ntime = {}\nvelocity = "
-      "{}\nturn_rate = {}\nthreshold_db = "
-      "{}\nall_bins_above = {}\n",
+      "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nmaterial_field = {}\nviewpoint = {}\n"
+      "mesh_spacing = {}\n\n[ping]\npose = {}\nworld = {}\ntrajectory = {}\ntime = {}\nvelocity = {}\nturn_rate = {}\n"
+      "sampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\nnoise = {}\nmultipath = {}\n"
+      "layers = {}\nabsorption_order = {}\nthreshold_db = {}\nall_bins_above = {}\n",
       toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
-      toml_text(o.scene.viewpoint), toml_text(o.pose), toml_text(o.world), toml_text(o.sampling), o.scatterers_per_cell,
-      o.rays_per_beam, toml_text(o.amplitude), o.noise, o.multipath, o.layers, o.absorption_order,
-      toml_text(o.trajectory), o.time, toml_text(o.velocity), toml_text(o.turn_rate), o.threshold_db,
-      toml_text(o.all_bins_above));
+      toml_text(o.scene.material_field), toml_text(o.scene.viewpoint), o.scene.mesh_spacing, toml_text(o.pose),
+      toml_text(o.world), toml_text(o.trajectory), o.time, toml_text(o.velocity), toml_text(o.turn_rate),
+      toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam, toml_text(o.amplitude), o.noise, o.multipath,
+      o.layers, o.absorption_order, o.threshold_db, toml_text(o.all_bins_above));
 }
 
 void print_summary(const CommonOptions& common, const std::string& output, const ordered_json& manifest) {
@@ -182,18 +198,50 @@ void print_summary(const CommonOptions& common, const std::string& output, const
              manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
 }
 
+/// Everything a ping needs but the scene.
+struct PingSetup {
+  Pose pose;
+  HeadSetup head;
+  SimulationOptions simulation;
+};
+
+PingSetup set_up_ping(const CommonOptions& common, const PingOptions& o) {
+  const Track track = track_of(o);
+  PingSetup setup{track.pose, set_up_head(common, o.run), simulation_options(common, o)};
+  if (!o.trajectory.empty()) setup.simulation.motion = track.motion;
+  setup.simulation.time = o.time;
+  for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
+  for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
+  require_boundaries(o, setup.head.environment);
+  return setup;
+}
+
 }  // namespace
+
+void plan(const CommonOptions& common, const PingOptions& o) {
+  Progress progress(common, 2);
+  const PingSetup ready = set_up_ping(common, o);
+  const LoadOptions loading = load_options(common, o.scene);
+  progress.step("loading " + o.scene.path);
+  const LoadedScene loaded = load_scene(o.scene.path, loading);
+  require_in_reach(glance(loaded.scene, ready.pose), ready.head.head.gate, o.scene.path);
+  for (const std::string& note : ready.head.notes) progress.note(note);
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  progress.step("planning");
+  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.pose, ready.head.environment, ready.simulation);
+  if (common.json)
+    fmt::print("{}\n", plan_json(plan).dump(2));
+  else
+    print_plan(plan);
+}
 
 void ping(const CommonOptions& common, const PingOptions& o) {
   // Everything that can be wrong on the command line is found before any work.
   Progress progress(common, 4);
-  const Track track = track_of(o);
-  const Pose& pose = track.pose;
-  const HeadSetup setup = set_up_head(common, o.run);
-  SimulationOptions simulation = simulation_options(common, o);
-  if (!o.trajectory.empty()) simulation.motion = track.motion;
-  simulation.time = o.time;
-  require_boundaries(o, setup.environment);
+  const PingSetup ready = set_up_ping(common, o);
+  const Pose& pose = ready.pose;
+  const HeadSetup& setup = ready.head;
+  const SimulationOptions& simulation = ready.simulation;
   const LoadOptions loading = load_options(common, o.scene);
   RunDirectory directory(o.run.output, o.run.force);
 
@@ -215,8 +263,11 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   for (const std::string& note : setup.notes) tell(note);
   for (const std::string& note : loading_notes(loaded.report)) tell(note);
 
+  manifest["plan"] = plan_json(plan_ping(loaded.scene, setup.head, pose, setup.environment, simulation));
+
   progress.step("pinging");
   const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.environment, simulation);
+  for (const std::string& note : result.notes) tell(note);
   if (result.scatterers.size() == 0) tell(silence_note(places));
 
   progress.step("writing " + o.run.output);
@@ -225,6 +276,9 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   save_soundings(directory.file("returns.ply"), result.soundings);
   manifest["sampling"] = sampling_json(result);
   manifest["layers"] = layers_json(result.layers);
+  if (!simulation.motion.none()) manifest["motion"] = motion_json(simulation.motion);
+  for (const LayerReport& layer : result.layers)
+    if (layer.name == "multipath" && layer.echoes == 0) tell(no_multipath_note(setup.environment));
   if (setup.environment.profile) tell(refraction_note(result.refraction, setup.head.gate));
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, result.ping, run_toml_head(o), manifest, progress);

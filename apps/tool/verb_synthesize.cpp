@@ -7,6 +7,7 @@
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
 #include "store/scatterer_table.hpp"
+#include "tool/parse_values.hpp"
 #include "tool/run_files.hpp"
 #include "tool/verbs.hpp"
 
@@ -28,7 +29,7 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   const HearingOptions hearing =
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
   const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
-  const auto method = o.run.method == "direct" ? SynthesisMethod::direct : SynthesisMethod::stamped;
+  const SynthesisMethod method = parse_method(o.run.method);
   const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
   const Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -8,9 +8,11 @@ void info(const CommonOptions& common, const InfoOptions& options);
 void prepare(const CommonOptions& common, const PrepareOptions& options);
 void make_scene(const CommonOptions& common, const MakeSceneOptions& options);
 void sonars(const CommonOptions& common, const SonarsOptions& options);
+void plan(const CommonOptions& common, const PingOptions& options);
 void ping(const CommonOptions& common, const PingOptions& options);
 void synthesize(const CommonOptions& common, const SynthesizeOptions& options);
 void beampattern(const CommonOptions& common, const BeamPatternOptions& options);
+void accuracy(const CommonOptions& common, const AccuracyOptions& options);
 void image(const CommonOptions& common, const ImageOptions& options);
 
 }  // namespace insonify::tool

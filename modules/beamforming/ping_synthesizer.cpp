@@ -69,8 +69,10 @@ PingSynthesizer::~PingSynthesizer() = default;
 PingSynthesizer::PingSynthesizer(PingSynthesizer&&) noexcept = default;
 PingSynthesizer& PingSynthesizer::operator=(PingSynthesizer&&) noexcept = default;
 
-const SynthesisChoice& PingSynthesizer::choice() const {
-  return plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();
+SynthesisChoice PingSynthesizer::choice() const {
+  SynthesisChoice choice = plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();
+  choice.share = plan_->share;
+  return choice;
 }
 
 ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {

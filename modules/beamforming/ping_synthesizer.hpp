@@ -15,6 +15,7 @@ struct SynthesisChoice {
   std::size_t grid = 0;           ///< grid steps over that axis
   std::size_t pulse_samples = 0;  ///< bins over which a pulse is stamped
   double pulse_half_length = 0;   ///< where it is cut [s]
+  double share = 0;               ///< of what is stamped, expected in a beam: root of a ratio of energies
   double bytes_per_thread = 0;    ///< working memory beside the image
 };
 
@@ -39,7 +40,7 @@ class PingSynthesizer {
   /// the promise is in doubt, it is made again with more digits. Throws Error for a NaN in an echo, named by its number.
   ComplexGrid pressure(const Echoes& echoes) const;
 
-  const SynthesisChoice& choice() const;
+  SynthesisChoice choice() const;
 
  private:
   struct Plan;

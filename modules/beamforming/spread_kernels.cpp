@@ -43,6 +43,33 @@ INSONIFY_INLINE void stamp_all(const Stamps<Real>& s, std::size_t count, Pieces<
   }
 }
 
+/// The polynomials of the lanes from `first` on, eight at a time, until `count` of them are there.
+template <typename Real>
+INSONIFY_INLINE void evaluate_some(Pieces<Real> p, std::size_t first, std::size_t count, Real t, Real* value) {
+  for (std::size_t l0 = 0; l0 < count; l0 += 8) {
+    const Real* c = p.coefficient + first + l0;
+    Real eight[8];
+    for (std::size_t l = 0; l < 8; ++l) eight[l] = c[l];
+    for (std::size_t k = 1; k <= p.degree; ++k)
+      for (std::size_t l = 0; l < 8; ++l) eight[l] = eight[l] * t + c[k * p.lanes + l];
+    for (std::size_t l = 0; l < 8; ++l) value[l0 + l] = eight[l];
+  }
+}
+
+template <std::size_t lanes, typename Real>
+INSONIFY_INLINE void stamp_some(Real re, Real im, Real row_offset, Real column_offset, Pieces<Real> pulse_re,
+                                Pieces<Real> pulse_im, std::size_t first, std::size_t rows, Pieces<Real> columns_of,
+                                Real* __restrict scratch, Real* x_re, Real* x_im, std::size_t stride) {
+  Real kernel[lanes];
+  evaluate<lanes>(columns_of, column_offset, kernel);
+  Real *g_re = scratch, *g_im = scratch + rows + 16;
+  evaluate_some(pulse_re, first, rows, row_offset, g_re);
+  evaluate_some(pulse_im, first, rows, row_offset, g_im);
+  for (std::size_t n = 0; n < rows; ++n)
+    add_row<lanes>(re * g_re[n] - im * g_im[n], re * g_im[n] + im * g_re[n], kernel, x_re + n * stride,
+                   x_im + n * stride);
+}
+
 template <std::size_t lanes, typename Real>
 INSONIFY_INLINE void stamp_samples(const double* pulse_re, const double* pulse_im, std::size_t rows, Real offset,
                                    Pieces<Real> columns_of, Real* x_re, Real* x_im, std::size_t stride) {
@@ -92,6 +119,30 @@ void stamp(const Stamps<double>& s, std::size_t count, Pieces<double> rows_of, s
     stamp_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
   else
     stamp_all<16>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void stamp_rows(float re, float im, float row_offset, float column_offset, Pieces<float> pulse_re,
+                Pieces<float> pulse_im, std::size_t first, std::size_t rows, Pieces<float> columns_of, float* scratch,
+                float* x_re, float* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    stamp_some<8>(re, im, row_offset, column_offset, pulse_re, pulse_im, first, rows, columns_of, scratch, x_re, x_im,
+                  stride);
+  else
+    stamp_some<16>(re, im, row_offset, column_offset, pulse_re, pulse_im, first, rows, columns_of, scratch, x_re, x_im,
+                   stride);
+}
+
+INSONIFY_CLONES
+void stamp_rows(double re, double im, double row_offset, double column_offset, Pieces<double> pulse_re,
+                Pieces<double> pulse_im, std::size_t first, std::size_t rows, Pieces<double> columns_of,
+                double* scratch, double* x_re, double* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    stamp_some<8>(re, im, row_offset, column_offset, pulse_re, pulse_im, first, rows, columns_of, scratch, x_re, x_im,
+                  stride);
+  else
+    stamp_some<16>(re, im, row_offset, column_offset, pulse_re, pulse_im, first, rows, columns_of, scratch, x_re, x_im,
+                   stride);
 }
 
 INSONIFY_CLONES

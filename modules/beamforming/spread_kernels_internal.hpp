@@ -30,6 +30,15 @@ void stamp(const Stamps<float>& stamps, std::size_t count, Pieces<float> rows_of
 void stamp(const Stamps<double>& stamps, std::size_t count, Pieces<double> rows_of, std::size_t rows,
            Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride);
 
+/// One echo of a complex pulse, of which only the rows [first, first + rows) are stamped, onto x_re, x_im from the first of
+/// them on. `scratch` holds 2 (rows + 16) numbers.
+void stamp_rows(float re, float im, float row_offset, float column_offset, Pieces<float> pulse_re,
+                Pieces<float> pulse_im, std::size_t first, std::size_t rows, Pieces<float> columns_of, float* scratch,
+                float* x_re, float* x_im, std::size_t stride);
+void stamp_rows(double re, double im, double row_offset, double column_offset, Pieces<double> pulse_re,
+                Pieces<double> pulse_im, std::size_t first, std::size_t rows, Pieces<double> columns_of,
+                double* scratch, double* x_re, double* x_im, std::size_t stride);
+
 /// The same for one echo whose pulse is given sample by sample, complex.
 void stamp_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, float column_offset,
                  Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);

@@ -1,7 +1,9 @@
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "beamforming/flush_denormals_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/spread_kernels_internal.hpp"
 #include "beamforming/spread_synthesis_internal.hpp"
@@ -25,11 +27,13 @@ std::size_t fast_length(std::size_t least) {
   }
 }
 
-/// The largest amplitude, so that no number leaves the reach of single precision; 1 if all are silent.
-double largest(const Echoes& echoes) {
+/// The largest amplitude after absorption, so that no number leaves the reach of single precision; 1 if all are silent.
+double largest(const Echoes& echoes, const Medium& medium) {
   double most = 0;
-  for (const std::complex<double>& a : echoes.amplitude) most = std::max(most, std::abs(a));
-  return most > 0 ? most : 1;
+  for (std::size_t i = 0; i < echoes.size(); ++i)
+    most = std::max(
+        most, std::abs(echoes.amplitude[i]) * std::exp(-medium.absorption.a0 * medium.sound_speed * echoes.delay[i]));
+  return most > std::numeric_limits<double>::min() ? most : 1;
 }
 
 template <typename Real>
@@ -74,7 +78,7 @@ SpreadSynthesis<Real>::SpreadSynthesis(const SonarHead& head, const Medium& medi
       axis_(head.gate, medium.sound_speed),
       cut_(options.tolerance / 4),
       shapes_(head.pulse, medium),
-      one_shape_(head.pulse.shape == PulseShape::gaussian && medium.absorption.a1 == 0 && medium.absorption.a2 == 0),
+      one_shape_(medium.absorption.a1 == 0 && medium.absorption.a2 == 0),
       kernel_(kernel_tolerance),
       grid_(fast_length(std::max(2 * head.array.elements(), 2 * kernel_.width()))),
       stride_(grid_ + 2 * pad),
@@ -97,17 +101,28 @@ void SpreadSynthesis<Real>::plan_time(const SynthesisOptions& options, double ke
   const double half_width = 0.5 * static_cast<double>(kernel_.width());
   columns_ = PolynomialPieces<Real>::fit([this](double x) { return kernel_.at(x); }, -half_width, kernel_.width(),
                                          0.1 * kernel_tolerance);
-  const double half = PulseReach(head_.pulse, medium_.absorption, medium_.sound_speed, false, cut_).half;
-  choice_.pulse_half_length = half;
-  choice_.pulse_samples = static_cast<std::size_t>(std::floor(2 * half / axis_.step)) + 1;
-  margin_ = one_shape_ ? choice_.pulse_samples - 1 : 0;
+  const double reach = PulseReach(head_.pulse, medium_.absorption, medium_.sound_speed, false, cut_).half;
+  sweep_ = one_shape_ && head_.pulse.shape == PulseShape::linear_fm;
+  half_ = sweep_ ? std::ceil(reach / axis_.step) * axis_.step : reach;  // a sweep's middle stands between two pieces
+  sweep_ends_ = sweep_ && half_ > head_.pulse.duration - axis_.step;
+  choice_.pulse_half_length = reach;
+  choice_.pulse_samples = static_cast<std::size_t>(std::floor(2 * half_ / axis_.step + 1e-9)) + (sweep_ ? 0 : 1);
+  margin_ = one_shape_ && !sweep_ ? choice_.pulse_samples - 1 : 0;
   tile_rows_ = tile_bins_ + 2 * margin_;
   if (!one_shape_) return;
   const EchoEnvelope envelope = echo_envelope(head_.pulse, {}, 0);
+  const double first = -half_ / axis_.step, last_piece = -first - 1;
+  // The ends of a sweep are corners, which no polynomial follows: their pieces are level, and stamp_sweeps adds the rest.
+  const auto value = [&](double x) {
+    return envelope.at((sweep_ends_ ? std::clamp(x, first + 1, last_piece) : x) * axis_.step);
+  };
   for (std::size_t k = 0; k < choice_.pulse_samples; ++k)
-    pulse_energy_ += std::norm(envelope.at((static_cast<double>(k) + 0.5) * axis_.step - half));
-  rows_ = PolynomialPieces<Real>::fit([&](double x) { return envelope.at(x * axis_.step).real(); }, -half / axis_.step,
-                                      choice_.pulse_samples, 0.1 * options.tolerance);
+    pulse_energy_ += std::norm(envelope.at((static_cast<double>(k) + 0.5) * axis_.step - half_));
+  const double error = 0.1 * options.tolerance / (sweep_ ? std::sqrt(static_cast<double>(choice_.pulse_samples)) : 1);
+  rows_ = PolynomialPieces<Real>::fit([&](double x) { return value(x).real(); }, first, choice_.pulse_samples, error);
+  if (sweep_)
+    rows_im_ =
+        PolynomialPieces<Real>::fit([&](double x) { return value(x).imag(); }, first, choice_.pulse_samples, error);
 }
 
 template <typename Real>
@@ -154,8 +169,10 @@ SpreadImage SpreadSynthesis<Real>::image(const Echoes& echoes) const {
   const Ping ping{echoes,
                   {head_.pulse, medium_.absorption, medium_.sound_speed, moving, cut_},
                   one_shape_ && !moving,
-                  largest(echoes)};
-  const TileLists lists(echoes, axis_, ping.reach, tile_bins_);
+                  largest(echoes, medium_)};
+  PulseReach reach = ping.reach;
+  if (ping.planned) reach.half = half_;
+  const TileLists lists(echoes, axis_, reach, tile_bins_);
   ComplexGrid pressure(head_.fan.beams(), axis_.bins);
   std::vector<double> stamped(lists.tiles()), heard(lists.tiles());
   // Each tile of bins belongs to one thread, which stamps its echoes in their order and forms its beams.
@@ -166,10 +183,14 @@ SpreadImage SpreadSynthesis<Real>::image(const Echoes& echoes) const {
       pressure.middleCols(first, last - first).setZero();
       return;
     }
-    Tile tile(tile_rows_ * stride_, tile_bins_ * grid_, std::max<std::size_t>(rows_.lanes, 8));
+    const FlushDenormals flush;
+    Tile tile(tile_rows_ * stride_, tile_bins_ * grid_,
+              sweep_ ? 2 * (tile_bins_ + 16) : std::max<std::size_t>(rows_.lanes, 8));
     for (std::span<const std::uint32_t> rest = list; !rest.empty();) {
       const auto some = rest.first(std::min(terms_at_once, rest.size()));
-      stamped[t] += ping.planned ? stamp(ping, some, first, tile) : stamp_singly(ping, some, first, tile);
+      stamped[t] += !ping.planned ? stamp_singly(ping, some, first, tile)
+                    : sweep_      ? stamp_sweeps(ping, some, first, tile)
+                                  : stamp(ping, some, first, tile);
       rest = rest.subspan(some.size());
       if (!rest.empty()) tile.put_aside(tile_rows_ * stride_);
     }
@@ -201,7 +222,7 @@ double SpreadSynthesis<Real>::stamp(const Ping& ping, std::span<const std::uint3
       const double delay = ping.echoes.delay[i];
       const Place place = place_of(ping.echoes.u[i]);
       const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
-      const double low_row = (delay - ping.reach.half - axis_.start) / axis_.step, row_0 = std::ceil(low_row);
+      const double low_row = (delay - half_ - axis_.start) / axis_.step, row_0 = std::ceil(low_row);
       const double gain = place.sign / ping.unit * std::exp(-medium_.absorption.a0 * medium_.sound_speed * delay);
       column[k] = static_cast<std::uint32_t>(column_0 + pad);
       column_offset[k] = static_cast<Real>(2 * (column_0 - low_column) - 1);
@@ -213,6 +234,49 @@ double SpreadSynthesis<Real>::stamp(const Ping& ping, std::span<const std::uint3
     }
     kernels::stamp(stamps, count, pieces(rows_), choice_.pulse_samples, pieces(columns_), tile.scratch.data(),
                    tile.re.data(), tile.im.data(), stride_);
+  }
+  return power * pulse_energy_;
+}
+
+template <typename Real>
+double SpreadSynthesis<Real>::stamp_sweeps(const Ping& ping, std::span<const std::uint32_t> list, std::size_t first_bin,
+                                           Tile& tile) const {
+  const double half_width = 0.5 * static_cast<double>(kernel_.width()),
+               pieces_in_all = static_cast<double>(rows_.pieces);
+  const auto from = static_cast<double>(first_bin),
+             to = static_cast<double>(std::min(first_bin + tile_bins_, axis_.bins));
+  const EchoEnvelope envelope = echo_envelope(head_.pulse, {}, 0);
+  double power = 0;
+  for (const std::uint32_t i : list) {
+    const double delay = ping.echoes.delay[i];
+    const Place place = place_of(ping.echoes.u[i]);
+    const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
+    const double low_row = (delay - half_ - axis_.start) / axis_.step, row_0 = std::ceil(low_row);
+    const double piece_0 = std::max(0.0, from - row_0), piece_1 = std::min(pieces_in_all, to - row_0);
+    if (!(piece_0 < piece_1)) continue;
+    const std::complex<double> a = place.sign / ping.unit *
+                                   std::exp(-medium_.absorption.a0 * medium_.sound_speed * delay) *
+                                   ping.echoes.amplitude[i];
+    const auto column_offset = static_cast<Real>(2 * (column_0 - low_column) - 1);
+    const auto at = [&](double piece) {
+      return static_cast<std::size_t>(row_0 + piece - from) * stride_ + static_cast<std::size_t>(column_0 + pad);
+    };
+    kernels::stamp_rows(static_cast<Real>(a.real()), static_cast<Real>(a.imag()),
+                        static_cast<Real>(2 * (row_0 - low_row) - 1), column_offset, pieces(rows_), pieces(rows_im_),
+                        static_cast<std::size_t>(piece_0), static_cast<std::size_t>(piece_1 - piece_0),
+                        pieces(columns_), tile.scratch.data(), tile.re.data() + at(piece_0),
+                        tile.im.data() + at(piece_0), stride_);
+    power += std::norm(a) * (piece_1 - piece_0) / pieces_in_all;
+    if (!sweep_ends_) continue;
+    for (const double end : {0.0, pieces_in_all - 1}) {
+      if (end < piece_0 || end >= piece_1) continue;
+      const double t = axis_.start + (row_0 + end) * axis_.step - delay;
+      const double level = std::copysign(half_ - axis_.step, t);
+      const std::complex<double> g = a * (envelope.at(t) - envelope.at(level));  // (E13)
+      const double g_re = g.real(), g_im = g.imag();
+      kernels::stamp_pulse(&g_re, &g_im, 1, column_offset, pieces(columns_), tile.re.data() + at(end),
+                           tile.im.data() + at(end), stride_);
+    }
   }
   return power * pulse_energy_;
 }

@@ -48,6 +48,8 @@ class SpreadSynthesis {
   };
   /// Stamps the listed echoes on one tile of bins; returns their energy [Pa^2 bins].
   double stamp(const Ping& ping, std::span<const std::uint32_t> list, std::size_t first_bin, Tile& tile) const;
+  /// The same for sweeps: only what falls on the tile of each.
+  double stamp_sweeps(const Ping& ping, std::span<const std::uint32_t> list, std::size_t first_bin, Tile& tile) const;
   /// The same for echoes whose pulses differ: sample by sample.
   double stamp_singly(const Ping& ping, std::span<const std::uint32_t> list, std::size_t first_bin, Tile& tile) const;
   /// Turns the stamped tile into beams: the bins [first, last) of `pressure`.
@@ -70,8 +72,10 @@ class SpreadSynthesis {
   EchoShapes shapes_;
   bool one_shape_;  ///< absorption leaves every pulse its shape: samples are polynomials of its offset from the bins
   SpreadingKernel kernel_;
-  PolynomialPieces<Real> columns_, rows_;
-  double pulse_energy_ = 0;  ///< of the planned pulse with unit peak [bins]
+  PolynomialPieces<Real> columns_, rows_, rows_im_;  ///< rows_im_: of a sweep
+  bool sweep_ = false, sweep_ends_ = false;          ///< one_shape_ of a sweep; its ends are among the rows
+  double half_ = 0;                                  ///< of what is planned of a pulse [s]
+  double pulse_energy_ = 0;                          ///< of the planned pulse with unit peak [bins]
   std::size_t grid_, margin_, stride_, tile_bins_, tile_rows_;
   double cycles_per_u_, half_place_;
 

@@ -75,7 +75,7 @@ PolynomialPieces<Real> PolynomialPieces<Real>::fit(const std::function<double(do
   result.pieces = pieces;
   result.lanes = (pieces + 7) / 8 * 8;
   result.degree = degree;
-  result.coefficient.assign((degree + 1) * result.lanes, Real(0));
+  result.coefficient.assign((degree + 1) * result.lanes + 8, Real(0));
   for (std::size_t p = 0; p <= degree; ++p)
     for (std::size_t l = 0; l < pieces; ++l)
       result.coefficient[p * result.lanes + l] = static_cast<Real>(best[l][degree - p]);

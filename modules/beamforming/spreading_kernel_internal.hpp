@@ -10,7 +10,7 @@ namespace insonify {
 template <typename Real>
 struct PolynomialPieces {
   std::size_t pieces = 0, lanes = 0, degree = 0;
-  std::vector<Real> coefficient;  ///< (degree + 1) x lanes, highest power first, in t = 2 z - 1
+  std::vector<Real> coefficient;  ///< (degree + 1) x lanes and 8 spare, highest power first, in t = 2 z - 1
 
   /// The lowest degree whose largest error is below `error`; lanes beyond `pieces` are zero, and `lanes` is rounded up to a
   /// multiple of 8.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "beamforming/element_series.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "core/error.hpp"
@@ -19,6 +20,10 @@ ComplexGrid synthesize_line(const Echoes& echoes, const SonarHead& head, const M
       return synthesize_direct(echoes, head, medium, options);
     case SynthesisMethod::spectrum:
       return synthesize_spectrum(echoes, head, medium, options);
+    case SynthesisMethod::element_exact: {
+      const ElementOptions exact{options.tolerance, Wavefront::spherical, options.threads};
+      return beam_from_elements(hear_elements(echoes, head, medium, exact), head, medium, exact);
+    }
     case SynthesisMethod::stamped:
       break;
   }

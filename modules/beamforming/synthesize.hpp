@@ -7,7 +7,7 @@
 namespace insonify {
 
 /// Which of the synthesizers below forms the beams.
-enum class SynthesisMethod { stamped, direct, spectrum };
+enum class SynthesisMethod { stamped, direct, spectrum, element_exact };
 
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< of the image; a pulse is cut where its envelope falls below half this part of its peak
@@ -22,9 +22,11 @@ struct SynthesisOptions {
 ///                          B(u, v) = B_y(u - u_b) B_z(v - v_b), u_b = cos(elevation_b) sin(azimuth_b)
 ///   several rows, no column    the elevation pattern (E14) about the row's own elevation
 ///
-/// See with_patterns for what hear_scatterers must have applied. `stamped` and `spectrum` leave an echo out of a row
+/// See with_patterns for what hear_scatterers must have applied. `stamped`, `spectrum` and `element_exact` leave an echo out of a row
 /// whose response to it is below tolerance / (10 sqrt(rows)) of that of the row nearest to it: over all rows it loses at
 /// most a tenth of the tolerance (relative L2 norm) of what a row hears of it; `direct` leaves none out.
+/// `element_exact` leaves the narrow-band far field: true delays per element, focused beams (hear_elements,
+/// beam_from_elements, E61, E62); its tolerance is within [1e-12, 0.1].
 /// Cost: that of the method for every row. The result does not depend on options.threads.
 /// Throws Error as the methods do, and if there are several rows or a column, but not one echoes.v per echo.
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,

@@ -51,7 +51,7 @@ std::vector<FanRow> fan_rows(const BeamFan& fan) {
   return rows;
 }
 
-Sector insonified_sector(const BeamFan& fan, double elevation_half_extent) {
+Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double azimuth_margin) {
   require_valid(fan, "insonified_sector");
   std::vector<double> azimuth = fan.azimuth;
   std::sort(azimuth.begin(), azimuth.end());
@@ -64,7 +64,7 @@ Sector insonified_sector(const BeamFan& fan, double elevation_half_extent) {
       begin = azimuth[b];
     }
   const double centre = begin + (2 * pi - widest) / 2;
-  const double half = std::min(pi, (2 * pi - widest) / 2 + fan.beam_width);
+  const double half = std::min(pi, (2 * pi - widest) / 2 + (azimuth_margin > 0 ? azimuth_margin : fan.beam_width));
   const auto [low, high] = std::minmax_element(fan.elevation.begin(), fan.elevation.end());
   return {centre - half, centre + half, std::max(-pi / 2, *low - elevation_half_extent),
           std::min(pi / 2, *high + elevation_half_extent)};

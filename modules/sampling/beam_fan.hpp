@@ -34,11 +34,12 @@ struct FanRow {
 /// alike has as many rows as beams.
 std::vector<FanRow> fan_rows(const BeamFan& fan);
 
-/// The sector that the transmitter fills: the fan and one beam width on either side.
+/// The sector that is sampled: the fan and a margin on either side.
 struct Sector {
   double min_azimuth = 0, max_azimuth = 0;      ///< [rad]
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
-Sector insonified_sector(const BeamFan& fan, double elevation_half_extent);
+/// azimuth_margin   beyond the outermost beams [rad]; 0: one beam width
+Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double azimuth_margin = 0);
 
 }  // namespace insonify

@@ -1,13 +1,18 @@
 #include "sampling/cast_rays.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <span>
+
+#include <Eigen/Geometry>
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sampling/direction_index.hpp"
+#include "sampling/direction_raster.hpp"
 #include "sampling/hit_rule.hpp"
 
 namespace insonify {
@@ -26,93 +31,118 @@ std::vector<double> midpoints(const std::vector<double>& values, double low, dou
 
 struct Ray {
   Direction direction;
+  Eigen::Vector3f along;
   double solid_angle = 0;  // [sr]
-  std::uint32_t number = 0;
 };
 
-// What one block of beams found.
-struct Catch {
-  Scatterers scatterers;
-  std::size_t missed = 0;
-};
-
-void append(const Scatterers& from, Scatterers& to) {
-  const auto join = [](const auto& tail, auto& all) { all.insert(all.end(), tail.begin(), tail.end()); };
-  join(from.range, to.range);
-  join(from.azimuth, to.azimuth);
-  join(from.elevation, to.elevation);
-  join(from.cos_incidence, to.cos_incidence);
-  join(from.projected_area, to.projected_area);
-  join(from.material, to.material);
-  join(from.id, to.id);
-  join(from.surfel, to.surfel);
-}
-
-class RayCaster {
- public:
-  RayCaster(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
-            const RangeGate& gate, const SamplingOptions& options)
-      : scene_(scene), surfels_(surfels), index_(index), gate_(gate), options_(options) {}
-
-  void cast_beam(std::size_t beam, const BeamShare& share, Catch& caught) {
-    const auto n = static_cast<std::size_t>(options_.rays_per_beam);
-    const double shift = random_uniform(options_.seed, RandomStage::ray_jitter, {beam, ~0ull, 0})[0];
+std::vector<Ray> make_rays(const std::vector<BeamShare>& shares, const SamplingOptions& options) {
+  const auto n = static_cast<std::size_t>(options.rays_per_beam);
+  std::vector<Ray> rays(shares.size() * n);
+  parallel_for(shares.size(), options.threads, [&](std::size_t beam) {
+    const BeamShare& share = shares[beam];
+    const double shift = random_uniform(options.seed, RandomStage::ray_jitter, {beam, ~0ull, 0})[0];
     const double width = share.max_azimuth - share.min_azimuth;
     const double step = (share.max_elevation - share.min_elevation) / static_cast<double>(n);
     for (std::size_t k = 0; k < n; ++k) {
-      const double jitter = random_uniform(options_.seed, RandomStage::ray_jitter, {beam, k, 0})[0];
+      const double jitter = random_uniform(options.seed, RandomStage::ray_jitter, {beam, k, 0})[0];
       const double across = shift + static_cast<double>(k) * golden;
-      Ray ray;
+      Ray& ray = rays[beam * n + k];
       ray.direction.azimuth = std::remainder(share.min_azimuth + width * (across - std::floor(across)), 2 * pi);
       ray.direction.elevation = share.min_elevation + step * (static_cast<double>(k) + jitter);
+      ray.along = unit_vector(ray.direction).cast<float>();
       ray.solid_angle = std::cos(ray.direction.elevation) * width * step;
-      ray.number = static_cast<std::uint32_t>(beam * n + k);
-      cast(ray, caught);
     }
-  }
+  });
+  return rays;
+}
 
- private:
-  void cast(const Ray& ray, Catch& caught) {
-    const Eigen::Vector3f u = unit_vector(ray.direction).cast<float>();
-    candidates_.clear();
-    index_.any(u, std::numeric_limits<float>::infinity(), scratch_, [&](std::uint32_t s) {
-      candidates_.push_back(s);
-      return false;
-    });
-    RayHit hit;
-    switch (hit_surface(surfels_, u, options_.occlusion, candidates_, hit)) {
-      case RayFate::missed:
-        ++caught.missed;
-        break;
-      case RayFate::blocked:
-        break;
-      case RayFate::echoes:
-        keep(ray, u, hit, caught.scatterers);
-    }
-  }
-
-  void keep(const Ray& ray, const Eigen::Vector3f& direction, const RayHit& hit, Scatterers& out) const {
-    const double range = hit.range;
-    if (range < gate_.min_range || range > gate_.max_range) return;
-    const GatedSurfel& s = surfels_[hit.surfel];
-    out.range.push_back(range);
-    out.azimuth.push_back(ray.direction.azimuth);
-    out.elevation.push_back(ray.direction.elevation);
-    out.cos_incidence.push_back(std::clamp(s.away.dot(direction), 0.0f, 1.0f));
-    out.projected_area.push_back(static_cast<float>(range * range * ray.solid_angle));
-    out.material.push_back(scene_.material[s.surfel]);
-    out.id.push_back(std::uint64_t{scene_.id[s.surfel]} << 32 | ray.number);
-    out.surfel.push_back(s.surfel);
-  }
-
-  const SceneCloud& scene_;
-  const std::vector<GatedSurfel>& surfels_;
-  const DirectionIndex& index_;
-  const RangeGate& gate_;
-  const SamplingOptions& options_;
-  std::vector<std::uint32_t> candidates_;
-  std::vector<Neighbour> scratch_;
+// What became of one ray.
+struct Landing {
+  RayFate fate = RayFate::missed;
+  RayHit hit;
 };
+
+std::vector<Landing> land_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+                                   const std::vector<Ray>& rays, const SamplingOptions& options) {
+  std::vector<Landing> landings(rays.size());
+  parallel_blocks(rays.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> candidates;
+    std::vector<Neighbour> scratch;
+    for (std::size_t r = begin; r < end; ++r) {
+      candidates.clear();
+      index.any(rays[r].along, std::numeric_limits<float>::infinity(), scratch, [&](std::uint32_t s) {
+        candidates.push_back(s);
+        return false;
+      });
+      landings[r].fate = hit_surface(surfels, rays[r].along, options.occlusion, candidates, landings[r].hit);
+    }
+  });
+  return landings;
+}
+
+// For each query the surfels whose cone may hold it: calls use(query, candidates), from several threads.
+template <typename Use>
+void for_candidates(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, int threads,
+                    const Use& use) {
+  const DirectionRaster raster(surfels, queries, Footprint::cone, threads);
+  parallel_for(raster.tiles(), threads, [&](std::size_t t) {
+    const DirectionTile tile = raster.tile(t);
+    if (tile.queries.empty()) return;
+    CellLists<std::uint32_t> cells;
+    for (std::uint32_t k = 0; k < tile.queries.size(); ++k) cells.add(k, tile.cell_of(queries[tile.queries[k]]));
+    std::vector<std::vector<std::uint32_t>> candidates(tile.queries.size(), raster.wide());
+    for (const TileBox& box : tile.boxes)
+      cells.for_each(box, [&](std::uint32_t k) { candidates[k].push_back(box.surfel); });
+    for (std::size_t k = 0; k < tile.queries.size(); ++k) use(tile.queries[k], candidates[k]);
+  });
+}
+
+std::vector<Landing> land_by_raster(const std::vector<GatedSurfel>& surfels, const std::vector<Ray>& rays,
+                                    const SamplingOptions& options) {
+  std::vector<CubePoint> queries(rays.size());
+  for (std::size_t r = 0; r < rays.size(); ++r) queries[r] = on_cube(rays[r].along);
+  std::vector<Landing> landings(rays.size());
+  for_candidates(surfels, queries, options.threads, [&](std::uint32_t r, std::vector<std::uint32_t>& candidates) {
+    landings[r].fate = hit_surface(surfels, rays[r].along, options.occlusion, candidates, landings[r].hit);
+  });
+  return landings;
+}
+
+// True if the candidates' centres stand on all sides of the ray: no half-plane through it is free of them.
+bool is_surrounded(const Eigen::Vector3f& ray, const std::vector<GatedSurfel>& surfels,
+                   const std::vector<std::uint32_t>& candidates) {
+  const Eigen::Vector3f right = ray.unitOrthogonal(), up = ray.cross(right);
+  std::vector<float> angles;
+  for (const std::uint32_t c : candidates)
+    if (squared_chord(ray, surfels[c]) <= squared_footprint_chord(surfels[c]))
+      angles.push_back(std::atan2(up.dot(surfels[c].position), right.dot(surfels[c].position)));
+  if (angles.size() < 3) return false;
+  std::sort(angles.begin(), angles.end());
+  constexpr auto half_turn = static_cast<float>(pi);
+  if (angles.front() + 2 * half_turn - angles.back() >= half_turn) return false;
+  return std::adjacent_find(angles.begin(), angles.end(), [](float a, float b) { return b - a >= half_turn; }) ==
+         angles.end();
+}
+
+// Rays that met nothing though surfels stand within three footprints on all sides of them.
+std::size_t count_holes(std::vector<GatedSurfel> surfels, const std::vector<Ray>& rays,
+                        const std::vector<Landing>& landings, int threads) {
+  constexpr float reach = 3;
+  std::vector<std::uint32_t> missed;
+  std::vector<CubePoint> queries;
+  for (std::uint32_t r = 0; r < rays.size(); ++r)
+    if (landings[r].fate == RayFate::missed) {
+      missed.push_back(r);
+      queries.push_back(on_cube(rays[r].along));
+    }
+  if (missed.empty() || surfels.empty()) return 0;
+  for (GatedSurfel& s : surfels) s.radius *= reach;
+  std::atomic<std::size_t> holes{0};
+  for_candidates(surfels, queries, threads, [&](std::uint32_t q, const std::vector<std::uint32_t>& candidates) {
+    if (is_surrounded(rays[missed[q]].along, surfels, candidates)) ++holes;
+  });
+  return holes;
+}
 
 std::size_t count_different(std::vector<std::uint32_t> values) {
   std::sort(values.begin(), values.end());
@@ -152,20 +182,32 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
   return shares;
 }
 
-CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, Projection projection,
                      const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options) {
-  constexpr std::size_t block = 4;
-  std::vector<Catch> caught((shares.size() + block - 1) / block);
-  parallel_blocks(shares.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
-    RayCaster caster(scene, surfels, index, gate, options);
-    for (std::size_t b = begin; b < end; ++b) caster.cast_beam(b, shares[b], caught[begin / block]);
-  });
+  const std::vector<Ray> rays = make_rays(shares, options);
+  const std::vector<Landing> landings =
+      projection == Projection::raster
+          ? land_by_raster(surfels, rays, options)
+          : land_by_index(surfels, DirectionIndex(surfels, projection, options.threads), rays, options);
   CastResult result;
-  for (const Catch& part : caught) {
-    append(part.scatterers, result.scatterers);
-    result.missed += part.missed;
+  Scatterers& out = result.scatterers;
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    const RayHit& hit = landings[r].hit;
+    const double range = hit.range;
+    result.missed += landings[r].fate == RayFate::missed;
+    if (landings[r].fate != RayFate::echoes || range < gate.min_range || range > gate.max_range) continue;
+    const GatedSurfel& s = surfels[hit.surfel];
+    out.range.push_back(range);
+    out.azimuth.push_back(rays[r].direction.azimuth);
+    out.elevation.push_back(rays[r].direction.elevation);
+    out.cos_incidence.push_back(std::clamp(s.away.dot(rays[r].along), 0.0f, 1.0f));
+    out.projected_area.push_back(static_cast<float>(range * range * rays[r].solid_angle));
+    out.material.push_back(scene.material[s.surfel]);
+    out.id.push_back(std::uint64_t{scene.id[s.surfel]} << 32 | r);
+    out.surfel.push_back(s.surfel);
   }
-  result.met_surfels = count_different(result.scatterers.surfel);
+  if (result.missed > 0) result.unknown = count_holes(surfels, rays, landings, options.threads);
+  result.met_surfels = count_different(out.surfel);
   return result;
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sampling/direction_index.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "sampling/gate_surfels.hpp"
 
@@ -23,12 +22,14 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector);
 struct CastResult {
   Scatterers scatterers;
   std::size_t missed = 0;       ///< rays that met nothing
+  std::size_t unknown = 0;      ///< of these, with surfels within three footprints on all sides
   std::size_t met_surfels = 0;  ///< different surfels that gave an echo
 };
 
 /// rays_per_beam rays in each beam's share: one per equal interval of elevation, jittered in it, spread in
 /// azimuth by the golden ratio. Each ray's cell is its part of the share: r^2 cos(elevation) dtheta dphi.
-CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+/// The projection (not automatic) changes the cost alone.
+CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, Projection projection,
                      const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options);
 
 }  // namespace insonify

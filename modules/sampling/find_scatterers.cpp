@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
 #include "sampling/cast_rays.hpp"
-#include "sampling/direction_index.hpp"
+#include "sampling/choose_projection.hpp"
 #include "sampling/gate_surfels.hpp"
 #include "sampling/split_surfels.hpp"
 #include "sampling/surfel_visibility.hpp"
@@ -28,6 +28,7 @@ void require_valid(const SamplingOptions& options, const BeamFan& fan) {
   require(at_least_0(options.elevation_half_extent), "elevation_half_extent", options.elevation_half_extent,
           ">= 0 rad");
   require(at_least_0(options.relief_outer_scale), "relief_outer_scale", options.relief_outer_scale, ">= 0 m");
+  require(at_least_0(options.azimuth_margin), "azimuth_margin", options.azimuth_margin, ">= 0 rad");
   require(options.footprint > 0 && std::isfinite(options.footprint), "footprint", options.footprint, "> 0");
   require(options.rays_per_beam >= 1, "rays_per_beam", options.rays_per_beam, "at least 1");
   const double rays = static_cast<double>(fan.beams()) * options.rays_per_beam;
@@ -43,11 +44,37 @@ void require_valid(const Pose& pose) {
     fail(ErrorKind::argument, me, ": world_from_head must be a rotation and a translation");
 }
 
+double half_extent_of(const BeamFan& fan, const SamplingOptions& options) {
+  return options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
+}
+
+// Everything about the ping that is not the scene.
+struct View {
+  const Pose& world_from_head;
+  const BeamFan& fan;
+  const RangeGate& gate;
+  const SamplingOptions& options;
+  Sector sector;
+  HeadFrame head;
+
+  View(const SceneCloud& scene, const Pose& pose, const BeamFan& of_fan, const RangeGate& of_gate,
+       const SamplingOptions& o)
+      : world_from_head(pose),
+        fan(of_fan),
+        gate(of_gate),
+        options(o),
+        sector(insonified_sector(fan, half_extent_of(fan, o), o.azimuth_margin)),
+        head(scene, pose) {}
+};
+
 // Surfels that give an echo, in scene order; counts the others.
-std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfels, const DirectionIndex* index,
-                                          int threads, SamplingReport& report) {
+std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfels, const SamplingOptions& options,
+                                          SamplingReport& report) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
-  if (index) hidden = find_hidden(surfels, *index, threads);
+  if (options.occlusion) {
+    report.projection = choose_projection(surfels, options.projection, report.in_gate - report.back_facing);
+    hidden = find_hidden(surfels, report.projection, options.threads);
+  }
   std::vector<std::uint32_t> visible;
   for (std::size_t s = 0; s < surfels.size(); ++s) {
     report.hidden += hidden[s];
@@ -57,21 +84,9 @@ std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfel
   return visible;
 }
 
-}  // namespace
-
-Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
-                         const RangeGate& gate, const SamplingOptions& options) {
-  require_valid(scene, me);
-  require_valid(world_from_head);
-  require_valid(fan, me);
-  require_valid(gate, me);
-  require_valid(options, fan);
-
-  // What lies in sector and gate, in head axes.
-  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
-  const Sector sector = insonified_sector(fan, half_extent);
-  const HeadFrame head(scene, world_from_head);
-  const auto surfels = gate_surfels(scene, head, sector, gate, options.footprint, options.threads);
+// What the head sees of the surfels in sector and gate.
+Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
+  const SamplingOptions& options = view.options;
   Sampling result;
   SamplingReport& report = result.report;
   report.surfels = scene.size();
@@ -79,26 +94,62 @@ Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, c
     report.in_gate += s.in_gate;
     report.back_facing += s.in_gate && !s.facing;
   }
-
   if (options.kind == SamplingKind::rays) {
-    const DirectionIndex index(surfels, options.projection, options.threads);
-    CastResult cast = cast_rays(scene, surfels, index, beam_shares(fan, sector), gate, options);
+    const auto shares = beam_shares(view.fan, view.sector);
+    report.projection = choose_projection(surfels, options.projection, shares.size() * options.rays_per_beam);
+    CastResult cast = cast_rays(scene, surfels, report.projection, shares, view.gate, options);
     result.scatterers = std::move(cast.scatterers);
     report.rays_missed = cast.missed;
+    report.rays_unknown = cast.unknown;
     report.visible = cast.met_surfels;
   } else {
-    std::unique_ptr<DirectionIndex> index;
-    if (options.occlusion) index = std::make_unique<DirectionIndex>(surfels, options.projection, options.threads);
-    const auto visible = select_visible(surfels, index.get(), options.threads, report);
-    const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
-    result.scatterers = split_surfels(
-        scene, head, visible,
-        {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width});
+    const auto visible = select_visible(surfels, options, report);
+    const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * view.gate.bin_size;
+    SplitSurfels split = split_surfels(
+        scene, view.head, visible,
+        {options.scatterers_per_cell, cell, view.fan.beam_width, options.seed, options.threads, view.fan.row_width});
+    result.scatterers = std::move(split.scatterers);
+    report.capped = split.capped;
   }
-  if (const auto relief = relief_of(scene, {options.seed, options.relief_outer_scale}))
-    tilt_by_relief(scene, world_from_head, *relief, options.threads, result.scatterers);
   report.scatterers = result.scatterers.size();
   return result;
+}
+
+void require_valid(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
+                   const SamplingOptions& options) {
+  require_valid(world_from_head);
+  require_valid(fan, me);
+  require_valid(gate, me);
+  require_valid(options, fan);
+}
+
+void tilt(const SceneCloud& scene, const View& view, double outer_scale, Sampling& sampling) {
+  if (const auto relief = relief_of(scene, {view.options.seed, outer_scale}))
+    tilt_by_relief(scene, view.world_from_head, *relief, view.options.threads, sampling.scatterers);
+}
+
+}  // namespace
+
+Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
+                         const RangeGate& gate, const SamplingOptions& options) {
+  require_valid(scene, me);
+  require_valid(world_from_head, fan, gate, options);
+  const View view(scene, world_from_head, fan, gate, options);
+  Sampling sampling =
+      sample(scene, gate_surfels(scene, view.head, view.sector, gate, options.footprint, options.threads), view);
+  tilt(scene, view, options.relief_outer_scale, sampling);
+  return sampling;
+}
+
+Sampling find_scatterers(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                         const RangeGate& gate, const SamplingOptions& options) {
+  const SceneCloud& scene = prepared.scene();
+  require_valid(world_from_head, fan, gate, options);
+  const View view(scene, world_from_head, fan, gate, options);
+  Sampling sampling =
+      sample(scene, gate_surfels(prepared, view.head, view.sector, gate, options.footprint, options.threads), view);
+  tilt(scene, view, options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.mean_spacing(), sampling);
+  return sampling;
 }
 
 }  // namespace insonify

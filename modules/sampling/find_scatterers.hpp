@@ -5,6 +5,7 @@
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
 #include "sampling/scatterers.hpp"
+#include "scene/prepared_scene.hpp"
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {
@@ -14,14 +15,18 @@ enum class SamplingKind {
   rays      ///< a fixed number of rays per beam, each with its solid angle
 };
 
+/// How surfels are found that stand in one direction. It changes the cost, not the result: all of them propose
+/// surfels, and the same hit rule decides.
 enum class Projection {
-  kdtree,      ///< KD-trees over the directions of the surfels
-  brute_force  ///< the referee: every surfel against every direction, with the same hit rule
+  kdtree,       ///< KD-trees over the directions of the surfels
+  brute_force,  ///< the referee: every surfel against every direction, with the same hit rule
+  raster,       ///< footprints rasterised over directions, with a depth buffer
+  automatic     ///< raster or kdtree, whichever costs less here
 };
 
 struct SamplingOptions {
   SamplingKind kind = SamplingKind::surfels;
-  Projection projection = Projection::kdtree;
+  Projection projection = Projection::automatic;
   double scatterers_per_cell = 10;   ///< surfels are split until a resolution cell holds so many; 0: never split
   double range_resolution = 0;       ///< [m], length of a cell; 0: two bins of the gate
   int rays_per_beam = 64;            ///< for rays: jittered in azimuth and elevation inside the beam's own share
@@ -31,6 +36,7 @@ struct SamplingOptions {
   std::uint64_t seed = 1;            ///< of the jitter of parts and rays
   int threads = 0;                   ///< 0: all cores
   double relief_outer_scale = 0;     ///< longest wavelength of micro-relief [m]; 0: the mean surfel spacing sqrt(area)
+  double azimuth_margin = 0;         ///< [rad] kept beyond the outermost beams; 0: one beam width
 };
 
 /// What sampling met on its way, for the log and the manifest.
@@ -42,6 +48,11 @@ struct SamplingReport {
   std::size_t visible = 0;      ///< the rest; for rays: surfels that a ray met
   std::size_t rays_missed = 0;  ///< rays that met nothing
   std::size_t scatterers = 0;   ///< after splitting
+  std::size_t capped = 0;       ///< visible surfels that would need more than 4096 parts
+  /// Of rays_missed, those with surfels within three footprints on all sides: more likely a hole in the scan (an opening
+  /// less than about seven spacings wide) than open water.
+  std::size_t rays_unknown = 0;
+  Projection projection = Projection::automatic;  ///< the one used; automatic: none was needed
 };
 
 struct Sampling {
@@ -51,9 +62,8 @@ struct Sampling {
 
 /// The patches of `scene` that a head at `world_from_head` sees inside fan and gate (E16, E17).
 ///
-/// Directions of the gated surfels stand in KD-trees, one per octave of angular footprint, so that every surfel
-/// shadows exactly its own footprint. Hit rule: of the surfels whose footprint holds a direction, the front cluster
-/// counts, and the range is where the direction meets the tangent plane of its angularly nearest member.
+/// Every surfel shadows exactly its own footprint. Hit rule: of the surfels whose footprint holds a direction, the front
+/// cluster counts, and the range is where the direction meets the tangent plane of its angularly nearest member.
 /// A surfel is visible when no surfel's disc stands before it by more than the roughness of one surface.
 ///
 /// Rays tile the insonified sector: a beam's share goes to the midpoints between neighbours, the outermost ones' to
@@ -67,6 +77,11 @@ struct Sampling {
 /// together, the parts of split surfels turn within their surfels). The result does not depend on `threads`. Throws Error for an
 /// invalid scene, fan, gate, pose or option. Nothing in view: no scatterers.
 Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
+                         const RangeGate& gate, const SamplingOptions& options = {});
+
+/// The same from a scene that was checked and put into blocks once, for many pings: the same bytes, at a cost that grows
+/// with what the fan reaches, not with the scene.
+Sampling find_scatterers(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                          const RangeGate& gate, const SamplingOptions& options = {});
 
 }  // namespace insonify

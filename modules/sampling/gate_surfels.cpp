@@ -1,5 +1,7 @@
 #include "sampling/gate_surfels.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/parallel.hpp"
@@ -25,7 +27,7 @@ class SectorTest {
 
   // True if a sphere of radius `margin` round p may reach into the sector; exact for margin 0.
   bool holds(const Vector3d& p, double margin) const {
-    const double across = std::hypot(p.x(), p.y());
+    const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
     if (p.z() * top_.y() - across * top_.x() > margin) return false;
     if (across * bottom_.x() - p.z() * bottom_.y() > margin) return false;
     if (whole_circle_) return true;
@@ -73,25 +75,71 @@ struct Gate {
   }
 };
 
+// Surfels to look at, one bit each, so that they come in scene order whatever the order of the blocks.
+using Marks = std::vector<std::uint64_t>;
+
+bool reaches(const SurfelBlock& block, const Gate& gate) {
+  constexpr double rounding = 1 + 1e-9;
+  const Vector3d centre = gate.head.position(block.centre);
+  if (centre.norm() > (gate.range.max_range + block.radius) * rounding) return false;
+  const double discs = gate.footprint * std::sqrt(static_cast<double>(block.largest_area));
+  return gate.sector.holds(centre, (block.radius + discs) * rounding + nothing_nearer);
+}
+
+Marks mark_reached(const PreparedScene& prepared, const Gate& gate, int threads) {
+  const auto blocks = prepared.blocks();
+  std::vector<std::uint8_t> reached(blocks.size(), 0);
+  parallel_blocks(blocks.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) reached[b] = reaches(blocks[b], gate);
+  });
+  Marks marks((prepared.order().size() + 63) / 64, 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (reached[b])
+      for (const std::uint32_t i : prepared.order().subspan(blocks[b].begin, blocks[b].end - blocks[b].begin))
+        marks[i / 64] |= std::uint64_t{1} << i % 64;
+  return marks;
+}
+
+std::vector<GatedSurfel> join(const std::vector<std::vector<GatedSurfel>>& parts, int threads) {
+  std::vector<std::size_t> first(parts.size() + 1, 0);
+  for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].size();
+  std::vector<GatedSurfel> all(first.back());
+  parallel_for(parts.size(), threads, [&](std::size_t k) {
+    std::copy(parts[k].begin(), parts[k].end(), all.begin() + static_cast<std::ptrdiff_t>(first[k]));
+  });
+  return all;
+}
+
+constexpr std::size_t gate_block = 1 << 15;
+
 }  // namespace
 
 std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& range, double footprint, int threads) {
   const Gate gate{scene, head, SectorTest(sector), range, footprint};
-  constexpr std::size_t block = 1 << 15;
-  std::vector<std::vector<GatedSurfel>> parts((scene.size() + block - 1) / block);
-  parallel_blocks(scene.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) gate.add_if_inside(i, parts[begin / block]);
+  std::vector<std::vector<GatedSurfel>> parts((scene.size() + gate_block - 1) / gate_block);
+  parallel_blocks(scene.size(), gate_block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) gate.add_if_inside(i, parts[begin / gate_block]);
   });
-  std::size_t total = 0;
-  for (const auto& part : parts) total += part.size();
-  std::vector<GatedSurfel> all;
-  all.reserve(total);
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    part = {};
-  }
-  return all;
+  return join(parts, threads);
+}
+
+std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
+                                      const RangeGate& range, double footprint, int threads) {
+  const Gate gate{prepared.scene(), head, SectorTest(sector), range, footprint};
+  const Marks marks = mark_reached(prepared, gate, threads);
+  constexpr std::size_t words = gate_block / 64;
+  std::vector<std::vector<GatedSurfel>> parts((marks.size() + words - 1) / words);
+  parallel_blocks(marks.size(), words, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<GatedSurfel>& part = parts[begin / words];
+    std::size_t count = 0;
+    for (std::size_t w = begin; w < end; ++w) count += static_cast<std::size_t>(std::popcount(marks[w]));
+    part.reserve(count);
+    for (std::size_t w = begin; w < end; ++w)
+      for (std::uint64_t left = marks[w]; left != 0; left &= left - 1)
+        gate.add_if_inside(w * 64 + static_cast<std::size_t>(std::countr_zero(left)), part);
+  });
+  return join(parts, threads);
 }
 
 }  // namespace insonify

@@ -7,6 +7,7 @@
 #include "core/pose.hpp"
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
+#include "scene/prepared_scene.hpp"
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {
@@ -41,6 +42,9 @@ class HeadFrame {
 /// Surfels whose disc reaches into `sector` and which stand nearer than the far end of `gate`, in scene
 /// order. footprint   disc radius in units of the surfel's spacing
 std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
+                                      const RangeGate& gate, double footprint, int threads);
+/// The same surfels in the same order, found in the blocks that sector and gate reach.
+std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& gate, double footprint, int threads);
 
 }  // namespace insonify

@@ -1,7 +1,9 @@
 #include "sampling/seen_surfels.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
-#include "sampling/direction_index.hpp"
+#include "sampling/choose_projection.hpp"
 #include "sampling/gate_surfels.hpp"
 #include "sampling/split_surfels.hpp"
 #include "sampling/surfel_visibility.hpp"
@@ -17,13 +19,18 @@ std::vector<Sight> find_sight(const SceneCloud& scene, const Pose& world_from_he
     fail(ErrorKind::argument, "find_sight: asked has ", asked.size(), " entries, must have one per surfel (",
          scene.size(), ")");
   const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
-  auto surfels = gate_surfels(scene, HeadFrame(scene, world_from_head), insonified_sector(fan, half_extent), gate,
-                              options.footprint, options.threads);
+  auto surfels = gate_surfels(scene, HeadFrame(scene, world_from_head),
+                              insonified_sector(fan, half_extent, options.azimuth_margin), gate, options.footprint,
+                              options.threads);
   // find_hidden looks at what is in the gate: the rest only blocks.
   for (GatedSurfel& s : surfels) s.in_gate = s.in_gate && asked[s.surfel];
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
-  if (options.occlusion)
-    hidden = find_hidden(surfels, DirectionIndex(surfels, options.projection, options.threads), options.threads);
+  if (options.occlusion) {
+    const auto queries =
+        std::count_if(surfels.begin(), surfels.end(), [](const GatedSurfel& s) { return s.in_gate && s.facing; });
+    hidden = find_hidden(surfels, choose_projection(surfels, options.projection, static_cast<std::size_t>(queries)),
+                         options.threads);
+  }
 
   std::vector<Sight> sight(scene.size());
   for (std::size_t i = 0; i < sight.size(); ++i) sight[i] = asked[i] ? Sight::outside : Sight::not_asked;
@@ -37,8 +44,9 @@ Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, co
                         const std::vector<std::uint32_t>& surfels, const SamplingOptions& options) {
   const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
   return split_surfels(
-      scene, HeadFrame(scene, world_from_head), surfels,
-      {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width});
+             scene, HeadFrame(scene, world_from_head), surfels,
+             {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width})
+      .scatterers;
 }
 
 }  // namespace insonify

@@ -1,6 +1,7 @@
 #include "sampling/split_surfels.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <complex>
 
@@ -17,8 +18,9 @@ namespace {
 using Eigen::Vector3d;
 
 // Steps of the R2 sequence (Roberts 2018): 1 / g and 1 / g^2 with g^3 = g + 1, the plastic number.
-constexpr double step_radius = 0.75487766624669276, step_angle = 0.56984029099805327;
+constexpr double step_radius = 0.75487766624669276;  // step_angle = 0.56984029099805327
 constexpr std::uint32_t most_parts = 4096;
+constexpr double nearest = 1e-6;  // [m]: what is nearer counts as that far
 constexpr std::size_t most_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
@@ -26,16 +28,41 @@ double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double
   return std::min(1.0, oriented ? std::max(0.0, cosine) : std::abs(cosine));
 }
 
-void write_scatterer(Scatterers& out, std::size_t at, const Vector3d& position, const Vector3d& normal, double area,
-                     bool oriented) {
-  const double range = std::max(position.norm(), 1e-6);
-  const double cosine = cos_incidence_of(normal, position, range, oriented);
-  out.range[at] = range;
-  out.azimuth[at] = std::atan2(position.y(), position.x());
-  out.elevation[at] = std::asin(std::clamp(position.z() / range, -1.0, 1.0));
-  out.cos_incidence[at] = static_cast<float>(cosine);
-  out.projected_area[at] = static_cast<float>(area * cosine);
+// atan(t) to the last bit of a double for |t| <= 1/16: its series, cut after t^13.
+constexpr double small_tangent = 1.0 / 16;
+double atan_of_small(double t) {
+  const double q = t * t;
+  return t + t * q * (-1.0 / 3 + q * (1.0 / 5 + q * (-1.0 / 7 + q * (1.0 / 9 + q * (-1.0 / 11 + q * (1.0 / 13))))));
 }
+
+// Directions of places close to a centre, without a trigonometric function for each: by the tangents of the differences.
+// Good to 1e-15 rad.
+class DirectionsNear {
+ public:
+  DirectionsNear(const Vector3d& centre, double range)
+      : azimuth(std::atan2(centre.y(), centre.x())), elevation(std::asin(std::clamp(centre.z() / range, -1.0, 1.0))) {
+    const double across = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
+    if (!(across > nearest)) return;  // straight up or down: no small differences in azimuth
+    ahead_ = {centre.x() / across, centre.y() / across};
+    level_ = {across / range, centre.z() / range};
+  }
+
+  Direction of(const Vector3d& p, double range) const {
+    const double along = ahead_.x() * p.x() + ahead_.y() * p.y(), left = ahead_.x() * p.y() - ahead_.y() * p.x();
+    const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    const double forth = level_.x() * across + level_.y() * p.z(), up = level_.x() * p.z() - level_.y() * across;
+    if (!(std::abs(left) < small_tangent * along && std::abs(up) < small_tangent * forth))
+      return {std::atan2(p.y(), p.x()), std::asin(std::clamp(p.z() / range, -1.0, 1.0))};
+    const double a = azimuth + atan_of_small(left / along);
+    return {std::abs(a) <= pi ? a : a - std::copysign(2 * pi, a), elevation + atan_of_small(up / forth)};
+  }
+
+  const double azimuth, elevation;  // of the centre
+
+ private:
+  Eigen::Vector2d ahead_{0, 0};  // towards the centre in the level plane, unit length; 0: nothing is close
+  Eigen::Vector2d level_{1, 0};  // cosine and sine of its elevation
+};
 
 // Offsets of the parts of one surfel in its tangent plane, one after another.
 class PartSequence {
@@ -56,56 +83,12 @@ class PartSequence {
  private:
   double disc_radius_, shift_ = 0, k_ = 0;
   std::complex<double> turn_;
-  const std::complex<double> turn_step_ = std::polar(1.0, 2 * pi * step_angle);
+  static constexpr std::complex<double> turn_step_{-0.90525385836302985,
+                                                   -0.42487110035732889};  // exp(2 pi i step_angle)
 };
 
-struct Splitter {
-  const SceneCloud& scene;
-  const HeadFrame& head;
-  const SplitOptions& options;
-
-  std::uint32_t parts(std::uint32_t surfel) const {
-    const Vector3d p = head.position(scene.point[surfel]);
-    const double range = p.norm();
-    const Vector3d normal = head.direction(scene.normal[surfel].cast<double>());
-    return parts_of(scene.area[surfel], range, cos_incidence_of(normal, p, range, false), options);
-  }
-
-  void write(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel) const {
-    const Vector3d world_normal = scene.normal[surfel].cast<double>().normalized();
-    const Vector3d tangent = world_normal.unitOrthogonal();
-    const Vector3d t1 = head.direction(tangent), t2 = head.direction(world_normal.cross(tangent));
-    const Vector3d normal = head.direction(world_normal), centre = head.position(scene.point[surfel]);
-    const double area = scene.area[surfel], share = area / static_cast<double>(parts);
-    PartSequence sequence(area, options.seed, scene.id[surfel]);
-    for (std::size_t k = 0; k < parts; ++k) {
-      Vector3d position = centre;
-      if (k > 0) {
-        const std::complex<double> offset = sequence.next();
-        position += offset.real() * t1 + offset.imag() * t2;
-      }
-      write_scatterer(out, first + k, position, normal, share, scene.normals_oriented);
-      out.material[first + k] = scene.material[surfel];
-      out.id[first + k] = std::uint64_t{scene.id[surfel]} << 32 | k;
-      out.surfel[first + k] = surfel;
-    }
-  }
-};
-
-void resize(Scatterers& s, std::size_t n) {
-  s.range.resize(n);
-  s.azimuth.resize(n);
-  s.elevation.resize(n);
-  s.cos_incidence.resize(n);
-  s.projected_area.resize(n);
-  s.material.resize(n);
-  s.id.resize(n);
-  s.surfel.resize(n);
-}
-
-}  // namespace
-
-std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options) {
+// Parts wanted, before any bound.
+double parts_wanted(double area, double range, double cos_incidence, const SplitOptions& options) {
   if (!(options.scatterers_per_cell > 0)) return 1;
   const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
   const double dr = options.range_resolution, level = 2 * std::sqrt(2 * range * dr);
@@ -117,17 +100,101 @@ std::uint32_t parts_of(double area, double range, double cos_incidence, const Sp
     cell = cross_section < cos_incidence * length * range * narrower ? cross_section / cos_incidence
                                                                      : length * range * narrower;
   }
-  const double parts = std::ceil(options.scatterers_per_cell * area / cell);  // (E17)
+  return std::ceil(options.scatterers_per_cell * area / cell);  // (E17)
+}
+
+std::uint32_t bounded(double parts) {
   return parts < most_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : most_parts;
 }
 
-Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
-                         const SplitOptions& options) {
+struct Splitter {
+  const SceneCloud& scene;
+  const HeadFrame& head;
+  const SplitOptions& options;
+
+  double wanted(std::uint32_t surfel) const {
+    const Vector3d p = head.position(scene.point[surfel]);
+    const double range = p.norm();
+    const Vector3d normal = head.direction(scene.normal[surfel].cast<double>());
+    return parts_wanted(scene.area[surfel], range, cos_incidence_of(normal, p, range, false), options);
+  }
+
+  void write(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel) const {
+    const Vector3d world_normal = scene.normal[surfel].cast<double>().normalized();
+    const Vector3d normal = head.direction(world_normal), centre = head.position(scene.point[surfel]);
+    const double area = scene.area[surfel], share = area / static_cast<double>(parts);
+    const auto put = [&](std::size_t k, const Vector3d& position, double range, const Direction& direction) {
+      const double cosine = cos_incidence_of(normal, position, range, scene.normals_oriented);
+      out.range[first + k] = range;
+      out.azimuth[first + k] = direction.azimuth;
+      out.elevation[first + k] = direction.elevation;
+      out.cos_incidence[first + k] = static_cast<float>(cosine);
+      out.projected_area[first + k] = static_cast<float>(share * cosine);
+      out.material[first + k] = scene.material[surfel];
+      out.id[first + k] = std::uint64_t{scene.id[surfel]} << 32 | k;
+      out.surfel[first + k] = surfel;
+    };
+    const double range = std::max(centre.norm(), nearest);
+    const DirectionsNear directions(centre, range);
+    put(0, centre, range, {directions.azimuth, directions.elevation});
+    if (parts == 1) return;
+
+    const Vector3d tangent = world_normal.unitOrthogonal();
+    const Vector3d t1 = head.direction(tangent), t2 = head.direction(world_normal.cross(tangent));
+    PartSequence sequence(area, options.seed, scene.id[surfel]);
+    for (std::size_t k = 1; k < parts; ++k) {
+      const std::complex<double> offset = sequence.next();
+      const Vector3d position = centre + (offset.real() * t1 + offset.imag() * t2);
+      const double range_of_part = std::max(position.norm(), nearest);
+      put(k, position, range_of_part, directions.of(position, range_of_part));
+    }
+  }
+};
+
+// Fresh memory costs as much as what is written to it: the arrays share the threads.
+void resize(Scatterers& s, std::size_t n, int threads) {
+  parallel_for(8, threads, [&](std::size_t array) {
+    switch (array) {
+      case 0:
+        return s.range.resize(n);
+      case 1:
+        return s.azimuth.resize(n);
+      case 2:
+        return s.elevation.resize(n);
+      case 3:
+        return s.id.resize(n);
+      case 4:
+        return s.cos_incidence.resize(n);
+      case 5:
+        return s.projected_area.resize(n);
+      case 6:
+        return s.surfel.resize(n);
+      default:
+        return s.material.resize(n);
+    }
+  });
+}
+
+}  // namespace
+
+std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options) {
+  return bounded(parts_wanted(area, range, cos_incidence, options));
+}
+
+SplitSurfels split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
+                           const SplitOptions& options) {
   const Splitter splitter{scene, head, options};
   constexpr std::size_t block = 512;
   std::vector<std::size_t> first(surfels.size() + 1, 0);
+  std::atomic<std::size_t> capped{0};
   parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) first[s + 1] = splitter.parts(surfels[s]);
+    std::size_t capped_here = 0;
+    for (std::size_t s = begin; s < end; ++s) {
+      const double wanted = splitter.wanted(surfels[s]);
+      first[s + 1] = bounded(wanted);
+      capped_here += wanted > most_parts;
+    }
+    capped += capped_here;
   });
   for (std::size_t s = 0; s < surfels.size(); ++s) first[s + 1] += first[s];
   if (first.back() > most_scatterers)
@@ -136,12 +203,14 @@ Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, const s
          " GiB), must be at most 2^28; lower scatterers_per_cell = ", options.scatterers_per_cell,
          ", or thin the scene");
 
-  Scatterers scatterers;
-  resize(scatterers, first.back());
+  SplitSurfels result;
+  result.capped = capped;
+  resize(result.scatterers, first.back(), options.threads);
   parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) splitter.write(scatterers, first[s], first[s + 1] - first[s], surfels[s]);
+    for (std::size_t s = begin; s < end; ++s)
+      splitter.write(result.scatterers, first[s], first[s + 1] - first[s], surfels[s]);
   });
-  return scatterers;
+  return result;
 }
 
 }  // namespace insonify

@@ -31,7 +31,11 @@ std::uint32_t parts_of(double area, double range, double cos_incidence, const Sp
 /// stands where the k-th point of a low-discrepancy sequence over the surfel's disc (of its area, in its
 /// tangent plane) falls, turned by a number bound to (seed, surfel id): at the same place in the scene for
 /// every pose. Throws Error if that makes more than 2^28 scatterers.
-Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
-                         const SplitOptions& options);
+struct SplitSurfels {
+  Scatterers scatterers;
+  std::size_t capped = 0;  ///< surfels that would need more than 4096 parts
+};
+SplitSurfels split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
+                           const SplitOptions& options);
 
 }  // namespace insonify

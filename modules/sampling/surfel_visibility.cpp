@@ -1,12 +1,19 @@
 #include "sampling/surfel_visibility.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "core/parallel.hpp"
+#include "sampling/direction_index.hpp"
+#include "sampling/direction_raster.hpp"
 #include "sampling/hit_rule.hpp"
 
 namespace insonify {
+namespace {
 
-std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
-                                      int threads) {
+// Walks the KD-trees for one surfel after another.
+std::vector<std::uint8_t> hidden_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+                                          int threads) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   parallel_blocks(surfels.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> scratch;
@@ -19,6 +26,109 @@ std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, c
     }
   });
   return hidden;
+}
+
+// Where a surfel begins to hide what lies behind it. In the coordinates of a cube's face, its tangent plane is reached at
+// depth plane_distance / g(x, y) with g linear; what it hides lies a spacing below, deeper than (plane_distance +
+// spacing) / g. Here is the inverse of that, a little larger than it is for all that rounding may do.
+struct HidingDepth {
+  float constant, along_x, along_y;  // inverse depth and its slopes [1/m]
+
+  HidingDepth(const GatedSurfel& s, std::uint32_t face) {
+    constexpr float rounding = 1 + 1e-5f, slack = 2e-6f;
+    const int k = static_cast<int>(face / 2);
+    const float scale = rounding / (s.plane_distance + s.spacing);
+    constant = ((face % 2 == 0 ? s.away[k] : -s.away[k]) + slack) * scale;
+    along_x = s.away[(k + 1) % 3] * scale;
+    along_y = s.away[(k + 2) % 3] * scale;
+  }
+  bool before(const CubePoint& q) const { return q.depth * (constant + along_x * q.x + along_y * q.y) >= 1; }
+};
+
+// The depth buffer of one tile: in each cell the inverse of the least depth at which something may be hidden. What lies
+// before it is seen; only what lies behind it is asked about one by one.
+class DepthTile {
+ public:
+  DepthTile(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> asked,
+            std::span<const CubePoint> queries)
+      : surfels_(surfels), asked_(asked), queries_(queries) {}
+
+  void find_hidden(const DirectionTile& tile, std::vector<std::uint8_t>& hidden) {
+    nearest_.fill(0);
+    for (const TileBox& box : tile.boxes) draw(tile, box);
+    for (const std::uint32_t query : tile.queries) {
+      const CubePoint& q = queries_[query];
+      const std::size_t cell = tile.cell_of(q);
+      if (q.depth * nearest_[cell] >= 1) open_.add({q, asked_[query], false}, cell);
+    }
+    if (open_.empty()) return;
+    for (const TileBox& box : tile.boxes) {
+      const GatedSurfel& front = surfels_[box.surfel];
+      const HidingDepth depth(front, tile.face);
+      open_.for_each(box, [&](Open& behind) {
+        if (behind.hidden || !depth.before(behind.place) || !hides(front, surfels_[behind.surfel])) return;
+        behind.hidden = true;
+        hidden[behind.surfel] = 1;
+      });
+    }
+  }
+
+ private:
+  struct Open {
+    CubePoint place;
+    std::uint32_t surfel;
+    bool hidden;
+  };
+  static constexpr std::size_t side = DirectionTile::side;
+
+  void draw(const DirectionTile& tile, const TileBox& box) {
+    const HidingDepth depth(surfels_[box.surfel], tile.face);
+    // The largest over a cell: at its centre, and half its widths along the gradient.
+    const float most = (std::abs(depth.along_x) + std::abs(depth.along_y)) * 0.5f * tile.cell;
+    const float corner = depth.constant + most + depth.along_x * (tile.x + 0.5f * tile.cell);
+    const float step = depth.along_x * tile.cell;
+    for (std::size_t y = box.y0; y <= box.y1; ++y) {
+      const float row = corner + depth.along_y * (tile.y + (static_cast<float>(y) + 0.5f) * tile.cell);
+      float* const cells = nearest_.data() + y * side;
+      for (int x = box.x0; x <= box.x1; ++x) cells[x] = std::max(cells[x], row + step * static_cast<float>(x));
+    }
+  }
+
+  const std::vector<GatedSurfel>& surfels_;
+  std::span<const std::uint32_t> asked_;
+  std::span<const CubePoint> queries_;
+  std::array<float, side * side> nearest_;
+  CellLists<Open> open_;
+};
+
+std::vector<std::uint8_t> hidden_by_raster(const std::vector<GatedSurfel>& surfels, int threads) {
+  std::vector<std::uint32_t> asked;
+  std::vector<CubePoint> queries;
+  for (std::uint32_t s = 0; s < surfels.size(); ++s)
+    if (surfels[s].in_gate && surfels[s].facing) {
+      asked.push_back(s);
+      queries.push_back(on_cube(surfels[s].position));
+    }
+  const DirectionRaster raster(surfels, queries, Footprint::disc, threads);
+  std::vector<std::uint8_t> hidden(surfels.size(), 0);
+  parallel_for(raster.tiles(), threads, [&](std::size_t t) {
+    const DirectionTile tile = raster.tile(t);
+    if (!tile.queries.empty()) DepthTile(surfels, asked, queries).find_hidden(tile, hidden);
+  });
+  if (!raster.wide().empty())
+    parallel_blocks(asked.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        for (const std::uint32_t w : raster.wide())
+          if (!hidden[asked[k]]) hidden[asked[k]] = hides(surfels[w], surfels[asked[k]]);
+    });
+  return hidden;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, Projection projection, int threads) {
+  if (projection == Projection::raster) return hidden_by_raster(surfels, threads);
+  return hidden_by_index(surfels, DirectionIndex(surfels, projection, threads), threads);
 }
 
 }  // namespace insonify

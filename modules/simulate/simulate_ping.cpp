@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "acoustics/hear_reverberation.hpp"
+#include "sampling/range_gaps.hpp"
 #include "simulate/layer_sum.hpp"
 #include "simulate/stage_options.hpp"
 #include "simulate/stop_watch.hpp"
@@ -20,9 +21,11 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   result.medium = medium_of(environment, head.pulse.centre_frequency, options.absorption_order);
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
-  const View view{world_from_head, head.fan, head.gate, sampling_options(head, result.medium, options)};
-  Sampling sampling = find_scatterers(scene, world_from_head, head.fan, head.gate, view.sampling);
-  if (environment.profile) result.refraction = refract(environment, view, sampling.scatterers);
+  const View view{world_from_head, head.fan, sampled_gate(scene, head, result.medium, options),
+                  sampling_options(head, result.medium, options)};
+  Sampling sampling = find_scatterers(scene, world_from_head, view.fan, view.gate, view.sampling);
+  if (environment.profile)
+    result.refraction = refract(environment, view, options.refraction, head.gate.bin_size, sampling.scatterers);
   result.seconds.sampling = watch.lap();
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase.
@@ -52,6 +55,11 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   result.seconds.detection = watch.lap();
 
   result.sampling = sampling.report;
+  if (options.sampling == SamplingKind::rays) {
+    const double cell = view.sampling.range_resolution;
+    const RangeGaps gaps = count_range_gaps(scene, world_from_head, sampling.scatterers, options.rays_per_beam, cell);
+    result.notes = range_gap_notes(gaps, options.rays_per_beam, cell);
+  }
   result.scatterers = std::move(sampling.scatterers);
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "acoustics/bend_paths.hpp"
 #include "acoustics/environment.hpp"
@@ -13,6 +15,9 @@
 
 namespace insonify {
 
+/// Whether something is done: as the scene needs it, always, or never.
+enum class Choice { as_needed, always, never };
+
 struct SimulationOptions {
   std::uint64_t seed = 1;
   SamplingKind sampling = SamplingKind::surfels;
@@ -22,15 +27,18 @@ struct SimulationOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   SynthesisMethod method = SynthesisMethod::stamped;
   double tolerance = 1e-4;
-  bool multipath = false;        ///< adds echoes by way of the environment's surface and bottom (E48)
-  bool noise = false;            ///< adds thermal, wind and self noise of independent elements (E18, E25, E41)
-  Motion motion{};               ///< of the head during the ping (E44); boundaries and water are heard as at rest
-  int absorption_order = 0;      ///< 0: absorption of the centre frequency for the whole pulse
-  DetectionOptions detection{};  ///< noise floor -inf: all noise in the band, less the array's gain
-  std::int64_t ping = 0;         ///< number of the ping: noise, water and waves are new in every one
-  double time = 0;               ///< of transmission [s]
-  bool keep_layers = false;      ///< keeps each kind of echo as a layer of its own
-  int threads = 0;               ///< 0: all cores; the result does not depend on it
+  bool multipath = false;    ///< adds echoes by way of the environment's surface and bottom (E48)
+  bool noise = false;        ///< adds thermal, wind and self noise of independent elements (E18, E25, E41)
+  Motion motion{};           ///< of the head during the ping (E44); boundaries and water are heard as at rest
+  int absorption_order = 0;  ///< 0: absorption of the centre frequency for the whole pulse
+  Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
+  double elevation_floor_db = -40;        ///< elevations where the two-way pattern is lower are not sampled
+  double azimuth_margin = 0;              ///< sampled beyond the outermost beams [rad]; 0: one beam width
+  DetectionOptions detection{};           ///< noise floor -inf: all noise in the band, less the array's gain
+  std::int64_t ping = 0;                  ///< number of the ping: noise, water and waves are new in every one
+  double time = 0;                        ///< of transmission [s]
+  bool keep_layers = false;               ///< keeps each kind of echo as a layer of its own
+  int threads = 0;                        ///< 0: all cores; the result does not depend on it
 };
 
 /// Wall time of each stage [s].
@@ -63,6 +71,7 @@ struct SimulatedPing {
   std::vector<LayerReport> layers;  ///< in the order in which they were added
   double noise_floor_db = 0;        ///< used by the detection [dB re 1 uPa]
   StageSeconds seconds;
+  std::vector<std::string> notes{};  ///< what to know about this ping, one sentence each with a remedy
 };
 
 /// One ping: the whole signal path. Start reading here. What the environment does not hold and the options do not ask

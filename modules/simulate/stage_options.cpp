@@ -1,15 +1,17 @@
 #include "simulate/stage_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "acoustics/hear_reverberation.hpp"
 #include "beamforming/head_patterns.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
-/// Elevations at which the pattern is down by more than this are not sampled.
-constexpr double elevation_floor_db = -40;
+/// Nothing nearer is heard [m]: spreading would know no bounds.
+constexpr double nearest_range = 0.1;
 
 /// Bent rays that arrive within this part of the elevation width of the straight ones sound the same.
 constexpr double unseen_bend = 0.02;
@@ -22,7 +24,8 @@ SamplingOptions sampling_options(const SonarHead& head, const Medium& medium, co
   s.scatterers_per_cell = o.scatterers_per_cell;
   s.range_resolution = range_resolution(head.pulse, medium.sound_speed);
   s.rays_per_beam = o.rays_per_beam;
-  s.elevation_half_extent = sampled_half_extent(head, elevation_floor_db);
+  s.elevation_half_extent = sampled_half_extent(head, o.elevation_floor_db);
+  s.azimuth_margin = o.azimuth_margin;
   s.occlusion = o.occlusion;
   s.seed = o.seed;
   s.threads = o.threads;
@@ -45,13 +48,27 @@ DetectionOptions detection_options(const SonarHead& head, const Environment& env
   return d;
 }
 
-RefractionReport refract(const Environment& environment, const View& view, Scatterers& scatterers) {
+RangeGate sampled_gate(const SceneCloud& scene, const SonarHead& head, const Medium& medium,
+                       const SimulationOptions& options) {
+  const auto largest = std::max_element(scene.area.begin(), scene.area.end());
+  const double widest = head.gate.max_range - head.gate.min_range;  // more is no part of a scene that a ping could use
+  const double part = largest == scene.area.end() ? 0 : std::min(widest, std::sqrt(static_cast<double>(*largest) / pi));
+  const double reach = part + 0.5 * medium.sound_speed * pulse_half_length(head.pulse, 0.5 * options.tolerance);
+  RangeGate gate = head.gate;
+  gate.min_range = std::max(std::min(nearest_range, gate.min_range), gate.min_range - reach);
+  gate.max_range += reach;
+  return gate;
+}
+
+RefractionReport refract(const Environment& environment, const View& view, Choice choice, double bin_size,
+                         Scatterers& scatterers) {
   const SoundSpeedProfile& profile = *environment.profile;
   const double head_depth = environment.water.depth;
   RefractionReport report;
   report.bound = refraction_bound(profile, head_depth, view.world_from_head, scatterers);
-  report.bent =
-      report.bound.range >= view.gate.bin_size || report.bound.elevation >= unseen_bend * view.fan.elevation_width;
+  const bool needed =
+      report.bound.range >= bin_size || report.bound.elevation >= unseen_bend * view.fan.elevation_width;
+  report.bent = choice == Choice::always || (choice == Choice::as_needed && needed);
   if (report.bent)
     report.silenced = bend_paths(profile, head_depth, view.world_from_head, scatterers, view.sampling.threads);
   return report;

@@ -13,9 +13,15 @@ HearingOptions hearing_options(const SonarHead& head, const SimulationOptions& o
 DetectionOptions detection_options(const SonarHead& head, const Environment& environment,
                                    const SimulationOptions& options);
 
-/// Bends the rays to the scatterers if straight ones would be off by a range bin, or by an angle that the elevation
-/// pattern feels; says what was done.
-RefractionReport refract(const Environment& environment, const View& view, Scatterers& scatterers);
+/// The ranges that are sampled: the head's gate, and to either side as far as pulses reach into it and parts of surfels
+/// stand off their middles; never below 0.1 m, or the gate's own beginning if that is nearer.
+RangeGate sampled_gate(const SceneCloud& scene, const SonarHead& head, const Medium& medium,
+                       const SimulationOptions& options);
+
+/// Bends the rays to the scatterers if asked for, or if straight ones would be off by a range bin, or by an angle that the
+/// elevation pattern feels; says what was done.
+RefractionReport refract(const Environment& environment, const View& view, Choice choice, double bin_size,
+                         Scatterers& scatterers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {

@@ -160,20 +160,60 @@ void read_key(const std::string& path, const std::string& section, const std::st
   }
 }
 
+const std::vector<std::string> sections = {"water", "surface", "bottom", "volume", "wind", "noise", "profile"};
+
+void require_known_table(const std::string& path, const std::string& section, const TomlValue& table) {
+  if (table.kind != TomlValue::Kind::table)
+    fail_in_file(path, table.line, section, " must be a table: [", section, "]");
+  if (std::find(sections.begin(), sections.end(), section) != sections.end()) return;
+  const std::string near = nearest_word(section, sections);
+  fail_in_file(path, table.line, "unknown table [", section, "]",
+               near.empty() ? "; known are [water] [surface] [bottom] [volume] [wind] [noise] [profile]"
+                            : "; did you mean [" + near + "]?");
+}
+
+std::vector<double> list_of_numbers(const std::string& path, const TomlValue& table, const std::string& key) {
+  const TomlValue* list = table.find(key);
+  if (!list) fail_in_file(path, table.line, "profile: missing key '", key, "'");
+  const char* rule = " must be a list of numbers";
+  if (list->kind != TomlValue::Kind::array) fail_in_file(path, list->line, "profile.", key, rule);
+  std::vector<double> numbers;
+  for (const TomlValue& item : list->items) {
+    if (!item.is_number()) fail_in_file(path, item.line, "profile.", key, rule);
+    numbers.push_back(item.number);
+  }
+  return numbers;
+}
+
+SoundSpeedProfile read_profile(const std::string& path, const TomlValue& table) {
+  require_known_keys(path, table, {"depth_m", "sound_speed"});
+  return {list_of_numbers(path, table, "depth_m"), list_of_numbers(path, table, "sound_speed")};
+}
+
+void read_table(const std::string& path, const std::string& section, const TomlValue& table, Environment& e) {
+  require_known_table(path, section, table);
+  if (section == "surface") e.surface = SeaSurface{};
+  if (section == "bottom") e.bottom = FlatBottom{};
+  if (section == "profile")
+    e.profile = read_profile(path, table);
+  else
+    for (std::size_t k = 0; k < table.keys.size(); ++k) read_key(path, section, table.keys[k], table.items[k], e);
+}
+
+/// What else stands in the run.toml of a run, which is known by its version.
+bool is_of_run(const TomlValue& document, std::size_t item) {
+  const std::string& key = document.keys[item];
+  return document.find("insonify_version") &&
+         (document.items[item].kind != TomlValue::Kind::table || key == "sonar" || key == "scene" || key == "ping");
+}
+
 }  // namespace
 
 Environment load_environment(const std::string& path) {
   const TomlValue document = load_toml(path);
   Environment e;
-  for (std::size_t i = 0; i < document.keys.size(); ++i) {
-    const TomlValue& table = document.items[i];
-    const std::string& section = document.keys[i];
-    if (table.kind != TomlValue::Kind::table)
-      fail_in_file(path, table.line, section, " must be a table: [", section, "]");
-    if (section == "surface") e.surface = SeaSurface{};
-    if (section == "bottom") e.bottom = FlatBottom{};
-    for (std::size_t k = 0; k < table.keys.size(); ++k) read_key(path, section, table.keys[k], table.items[k], e);
-  }
+  for (std::size_t i = 0; i < document.keys.size(); ++i)
+    if (!is_of_run(document, i)) read_table(path, document.keys[i], document.items[i], e);
   try {
     require_valid(e, path.c_str());
   } catch (const Error& error) {
@@ -208,6 +248,9 @@ std::string environment_as_toml(const Environment& e) {
       text += "sound_speed_formula = \"" + name_of(sound_speed_names, e.sound_speed_formula) +
               "\"\nabsorption_formula = \"" + name_of(absorption_names, e.absorption_formula) + "\"\n";
   }
+  if (e.profile)
+    text += "\n[profile]\ndepth_m = " + toml_text_of(e.profile->depth) +
+            "\nsound_speed = " + toml_text_of(e.profile->sound_speed) + "\n";
   return text;
 }
 

@@ -7,9 +7,10 @@
 namespace insonify {
 
 /// Reads an environment from TOML: tables [water], [surface], [bottom], [volume], [wind], [noise] with the keys that
-/// environment_key_names lists. What a file does not mention keeps its default; a table that is there makes its part of
-/// the environment present. Unknown tables, keys and values of a wrong kind are errors with file, line and the nearest
-/// known name. Throws Error(file) or Error(content).
+/// environment_key_names lists, and [profile] with the lists depth_m and sound_speed. What a file does not mention keeps
+/// its default; a table that is there makes its part of the environment present. Of the run.toml of a run (it has a key
+/// insonify_version) everything else is passed over. Unknown tables, keys and values of a wrong kind are errors with
+/// file, line and the nearest known name. Throws Error(file) or Error(content).
 Environment load_environment(const std::string& path);
 
 /// Sets one value from text: section "water", key "temperature_c", ... Whether the whole makes sense is for

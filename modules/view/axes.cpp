@@ -1,6 +1,7 @@
 #include "view/axes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "view/text.hpp"
 #include "view/ticks.hpp"
@@ -19,6 +20,14 @@ double widest_label(const AxisTicks& ticks, int font_size) {
   return widest;
 }
 
+/// mantissa x 10^decade: "0.002", "50", "10000", and beyond that "2e-7".
+std::string power_text(int mantissa, int decade) {
+  if (decade > 5 || decade < -3) return std::to_string(mantissa) + "e" + std::to_string(decade);
+  std::string digits = std::to_string(mantissa);
+  if (decade >= 0) return digits + std::string(static_cast<std::size_t>(decade), '0');
+  return "0." + std::string(static_cast<std::size_t>(-decade - 1), '0') + digits;
+}
+
 }  // namespace
 
 AxisTicks round_ticks(double low, double high, double most) {
@@ -26,6 +35,20 @@ AxisTicks round_ticks(double low, double high, double most) {
   AxisTicks ticks;
   ticks.at = multiples(step, low, high);
   for (const double value : ticks.at) ticks.labels.push_back(number_text(value, step));
+  return ticks;
+}
+
+AxisTicks decade_ticks(double low, double high, double most) {
+  AxisTicks ticks;
+  const bool few = high - low < 2;
+  const double step = few ? 1 : std::max(1.0, std::ceil((high - low) / std::max(most, 2.0)));
+  for (double decade = step * std::floor(low / step); decade <= high; decade += step)
+    for (const int mantissa : {1, 2, 5}) {
+      const double at = decade + std::log10(static_cast<double>(mantissa));
+      if ((mantissa > 1 && !few) || at < low - 1e-9 || at > high + 1e-9) continue;
+      ticks.at.push_back(at);
+      ticks.labels.push_back(power_text(mantissa, static_cast<int>(decade)));
+    }
   return ticks;
 }
 

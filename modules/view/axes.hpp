@@ -15,6 +15,10 @@ struct AxisTicks {
 /// Round values in [low, high], about `most` of them at most.
 AxisTicks round_ticks(double low, double high, double most);
 
+/// The same for an axis of logarithms: `low` and `high` are decimal logarithms. Powers of ten, every second or third of
+/// them if there are many; 1, 2 and 5 times powers of ten if the axis spans less than two.
+AxisTicks decade_ticks(double low, double high, double most);
+
 /// A frame with ticks and labels outside and grid lines inside.
 struct Axes {
   Box frame;

@@ -1,6 +1,7 @@
 #include "view/line_chart.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <vtkAxis.h>
 #include <vtkChartXY.h>
@@ -31,29 +32,46 @@ vtkNew<vtkFloatArray> column(const char* name, const std::vector<double>& values
 }
 
 Colour line_colour(std::size_t number, bool dark) {
-  static constexpr Colour on_white[] = {{0.08, 0.33, 0.62}, {0.85, 0.37, 0.05}, {0.15, 0.55, 0.30}, {0.55, 0.30, 0.65}};
-  static constexpr Colour on_black[] = {{0.98, 0.66, 0.25}, {0.40, 0.70, 0.95}, {0.50, 0.80, 0.45}, {0.85, 0.60, 0.90}};
-  return dark ? on_black[number % 4] : on_white[number % 4];
+  static constexpr Colour on_white[] = {{0.08, 0.33, 0.62}, {0.85, 0.37, 0.05}, {0.15, 0.55, 0.30}, {0.55, 0.30, 0.65},
+                                        {0.75, 0.12, 0.20}, {0.10, 0.60, 0.65}, {0.45, 0.33, 0.20}, {0.40, 0.40, 0.40}};
+  static constexpr Colour on_black[] = {{0.98, 0.66, 0.25}, {0.40, 0.70, 0.95}, {0.50, 0.80, 0.45}, {0.85, 0.60, 0.90},
+                                        {0.98, 0.45, 0.45}, {0.45, 0.90, 0.90}, {0.85, 0.75, 0.55}, {0.75, 0.75, 0.75}};
+  return dark ? on_black[number % 8] : on_white[number % 8];
 }
 
 // The line itself is number 0.
 std::vector<ChartLine> all_lines(const LineChart& chart) {
-  std::vector<ChartLine> lines{{chart.x, chart.y, chart.name, chart.style}};
+  std::vector<ChartLine> lines{{chart.x, chart.y, chart.name, chart.style, chart.labels}};
   lines.insert(lines.end(), chart.more.begin(), chart.more.end());
   return lines;
+}
+
+// From here on, a logarithmic axis is a linear one of logarithms.
+LineChart with_logarithms_taken(LineChart chart) {
+  const auto take = [](double& value) { value = std::log10(value); };
+  const auto take_all = [&](std::vector<double>& values) { std::for_each(values.begin(), values.end(), take); };
+  if (chart.x_scale == AxisScale::logarithmic) {
+    take(chart.low_x), take(chart.high_x), take_all(chart.x);
+    for (ChartLine& line : chart.more) take_all(line.x);
+  }
+  if (chart.y_scale == AxisScale::logarithmic) {
+    take(chart.low_y), take(chart.high_y), take_all(chart.y);
+    for (ChartLine& line : chart.more) take_all(line.y);
+  }
+  return chart;
 }
 
 void add_plot(vtkChartXY& chart, const ChartLine& line, const Colour& colour, double width) {
   vtkNew<vtkTable> table;
   table->AddColumn(column("x", line.x));
   table->AddColumn(column("y", line.y));
-  const bool points = line.style == LineStyle::points;
+  const bool points = line.style == LineStyle::points || line.x.size() < 2;
   vtkPlot* plot = chart.AddPlot(points ? vtkChart::POINTS : vtkChart::LINE);
   plot->SetInputData(table, 0, 1);
   plot->GetPen()->SetColorF(colour[0], colour[1], colour[2]);
   plot->GetPen()->SetWidth(static_cast<float>(width));
   if (line.style == LineStyle::dashed) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
-  if (auto* marks = vtkPlotPoints::SafeDownCast(plot); marks && points) {
+  if (auto* marks = vtkPlotPoints::SafeDownCast(plot); marks && (points || line.style == LineStyle::marked)) {
     marks->SetMarkerStyle(vtkPlotPoints::CIRCLE);
     marks->SetMarkerSize(static_cast<float>(4 * width));
   }
@@ -87,36 +105,81 @@ void add_chart(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& l
   canvas.renderer()->AddActor(actor);
 }
 
-bool has_legend(const std::vector<ChartLine>& lines) {
-  return std::any_of(lines.begin(), lines.end(), [](const ChartLine& line) { return !line.name.empty(); });
-}
+// In font sizes: of the legend's samples, from there to the name, from there to the next.
+constexpr double sample = 2.0, to_name = 0.5, to_next = 1.6;
+constexpr double legend_row = 1.6;
 
-// Samples and names in one row, its middle at `height`, from `left` on; the whole row is made to fit into `width`.
-void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, double line_width, int font,
-                double left, double width, double height) {
-  constexpr double sample = 2.0, to_name = 0.5, to_next = 1.6;  // in font sizes
-  double names = 0, gaps = -to_next;
-  for (const ChartLine& line : lines)
-    if (!line.name.empty()) names += text_size(line.name, font).width, gaps += sample + to_name + to_next;
-  const double fit = std::min(1.0, width / (names + gaps * font));
-  const int size = std::max(8, static_cast<int>(font * fit));
+// Which lines stand in which row of the legend, so that each fits into `width`.
+std::vector<std::vector<std::size_t>> legend_rows(const std::vector<ChartLine>& lines, int font, double width) {
+  std::vector<std::vector<std::size_t>> rows;
+  double used = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].name.empty()) continue;
-    const double right = left + sample * size;
-    const auto stroke = [&](double from, double to) {
-      return Path{{left + from * sample * size, height}, {left + to * sample * size, height}};
-    };
-    if (lines[i].style == LineStyle::points)
-      canvas.add_lines({{{(left + right) / 2 - 2 * line_width, height}, {(left + right) / 2 + 2 * line_width, height}}},
-                       4 * line_width, line_colour(i, dark), 1);
-    else if (lines[i].style == LineStyle::dashed)
-      canvas.add_lines({stroke(0, 0.25), stroke(0.375, 0.625), stroke(0.75, 1)}, line_width, line_colour(i, dark), 1);
-    else
-      canvas.add_lines({stroke(0, 1)}, line_width, line_colour(i, dark), 1);
-    const double text_width = text_size(lines[i].name, size).width;
-    canvas.add_text({lines[i].name, {right + to_name * size + text_width / 2, height}, size});
-    left = right + (to_name + to_next) * size + text_width;
+    const double needed = (sample + to_name) * font + text_size(lines[i].name, font).width;
+    if (rows.empty() || used + needed > width) rows.emplace_back(), used = 0;
+    rows.back().push_back(i);
+    used += needed + to_next * font;
   }
+  return rows;
+}
+
+void add_legend_sample(Canvas& canvas, const ChartLine& line, const Colour& colour, double line_width, double left,
+                       double right, double height) {
+  const auto stroke = [&](double from, double to) {
+    return Path{{left + from * (right - left), height}, {left + to * (right - left), height}};
+  };
+  const double middle = (left + right) / 2;
+  const bool mark = line.style == LineStyle::points || line.style == LineStyle::marked;
+  if (mark)
+    canvas.add_lines({{{middle - 2 * line_width, height}, {middle + 2 * line_width, height}}}, 4 * line_width, colour,
+                     1);
+  if (line.style == LineStyle::dashed)
+    canvas.add_lines({stroke(0, 0.25), stroke(0.375, 0.625), stroke(0.75, 1)}, line_width, colour, 1);
+  else if (line.style != LineStyle::points)
+    canvas.add_lines({stroke(0, 1)}, line_width, colour, 1);
+}
+
+// Samples and names in rows, the first one's middle half a row below `top`; a name too long for a row is made to fit.
+void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, double line_width, int font,
+                const Box& frame, double top) {
+  double height = top + 0.5 * legend_row * font;
+  for (const auto& row : legend_rows(lines, font, frame.width())) {
+    height -= legend_row * font;
+    double left = frame.left;
+    for (const std::size_t i : row) {
+      const double right = left + sample * font;
+      add_legend_sample(canvas, lines[i], line_colour(i, dark), line_width, left, right, height);
+      const FittedText name = fit_text(lines[i].name, font, frame.right - right - to_name * font);
+      const double text_width = text_size(name.text, name.font_size).width;
+      canvas.add_text({name.text, {right + to_name * font + text_width / 2, height}, name.font_size});
+      left = right + (to_name + to_next) * font + text_width;
+    }
+  }
+}
+
+// Labels beside the points they belong to: to the right and above, or where there is room.
+void add_point_labels(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& lines, int font) {
+  std::vector<Box> taken;
+  const double away = 0.7 * font;
+  for (const ChartLine& line : lines)
+    for (std::size_t k = 0; k < std::min(line.x.size(), line.y.size()); ++k) {
+      const Point2 p = axes.at(line.x[k], line.y[k]);
+      taken.push_back({p.x - 0.3 * font, p.x + 0.3 * font, p.y - 0.3 * font, p.y + 0.3 * font});
+    }
+  for (const ChartLine& line : lines)
+    for (std::size_t k = 0; k < line.labels.size(); ++k) {
+      const Point2 p = axes.at(line.x[k], line.y[k]);
+      const TextSize size = text_size(line.labels[k], font);
+      const double x = away + size.width / 2, y = away + 0.3 * font;
+      for (const Point2 step : {Point2{x, y}, {0, y + 0.2 * font}, {-x, y}, {0, -y - 0.2 * font}, {x, -y}, {-x, -y}}) {
+        const PlacedText text(line.labels[k], {p.x + step.x, p.y + step.y}, font);
+        const auto covers = [&](const Box& other) { return other.overlaps(text.box()); };
+        if (!axes.frame.contains(text.box()) || std::any_of(taken.begin(), taken.end(), covers)) continue;
+        taken.push_back(text.box());
+        canvas.add_text(text);
+        break;
+      }
+    }
 }
 
 // The frame is what title and labels leave.
@@ -124,11 +187,12 @@ Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double 
   const int font = font_size_for(options.width, options.height);
   const double bottom = 0.8 * font + room_below(font), top = title_bottom - font;
   const double most_levels = std::min(10.0, (top - bottom) / (2.5 * font));
-  const AxisTicks up = round_ticks(chart.low_y, chart.high_y, most_levels);
+  const auto ticks = [](AxisScale scale) { return scale == AxisScale::linear ? round_ticks : decade_ticks; };
+  const AxisTicks up = ticks(chart.y_scale)(chart.low_y, chart.high_y, most_levels);
   const Box frame{0.8 * font + room_left(up, font), options.width - 2.0 * font, bottom, top};
   const double most_across = std::min(12.0, frame.width() / (4.5 * font));
   const AxisTicks across =
-      chart.x_ticks ? chart.x_ticks(most_across) : round_ticks(chart.low_x, chart.high_x, most_across);
+      chart.x_ticks ? chart.x_ticks(most_across) : ticks(chart.x_scale)(chart.low_x, chart.high_x, most_across);
   Axes axes{frame, chart.low_x, chart.high_x, chart.low_y, chart.high_y, {}, {}, {}};
   add_axis_across(axes, across, chart.x_title, font);
   add_axis_upwards(axes, up, chart.y_title, font);
@@ -137,29 +201,31 @@ Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double 
 
 }  // namespace
 
-void draw_line_chart(const LineChart& chart, const PictureOptions& options, const char* who,
+void draw_line_chart(const LineChart& asked, const PictureOptions& options, const char* who,
                      const std::string& png_path) {
   // Find a place for everything, then draw it.
   const VtkMessages messages;
+  const LineChart chart = with_logarithms_taken(asked);
   PictureOptions titled = options;
   titled.title = chart.title;
   const auto title = place_title(titled);
   const int font = font_size_for(options.width, options.height);
   const std::vector<ChartLine> lines = all_lines(chart);
-  const double legend_height = has_legend(lines) ? 1.6 * font : 0;
   const double title_bottom = title ? title->box().bottom : options.height;
-  Axes axes = lay_out_axes(chart, options, title_bottom - legend_height);
+  const double across = lay_out_axes(chart, options, title_bottom).frame.width();
+  const double legend_height = legend_row * font * static_cast<double>(legend_rows(lines, font, across).size());
+  const Axes axes = lay_out_axes(chart, options, title_bottom - legend_height);
   Canvas canvas(options, who);
   const double thin = line_width_for(font);
   canvas.add_lines(axes.grid, thin, canvas.colours().line, 0.25);
-  axes.ticks.push_back(axes.outline());
-  canvas.add_lines(axes.ticks, thin, canvas.colours().line, 1);
+  std::vector<Path> ticks = axes.ticks;
+  ticks.push_back(axes.outline());
+  canvas.add_lines(ticks, thin, canvas.colours().line, 1);
   for (const PlacedText& text : axes.texts) canvas.add_text(text);
   if (title) canvas.add_text(*title);
   add_chart(canvas, axes, lines, options.dark, 1.3 * thin);
-  if (has_legend(lines))
-    add_legend(canvas, lines, options.dark, 1.6 * thin, font, axes.frame.left, axes.frame.width(),
-               axes.frame.top + 0.5 * font + 0.5 * legend_height);
+  add_legend(canvas, lines, options.dark, 1.6 * thin, font, axes.frame, axes.frame.top + 0.5 * font + legend_height);
+  add_point_labels(canvas, axes, lines, std::max(8, font * 3 / 4));
   canvas.save_png(png_path, messages);
 }
 

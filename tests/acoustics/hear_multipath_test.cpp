@@ -283,6 +283,23 @@ TEST(HearMultipath, applies_elevation_patterns_one_way_each_and_the_transmitters
     EXPECT_NEAR(std::abs(shaped.amplitude[i] / plain.amplitude[i]), expected[i] * transmit, 1e-6) << i;
 }
 
+// Under a rolled head the ways by the surface and straight ahead have azimuths of their own.
+TEST(HearMultipath, pairs_the_transmitters_gain_on_the_way_out_with_the_direction_of_the_way_back) {
+  Setting s = one_target({15, 5, -3});
+  s.environment.bottom.reset();
+  s.view.world_from_head = pose_from_yaw_pitch_roll({0, 0, -2}, 0, 0, radians(40));
+  s.sent.hearing.transmit_width = 0.5;
+  const Eigen::Matrix3d to_head = s.view.world_from_head.linear().transpose();
+  const Direction direct = direction_of(to_head * Vector3d(15, 5, -1)),
+                  image = direction_of(to_head * Vector3d(15, 5, 5));
+  const Echoes e = s.hear().echoes;
+  ASSERT_EQ(e.size(), 3u);  // the first two are the mixed path in its two senses
+  const std::size_t by_surface = e.v[0] > e.v[1] ? 0 : 1;
+  EXPECT_NEAR(e.v[by_surface], std::sin(image.elevation), 1e-6);
+  EXPECT_NEAR(std::abs(e.amplitude[by_surface]) / std::abs(e.amplitude[1 - by_surface]),
+              transmit_response(0.5, direct.azimuth) / transmit_response(0.5, image.azimuth), 1e-5);
+}
+
 // The seabed that was captured is where the flat bottom lies: it must not hide what bounces.
 TEST(HearMultipath, takes_captured_points_at_a_boundary_for_the_boundary) {
   Setting s = one_target();
@@ -297,6 +314,27 @@ TEST(HearMultipath, hears_nothing_beyond_a_boundary) {
   Setting above = one_target({20, 0, 1}), below = one_target({20, 0, -11});
   EXPECT_EQ(above.hear().echoes.size(), 0u);
   EXPECT_EQ(below.hear().one_bounce, 2u);  // by the surface: the scene may go deeper than the flat bottom
+}
+
+TEST(HearMultipath, what_is_buried_in_the_bottom_hides_nothing) {
+  Setting s = one_target();
+  const auto bounce = heard_at(s.hear().echoes, r_bottom);
+  add_plate(s.scene, 15, -16, -11);  // where the way to the image below the bottom passes
+  EXPECT_LT(std::abs(heard_at(s.hear().echoes, r_bottom) - bounce), 1e-9 * std::abs(bounce));
+}
+
+TEST(HearMultipath, keeps_the_power_of_a_patch_that_is_split) {
+  const auto power = [](const Echoes& e) {
+    double sum = 0;
+    for (const std::complex<double>& a : e.amplitude) sum += std::norm(a);
+    return sum;
+  };
+  Setting s = one_target();
+  const Echoes whole = s.hear().echoes;
+  s.view.sampling.scatterers_per_cell = 20000;
+  const Echoes split = s.hear().echoes;
+  EXPECT_GT(split.size(), 3 * whole.size());
+  EXPECT_NEAR(power(split) / power(whole), 1, 1e-3);
 }
 
 TEST(HearMultipath, keeps_the_gate_by_apparent_range) {
@@ -323,6 +361,16 @@ TEST(HearMultipath, rough_water_swallows_the_bounce_and_says_so) {
   const double rough = std::abs(heard_at(s.hear().echoes, r_surface));
   s.environment.surface->rms_height = 0;
   EXPECT_NEAR(rough / std::abs(heard_at(s.hear().echoes, r_surface)), left * left, 1e-6);
+}
+
+TEST(HearMultipath, rough_bottom_sends_back_its_coherent_part_alone) {
+  Setting s = one_target();
+  s.environment.surface.reset();
+  const double smooth = std::abs(heard_at(s.hear().echoes, r_bottom));
+  s.environment.bottom->rms_height = 1e-4;
+  const double left = coherent_reflection_loss(2 * pi * 900e3 / 1500, 1e-4, std::asin(15 / r_bottom));
+  EXPECT_NEAR(std::abs(heard_at(s.hear().echoes, r_bottom)) / smooth, left * left, 1e-6);
+  EXPECT_LT(left, 0.91);
 }
 
 TEST(HearMultipath, of_rays_hears_surfels) {

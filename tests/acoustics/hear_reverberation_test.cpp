@@ -126,6 +126,21 @@ TEST(HearVolume, rows_share_a_cells_volume) {
   EXPECT_NEAR(power(rows) / power(one), 1, 0.04);
 }
 
+TEST(HearVolume, applies_the_transmit_pattern_in_azimuth) {
+  const auto hear = [](double transmit_width) {
+    Transmission sent = transmission(1, radians(20));
+    sent.hearing.transmit_width = transmit_width;
+    return hear_volume(environment(), fan_of(40), {9, 9.2, 0.01}, sent);
+  };
+  const Echoes even = hear(0), shaped = hear(radians(30));
+  ASSERT_EQ(shaped.size(), even.size());
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    const double azimuth = std::asin(even.u[i] / std::sqrt(1 - even.v[i] * even.v[i]));
+    const double expected = transmit_response(radians(30), azimuth);
+    EXPECT_NEAR(std::abs(shaped.amplitude[i] / even.amplitude[i]), expected, 1e-9 * expected) << degrees(azimuth);
+  }
+}
+
 TEST(ElevationLaw, integral_is_the_closed_form_of_a_gaussian) {
   // integral of 2^(-(2x/w)^2) cos(c + x) dx = cos(c) sqrt(pi / (4 ln2)) w exp(-w^2 / (16 ln2))
   for (const double centre : {0.0, 0.3}) {

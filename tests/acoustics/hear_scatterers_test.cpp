@@ -61,6 +61,8 @@ TEST(HearScatterers, keeps_the_two_way_phase) {
   EXPECT_NEAR(std::abs(std::arg(b)), pi, 1e-9);
   const auto c = echo_of(one_scatterer(600.125 * wavelength), coherent);
   EXPECT_NEAR(std::arg(c), pi / 2, 1e-9);  // phase grows with range: exp(+2 i k r)
+  // 72000.12 cycles: in single precision that is 72000.117.
+  EXPECT_NEAR(std::arg(echo_of(one_scatterer(60.0001), coherent)), 2 * pi * 0.12, 1e-9);
 }
 
 TEST(HearScatterers, tells_delay_and_direction_cosine) {
@@ -136,6 +138,15 @@ TEST(HearScatterers, coherent_fraction_must_be_a_fraction) {
       EXPECT_THAT(error.what(), testing::HasSubstr(", must be within 0 and 1"));
     }
   }
+}
+
+TEST(HearScatterers, gives_each_scatterer_the_mu_of_its_own_material) {
+  const std::vector<Material> materials{{"loud", 0.1}, {"soft", 0.025}};
+  Scatterers s = one_scatterer(7);
+  const auto loud = hear_scatterers(s, materials, pulse, medium, coherent).amplitude[0];
+  s.material = {1};
+  const auto soft = hear_scatterers(s, materials, pulse, medium, coherent).amplitude[0];
+  EXPECT_NEAR(std::abs(loud) / std::abs(soft), 2, 1e-12);
 }
 
 TEST(HearScatterers, gives_silence_for_a_grazing_patch_without_dividing) {

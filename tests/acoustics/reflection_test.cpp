@@ -43,6 +43,19 @@ TEST(BottomReflection, is_total_below_the_critical_angle_without_loss) {
   EXPECT_LT(std::abs(bottom_reflection(b, 1.01 * critical)), 0.9);
 }
 
+// What enters it then fades with depth: with exp(-i omega t), q of E45 is positive imaginary, and the reflection lags.
+// Loss must be of that sign too: a little of it changes little, and a growing wave would turn the phase round.
+TEST(BottomReflection, lags_below_the_critical_angle) {
+  FlatBottom b;
+  const double grazing = 0.5 * std::acos(1 / b.sound_speed_ratio), n = 1 / b.sound_speed_ratio;
+  const double faded = std::sqrt(std::cos(grazing) * std::cos(grazing) - n * n);
+  const double phase = -2 * std::atan(faded / (b.density_ratio * std::sin(grazing)));
+  for (const double loss : {0.0, 1e-6}) {
+    b.loss = loss;
+    EXPECT_NEAR(std::arg(bottom_reflection(b, grazing)), phase, 1e-4) << loss;
+  }
+}
+
 // Slow mud of higher density lets one angle through whole: cos^2 g = (m^2 - n^2) / (m^2 - 1).
 TEST(BottomReflection, of_slow_mud_vanishes_at_the_angle_of_intromission) {
   const FlatBottom mud{.density_ratio = 1.15, .sound_speed_ratio = 0.98, .loss = 0};

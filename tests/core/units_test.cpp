@@ -18,4 +18,5 @@ TEST(Units, level_of_a_peak_pressure_is_rms_re_1_micropascal) { EXPECT_NEAR(pres
 TEST(Units, reduced_cycles_stays_within_half_a_cycle) {
   EXPECT_NEAR(reduced_cycles(72000.25), 0.25, 1e-12);
   EXPECT_NEAR(reduced_cycles(-0.75), 0.25, 1e-15);
+  EXPECT_NEAR(reduced_cycles(0.75), -0.25, 1e-15);
 }

@@ -79,8 +79,9 @@ TEST(ExtremeCase, n07_point_at_the_head_itself_is_not_heard_and_hides_nothing) {
   EXPECT_TRUE(same(image(p), alone));
 }
 
+// The gate begins at 1 m, and a pulse is 5 cm long at most.
 TEST(ExtremeCase, n08_points_nearer_than_the_gate_are_not_heard_and_overflow_nothing) {
-  for (const double r : {1e-30, 1e-7, 1e-6, 1e-3, 0.5, 0.999}) {
+  for (const double r : {1e-30, 1e-7, 1e-6, 1e-3, 0.5, 0.95}) {
     const SimulatedPing p = ping_of(one_surfel({r, 0, 0}, {-1, 0, 0}, 1e-6));
     EXPECT_TRUE(all_finite(p)) << r;
     EXPECT_EQ(peak(p), 0) << r;

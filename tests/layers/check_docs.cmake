@@ -1,5 +1,5 @@
-# Fails if a path or file:function named in README.md or docs/ does not exist, if an equation of docs/equations.md is
-# not marked by its id in the file it names, or if the code cites an id that the page does not have.
+# Fails if a path, file:function or test (`program.Suite.name`) named in README.md or docs/ does not exist, if an equation
+# of docs/equations.md is not marked by its id in the file it names, or if the code cites an id that the page does not have.
 cmake_minimum_required(VERSION 3.25)
 
 file(GLOB pages "${ROOT}/README.md" "${ROOT}/docs/*.md")
@@ -16,6 +16,24 @@ foreach(page IN LISTS pages)
       if(NOT code MATCHES "${function}\\(")
         message(SEND_ERROR "${page}: ${path} has no function ${function}")
       endif()
+    endif()
+  endforeach()
+
+  string(REGEX MATCHALL "`[a-z_]+\\.[A-Z][A-Za-z0-9]*\\.[a-z0-9_]+`" tests "${text}")
+  foreach(test IN LISTS tests)
+    string(REGEX MATCH "`([a-z_]+)\\.([A-Za-z0-9]+)\\.([a-z0-9_]+)`" matched "${test}")
+    set(program ${CMAKE_MATCH_1})
+    set(claim "TEST(_[FP])?\\(${CMAKE_MATCH_2},[ \n]*${CMAKE_MATCH_3}\\)")
+    if(NOT DEFINED code_of_${program})
+      file(GLOB parts "${ROOT}/tests/${program}/*.cpp")
+      set(code_of_${program} "")
+      foreach(part IN LISTS parts)
+        file(READ "${part}" code)
+        string(APPEND code_of_${program} "${code}")
+      endforeach()
+    endif()
+    if(NOT "${code_of_${program}}" MATCHES "${claim}")
+      message(SEND_ERROR "${page}: there is no test ${test}")
     endif()
   endforeach()
 endforeach()

@@ -101,6 +101,17 @@ TEST(DetectSoundings, lets_neighbouring_beams_name_their_own_scatterers) {
   EXPECT_EQ(s.material[1], 6U);
 }
 
+// A line array hears cones: a beam steered up or down looks at cos(elevation) sin(azimuth).
+TEST(DetectSoundings, look_along_the_cone_of_a_beam_below_the_horizon) {
+  Scene scene;
+  scene.ping.fan = make_fan(5, radians(50), radians(2), radians(40), radians(-30));
+  scene.ping.pressure.setZero();
+  scene.scatterers = {}, scene.echoes = {};
+  scene.add(3.05, scene.ping.fan.azimuth[4], radians(-30), 5);
+  scene.mark(4, 25, 100);
+  EXPECT_EQ(scene.detect().size(), 1U);
+}
+
 // Two rows of a planar array, 4 degrees apart, and a target in each at one range and bearing: each row names its own.
 TEST(DetectSoundings, of_a_planar_array_name_scatterers_of_their_own_row) {
   Scene scene;

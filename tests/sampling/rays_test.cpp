@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sampling/hit_rule.hpp"
 #include "sampling_scenes.hpp"
 
 using namespace insonify;
@@ -75,6 +76,33 @@ TEST(Rays, that_meet_a_back_give_no_echo_and_are_not_missed) {
   const Sampling sampling = find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), rays(16));
   EXPECT_EQ(sampling.scatterers.size(), 0u);
   EXPECT_EQ(sampling.report.rays_missed, 0u);
+}
+
+TEST(Rays, that_meet_a_back_just_before_a_face_are_blocked) {
+  const auto surfel = [](float x, float y, bool facing) {
+    const Eigen::Vector3f place(x, y, 0);
+    return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.2f, 0.1f, 0, true, facing};
+  };
+  const auto fate = [](const std::vector<GatedSurfel>& surfels) {
+    std::vector<std::uint32_t> both = {0, 1};
+    RayHit hit;
+    return hit_surface(surfels, {1, 0, 0}, true, both, hit);
+  };
+  EXPECT_EQ(fate({surfel(5, 0, false), surfel(5.1f, 0.05f, true)}), RayFate::blocked);
+  EXPECT_EQ(fate({surfel(5, 0.05f, true), surfel(5.1f, 0, false)}), RayFate::echoes);
+}
+
+TEST(Sampling, hands_on_the_material_of_each_surfel) {
+  SceneCloud scene;
+  add_wall(scene, 4, 5, 3, 0.1);
+  scene.materials = {{.name = "mud"}, {.name = "rock"}};
+  for (std::size_t i = 0; i < scene.size(); i += 3) scene.material[i] = 1;
+  const BeamFan fan = make_fan(16, radians(40), radians(1), radians(10));
+  for (const SamplingOptions& options : {unsplit(), rays(64)}) {
+    const Scatterers s = find_scatterers(scene, at(0, 0, 0), fan, long_gate(), options).scatterers;
+    EXPECT_GT(std::count(s.material.begin(), s.material.end(), 1), 100);
+    for (std::size_t i = 0; i < s.size(); ++i) ASSERT_EQ(s.material[i], scene.material[s.surfel[i]]);
+  }
 }
 
 TEST(Rays, meet_the_facing_side_of_a_thin_plate) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sampling/hit_rule.hpp"
 #include "sampling_scenes.hpp"
 
 using namespace insonify;
@@ -157,6 +158,19 @@ TEST(Visibility, flipped_normals_of_an_unoriented_cloud_change_nothing) {
   const auto straight = seen(scene, at(0, 0, 0));
   for (std::size_t i = 0; i < scene.size(); i += 3) scene.normal[i] *= -1;
   EXPECT_EQ(seen(scene, at(0, 0, 0)), straight);
+}
+
+// The normal of a rough surface may show its disc edge-on; its core, half a spacing wide, hides what lies behind all the
+// same.
+TEST(Visibility, behind_the_core_of_a_disc_seen_edge_on_is_hidden) {
+  const auto surfel = [](float x, float y) {
+    const Eigen::Vector3f place(x, y, 0);
+    return GatedSurfel{place, place.norm(), {0, 1, 0}, y, 0.1f, 0.05f, 0, true, true};
+  };
+  const GatedSurfel edge_on = surfel(3, 0);
+  EXPECT_TRUE(hides(edge_on, surfel(10, 0.07f)));         // passes the centre at 0.021
+  EXPECT_FALSE(hides(edge_on, surfel(10, 0.1f)));         // at 0.030
+  EXPECT_FALSE(hides(surfel(12, 0), surfel(10, 0.07f)));  // farther away
 }
 
 TEST(Visibility, seen_edge_on_is_no_echo_and_no_division_by_zero) {

@@ -82,6 +82,13 @@ TEST(SurfelArea, of_two_plates_apart_is_that_of_each) {
   EXPECT_NEAR(sum_of(areas_of_flat(points)), 12.0, 12.0 * 0.02);
 }
 
+TEST(SurfelArea, of_two_sheets_one_above_the_other_is_that_of_each) {
+  std::vector<Vector3f> points = plate(0.05f, 0);
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i < n; ++i) points.emplace_back(points[i] + Vector3f(0.025f, 0.025f, 0.06f));
+  EXPECT_NEAR(sum_of(areas_of_flat(points)), 12.0, 12.0 * 0.02);
+}
+
 TEST(SurfelArea, follows_the_density_of_scan_lines) {
   // Points 1 cm apart on lines 12 cm apart, cell-centred on 1.2 m x 1.2 m.
   std::vector<Vector3f> points;

@@ -71,6 +71,35 @@ TEST(EnvironmentFile, refuses_values_that_make_no_environment_with_value_unit_an
   EXPECT_TRUE(holds(error_of_file("[bottom]\nlambert_mu_db = 3\nheight_m = -5\n"), "must be within 0 and 1/pi"));
 }
 
+TEST(EnvironmentFile, a_profile_reads_back_from_its_toml) {
+  const Environment e =
+      load_environment(own_file("e.toml", "[profile]\ndepth_m = [0, 2.5]\nsound_speed = [1510, 1490.1]\n"));
+  ASSERT_TRUE(e.profile);
+  EXPECT_EQ(e.profile->depth, (std::vector<double>{0, 2.5}));
+  const Environment back = load_environment(own_file("back.toml", environment_as_toml(e)));
+  ASSERT_TRUE(back.profile);
+  EXPECT_EQ(back.profile->depth, e.profile->depth);
+  EXPECT_EQ(back.profile->sound_speed, e.profile->sound_speed);
+  EXPECT_TRUE(holds(error_of_file("[profile]\ndepth_m = [0, 5]\n"), ":1: profile: missing key 'sound_speed'"));
+  EXPECT_TRUE(holds(error_of_file("[profile]\ndepth_m = 0\nsound_speed = [1500]\n"),
+                    ":2: profile.depth_m must be a list of numbers"));
+  EXPECT_TRUE(holds(error_of_file("[profile]\ndepth_m = [3, 1]\nsound_speed = [1500, 1500]\n"),
+                    "must be deeper than the entry before it"));
+}
+
+TEST(EnvironmentFile, of_a_run_toml_only_the_environment_counts) {
+  const std::string run =
+      "insonify_version = \"0\"\nseed = 1\n[scene]\npath = \"a\"\n[ping]\nnoise = true\n"
+      "[water]\nph = 7.5\n[sonar]\nname = \"x\"\n";
+  EXPECT_EQ(load_environment(own_file("run.toml", run)).water.ph, 7.5);
+  EXPECT_TRUE(holds(error_of_file(run + "[wnd]\n"), ":11: unknown table [wnd]; did you mean [wind]?"));
+}
+
+TEST(EnvironmentFile, refuses_tables_it_does_not_know_though_empty) {
+  EXPECT_TRUE(holds(error_of_file("[surfce]\n"), ":1: unknown table [surfce]; did you mean [surface]?"));
+  EXPECT_TRUE(holds(error_of_file("[sonar]\nbeams = 3\n"), ":1: unknown table [sonar]; known are [water] [surface]"));
+}
+
 TEST(EnvironmentFile, refuses_text_that_is_no_number) {
   Environment e;
   EXPECT_EQ(error_of([&] { set_environment_value(e, "wind", "speed_m_s", "strong"); }),

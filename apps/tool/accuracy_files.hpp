@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "simulate/measure_accuracy.hpp"
+#include "simulate/sampling_error.hpp"
+#include "store/run_directory.hpp"
+
+namespace insonify::tool {
+
+/// sweep.csv and sampling.csv: a header, then one line per row.
+std::string sweep_csv(const std::vector<AccuracyRow>& rows);
+std::string sampling_csv(const std::vector<SamplingErrorRow>& rows);
+
+/// What a picture of the sweep needs; a picture without any point is not drawn. Returns the names of those drawn.
+std::vector<std::string> draw_accuracy(const std::vector<AccuracyRow>& rows,
+                                       const std::vector<SamplingErrorRow>& sampling, const RunDirectory& directory);
+
+/// Processor, cores, load, compiler, flags and commit: what run times hang on.
+nlohmann::ordered_json machine_json();
+
+/// The sweep in a few numbers: `speed` against direct at 1e-6, `second_core`, `promise` (worst error / tolerance for
+/// each tolerance), `crossover` (scatterers from which stamped is faster). What was not measured is left out.
+nlohmann::ordered_json accuracy_summary(const std::vector<AccuracyRow>& rows);
+
+}  // namespace insonify::tool

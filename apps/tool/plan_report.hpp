@@ -1,0 +1,15 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "simulate/plan_ping.hpp"
+
+namespace insonify::tool {
+
+/// The plan as it stands in the manifest: stages with name, included, why, bound_db, bound_relative (null: no bound), and
+/// what the synthesis chose.
+nlohmann::ordered_json plan_json(const PingPlan& plan);
+
+/// The plan as a table on stdout.
+void print_plan(const PingPlan& plan);
+
+}  // namespace insonify::tool

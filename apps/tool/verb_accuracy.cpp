@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "simulate/accuracy_sweep.hpp"
+#include "store/run_directory.hpp"
+#include "tool/accuracy_files.hpp"
+#include "tool/head_setup.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/progress.hpp"
+#include "tool/run_files.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+SweepOptions sweep_options(const CommonOptions& common, const AccuracyOptions& o) {
+  SweepOptions sweep;
+  sweep.size = o.quick ? SweepSize::quick : o.full ? SweepSize::full : SweepSize::standard;
+  sweep.seed = common.seed;
+  sweep.threads = common.threads;
+  sweep.methods = o.methods;
+  const std::vector<std::string> known = accuracy_methods();
+  for (const std::string& method : o.methods)
+    if (std::find(known.begin(), known.end(), method) == known.end())
+      fail(ErrorKind::argument, "--methods '", method, "' is unknown; known are ",
+           fmt::format("{}", fmt::join(known, ", ")));
+  for (const std::string& text : o.tolerances) {
+    const double tolerance = parse_number("--tolerances", text);
+    if (!(tolerance >= 1e-13 && tolerance < 1))
+      fail(ErrorKind::argument, "--tolerances: ", tolerance, ", must be within [1e-13, 1)");
+    sweep.tolerances.push_back(tolerance);
+  }
+  return sweep;
+}
+
+/// The steps over the user's own scene, or over made-up ones.
+std::vector<AccuracyStep> steps_of(const CommonOptions& common, const AccuracyOptions& o, const SweepOptions& sweep,
+                                   Progress& progress) {
+  if (o.scene.path.empty()) {
+    if (!o.run.sonar.empty() || !o.pose.empty() || !o.run.range.empty())
+      fail(ErrorKind::argument, "--sonar, --pose and --range go with --scene FILE; without it the tasks are built in");
+    return accuracy_sweep(sweep);
+  }
+  if (o.run.sonar.empty() || o.pose.empty())
+    fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
+  const Pose pose = parse_pose(o.pose, o.world);
+  const HeadSetup setup = set_up_head(common, o.run);
+  const LoadOptions loading = load_options(common, o.scene);
+  progress.step("loading " + o.scene.path);
+  const LoadedScene loaded = load_scene(o.scene.path, loading);
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  SimulationOptions simulation;
+  simulation.seed = common.seed;
+  simulation.threads = common.threads;
+  return accuracy_sweep_of(task_of(loaded.scene, setup.head, pose, setup.environment, simulation), sweep);
+}
+
+std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const CommonOptions& common,
+                                   const AccuracyOptions& o, Progress& progress) {
+  MeasureOptions measure;
+  measure.threads = common.threads;
+  measure.repeats = o.repeats;
+  std::vector<AccuracyRow> rows;
+  for (const AccuracyStep& step : steps) {
+    progress.step(step.what);
+    const AccuracyBench bench(step.sweep, step.make(), measure);
+    for (const AccuracyRun& run : step.runs) {
+      progress.check();
+      rows.push_back(run.measure(bench));
+    }
+  }
+  return rows;
+}
+
+ordered_json manifest_of(const CommonOptions& common, const AccuracyOptions& o) {
+  return {{"schema", 1},
+          {"insonify_version", INSONIFY_VERSION},
+          {"seed", common.seed},
+          {"threads", thread_count(common.threads)},
+          {"size", o.quick  ? "quick"
+                   : o.full ? "full"
+                            : "standard"},
+          {"scene", o.scene.path},
+          {"sonar", o.run.sonar},
+          {"pose", o.pose},
+          {"protocol",
+           {{"referee", "direct sum in double over all echoes and bins, in `checked_beams` evenly picked beams"},
+            {"referee_error", "error of the rows `direct`: against long double, at most 2000 echoes, 4 beams, 64 bins"},
+            {"local_error", "worst eighth of the range axis, relative to its own level"},
+            {"seconds",
+             "median of `repeats` runs after one to warm up; plans (FFTW: ESTIMATE) apart in plan_seconds; with "
+             "timed_scatterers < scatterers or timed_beams < beams scaled up in proportion"},
+            {"peak_mib", "largest resident set of the process during the runs, input and referee included"}}},
+          {"machine", machine_json()},
+          {"notes", ordered_json::array()}};
+}
+
+void print_table(const std::string& output, const std::vector<AccuracyRow>& rows, const ordered_json& summary) {
+  const auto first = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.sweep == "work-precision"; });
+  if (first != rows.end())
+    fmt::print("{} scatterers, {} beams, {} bins:\n{:<24}{:>11}{:>10}{:>12}{:>12}\n", first->scatterers, first->beams,
+               first->bins, "method", "tolerance", "error", "local error", "seconds");
+  for (const AccuracyRow& r : rows)
+    if (r.sweep == "work-precision")
+      fmt::print("{:<24}{:>11}{:>10.1e}{:>12.1e}{:>12.3g}\n",
+                 r.method + (r.parameter > 0 ? fmt::format(" {:g}", r.parameter) : "") +
+                     (r.precision == "single" ? ", single" : ""),
+                 r.tolerance > 0 ? fmt::format("{:.0e}", r.tolerance) : "-", r.error, r.local_error, r.seconds);
+  for (const auto& p : summary["promise"])
+    fmt::print("tolerance {:.0e}: worst of {} images {:.1e}, {:.2f} of what was promised\n",
+               p["tolerance"].get<double>(), p["images"].get<int>(), p["worst_error"].get<double>(),
+               p["worst_error_over_tolerance"].get<double>());
+  for (const auto& c : summary["crossover"])
+    if (!c["faster_from"].is_null())
+      fmt::print("stamped at {:.0e} is faster than {} from {} scatterers on\n", c["tolerance"].get<double>(),
+                 c["against"].get<std::string>(), c["faster_from"].get<std::size_t>());
+  fmt::print("{}: {} measurements in sweep.csv\n", output, rows.size());
+}
+
+}  // namespace
+
+void accuracy(const CommonOptions& common, const AccuracyOptions& o) {
+  if (o.repeats < 1 || o.repeats > 1000)
+    fail(ErrorKind::argument, "--repeats = ", o.repeats, ", must be within 1 and 1000");
+  const SweepOptions sweep = sweep_options(common, o);
+  Progress preparing(common, 1);
+  RunDirectory directory(o.run.output, o.run.force);
+  const std::vector<AccuracyStep> steps = steps_of(common, o, sweep, preparing);
+  Progress progress(common, static_cast<int>(steps.size()) + 2);
+  ordered_json manifest = manifest_of(common, o);
+  const std::vector<AccuracyRow> rows = run_steps(steps, common, o, progress);
+
+  std::vector<SamplingErrorRow> sampling;
+  if (o.scene.path.empty() && o.methods.empty()) {
+    progress.step("sampling error");
+    sampling = measure_sampling_error({.most_rays = o.quick  ? 64
+                                                    : o.full ? 16384
+                                                             : 4096,
+                                       .trials = o.quick ? 1 : 4,
+                                       .seed = common.seed,
+                                       .threads = common.threads});
+  }
+
+  progress.step("writing " + o.run.output);
+  write_text_file(directory.file("sweep.csv"), sweep_csv(rows));
+  if (!sampling.empty()) write_text_file(directory.file("sampling.csv"), sampling_csv(sampling));
+  if (!o.run.no_picture) try {
+      manifest["pictures"] = draw_accuracy(rows, sampling, directory);
+    } catch (const Error& error) {  // a machine without GL still gets its numbers
+      progress.note(std::string("no pictures: ") + error.what());
+      manifest["notes"].push_back(std::string("no pictures: ") + error.what());
+    }
+  manifest["summary"] = accuracy_summary(rows);
+  manifest["peak_memory_mib"] = peak_memory_mib();
+  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  directory.commit();
+  if (common.json)
+    fmt::print("{}\n", manifest.dump(2));
+  else
+    print_table(o.run.output, rows, manifest["summary"]);
+}
+
+}  // namespace insonify::tool

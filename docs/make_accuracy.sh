@@ -1,0 +1,162 @@
+#!/usr/bin/env bash
+# Measures error against run time on this machine and writes docs/accuracy.md with its pictures. For numbers worth keeping
+# the machine must have nothing else to do.
+#   docs/make_accuracy.sh [build/release/bin/insonify] [options of `insonify accuracy`, e.g. --full | --from RUN]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tool=${1:-build/release/bin/insonify}
+[[ $# -eq 0 ]] || shift
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if [[ "${1:-}" == --from ]]; then  # a run made before
+  ln -s "$(realpath "$2")" "$work/run"
+  shift 2
+else
+  "$tool" accuracy -q -o "$work/run" "$@" >/dev/null
+fi
+mkdir -p docs/images/accuracy
+for picture in "$work"/run/*.png; do
+  [[ $(stat -c %s "$picture") -lt 150000 ]] || { echo "make_accuracy.sh: $picture is larger than 150 kB" >&2; exit 1; }
+  cp "$picture" docs/images/accuracy/
+done
+cp "$work/run/sweep.csv" "$work/run/sampling.csv" docs/images/accuracy/
+
+# rows CSV CONDITION FORMAT: one line per row of the CSV, columns by name, in awk.
+rows() {
+  awk -F, -v OFS=' | ' 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    function c(name) { return $(at[name]) }
+    function s(x) { return x >= 100 ? sprintf("%.0f s", x) : x >= 1 ? sprintf("%.3g s", x) : sprintf("%.3g ms", 1000 * x) }
+    function span() { return s(c("seconds")) " (" s(c("seconds_min")) " to " s(c("seconds_max")) ")" }
+    '"$2 { $3 }" "$1"
+}
+sweep=$work/run/sweep.csv
+field() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$work/run/manifest.json" | head -1; }
+
+# ratios SCATTERERS: stamped at 1e-6 against direct and windowed-direct, from the series over scatterers.
+ratios() {
+  awk -F, -v n="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    $(at["sweep"]) == "scatterers" && $(at["scatterers"]) == n {
+      m = $(at["method"]); t = $(at["tolerance"]) + 0
+      if (m == "direct" || t == 1e-6) { med[m] = $(at["seconds"]); low[m] = $(at["seconds_min"]); high[m] = $(at["seconds_max"])
+        error[m] = $(at["error"]); part[m] = $(at["timed_scatterers"]) } }
+    END { if (!("stamped" in med)) exit
+      for (m in med) if (m != "stamped")
+        printf "| %d | %s (timed on %d) | %.3g s | %.1f ms, error %s | **%s x** | %s to %s |\n", n, m, part[m], med[m], \
+          1000 * med["stamped"], error["stamped"], r(med[m] / med["stamped"]), r(low[m] / high["stamped"]), r(high[m] / low["stamped"]) }
+    function r(x) { return x >= 100 ? sprintf("%.0f", x) : x >= 1 ? sprintf("%.3g", x) : sprintf("%.2f", x) }' "$sweep"
+}
+
+{
+cat <<TEXT
+# Error against run time
+
+Made by [docs/make_accuracy.sh](make_accuracy.sh) from one run of \`insonify accuracy${*:+ $*}\`; do not edit. Raw numbers:
+[sweep.csv](images/accuracy/sweep.csv), [sampling.csv](images/accuracy/sampling.csv).
+
+$(field cpu), $(field cores) cores, load average $(field load_average) when it began; $(field compiler), \`$(field flags)\`; commit $(field commit), version
+$(field insonify_version), $(field threads) threads, seed $(field seed). Times hang on the machine and on what else it does; ratios do less.
+
+## How it is measured
+
+- **Error**: relative L2 norm of the difference to the direct sum in double, over all bins of \`checked_beams\` evenly picked beams (both ends of the fan
+  among them), all echoes included. **Local error**: the same for the worst eighth of the range axis, relative to that eighth's own level.
+- **The referee's own error** (rows \`direct\`): against the same sum in long double with compensated sums, on at most 2000 echoes, 4 beams and 64
+  bins. It is $(awk -F, '$1 == "direct" && $9 > w { w = $9 } END { printf "%.1e", w }' "$sweep") at worst, so errors below 1e-13 are not told apart from it.
+- **Time**: wall time, median of five after one run to warm up, fewest and most in brackets; at least two for what takes long (column \`repeats\`). Plans
+  (FFTW: ESTIMATE) are made once per head and stand apart in \`plan_seconds\`. Direct sums are timed on \`timed_scatterers\` evenly picked echoes and
+  scaled up in proportion: their cost is the same for every echo.
+- **Echoes**: complex normal, evenly over fan and gate; 600 kHz, 30 kHz band, bins of 0.44 c/2B unless said otherwise.
+
+## Methods
+
+| method | what it is |
+|---|---|
+| stamped | the product's default: pulses stamped with a spreading kernel (E60), one FFT per bin |
+| direct | the plain sum over echoes, beams, elements and all bins: the referee, not made to be fast |
+| windowed-direct | the direct sum as a careful programmer would write it: pulses cut at the tolerance, the pattern from a table. The competitor that counts |
+| spectrum | sums of spectra, one FFT per beam (on 4 beams, scaled up) |
+| nearest-bin | delays rounded to bins, carrier phase kept: wrong for good |
+| pattern-cut | beams hear nothing beyond K null widths: wrong for good |
+
+![Error against run time](images/accuracy/work_precision.png)
+
+| method | asked for | kernel | error | local error | level error (60 dB window) | time | peak memory |
+|---|---|---|---|---|---|---|---|
+TEXT
+rows "$sweep" 'c("sweep") == "work-precision"' 'print "| " c("method") (c("parameter") > 0 ? " K = " c("parameter") : "") ", " c("precision"), (c("tolerance") > 0 ? c("tolerance") : ""), (c("kernel_width") > 0 ? c("kernel_width") : ""), c("error"), c("local_error"), (c("method") ~ /direct$|spectrum/ && c("tolerance") == 0 ? "" : c("max_level_db") " dB"), span(), sprintf("%.0f MiB |", c("peak_mib"))'
+cat <<TEXT
+
+## How much faster
+
+Stamped at a tolerance of 1e-6 against the direct sums; 512 beams, 2000 bins. Last column: slowest against fastest run and the other way round. Against
+direct, 150 times is demanded at 50 000 echoes, and 400 times at 500 000 (\`--full\`).
+
+| echoes | against | its time | stamped | ratio | spread |
+|---|---|---|---|---|---|
+TEXT
+for n in 1 10 100 1000 10000 50000 500000; do ratios "$n"; done
+cat <<TEXT
+
+$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+  $(at["sweep"]) == "scaling" { t[$(at["timed_scatterers"]) == $(at["scatterers"])] = $(at["seconds"]); part = $(at["timed_scatterers"]); n = $(at["scatterers"]) < part ? n : $(at["scatterers"]) }
+  $(at["sweep"]) == "scaling" && $(at["timed_scatterers"]) < $(at["scatterers"]) { k = $(at["timed_scatterers"]) }
+  END { if (1 in t) printf "Is the scaling up right? Direct with %d echoes: %.3g s scaled up from %d, %.3g s timed whole.", n, t[0], k, t[1] }' "$sweep")
+
+**Where it loses**: with few echoes the transforms of all bins they touch cost more than the sum itself; the rows with ratios below 1 say where. Much of
+the ratio against direct is direct's own doing: it evaluates every pulse in every bin and the pattern element by element.
+
+![Run time against scatterers](images/accuracy/crossover.png)
+
+| threads | tolerance | time |
+|---|---|---|
+TEXT
+rows "$sweep" 'c("sweep") == "threads"' 'print "| " c("threads"), c("tolerance"), span() " |"'
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+  $(at["sweep"]) == "threads" { t[$(at["tolerance"]), $(at["threads"])] = $(at["seconds"]); seen[$(at["tolerance"])] = 1 }
+  END { printf "\n"; for (k in seen) if ((k, 2) in t) printf "The second core gains %.2f x at %s.  ", t[k, 1] / t[k, 2], k; printf "\n" }' "$sweep"
+cat <<TEXT
+
+## The promise
+
+Worst over all images of the sweep: 1 to $(awk -F, '$3 + 0 > m { m = $3 + 0 } END { printf "%d", m }' "$sweep") echoes, 1 to $(awk -F, '$4 + 0 > m { m = $4 + 0 } END { printf "%d", m }' "$sweep") beams, prime numbers of bins, bands of 3 to 300 kHz, absorption of order 0 to 2, dynamic ranges of 0
+to 150 dB.
+
+| tolerance | images | worst error | worst error / tolerance | worst local error | worst local error / tolerance |
+|---|---|---|---|---|---|
+TEXT
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+  $(at["method"]) == "stamped" { t = $(at["tolerance"]); ++n[t]; e = $(at["error"]); l = $(at["local_error"]); if (e > w[t]) w[t] = e; if (l > v[t]) v[t] = l }
+  END { for (t in n) printf "%s| %s | %d | %s | %.2f | %s | %.2f |\n", t, t, n[t], w[t], w[t] / t, v[t], v[t] / t }' "$sweep" | sort -gr | sed 's/^[^|]*//'
+cat <<TEXT
+
+![Promise](images/accuracy/promise.png)
+
+The error is local: what is near and loud does not disturb what is far and weak. A transform over the whole range axis does.
+
+![Local error](images/accuracy/local_error.png)
+
+Absorption that changes over the band (100 kHz about 600 kHz, 60 dB over the gate): what is left out if it is taken at the centre frequency (order 0) or with
+its slope (order 1).
+
+| absorption has order | taken to order | error |
+|---|---|---|
+TEXT
+rows "$sweep" 'c("method") == "absorption-order"' 'print "| " c("absorption_order"), c("parameter"), c("error") " |"'
+cat <<TEXT
+
+## Sampling
+
+Before any speckle, how far is the mean level of a flat bottom off for a given number of rays or surfels? Independent random rays: the root of their number.
+The product's rays are jittered in equal parts of elevation and do better. Surfels are as good as the cloud is dense; splitting them makes speckle right, not the
+mean.
+
+![Sampling error](images/accuracy/sampling.png)
+
+| sampling | rays per beam, surfels per m2, or scatterers per cell | scatterers per beam | error | level |
+|---|---|---|---|---|
+TEXT
+rows "$work/run/sampling.csv" 'NR > 1' 'print "| " c("sampling"), c("parameter") + 0, sprintf("%.0f", c("scatterers_per_beam")), c("error"), c("error_db") " dB |"'
+} >"$work/accuracy.md"
+mv "$work/accuracy.md" docs/accuracy.md
+echo "docs/accuracy.md written"

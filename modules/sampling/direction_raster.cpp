@@ -1,0 +1,219 @@
+#include "sampling/direction_raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr std::size_t block = 8192;
+constexpr float cells_per_footprint = 2;               // along one side of a typical one's box
+constexpr float most_cells_per_surfel = 64;            // on average, however large some are
+constexpr float slack_factor = 1.001f, slack = 4e-6f;  // single precision: boxes a little wider than footprints
+
+// A surfel's footprint on one face: centre and half extents.
+struct Extent {
+  float x, y, half_x, half_y;
+};
+
+// For v in the disc or the ball, (p + v) is projected to x + (v . w) / (d + v . f), with w = e_x - x f: a bound for the
+// numerator and one for the denominator give the box.
+bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Extent& box) {
+  const int k = static_cast<int>(face / 2), i = (k + 1) % 3, j = (k + 2) % 3;
+  const float sign = face % 2 == 0 ? 1.0f : -1.0f, d = sign * s.position[k], nf = sign * s.away[k];
+  const float least = footprint == Footprint::cone ? s.radius : std::min(s.radius, 0.5f * s.spacing);
+  // Half extents of disc and ball along a vector of squared length w2 with n . w = nw.
+  const auto reach = [&](float w2, float nw) {
+    const float disc = footprint == Footprint::cone ? 0 : s.radius * s.radius * (w2 - nw * nw);
+    return std::sqrt(std::max(disc, least * least * w2));
+  };
+  const float front = d - reach(1, nf);
+  if (!(front > 0)) return false;
+  box.x = s.position[i] / d;
+  box.y = s.position[j] / d;
+  box.half_x = reach(1 + box.x * box.x, s.away[i] - box.x * nf) / front * slack_factor + slack;
+  box.half_y = reach(1 + box.y * box.y, s.away[j] - box.y * nf) / front * slack_factor + slack;
+  return true;
+}
+
+bool stays_on_face(const Extent& e) { return std::abs(e.x) + e.half_x <= 1 && std::abs(e.y) + e.half_y <= 1; }
+
+std::uint32_t main_face(const Vector3f& v) {
+  int k = 0;
+  v.cwiseAbs().maxCoeff(&k);
+  return static_cast<std::uint32_t>(2 * k + (v[k] < 0));
+}
+
+}  // namespace
+
+CubePoint on_cube(const Vector3f& v) {
+  const std::uint32_t face = main_face(v);
+  const int k = static_cast<int>(face / 2);
+  const float depth = std::abs(v[k]);
+  return {face, v[(k + 1) % 3] / depth, v[(k + 2) % 3] / depth, depth};
+}
+
+std::size_t DirectionTile::cell_of(const CubePoint& q) const {
+  const auto step = [this](float from_corner) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(from_corner / cell), 0, side - 1));
+  };
+  return step(q.y - y) * side + step(q.x - x);
+}
+
+DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
+                                 Footprint footprint, int threads) {
+  for (const CubePoint& q : queries) {
+    Face& face = faces_[q.face];
+    face.x0 = std::min(face.x0, q.x);
+    face.x1 = std::max(face.x1, q.x);
+    face.y0 = std::min(face.y0, q.y);
+    face.y1 = std::max(face.y1, q.y);
+  }
+  size_cells(surfels, queries, footprint);
+
+  std::vector<std::vector<Box>> boxes((surfels.size() + block - 1) / block);
+  parallel_blocks(surfels.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Box>& part = boxes[begin / block];
+    part.reserve(end - begin);
+    for (std::size_t s = begin; s < end; ++s) add_boxes(surfels[s], static_cast<std::uint32_t>(s), footprint, part);
+  });
+  for (std::uint32_t s = 0; s < surfels.size(); ++s)
+    if (is_wide(surfels[s])) wide_.push_back(s);
+  sort_boxes(boxes, threads);
+  sort_queries(queries);
+}
+
+// A typical footprint should fill a few cells; all together a bounded number for each surfel and query.
+void DirectionRaster::size_cells(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
+                                 Footprint footprint) {
+  const std::size_t stride = surfels.size() / 4096 + 1;
+  double log_side = 0, area = 0, count = 0;
+  for (std::size_t s = 0; s < surfels.size(); s += stride) {
+    Extent e;
+    if (is_wide(surfels[s]) || !(surfels[s].radius > 0)) continue;
+    if (!project(surfels[s], main_face(surfels[s].position), footprint, e)) continue;
+    const double of_box = 4.0 * e.half_x * e.half_y;
+    log_side += std::log(of_box) / 2;
+    area += of_box;
+    ++count;
+  }
+  double asked = 0, side = 0;
+  for (const Face& f : faces_)
+    if (f.x1 >= f.x0) {
+      asked += (f.x1 - f.x0) * (f.y1 - f.y0);
+      side = std::max<double>({side, f.x1 - f.x0, f.y1 - f.y0});
+    }
+  double cell = count > 0 ? std::exp(log_side / count) / cells_per_footprint : 1;
+  if (count > 0) cell = std::max(cell, std::sqrt(area / count / most_cells_per_surfel));
+  cell = std::max(cell, std::sqrt(asked / (4.0 * static_cast<double>(surfels.size() + queries.size()) + 4096)));
+  cell_ = static_cast<float>(std::max({cell, side / 60000, 1e-5}));
+
+  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+    Face& face = faces_[f];
+    if (face.x1 < face.x0) continue;
+    face.nx = static_cast<int>((face.x1 - face.x0) / cell_) + 1;
+    face.ny = static_cast<int>((face.y1 - face.y0) / cell_) + 1;
+    face.columns = (face.nx + DirectionTile::side - 1) / DirectionTile::side;
+    face.first_tile = tiles_.size();
+    const int rows = (face.ny + DirectionTile::side - 1) / DirectionTile::side;
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < face.columns; ++column)
+        tiles_.push_back({f, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)});
+  }
+}
+
+void DirectionRaster::add_boxes(const GatedSurfel& s, std::uint32_t index, Footprint footprint,
+                                std::vector<Box>& boxes) const {
+  if (!(s.radius > 0) || is_wide(s)) return;
+  const auto add = [&](std::uint32_t f, const Extent& e) {
+    const Face& face = faces_[f];
+    const float x0 = (e.x - e.half_x - face.x0) / cell_, x1 = (e.x + e.half_x - face.x0) / cell_;
+    const float y0 = (e.y - e.half_y - face.y0) / cell_, y1 = (e.y + e.half_y - face.y0) / cell_;
+    if (face.nx == 0 || !(x1 >= 0 && y1 >= 0 && x0 < static_cast<float>(face.nx) && y0 < static_cast<float>(face.ny)))
+      return;
+    const auto clip = [](float v, int n) {
+      return static_cast<std::uint16_t>(std::clamp(v, 0.0f, static_cast<float>(n - 1)));
+    };
+    boxes.push_back({index, static_cast<std::uint16_t>(f), clip(x0, face.nx), clip(x1, face.nx), clip(y0, face.ny),
+                     clip(y1, face.ny)});
+  };
+  Extent e;
+  const std::uint32_t home = main_face(s.position);
+  if (!project(s, home, footprint, e)) return;
+  add(home, e);
+  if (stays_on_face(e)) return;
+  for (std::uint32_t f = 0; f < faces_.size(); ++f)
+    if (f != home && faces_[f].nx > 0 && project(s, f, footprint, e)) add(f, e);
+}
+
+// Counting sort by tile; a box that crosses tiles goes to each, clipped.
+void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads) {
+  constexpr int side = DirectionTile::side;
+  const auto for_tiles = [this](const Box& box, auto&& use) {
+    const Face& face = faces_[box.face];
+    for (int row = box.y0 / side; row <= box.y1 / side; ++row)
+      for (int column = box.x0 / side; column <= box.x1 / side; ++column)
+        use(face.first_tile + static_cast<std::size_t>(row * face.columns + column), column * side, row * side);
+  };
+  std::vector<std::vector<std::size_t>> next(boxes.size(), std::vector<std::size_t>(tiles_.size(), 0));
+  parallel_for(boxes.size(), threads, [&](std::size_t b) {
+    for (const Box& box : boxes[b]) for_tiles(box, [&](std::size_t t, int, int) { ++next[b][t]; });
+  });
+  first_box_.assign(tiles_.size() + 1, 0);
+  std::size_t total = 0;
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    for (auto& of_block : next) {
+      const std::size_t count = of_block[t];
+      of_block[t] = total;
+      total += count;
+    }
+    first_box_[t + 1] = total;
+  }
+  boxes_.resize(total);
+  parallel_for(boxes.size(), threads, [&](std::size_t b) {
+    for (const Box& box : boxes[b])
+      for_tiles(box, [&](std::size_t t, int x, int y) {
+        const auto low = [](int v, int corner) { return static_cast<std::uint8_t>(std::max(0, v - corner)); };
+        const auto high = [](int v, int corner) { return static_cast<std::uint8_t>(std::min(side - 1, v - corner)); };
+        boxes_[next[b][t]++] = {box.surfel, low(box.x0, x), high(box.x1, x), low(box.y0, y), high(box.y1, y)};
+      });
+  });
+}
+
+void DirectionRaster::sort_queries(std::span<const CubePoint> queries) {
+  const auto tile_of = [this](const CubePoint& q) {
+    const Face& face = faces_[q.face];
+    const int x = std::min(face.nx - 1, static_cast<int>((q.x - face.x0) / cell_));
+    const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) / cell_));
+    return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
+  };
+  std::vector<std::uint32_t> tile(queries.size());
+  first_query_.assign(tiles_.size() + 1, 0);
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    tile[q] = static_cast<std::uint32_t>(tile_of(queries[q]));
+    ++first_query_[tile[q] + 1];
+  }
+  for (std::size_t t = 0; t < tiles_.size(); ++t) first_query_[t + 1] += first_query_[t];
+  std::vector<std::size_t> next(first_query_.begin(), first_query_.end() - 1);
+  queries_.resize(queries.size());
+  for (std::size_t q = 0; q < queries.size(); ++q) queries_[next[tile[q]]++] = static_cast<std::uint32_t>(q);
+}
+
+DirectionTile DirectionRaster::tile(std::size_t t) const {
+  const Face& face = faces_[tiles_[t].face];
+  constexpr auto side = static_cast<float>(DirectionTile::side);
+  DirectionTile tile;
+  tile.face = tiles_[t].face;
+  tile.cell = cell_;
+  tile.x = face.x0 + static_cast<float>(tiles_[t].column) * side * cell_;
+  tile.y = face.y0 + static_cast<float>(tiles_[t].row) * side * cell_;
+  tile.boxes = std::span(boxes_).subspan(first_box_[t], first_box_[t + 1] - first_box_[t]);
+  tile.queries = std::span(queries_).subspan(first_query_[t], first_query_[t + 1] - first_query_[t]);
+  return tile;
+}
+
+}  // namespace insonify

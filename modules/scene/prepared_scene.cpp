@@ -1,0 +1,119 @@
+#include "scene/prepared_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t block_surfels = 128;
+constexpr std::uint32_t steps_per_axis = 1 << 10;  // of the Morton curve
+constexpr float rounding = 1 + 1e-5f;
+
+// Spreads ten bits to every third place.
+std::uint32_t every_third(std::uint32_t v) {
+  v = (v | v << 16) & 0x030000ff;
+  v = (v | v << 8) & 0x0300f00f;
+  v = (v | v << 4) & 0x030c30c3;
+  return (v | v << 2) & 0x09249249;
+}
+
+// Steps along each axis over the bulk of the points: a few strays far away share the outermost ones.
+class Quantiser {
+ public:
+  explicit Quantiser(const std::vector<Eigen::Vector3f>& points) {
+    constexpr std::size_t samples = 4096;
+    const std::size_t stride = points.size() / samples + 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<float> values;
+      for (std::size_t i = 0; i < points.size(); i += stride) values.push_back(points[i][axis]);
+      std::sort(values.begin(), values.end());
+      const std::size_t tail = values.size() / 200;
+      const double low = values[tail], high = values[values.size() - 1 - tail], margin = 0.1 * (high - low);
+      low_[axis] = static_cast<float>(low - margin);
+      extent_ = std::max(extent_, high - low + 2 * margin);
+    }
+  }
+  std::uint32_t code(const Eigen::Vector3f& p) const {
+    const float per_metre = extent_ > 0 ? static_cast<float>(steps_per_axis / extent_) : 0;
+    std::uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float step = std::clamp((p[axis] - low_[axis]) * per_metre, 0.0f, float{steps_per_axis - 1});
+      code |= every_third(static_cast<std::uint32_t>(step)) << axis;
+    }
+    return code;
+  }
+
+ private:
+  Eigen::Vector3f low_;
+  double extent_ = 0;  // of the longest axis, the same for all: cells are cubes
+};
+
+// Sorts by the upper half (the code), keeping the order of equal ones.
+void radix_sort(std::vector<std::uint64_t>& keys) {
+  constexpr int digit_bits = 10, code_bits = 30;
+  std::vector<std::uint64_t> sorted(keys.size());
+  for (int shift = 32; shift < 32 + code_bits; shift += digit_bits) {
+    const auto digit = [shift](std::uint64_t key) { return key >> shift & ((1u << digit_bits) - 1); };
+    std::array<std::size_t, (1u << digit_bits) + 1> first{};
+    for (const std::uint64_t key : keys) ++first[digit(key) + 1];
+    for (std::size_t d = 1; d < first.size(); ++d) first[d] += first[d - 1];
+    for (const std::uint64_t key : keys) sorted[first[digit(key)]++] = key;
+    keys.swap(sorted);
+  }
+}
+
+std::vector<std::uint32_t> morton_order(const std::vector<Eigen::Vector3f>& points, int threads) {
+  const Quantiser quantiser(points);
+  std::vector<std::uint64_t> keys(points.size());
+  parallel_blocks(points.size(), 1 << 15, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) keys[i] = std::uint64_t{quantiser.code(points[i])} << 32 | i;
+  });
+  radix_sort(keys);
+  std::vector<std::uint32_t> order(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
+  return order;
+}
+
+void enclose(const SceneCloud& scene, std::span<const std::uint32_t> members, SurfelBlock& block) {
+  Eigen::Vector3f low = scene.point[members[0]], high = low;
+  for (const std::uint32_t i : members) {
+    low = low.cwiseMin(scene.point[i]);
+    high = high.cwiseMax(scene.point[i]);
+    block.largest_area = std::max(block.largest_area, scene.area[i]);
+  }
+  block.centre = low + (high - low) / 2;
+  double squared = 0;
+  for (const std::uint32_t i : members)
+    squared = std::max(squared, (scene.point[i] - block.centre).cast<double>().squaredNorm());
+  block.radius = static_cast<float>(std::sqrt(squared)) * rounding + (high - low).norm() * (rounding - 1);
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(const SceneCloud& scene, int threads) : scene_(&scene) {
+  require_valid(scene, "PreparedScene");
+  if (scene.size() > std::numeric_limits<std::uint32_t>::max())
+    fail(ErrorKind::argument, "PreparedScene: ", scene.size(), " surfels, must be below 2^32; divide the scene");
+  if (scene.size() == 0) return;
+  const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
+  mean_spacing_ = std::sqrt(area / static_cast<double>(scene.size()));
+  order_ = morton_order(scene.point, threads);
+  blocks_.resize((scene.size() + block_surfels - 1) / block_surfels);
+  parallel_for(blocks_.size(), threads, [&](std::size_t b) {
+    SurfelBlock& block = blocks_[b];
+    block.begin = static_cast<std::uint32_t>(b * block_surfels);
+    block.end = static_cast<std::uint32_t>(std::min(scene.size(), (b + 1) * block_surfels));
+    const std::span members(order_.data() + block.begin, order_.data() + block.end);
+    std::sort(members.begin(), members.end());
+    enclose(scene, members, block);
+  });
+}
+
+}  // namespace insonify

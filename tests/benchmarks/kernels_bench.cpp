@@ -1,0 +1,107 @@
+// The inner loops of the synthesis by spreading, alone and in one thread.
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "beamforming/fft_along_rows_internal.hpp"
+#include "beamforming/spread_kernels_internal.hpp"
+#include "beamforming/spreading_kernel_internal.hpp"
+#include "core/random.hpp"
+
+using namespace insonify;
+
+namespace {
+
+constexpr std::size_t grid = 216, stride = grid + 32, tile_rows = 64 + 40, echoes = 2048;
+
+/// Echoes at random places of a tile.
+template <typename Real>
+struct Places {
+  std::vector<std::uint32_t> row, column;
+  std::vector<Real> row_offset, column_offset, re, im;
+
+  explicit Places(std::size_t rows) {
+    for (std::size_t i = 0; i < echoes; ++i) {
+      const auto at = random_uniform(1, RandomStage::noise, {i, 0, 0});
+      row.push_back(static_cast<std::uint32_t>(at[0] * static_cast<double>(tile_rows - rows)));
+      column.push_back(static_cast<std::uint32_t>(at[1] * grid));
+      row_offset.push_back(static_cast<Real>(2 * at[2] - 1));
+      column_offset.push_back(static_cast<Real>(2 * at[3] - 1));
+      re.push_back(static_cast<Real>(at[0])), im.push_back(static_cast<Real>(at[1]));
+    }
+  }
+  kernels::Stamps<Real> stamps() const {
+    return {row.data(), column.data(), row_offset.data(), column_offset.data(), re.data(), im.data()};
+  }
+};
+
+/// One echo after another onto one tile: argument 0 is the number of digits of the kernel.
+template <typename Real>
+void stamp(benchmark::State& state) {
+  const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  const SpreadingKernel kernel(tolerance);
+  const std::size_t rows = 10 + 2 * static_cast<std::size_t>(state.range(0));
+  const auto fit = [&](std::size_t pieces) {
+    const double width = static_cast<double>(pieces);
+    const double scale = static_cast<double>(kernel.width()) / width;
+    return PolynomialPieces<Real>::fit([&](double x) { return kernel.at(x * scale); }, -0.5 * width, pieces, tolerance);
+  };
+  const PolynomialPieces<Real> across = fit(kernel.width()), along = fit(rows);
+  const Places<Real> places(rows);
+  AlignedArray<Real, Real> re(tile_rows * stride), im(tile_rows * stride);
+  std::vector<Real> scratch(std::max<std::size_t>(along.lanes, 8));
+  for (auto _ : state) {
+    kernels::stamp(places.stamps(), echoes, {along.coefficient.data(), along.degree, along.lanes}, rows,
+                   {across.coefficient.data(), across.degree, across.lanes}, scratch.data(), re.data(), im.data(),
+                   stride);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * echoes));
+  state.counters["width"] = static_cast<double>(kernel.width());
+  state.counters["rows"] = static_cast<double>(rows);
+}
+BENCHMARK(stamp<float>)->Arg(2)->Arg(4)->Arg(6);
+BENCHMARK(stamp<double>)->Arg(4)->Arg(8)->Arg(12);
+
+/// 512 beams out of one tile of 64 bins: argument 0 is the width of the kernel.
+template <typename Real>
+void interpolate(benchmark::State& state) {
+  constexpr std::size_t beams = 512, bins = 64;
+  const auto width = static_cast<std::size_t>(state.range(0));
+  const std::vector<Real> weight(width, Real(0.1)), rows(grid * 2 * bins, Real(1));
+  std::vector<std::uint32_t> row(width);
+  std::vector<double> sum(2 * bins);
+  for (auto _ : state)
+    for (std::size_t b = 0; b < beams; ++b) {
+      for (std::size_t k = 0; k < width; ++k) row[k] = static_cast<std::uint32_t>((b * 7 + k) % grid);
+      kernels::interpolate(weight.data(), row.data(), width, rows.data(), 2 * bins, 2 * bins, sum.data());
+      benchmark::DoNotOptimize(sum.data());
+    }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * beams * bins));
+}
+BENCHMARK(interpolate<float>)->Arg(5)->Arg(8);
+BENCHMARK(interpolate<double>)->Arg(8)->Arg(14);
+
+/// One tile's transform: argument 0 is its length, 64 series side by side.
+template <typename Real>
+void fft_along_rows(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const FftAlongRows<Real> fft(n, 64, FFTW_FORWARD);
+  AlignedArray<std::complex<Real>, Real> data(n * 64);
+  for (auto _ : state) {
+    fft.run(data.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * n * 64));
+}
+BENCHMARK(fft_along_rows<float>)->Arg(216)->Arg(1024);
+BENCHMARK(fft_along_rows<double>)->Arg(216)->Arg(1024);
+
+void draw_complex_normal(benchmark::State& state) {
+  std::uint64_t id = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(random_complex_normal(1, RandomStage::surface_amplitude, {id++, 0, 0}));
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
+}
+BENCHMARK(draw_complex_normal);
+
+}  // namespace

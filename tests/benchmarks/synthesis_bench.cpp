@@ -1,0 +1,48 @@
+// Whole images: 512 beams x 2000 bins by argument 0 echoes at a tolerance of 10^-argument 1, on argument 2 threads.
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+
+#include "beamforming/ping_synthesizer.hpp"
+#include "simulate/accuracy_task.hpp"
+#include "simulate/synthesize_windowed.hpp"
+
+using namespace insonify;
+
+namespace {
+
+AccuracyTask task_for(const benchmark::State& state) {
+  return make_task({.scatterers = static_cast<std::size_t>(state.range(0)), .beams = 512, .bins = 2000});
+}
+
+double tolerance_for(const benchmark::State& state) { return std::pow(10.0, -static_cast<double>(state.range(1))); }
+
+void ping_synthesizer(benchmark::State& state) {
+  const AccuracyTask task = task_for(state);
+  const PingSynthesizer plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
+  for (auto _ : state) benchmark::DoNotOptimize(plan.pressure(task.echoes));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+  state.counters["width"] = static_cast<double>(plan.choice().kernel_width);
+}
+BENCHMARK(ping_synthesizer)
+    ->ArgsProduct({{1000, 50000, 500000}, {4, 6}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+void make_ping_synthesizer(benchmark::State& state) {
+  const AccuracyTask task = task_for(state);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(PingSynthesizer(task.head, task.medium, {tolerance_for(state), 1}).choice());
+}
+BENCHMARK(make_ping_synthesizer)->Args({1, 4, 1})->Args({1, 6, 1})->Unit(benchmark::kMillisecond);
+
+void windowed_direct(benchmark::State& state) {
+  const AccuracyTask task = task_for(state);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        synthesize_windowed(task.echoes, task.head, task.medium, {tolerance_for(state), 0, false, 1}));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(windowed_direct)->Args({1000, 6, 1})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace

@@ -1,0 +1,152 @@
+#!/usr/bin/env bash
+# Switches off or spoils one term of the simulator's physics after the other, in a copy of the tree, and demands that
+# the test named beside it fails. Prints a table; 1 if a mutation survives, 2 if one cannot be tried.
+#
+#   tests/mutations/run.sh [--only TEXT] [--list] [--check] [--table FILE] [--work FOLDER] [--jobs N]
+#
+#   --only TEXT    only mutations whose term holds this text, or whose equation id it is
+#   --list         says what would be tried, and does nothing
+#   --check        only checks that every old text occurs once in its file (the test layers.mutations_apply)
+#   --table FILE   other mutations than those of mutations.txt
+#   --work FOLDER  copy and build there and leave it: the next run need not build everything again
+#   --jobs N       compile jobs at once (1)
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+table=$here/mutations.txt only="" mode=run work="" jobs=1
+while (($#)); do
+  case $1 in
+    --only) only=$2 && shift 2 ;;
+    --table) table=$2 && shift 2 ;;
+    --work) work=$2 && shift 2 ;;
+    --jobs) jobs=$2 && shift 2 ;;
+    --list | --check) mode=${1#--} && shift ;;
+    *) sed -n '5,12s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+  esac
+done
+
+# One line per mutation, its six fields apart by the character 31.
+mutations() {
+  perl -e '
+    use strict;
+    my ($table, $only) = @ARGV;
+    open(my $in, "<", $table) or die "$table: $!\n";
+    my (%m, $failed);
+    my $flush = sub {
+      return unless %m;
+      for (qw(term id file old new test)) { next if defined $m{$_}; warn "$table:$.: $_ is missing before here\n"; $failed = 1 }
+      print join("\x1f", map { $m{$_} // "" } qw(term id file old new test)), "\n"
+        if $only eq "" || index(lc $m{term}, lc $only) >= 0 || $m{id} eq $only;
+      %m = ();
+    };
+    while (<$in>) {
+      s/\s+$//;
+      if ($_ eq "") { $flush->(); next }
+      next if /^#/;
+      /^(term|id|file|old|new|test)\b ?\s*(.*)$/ or die "$table:$.: not a field: $_\n";
+      die "$table:$.: $1 comes twice\n" if exists $m{$1};
+      $m{$1} = $2;
+    }
+    $flush->();
+    exit($failed ? 2 : 0);' "$table" "$only"
+}
+
+# How often the text $2 occurs in the file $1; with a third argument it is replaced by that.
+count_or_replace() {
+  perl -e '
+    use strict;
+    my ($file, $old, $new) = @ARGV;
+    local $/;
+    open(my $in, "<", $file) or do { print "0"; exit };
+    my $text = <$in>;
+    my ($times, $place, $at) = (0, -1, -1);
+    while (($at = index($text, $old, $at + 1)) >= 0) { $times++; $place = $at }
+    print $times;
+    exit unless @ARGV == 3 && $times == 1;
+    substr($text, $place, length $old) = $new;
+    open(my $out, ">", $file) or die "$file: $!\n";
+    print $out $text;' "$@"
+}
+
+list=$(mutations)
+[[ -n $list ]] || { echo "no mutation holds '$only'" >&2; exit 2; }
+
+if [[ $mode == list ]]; then
+  while IFS=$'\x1f' read -r term id file old new tests; do
+    printf '%s (%s), %s: %s\n    - %s\n    + %s\n' "$term" "$id" "$file" "$tests" "$old" "$new"
+  done <<<"$list"
+  exit 0
+fi
+
+# A table that does not fit the code tries nothing: say so before anything is built.
+stale=0
+known=$(<"$root/docs/equations.md")
+complain() { echo "$*" >&2; stale=$((stale + 1)); }
+while IFS=$'\x1f' read -r term id file old new tests; do
+  [[ $id == - || $known == *"| $id |"* ]] || complain "$term: docs/equations.md has no $id"
+  [[ $old != "$new" ]] || complain "$term: changes nothing"
+  times=$(count_or_replace "$root/$file" "$old")
+  [[ $times == 1 ]] ||
+    complain "$term: does not apply: the old text occurs $times times in $file, must occur once: $old"
+done <<<"$list"
+((stale == 0)) || exit 2
+[[ $mode == check ]] && { echo "$(wc -l <<<"$list") mutations apply"; exit 0; }
+
+# The copy. What differs is copied anew, with the time of now: also what an interrupted run left spoiled.
+if [[ -z $work ]]; then
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+fi
+mkdir -p "$work/tree"
+work=$(cd "$work" && pwd)
+(cd "$root" && find . \( -path ./.git -o -path ./build -o -path ./out \) -prune -o -type f -print) |
+  while read -r file; do
+    cmp -s "$root/$file" "$work/tree/$file" && continue
+    mkdir -p "$(dirname "$work/tree/$file")"
+    cp --preserve=mode "$root/$file" "$work/tree/$file"
+  done
+
+# Built once, without pictures; every test that is to fail must first pass.
+launcher=()
+export CCACHE_BASEDIR=$work
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+log=$work/log
+cmake -S "$work/tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DINSONIFY_VIEW=OFF -DINSONIFY_SCENE_IO=ON \
+  "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
+build() { ninja -C "$work/build" -j "$jobs" "$1" >"$log" 2>&1; }
+try() { timeout 300 "$work/build/bin/$1" --gtest_filter="$2" --gtest_fail_fast --gtest_brief=1 >"$log" 2>&1; }
+while read -r program filter; do
+  build "$program" </dev/null || { tail -20 "$log" >&2; echo "$program does not build" >&2; exit 2; }
+  try "$program" "$filter" </dev/null || { grep FAILED "$log" >&2; complain "$program $filter fails without a mutation"; }
+  grep -q '\] 0 tests from' "$log" && complain "$program has no test $filter"
+done < <(cut -d$'\x1f' -f6 <<<"$list" | sort -u)
+((stale == 0)) || exit 2
+
+# One mutation after the other.
+survivors=0 errors=0 tried=0
+echo "| term | equation | file | first test to fail |"
+echo "|---|---|---|---|"
+while IFS=$'\x1f' read -r term id file old new tests; do
+  program=${tests%% *} filter=${tests#* }
+  cp "$work/tree/$file" "$work/kept"
+  count_or_replace "$work/tree/$file" "$old" "$new" >/dev/null
+  if ! build "$program" </dev/null; then
+    verdict="ERROR: does not build"
+    errors=$((errors + 1))
+    grep -m 3 'error' "$log" >&2 || tail -3 "$log" >&2
+  elif try "$program" "$filter" </dev/null; then
+    verdict="SURVIVES: none of $tests"
+    survivors=$((survivors + 1))
+  else
+    failed=$(perl -ne 'if (/^\[  FAILED  \] ([\w\/]+\.[\w\/]+)/) { print $1; exit }' "$log")
+    verdict=\`${failed:-crash or time-out of $tests}\`
+  fi
+  # Restored with the time of now, so that it is compiled again.
+  cat "$work/kept" >"$work/tree/$file"
+  tried=$((tried + 1))
+  echo "| $term | $id | \`$file\` | $verdict |"
+done <<<"$list"
+echo
+echo "$tried mutations, $survivors survive, $errors could not be tried"
+((errors == 0)) || exit 2
+((survivors == 0)) || exit 1

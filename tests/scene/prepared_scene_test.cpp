@@ -1,0 +1,81 @@
+#include "scene/prepared_scene.hpp"
+
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "scene/built_in_scenes.hpp"
+
+using namespace insonify;
+
+namespace {
+
+SceneCloud harbour_with_strays() {
+  SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
+  for (const double x : {1e3, -1e4, 1e5, 3e5, -7e5}) add_surfel(scene, {x, x / 3, -x}, {0, 0, 1}, 0.1);
+  return scene;
+}
+
+}  // namespace
+
+TEST(PreparedScene, blocks_hold_every_surfel_once_inside_their_balls) {
+  const SceneCloud scene = harbour_with_strays();
+  const PreparedScene prepared(scene);
+  std::vector<int> times(scene.size(), 0);
+  std::uint32_t end = 0;
+  for (const SurfelBlock& block : prepared.blocks()) {
+    EXPECT_EQ(block.begin, end);
+    end = block.end;
+    for (std::uint32_t k = block.begin; k < block.end; ++k) {
+      const std::uint32_t i = prepared.order()[k];
+      ++times[i];
+      ASSERT_LE((scene.point[i].cast<double>() - block.centre.cast<double>()).norm(), block.radius);
+      ASSERT_LE(scene.area[i], block.largest_area);
+      if (k > block.begin) {
+        ASSERT_LT(prepared.order()[k - 1], i);
+      }
+    }
+  }
+  EXPECT_EQ(end, scene.size());
+  EXPECT_THAT(times, testing::Each(1));
+}
+
+// 20 000 surfels on 10 000 m^2 or so: 128 of them fill a patch of 8 m across. Strays must not spoil that.
+TEST(PreparedScene, blocks_are_small_though_a_few_points_are_far_away) {
+  const SceneCloud scene = harbour_with_strays();
+  const PreparedScene prepared(scene);
+  std::vector<float> radii;
+  for (const SurfelBlock& block : prepared.blocks()) radii.push_back(block.radius);
+  std::sort(radii.begin(), radii.end());
+  EXPECT_LT(radii[radii.size() / 2], 8);
+  EXPECT_LT(radii[radii.size() * 9 / 10], 16);
+}
+
+TEST(PreparedScene, knows_the_mean_spacing) {
+  const SceneCloud scene = harbour_with_strays();
+  const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
+  EXPECT_DOUBLE_EQ(PreparedScene(scene).mean_spacing(), std::sqrt(area / static_cast<double>(scene.size())));
+}
+
+TEST(PreparedScene, of_nothing_or_of_one_place_is_valid) {
+  const SceneCloud empty;
+  EXPECT_TRUE(PreparedScene(empty).blocks().empty());
+  SceneCloud heap;
+  for (int i = 0; i < 300; ++i) add_surfel(heap, {1, 2, 3}, {0, 0, 1}, 0);
+  const PreparedScene prepared(heap);
+  EXPECT_EQ(prepared.order().size(), 300u);
+  EXPECT_EQ(prepared.blocks().size(), 3u);
+}
+
+TEST(PreparedScene, refuses_an_invalid_scene) {
+  SceneCloud scene;
+  add_surfel(scene, {1, 2, 3}, {0, 0, 0}, 1);
+  try {
+    const PreparedScene prepared(scene);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("PreparedScene: scene.normal[0]"));
+  }
+}

@@ -1,0 +1,165 @@
+// The plan's promise: what a ping leaves out costs less than the plan says.
+#include "simulate/plan_ping.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/sonar_spec.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+
+using namespace insonify;
+
+namespace {
+
+struct Situation {
+  SceneCloud scene;
+  SonarHead head;
+  Pose pose;
+  Environment environment;
+  SimulationOptions options;
+};
+
+/// A random head above a random bottom with a wall, in random water; nothing special.
+Situation situation(std::uint64_t number) {
+  const auto a = random_uniform(number, RandomStage::scene_points, {1, 0, 0});
+  const auto b = random_uniform(number, RandomStage::scene_points, {2, 0, 0});
+  Situation s;
+  s.scene = make_built_in_scene("plane", {.points = 6000, .size = {14, 14}});
+  SonarSpec spec;
+  spec.name = "random";
+  spec.centre_frequency = 300e3 + 600e3 * a[0];
+  spec.bandwidth = 10e3 + 30e3 * a[1];
+  spec.source_level_db = 200;
+  spec.beams = 24;
+  spec.field_of_view = radians(30 + 60 * a[2]);
+  spec.beam_width = radians(1.5 + 3 * a[3]);
+  spec.elevation_width = radians(5 + 8 * b[0]);
+  spec.min_range = 3 + 2 * b[1];
+  spec.max_range = spec.min_range + 4;
+  s.environment.water.temperature_c = 4 + 16 * b[2];
+  s.environment.water.depth = 5;
+  s.head = make_head(spec, sound_speed(s.environment.water));
+  s.pose = pose_from_yaw_pitch_roll({0, 0, 1.5 + b[3]}, 0, radians(10 + 15 * b[0]), 0);
+  s.options.seed = number;
+  s.options.scatterers_per_cell = 3;
+  return s;
+}
+
+ComplexGrid image(const Situation& s) {
+  return simulate_ping(s.scene, s.head, s.pose, s.environment, s.options).ping.pressure.cast<std::complex<double>>();
+}
+
+const PlannedStage& stage(const PingPlan& plan, const std::string& name) {
+  for (const PlannedStage& s : plan.stages)
+    if (s.name == name) return s;
+  throw std::runtime_error("no stage " + name);
+}
+
+/// Relative L2 change of the image when `name` is forced in.
+double effect_of(const Situation& s, const std::string& name) {
+  Situation forced = s;
+  force_stage(name, true, forced.environment, forced.options);
+  const ComplexGrid with = image(forced), without = image(s);
+  return std::sqrt((with - without).abs2().sum() / without.abs2().sum());
+}
+
+PingPlan plan_of(const Situation& s) { return plan_ping(s.scene, s.head, s.pose, s.environment, s.options); }
+
+}  // namespace
+
+TEST(PlanPing, effect_of_every_stage_left_out_stays_below_its_bound) {
+  double outer_elevations = 0;
+  for (std::uint64_t number = 1; number <= 6; ++number) {
+    Situation s = situation(number);
+    s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
+    s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
+    s.options.refraction = Choice::never;
+    const PingPlan plan = plan_of(s);
+    outer_elevations += stage(plan, "outer-elevations").bound_relative;
+    for (const std::string name : {"outer-elevations", "outer-azimuths", "absorption-slope", "refraction", "multipath",
+                                   "noise", "direct-sum", "true-delays"}) {
+      const PlannedStage& out = stage(plan, name);
+      EXPECT_FALSE(out.included) << name;
+      if (name != "outer-elevations") {  // not every bottom reaches so far off the axis
+        EXPECT_GT(out.bound_relative, 0) << name;
+      }
+      EXPECT_LE(effect_of(s, name), out.bound_relative + 1e-6) << name << " in situation " << number;
+    }
+  }
+  EXPECT_GT(outer_elevations, 0);
+}
+
+TEST(PlanPing, bounds_are_not_idle) {
+  const Situation s = situation(3);
+  const PingPlan plan = plan_of(s);
+  EXPECT_LT(stage(plan, "outer-elevations").bound_relative, 0.2);
+  EXPECT_LT(stage(plan, "outer-azimuths").bound_relative, 0.5);
+  EXPECT_LT(stage(plan, "noise").bound_relative, 0.1);
+  EXPECT_LT(stage(plan, "other-ranges").bound_relative, 1e-3);
+}
+
+// Pulses from beyond the gate reach into it; farther than the sampled ranges they do not.
+TEST(PlanPing, ranges_beyond_the_sampled_ones_change_nothing_above_their_bound) {
+  Situation s = situation(2);
+  const ComplexGrid narrow = image(s);
+  const double bound = stage(plan_of(s), "other-ranges").bound_relative;
+  Situation wide = s;
+  wide.head.gate.max_range += 1;
+  const ComplexGrid both = image(wide).leftCols(narrow.cols());
+  EXPECT_LE(std::sqrt((both - narrow).abs2().sum() / narrow.abs2().sum()), bound + 2 * s.options.tolerance);
+}
+
+// Without a cause there is nothing to leave out, and forcing says what is missing.
+TEST(PlanPing, what_has_no_cause_costs_nothing_and_cannot_be_forced_in) {
+  const Situation s = situation(1);
+  const PingPlan plan = plan_of(s);
+  for (const std::string name : {"back-faces", "refraction", "motion", "multipath", "volume", "surface", "bottom",
+                                 "micro-relief", "coherent-part"}) {
+    EXPECT_FALSE(stage(plan, name).included) << name;
+    EXPECT_EQ(stage(plan, name).bound_relative, 0) << name;
+  }
+  for (const std::string name : {"refraction", "motion", "multipath", "volume", "surface", "bottom"})
+    EXPECT_THROW(effect_of(s, name), Error) << name;
+  EXPECT_THROW(effect_of(s, "back-faces"), Error);
+}
+
+TEST(PlanPing, what_the_environment_calls_for_is_in) {
+  Situation s = situation(1);
+  s.environment.surface = SeaSurface{.height = 5, .scattering_strength_db = -30.0};
+  s.environment.bottom = FlatBottom{.height = -1, .lambert_mu = 0.002};
+  s.environment.volume_scattering_db = -70;
+  s.options.multipath = s.options.noise = true;
+  s.options.absorption_order = 1;
+  s.options.motion.velocity = {1, 0, 0};
+  s.scene.materials[0].relief_slope = 0.1;
+  s.scene.materials[0].coherent_fraction = 0.5;
+  const PingPlan plan = plan_of(s);
+  for (const std::string name : {"volume", "surface", "bottom", "multipath", "noise", "absorption-slope", "motion",
+                                 "micro-relief", "coherent-part", "occlusion"})
+    EXPECT_TRUE(stage(plan, name).included) << name;
+  for (const std::string name : {"volume", "surface", "bottom", "multipath", "noise", "motion", "occlusion"})
+    force_stage(name, false, s.environment, s.options);
+  const PingPlan less = plan_of(s);
+  for (const std::string name : {"volume", "surface", "bottom", "multipath", "noise", "motion", "occlusion"})
+    EXPECT_FALSE(stage(less, name).included) << name;
+}
+
+TEST(PlanPing, estimates_what_a_ping_will_hold) {
+  const Situation s = situation(4);
+  const PingPlan plan = plan_of(s);
+  const SimulatedPing p = simulate_ping(s.scene, s.head, s.pose, s.environment, s.options);
+  EXPECT_NEAR(plan.scatterers / static_cast<double>(p.scatterers.size()), 1, 0.3);
+  EXPECT_GT(plan.seconds, 0);
+  EXPECT_GT(plan.mib, 0);
+}
+
+TEST(PlanPing, of_an_empty_view_is_finite_but_for_what_is_left_out) {
+  Situation s = situation(1);
+  s.pose = pose_from_yaw_pitch_roll({0, 0, 500}, 0, 0, 0);
+  const PingPlan plan = plan_of(s);
+  EXPECT_EQ(plan.surfels_in_view, 0U);
+  EXPECT_EQ(plan.scatterers, 0);
+}

@@ -1,0 +1,136 @@
+// insonify accuracy: what it writes, and what it refuses. The sizes here are the hidden --quick ones: times mean nothing.
+#include <map>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tool/tool_runner.hpp"
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+namespace {
+
+constexpr const char* columns =
+    "method,precision,scatterers,beams,elements,bins,tolerance,kernel_width,error,local_error,seconds,seconds_min,"
+    "seconds_max,peak_mib";
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);) parts.push_back(part);
+  return parts;
+}
+
+class AccuracyVerb : public ToolTest {
+ protected:
+  /// Rows of a CSV by the names of its columns.
+  std::vector<std::map<std::string, std::string>> rows_of(const std::string& name) const {
+    const std::vector<std::string> lines = split(read(name), '\n'), names = split(lines.at(0), ',');
+    std::vector<std::map<std::string, std::string>> rows;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> values = split(lines[i], ',');
+      EXPECT_EQ(values.size(), names.size()) << lines[i];
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (k == 0) rows.emplace_back();
+        rows.back()[names.at(k)] = values[k];
+      }
+    }
+    return rows;
+  }
+  bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
+};
+
+double number(const std::string& text) { return std::stod(text); }
+
+}  // namespace
+
+TEST_F(AccuracyVerb, writes_sweep_with_the_agreed_columns_pictures_and_manifest) {
+  succeed("accuracy --quick -q -o run");
+  EXPECT_THAT(read("run/sweep.csv"), StartsWith(std::string(columns) + ","));
+  const json manifest = json::parse(read("run/manifest.json"));
+  for (const char* key : {"cpu", "cores", "compiler", "flags", "commit", "load_average"})
+    EXPECT_TRUE(manifest["machine"].contains(key)) << key;
+  EXPECT_GE(manifest["threads"], 1);
+  EXPECT_EQ(manifest["summary"]["promise"].size(), 4u);  // 1e-2, 1e-4, 1e-6, 1e-12
+  for (const std::string name : manifest["pictures"]) EXPECT_TRUE(has("run/" + name)) << name;
+  for (const char* name : {"work_precision.png", "crossover.png", "promise.png", "sampling.png"})
+    EXPECT_TRUE(has(std::string("run/") + name)) << name;
+  EXPECT_TRUE(has("run/sampling.csv"));
+}
+
+TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
+  succeed("accuracy --quick -q --no-picture -o run");
+  std::map<std::string, int> methods;
+  for (auto& row : rows_of("run/sweep.csv")) {
+    ++methods[row["method"]];
+    EXPECT_GT(number(row["seconds"]), 0);
+    EXPECT_LE(number(row["seconds_min"]), number(row["seconds"]));
+    EXPECT_GE(number(row["seconds_max"]), number(row["seconds"]));
+    EXPECT_GT(number(row["peak_mib"]), 1);
+    EXPECT_GT(number(row["elements"]), 0);
+    if (row["method"] == "stamped") {
+      EXPECT_LE(number(row["error"]), number(row["tolerance"])) << row["sweep"];
+      EXPECT_GT(number(row["kernel_width"]), 1);
+    }
+    // The referee itself: sums of a few hundred terms in double.
+    if (row["method"] == "direct") {
+      EXPECT_LE(number(row["error"]), 1e-12);
+    }
+    // What takes short cuts does not get better than they are.
+    if (row["method"] == "nearest-bin") {
+      EXPECT_GT(number(row["error"]), 0.05);
+    }
+  }
+  for (const char* method : {"stamped", "direct", "spectrum", "windowed-direct", "nearest-bin", "pattern-cut"})
+    EXPECT_GE(methods[method], 1) << method;
+}
+
+TEST_F(AccuracyVerb, errors_do_not_depend_on_threads) {
+  for (const char* threads : {"1", "2"})
+    succeed(std::string("accuracy --quick -q --no-picture --methods stamped --repeats 1 -j ") + threads + " -o j" +
+            threads);
+  std::vector<std::string> errors[2];
+  for (int i = 0; i < 2; ++i)
+    for (auto& row : rows_of(i == 0 ? "j1/sweep.csv" : "j2/sweep.csv"))
+      if (row["sweep"] != "threads") errors[i].push_back(row["error"]);
+  EXPECT_EQ(errors[0], errors[1]);
+}
+
+TEST_F(AccuracyVerb, methods_and_tolerances_can_be_chosen) {
+  const std::string out = succeed("accuracy --quick -q --no-picture --methods stamped,direct --tolerances 1e-3 -o run");
+  EXPECT_THAT(out, HasSubstr("tolerance 1e-03"));
+  for (auto& row : rows_of("run/sweep.csv")) {
+    EXPECT_TRUE(row["method"] == "stamped" || row["method"] == "direct") << row["method"];
+    if (row["method"] == "stamped") {
+      EXPECT_EQ(row["tolerance"], "0.001");
+    }
+  }
+}
+
+TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
+  succeed("make-scene sphere -q --points 500 -o sphere.ply");
+  const json manifest = json::parse(succeed(
+      "accuracy --quick -q --no-picture --json --scene sphere.ply --sonar p900-45 --pose=0,0,0,0,0,0 --range 2:8 "
+      "--methods stamped -o run"));
+  EXPECT_EQ(manifest["scene"], "sphere.ply");
+  for (auto& row : rows_of("run/sweep.csv")) {
+    EXPECT_LE(number(row["error"]), number(row["tolerance"]));
+    EXPECT_EQ(row["beams"], rows_of("run/sweep.csv")[0]["beams"]);
+  }
+}
+
+TEST_F(AccuracyVerb, refuses_what_it_cannot_do_before_it_works) {
+  expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "stamped, direct"});
+  expect_refused("accuracy --quick --tolerances 2 -o run", 2, {"--tolerances", "2", "[1e-13, 1)"});
+  expect_refused("accuracy --quick --tolerances fine -o run", 2, {"--tolerances", "'fine' is not a number"});
+  expect_refused("accuracy --quick --repeats 0 -o run", 2, {"--repeats = 0"});
+  expect_refused("accuracy --quick --sonar p900-45 -o run", 2, {"--scene"});
+  expect_refused("accuracy --quick --scene a.ply -o run", 2, {"--sonar", "--pose"});
+  expect_refused("accuracy --quick -j 5000 -o run", 2, {"5000"});
+  expect_refused("accuracy --quick --scene none.ply --sonar p900-45 --pose=0,0,0,0,0,0 -o run", 4, {"none.ply"});
+  std::filesystem::create_directory(path("there"));
+  expect_refused("accuracy --quick -o there", 4, {"there"});
+}

@@ -1,0 +1,120 @@
+// Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left behind.
+#include <string>
+
+#include "tool/tool_runner.hpp"
+
+namespace {
+
+const std::string here = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 2:10 -o out";
+const std::string nowhere = " --sonar p900-45 --range 2:10 -o out";
+
+class BadEnvironment : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene plane -o plane.ply --points 2000 --size 12,12 -q");
+  }
+  void refuse(const std::string& more, const std::vector<std::string>& parts, int exit_code = 2) const {
+    expect_refused("ping plane.ply" + here + " " + more, exit_code, parts);
+  }
+  void refuse_file(const std::string& text, const std::vector<std::string>& parts) const {
+    write("sea.toml", text);
+    refuse("--environment sea.toml", parts, 3);
+  }
+  void refuse_profile(const std::string& text, const std::vector<std::string>& parts) const {
+    write("ctd.csv", text);
+    refuse("--profile ctd.csv", parts, 3);
+  }
+};
+
+}  // namespace
+
+TEST_F(BadEnvironment, set_out_of_range) {
+  refuse("--set surface.height_m=high", {"surface.height_m = 'high'", "must be a number"});
+  refuse("--set surface.rms_height_m=-1", {"surface.rms_height = -1 m", "must be finite and >= 0"});
+  refuse("--set surface.scattering_db=30", {"scattering_strength_db = 30 dB", "at most 10"});
+  refuse("--set bottom.density_ratio=0", {"density_ratio = 0", "must be > 0"});
+  refuse("--set bottom.sound_speed_ratio=-1", {"sound_speed_ratio = -1", "must be > 0"});
+  refuse("--set bottom.loss=1.5", {"bottom.loss = 1.5", "below 1"});
+  refuse("--set bottom.lambert_mu_db=3", {"bottom.lambert_mu", "1/sr", "within 0 and 1/pi"});
+  refuse("--set volume.scattering_db=10", {"volume.scattering_db = 10 dB", "at most 0"});
+  refuse("--set wind.speed_m_s=-3", {"wind_speed = -3 m/s", "within 0 and 100"});
+  refuse("--set noise.self_db=1000", {"self_noise_db = 1000 dB", "within -400 and 400"});
+  refuse("--set surface.height_m=-5 --set bottom.height_m=0", {"bottom.height = 0 m", "must be below surface.height"});
+  refuse("--set water.sound_speed_formula=medwin", {"medwin", "unesco, mackenzie, leroy"});
+  refuse("--set water.absorption_formula=thorp", {"thorp", "francois-garrison, fisher-simmons, ainslie-mccolm"});
+  refuse("--set wind.sped_m_s=3", {"wind.sped_m_s", "did you mean wind.speed_m_s"});
+  refuse("--set weather.rain=1", {"weather.rain is unknown"});
+}
+
+TEST_F(BadEnvironment, file_of_the_environment) {
+  expect_refused("ping plane.ply" + here + " --environment nowhere.toml", 4, {"nowhere.toml"});
+  refuse_file("[wind]\nspeed_m_s = 200\n", {"sea.toml", "wind_speed = 200 m/s", "within 0 and 100"});
+  refuse_file("[wnd]\n", {"sea.toml:1", "unknown table [wnd]", "did you mean [wind]"});
+  refuse_file("[wind]\nspeed_m_s = \"strong\"\n", {"sea.toml:2", "must be a number"});
+  refuse_file("[wind\n", {"sea.toml:1"});
+  refuse_file("[profile]\ndepth_m = [0, 1]\nsound_speed = [1500]\n", {"sea.toml", "profile"});
+}
+
+TEST_F(BadEnvironment, profile) {
+  expect_refused("ping plane.ply" + here + " --profile nowhere.csv", 4, {"nowhere.csv"});
+  refuse_profile("depth_m,sound_speed\n0,1500\n0,1490\n", {"ctd.csv:3", "depth_m = 0 m", "must be deeper"});
+  refuse_profile("depth_m,sound_speed\n0,340\n", {"ctd.csv:2", "sound_speed = 340 m/s", "within 1300 and 1700"});
+  refuse_profile("depth_m,temperature_c,salinity_psu\n-1,10,35\n", {"ctd.csv:2", "depth_m = -1 m", "positive down"});
+  refuse_profile("depth_m,sound_speed\n", {"ctd.csv", "one entry at least"});
+  refuse_profile("depth,speed\n0,1500\n", {"ctd.csv:1"});
+}
+
+TEST_F(BadEnvironment, multipath_without_a_boundary_or_out_of_the_water) {
+  refuse("--multipath", {"--multipath", "neither surface nor bottom", "--set surface.height_m=0"});
+  refuse("--multipath --set surface.height_m=1", {"surface", "1 m"});
+  refuse("--multipath --set bottom.height_m=4", {"bottom", "4 m"});
+  refuse("--set surface.height_m=1 --set surface.scattering_db=-30", {"surface", "1 m"});
+}
+
+TEST_F(BadEnvironment, way_of_the_head) {
+  refuse("--velocity 1,2", {"--velocity = '1,2'", "has 2 numbers, must have 3", "vx,vy,vz in m/s"});
+  refuse("--velocity 1,2,nan", {"--velocity", "'nan' is not a number"});
+  refuse("--velocity 20,0,0", {"velocity", "20", "hundredth of the sound speed"});
+  refuse("--turn-rate 0,0,x", {"--turn-rate", "'x' is not a number", "deg/s"});
+  refuse("--turn-rate 0,0,9000", {"turn_rate", "100 rad/s"});
+  refuse("--time inf", {"--time = inf s", "must be finite"});
+  refuse("--time noon", {"--time", "noon"});
+  expect_refused("ping plane.ply" + nowhere, 2, {"--pose or --trajectory must be given"});
+
+  write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,3,0,15,0\n10,1,0,3,0,15,0\n");
+  refuse("--trajectory way.csv", {"--pose or --trajectory must be given, one of them"});
+  const auto refuse_way = [&](const std::string& more, int code, const std::vector<std::string>& parts) {
+    expect_refused("ping plane.ply" + nowhere + " " + more, code, parts);
+  };
+  refuse_way("--trajectory way.csv --time 11", 2, {"time = 11 s", "0", "10"});
+  refuse_way("--trajectory way.csv --velocity 1,0,0", 2, {"--velocity and --turn-rate follow from --trajectory"});
+  refuse_way("--trajectory way.csv --world ned", 2, {"--world ned", "z-up"});
+  refuse_way("--trajectory nowhere.csv", 4, {"nowhere.csv"});
+  write("back.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n5,0,0,3,0,15,0\n1,1,0,3,0,15,0\n");
+  refuse_way("--trajectory back.csv", 3, {"back.csv:3", "time_s = 1 s", "must be later"});
+  write("one.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n5,0,0,3,0,15,0\n");
+  refuse_way("--trajectory one.csv", 3, {"one.csv", "1 entries", "two at least"});
+}
+
+TEST_F(BadEnvironment, pulse_and_array) {
+  refuse("--set sonar.pulse=chirp", {"pulse = \"chirp\"", "gaussian or linear_fm"});
+  refuse("--set sonar.pulse=linear_fm", {"pulse = linear_fm", "must come with pulse_length_s"});
+  refuse("--set sonar.pulse_length_s=0.001", {"pulse_length_s = 0.001 s", "must be left out for pulse gaussian"});
+  refuse("--set sonar.replica_window=hann", {"replica_window = hann", "must be left out for pulse gaussian"});
+  refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=1e-9", {"pulse_length_s", "within 1 and 1e6"});
+  refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0", {"pulse_length_s = 0 s", "must be > 0"});
+  refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.001 --set sonar.replica_window=boxcar",
+         {"boxcar", "uniform, hann or hamming"});
+  refuse("--set sonar.elevations_deg=0,95", {"elevations_deg", "within -90 and 90"});
+  refuse("--set sonar.column_beam_width_deg=0", {"column_beam_width_deg = 0", "leave the key out"});
+  refuse("--set sonar.transmit_width_deg=-1", {"transmit_width_deg = -1", "leave the key out"});
+  refuse("--set sonar.shading=hann", {"shading = \"hann\"", "taylor, uniform, hamming or chebyshev"});
+}
+
+TEST_F(BadEnvironment, numbers_and_words_of_options) {
+  refuse("--absorption-order 3", {"--absorption-order", "3"});
+  refuse("--absorption-order one", {"--absorption-order", "one"});
+  refuse("--material-field colour", {"colour"}, 3);
+  refuse("--layers=maybe", {"--layers"});
+}

@@ -1,0 +1,317 @@
+// What surrounds head and scene, from the command line: each option does what it says, and a run can be fed back.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "acoustics/environment.hpp"
+#include "core/units.hpp"
+#include "returns/compare.hpp"
+#include "store/cube.hpp"
+#include "store/environment_file.hpp"
+#include "store/sonar_file.hpp"
+#include "tool/tool_runner.hpp"
+
+using namespace insonify;
+using nlohmann::json;
+using testing::HasSubstr;
+
+namespace {
+
+const std::string sonar = " --sonar p900-45 --set sonar.beams=16 --range 2:20 --no-picture -q";
+const std::string level_pose = " --pose=0,0,-3,0,10,0";
+
+class EnvironmentRun : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene wall -o plain.ply --points 4000 --size 4,4 -q");
+    succeed("make-scene harbour -o harbour.ply --points 20000 -q");
+  }
+  Ping ping(const std::string& run) const { return read_cube(path(run + "/cube.h5")).pings.at(0); }
+  json manifest(const std::string& run) const { return json::parse(read(run + "/manifest.json")); }
+  /// Relative L2 difference of two runs.
+  double difference(const std::string& a, const std::string& b) const {
+    const ComplexGrid x = ping(a).pressure.cast<std::complex<double>>(),
+                      y = ping(b).pressure.cast<std::complex<double>>();
+    return compare_images(x, y).relative_l2;
+  }
+  void over_harbour(const std::string& run, const std::string& more) const {
+    succeed("ping harbour.ply -o " + run + sonar + level_pose + more);
+  }
+};
+
+std::vector<std::string> layer_names(const Ping& ping) {
+  std::vector<std::string> names;
+  for (const Layer& layer : ping.layers) names.push_back(layer.name);
+  return names;
+}
+
+}  // namespace
+
+// A sphere of 0.1 m, 5 m ahead of the head, and a smooth surface 2 m above both: the mixed path is half as long again as
+// 4.9 m + sqrt(5^2 + 4^2) = 6.40 m, the twice bounced one 6.40 m. What comes directly stays as it is.
+TEST_F(EnvironmentRun, multipath_adds_energy_behind_the_direct_echo_only) {
+  succeed("make-scene sphere -o ball.ply --points 3000 --radius 0.1 -q");
+  const std::string look =
+      "ping ball.ply --pose=0,0,0,0,0,0 --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture -q "
+      "--set sonar.elevation_width_deg=90 ";
+  succeed(look + "-o direct");
+  succeed(look + "--multipath --set surface.height_m=2 --layers -o sea");
+  const Ping direct = ping("direct"), sea = ping("sea");
+  ASSERT_EQ(layer_names(sea), (std::vector<std::string>{"direct", "multipath"}));
+  EXPECT_EQ((sea.layers[0].pressure - direct.pressure).abs().maxCoeff(), 0);
+  Ping bounced = sea;
+  bounced.pressure = sea.layers[1].pressure;
+  const double heard = mean_level_db(direct, 4.8, 5.2);
+  EXPECT_GT(mean_level_db(bounced, 5.55, 5.85), heard - 20);  // out one way, back the other
+  EXPECT_GT(mean_level_db(bounced, 6.25, 6.55), heard - 20);  // twice by the surface
+  EXPECT_LT(mean_level_db(bounced, 2, 5.4), heard - 80);
+  EXPECT_LT(mean_level_db(bounced, 6.7, 12), heard - 80);
+}
+
+TEST_F(EnvironmentRun, layers_in_the_cube_add_up_to_the_pressure) {
+  over_harbour("out",
+               " --noise --multipath --layers --set surface.height_m=0 --set surface.scattering_db=-30 "
+               "--set volume.scattering_db=-60 --set bottom.height_m=-9 --set bottom.lambert_mu_db=-27");
+  const Ping all = ping("out");
+  EXPECT_EQ(layer_names(all),
+            (std::vector<std::string>{"direct", "multipath", "volume", "surface", "bottom", "noise"}));
+  ComplexGrid sum = ComplexGrid::Zero(all.pressure.rows(), all.pressure.cols());
+  for (const Layer& layer : all.layers) {
+    EXPECT_GT(layer.pressure.abs().maxCoeff(), 0) << layer.name;
+    sum += layer.pressure.cast<std::complex<double>>();
+  }
+  EXPECT_LT(compare_images(all.pressure.cast<std::complex<double>>(), sum).relative_l2, 1e-6);
+  EXPECT_EQ(json::parse(succeed("info out --json"))["layers"].size(), 6U);
+  // Without --layers the same sum, and no layers.
+  over_harbour("sum",
+               " --noise --multipath --set surface.height_m=0 --set surface.scattering_db=-30 "
+               "--set volume.scattering_db=-60 --set bottom.height_m=-9 --set bottom.lambert_mu_db=-27");
+  EXPECT_TRUE(ping("sum").layers.empty());
+  EXPECT_EQ((ping("sum").pressure - all.pressure).abs().maxCoeff(), 0);
+}
+
+TEST_F(EnvironmentRun, rough_sea_without_multipath_is_noted) {
+  const ToolResult result =
+      run("ping harbour.ply -o out --sonar p900-45 --set sonar.beams=16 --range 2:20 --no-picture" + level_pose +
+          " --multipath --set surface.height_m=0 --set wind.speed_m_s=10");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("no echo comes by way of surface or bottom: waves of 0.56 m rms"));
+  EXPECT_THAT(read("out/manifest.json"), HasSubstr("waves of 0.56 m rms"));
+}
+
+TEST_F(EnvironmentRun, wind_and_platform_raise_the_noise_by_the_closed_form) {
+  const std::string away =
+      "ping harbour.ply --pose=30,0,-3,0,-90,0 --sonar micron --range 2:60 --no-picture -q --noise ";
+  const auto level = [&](const std::string& more) {
+    succeed(away + "--force -o out " + more);
+    EXPECT_NEAR(mean_level_db(ping("out"), 2, 60), manifest("out")["sampling"]["noise_floor_db"].get<double>(), 0.3);
+    return manifest("out")["sampling"]["noise_floor_db"].get<double>();
+  };
+  const Pulse pulse = make_head(find_sonar("micron").spec, 1500).pulse;
+  Environment still, windy, loud;
+  windy.wind_speed = 30;
+  loud.self_noise_db = 60;
+  const double calm = level("");
+  EXPECT_NEAR(level("--set wind.speed_m_s=30") - calm,
+              element_noise_level_db(windy, pulse) - element_noise_level_db(still, pulse), 1e-9);
+  EXPECT_NEAR(level("--set noise.self_db=60") - calm,
+              element_noise_level_db(loud, pulse) - element_noise_level_db(still, pulse), 1e-9);
+}
+
+TEST_F(EnvironmentRun, trajectory_at_rest_gives_the_pressure_of_its_pose) {
+  write("still.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,0,0,-3,0,10,0\n");
+  succeed("ping harbour.ply -o pose" + sonar + level_pose);
+  succeed("ping harbour.ply -o still --trajectory still.csv --time 0" + sonar);
+  EXPECT_EQ(read("still/cube.h5"), read("pose/cube.h5"));
+  EXPECT_EQ(read("still/returns.pcd"), read("pose/returns.pcd"));
+  // At another time only the time differs.
+  succeed("ping harbour.ply -o late --trajectory still.csv --time 7.5" + sonar);
+  EXPECT_EQ(ping("late").time, 7.5);
+  EXPECT_EQ((ping("late").pressure - ping("pose").pressure).abs().maxCoeff(), 0);
+}
+
+TEST_F(EnvironmentRun, trajectory_is_the_pose_and_motion_between_its_entries) {
+  write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,20,0,-3,40,10,0\n");
+  write("straight.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,-2,0,-3,0,10,0\n2,2,0,-3,0,10,0\n");
+  succeed("ping harbour.ply -o moved --trajectory straight.csv --time 1" + sonar);
+  succeed("ping harbour.ply -o told --velocity 2,0,0 --time 1" + sonar + level_pose);
+  EXPECT_LT(difference("moved", "told"), 1e-6);
+  EXPECT_EQ(manifest("moved")["motion"]["velocity_m_s"], json({2.0, 0.0, 0.0}));
+  succeed("ping harbour.ply -o still --time 1" + sonar + level_pose);
+  EXPECT_FALSE(manifest("still").contains("motion"));
+  EXPECT_GT(difference("moved", "still"), 0.1);
+  succeed("ping harbour.ply -o turned --turn-rate 0,0,4 --time 1" + sonar + level_pose);
+  EXPECT_GT(difference("turned", "still"), 1e-4);
+  succeed("ping harbour.ply -o way --trajectory way.csv --time 5" + sonar);
+  EXPECT_NEAR(ping("way").world_from_head(0, 3), 10, 1e-12);
+  EXPECT_NEAR(manifest("way")["motion"]["turn_rate_deg_s"][2].get<double>(), 4, 0.3);
+}
+
+TEST_F(EnvironmentRun, profile_bends_rays_only_where_it_matters) {
+  // The very speed of the plain water, at every depth.
+  over_harbour("plain", "");
+  const double c = read_cube(path("plain/cube.h5")).sound_speed;
+  char line[200];
+  std::snprintf(line, sizeof line, "depth_m,sound_speed\n0,%.17g\n20,%.17g\n", c, c);
+  write("even.csv", line);
+  over_harbour("even", " --profile even.csv");
+  EXPECT_LT(difference("even", "plain"), 1e-6);
+  EXPECT_THAT(read("even/manifest.json"), HasSubstr("refraction left out"));
+
+  // A thermocline that has this speed at the head, 3 m deep.
+  std::snprintf(line, sizeof line, "depth_m,sound_speed\n0,%.17g\n3,%.17g\n4,%.17g\n20,%.17g\n", c + 20, c, c - 20,
+                c - 20);
+  write("thermocline.csv", line);
+  over_harbour("bent", " --profile thermocline.csv --set water.depth_m=3");
+  EXPECT_THAT(read("bent/manifest.json"), HasSubstr("rays bent by the sound-speed profile"));
+  EXPECT_GT(difference("bent", "plain"), 0.1);
+}
+
+// 400 kHz of band at 900 kHz: absorption differs by some 0.2 dB/m over the band.
+TEST_F(EnvironmentRun, absorption_order_changes_a_wideband_ping_a_little) {
+  const std::string wide =
+      " --set sonar.bandwidth_hz=400000 --set sonar.side_lobe_db=0 --range 9:12 --set sonar.beams=8";
+  const auto run_order = [&](const std::string& order) {
+    succeed("ping harbour.ply -o order" + order + " --sonar p900-45 --no-picture -q --absorption-order " + order +
+            level_pose + wide);
+  };
+  for (const std::string order : {"0", "1", "2"}) run_order(order);
+  EXPECT_GT(difference("order1", "order0"), 1e-3);
+  EXPECT_LT(difference("order1", "order0"), 0.3);
+  EXPECT_GT(difference("order2", "order1"), 1e-6);
+  EXPECT_LT(difference("order2", "order1"), difference("order1", "order0"));
+}
+
+TEST_F(EnvironmentRun, formulas_of_the_water_are_used) {
+  const auto medium = [&](const std::string& more) {
+    succeed("ping plain.ply --force -o out --pose=-5,0,0,0,0,0" + sonar + more);
+    return read_cube(path("out/cube.h5"));
+  };
+  const Cube usual = medium(""), other = medium(" --set water.sound_speed_formula=mackenzie"),
+             third = medium(" --set water.absorption_formula=fisher-simmons");
+  EXPECT_NE(other.sound_speed, usual.sound_speed);
+  EXPECT_NEAR(other.sound_speed, usual.sound_speed, 1);
+  EXPECT_EQ(third.sound_speed, usual.sound_speed);
+  EXPECT_NEAR(third.absorption_db_per_m / usual.absorption_db_per_m, 1, 0.2);
+  EXPECT_NE(third.absorption_db_per_m, usual.absorption_db_per_m);
+}
+
+TEST_F(EnvironmentRun, environment_file_means_the_same_as_set) {
+  write("sea.toml",
+        "[water]\ntemperature_c = 4\n[surface]\nheight_m = 0.5\nscattering_db = -35\n[wind]\nspeed_m_s = 6\n"
+        "[volume]\nscattering_db = -65\n[noise]\nself_db = 40\n[bottom]\nheight_m = -9\n");
+  over_harbour("file", " --noise --environment sea.toml");
+  over_harbour("set",
+               " --noise --set water.temperature_c=4 --set surface.height_m=0.5 --set surface.scattering_db=-35 --set "
+               "wind.speed_m_s=6 --set volume.scattering_db=-65 --set noise.self_db=40 --set bottom.height_m=-9");
+  EXPECT_EQ(read("file/cube.h5"), read("set/cube.h5"));
+  over_harbour("over", " --noise --environment sea.toml --set wind.speed_m_s=20");  // --set has the last word
+  EXPECT_THAT(read("over/run.toml"), HasSubstr("speed_m_s = 20.0"));
+}
+
+TEST_F(EnvironmentRun, run_toml_gives_back_sonar_and_environment) {
+  write("ctd.csv", "depth_m,sound_speed\n0,1520\n4,1490.123456789\n20,1489\n");
+  const std::string sea =
+      " --noise --multipath --profile ctd.csv --set water.temperature_c=4 --set surface.height_m=0 "
+      "--set surface.rms_height_m=0.0001 --set volume.scattering_db=-65 --set noise.self_db=40 "
+      "--set bottom.height_m=-9 --set bottom.loss=0.02";
+  succeed("ping harbour.ply -o first --set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.0002" + sonar +
+          level_pose + sea);
+  succeed(
+      "ping harbour.ply -o again --noise --multipath --sonar first/run.toml --environment first/run.toml "
+      "--no-picture -q" +
+      level_pose);
+  EXPECT_EQ(read("again/cube.h5"), read("first/cube.h5"));
+  EXPECT_THAT(read("first/run.toml"), HasSubstr("pulse = \"linear_fm\""));
+}
+
+TEST_F(EnvironmentRun, run_toml_records_every_option) {
+  write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n9,1,0,-3,0,10,0\n");
+  write("sea.toml", "[water]\nph = 7.75\n");
+  succeed(
+      "ping harbour.ply -o out --sonar p900-45 --set sonar.beams=8 --range 2:12 --no-picture -q --trajectory way.csv "
+      "--time 2.5 --environment sea.toml --noise --layers --absorption-order 1 --threshold 9 --all-bins-above 80 "
+      "--scatterers-per-cell 7 --amplitude random-phase --seed 42 --tolerance 1e-5 --material-field material");
+  const std::string text = read("out/run.toml");
+  for (const char* line : {"seed = 42",
+                           "tolerance = 1e-05",
+                           "method = \"stamped\"",
+                           "environment_file = \"sea.toml\"",
+                           "profile_file = \"\"",
+                           "path = \"harbour.ply\"",
+                           "material_field = \"material\"",
+                           "mesh_spacing = 0",
+                           "pose = \"\"",
+                           "trajectory = \"way.csv\"",
+                           "time = 2.5",
+                           "velocity = \"\"",
+                           "turn_rate = \"\"",
+                           "noise = true",
+                           "multipath = false",
+                           "layers = true",
+                           "absorption_order = 1",
+                           "threshold_db = 9",
+                           "all_bins_above = \"80\"",
+                           "scatterers_per_cell = 7",
+                           "amplitude = \"random-phase\"",
+                           "ph = 7.75",
+                           "beams = 8",
+                           "min_range_m = 2.0"})
+    EXPECT_THAT(text, HasSubstr(line));
+}
+
+TEST_F(EnvironmentRun, material_field_chooses_the_materials) {
+  write("labels.toml",
+        "schema = 1\n[[material]]\nname = \"soft\"\nlambert_mu_db = -40\n[[material]]\nname = \"hard\"\n"
+        "lambert_mu_db = -20\n");
+  std::string text = "x y z soil kind\n";
+  for (int i = 0; i < 60; ++i)
+    for (int j = -30; j < 30; ++j) text += std::to_string(0.1 * i + 3) + " " + std::to_string(0.1 * j) + " 0 1 0\n";
+  write("bed.xyz", text);
+  const auto peak = [&](const std::string& field) {
+    succeed("ping bed.xyz --force -o out --viewpoint 0,0,5 --materials labels.toml --material-field " + field +
+            " --pose=0,0,2,0,25,0" + sonar);
+    return manifest("out")["peak_level_db"].get<double>();
+  };
+  EXPECT_NEAR(peak("soil") - peak("kind"), 20, 1e-3);
+}
+
+// A point 10 m ahead, a sweep of BT = 295: side lobes of -13.3 dB without a window, -42.7 dB with Hamming's. (Ripples of
+// the sweep's own spectrum set a floor of some -20 log10(BT) - 3 dB, here -52 dB: a rule
+// recalled from the literature of pulse compression; -31.9 dB were seen for BT = 29.5.)
+TEST_F(EnvironmentRun, linear_fm_pulse_has_the_peak_of_the_burst_and_side_lobes) {
+  write("one.csv", "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n10,0,0,1,1,0\n");
+  const std::string base =
+      "synthesize one.csv --sonar p900-45 --set sonar.beams=1 --range 9:11 --set sonar.bin_size_m=0.001 --no-picture "
+      "-q ";
+  succeed(base + "-o burst");
+  succeed(base + "-o sweep --set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.01");
+  succeed(base +
+          "-o bare --set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.01 --set sonar.replica_window=uniform");
+  const auto highest_beyond = [&](const std::string& run, double gap) {
+    const Ping p = ping(run);
+    const Grid<float> level = level_db(p);
+    double far = -1000;
+    for (std::size_t n = 0; n < p.gate.bins(); ++n)
+      if (std::abs(p.gate.centre(n) - 10) > gap) far = std::max(far, double(level(0, static_cast<int>(n))));
+    return far - level.maxCoeff();
+  };
+  EXPECT_NEAR(level_db(ping("sweep")).maxCoeff(), level_db(ping("burst")).maxCoeff(), 0.3);
+  EXPECT_LT(highest_beyond("burst", 0.08), -80);
+  EXPECT_NEAR(highest_beyond("bare", 0.03), -13.3, 1.0);
+  EXPECT_LT(highest_beyond("sweep", 0.06), -40);
+}
+
+TEST_F(EnvironmentRun, rows_of_a_planar_array_are_set_by_key) {
+  succeed(
+      "ping harbour.ply -o out --sonar waterlinked-3d15 --set sonar.beams=8 --set sonar.elevations_deg=-10,-5,0 "
+      "--set sonar.column_beam_width_deg=4 --set sonar.transmit_width_deg=120 --range 3:6 --no-picture -q" +
+      level_pose);
+  const Ping p = ping("out");
+  EXPECT_EQ(p.fan.beams(), 24U);
+  EXPECT_NEAR(p.fan.elevation[0], radians(-10), 1e-12);
+  EXPECT_NEAR(p.fan.elevation[23], 0, 1e-12);
+  EXPECT_NEAR(p.fan.row_width, radians(4), 1e-12);
+}

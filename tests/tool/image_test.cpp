@@ -1,0 +1,122 @@
+// insonify image: grey values, layers and gains.
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "returns/ping.hpp"
+#include "store/cube.hpp"
+#include "tool/tool_runner.hpp"
+
+using namespace insonify;
+
+namespace {
+
+class ImageVerb : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene plane -o plane.ply --points 4000 --size 12,12 -q");
+    succeed(
+        "ping plane.ply -o out --sonar p900-45 --set sonar.beams=24 --pose=0,0,3,0,15,0 --range 4:8 --noise --layers "
+        "--no-picture -q");
+  }
+  /// The pixels of a binary PGM of the run, row by row from the farthest bin, starboard right.
+  std::vector<int> pixels(const std::string& name, std::size_t width, std::size_t height, int bits) const {
+    const std::string bytes = read(name);
+    const std::string header =
+        "P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n" + (bits == 8 ? "255" : "65535") + "\n";
+    EXPECT_EQ(bytes.substr(0, header.size()), header);
+    std::vector<int> values;
+    for (std::size_t i = header.size(); i < bytes.size(); i += bits == 8 ? 1 : 2) {
+      int value = static_cast<unsigned char>(bytes[i]);
+      if (bits == 16) value = 256 * value + static_cast<unsigned char>(bytes[i + 1]);
+      values.push_back(value);
+    }
+    return values;
+  }
+};
+
+}  // namespace
+
+// E58 with the window given, computed here from the cube: 24 beams, port first in the cube's order of rising azimuth.
+TEST_F(ImageVerb, grey_values_are_the_levels_of_the_cube) {
+  const Ping ping = read_cube(path("out/cube.h5")).pings[0];
+  const Grid<float> level = level_db(ping);
+  const std::size_t beams = ping.fan.beams(), bins = ping.gate.bins();
+  const double top = std::ceil(level.maxCoeff()), window = 60;
+  for (const int bits : {8, 16}) {
+    succeed("image out --view grey --raw --window 60 --max " + std::to_string(top) + " --bits " + std::to_string(bits) +
+            " -o grey.pgm -q");
+    const std::vector<int> grey = pixels("grey.pgm", beams, bins, bits);
+    ASSERT_EQ(grey.size(), beams * bins);
+    const double full = bits == 8 ? 255 : 65535;
+    std::size_t wrong = 0, at_work = 0;
+    for (std::size_t row = 0; row < bins; ++row)
+      for (std::size_t column = 0; column < beams; ++column) {
+        const std::size_t beam = ping.fan.azimuth[0] < ping.fan.azimuth[1] ? beams - 1 - column : column;
+        const double l = level(static_cast<int>(beam), static_cast<int>(bins - 1 - row));
+        const double expected = std::clamp((l - top + window) / window * full, 0.0, full);
+        const double value = grey[row * beams + column];
+        wrong += value < expected - 1e-2 || value > expected + 1 + 1e-2;  // rounded up
+        at_work += value > 0 && value < full;
+      }
+    EXPECT_EQ(wrong, 0U) << bits;
+    EXPECT_GT(at_work, beams * bins / 4);
+  }
+}
+
+TEST_F(ImageVerb, grey_png_has_one_pixel_per_sample) {
+  succeed("image out --view grey -o grey.png -q");
+  const std::string png = read("grey.png");
+  const auto number = [&](std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = 256 * value + static_cast<unsigned char>(png[i]);
+    return value;
+  };
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(number(16), 24U);
+  EXPECT_EQ(number(20), read_cube(path("out/cube.h5")).pings[0].gate.bins());
+  EXPECT_EQ(png[24], 8);  // bits
+  EXPECT_EQ(png[25], 0);  // grey
+}
+
+// 20 dB per decade instead of 40: 20 log10(r) less, so a grey picture whose brightest level is told apart by that.
+TEST_F(ImageVerb, tvg_gives_back_what_it_says) {
+  const Cube cube = read_cube(path("out/cube.h5"));
+  const std::size_t beams = 24, bins = cube.pings[0].gate.bins();
+  const auto grey = [&](const std::string& tvg) {
+    succeed("image out --view grey --bits 16 --max 220 --window 200 --tvg " + tvg + " -o tvg.pgm -q");
+    return pixels("tvg.pgm", beams, bins, 16);
+  };
+  const std::vector<int> forty = grey("40"), twenty = grey("20");
+  const double step = 200.0 / 65535;
+  for (const std::size_t bin : {std::size_t{10}, bins / 2, bins - 10}) {
+    const std::size_t at = (bins - 1 - bin) * beams + 12;
+    EXPECT_NEAR((forty[at] - twenty[at]) * step, 20 * std::log10(cube.pings[0].gate.centre(bin)), 2 * step);
+  }
+}
+
+TEST_F(ImageVerb, a_layer_can_be_drawn_alone) {
+  succeed("image out --view grey --max 200 --window 200 -o all.pgm -q");
+  succeed("image out --view grey --max 200 --window 200 --layer direct -o direct.pgm -q");
+  succeed("image out --view grey --max 200 --window 200 --layer noise -o noise.pgm -q");
+  EXPECT_NE(read("direct.pgm"), read("noise.pgm"));
+  EXPECT_NE(read("all.pgm"), read("noise.pgm"));
+  succeed("image out --layer noise --size 400x300 -o noise.png -q");
+  EXPECT_EQ(read("noise.png").substr(1, 3), "PNG");
+}
+
+TEST_F(ImageVerb, bad_input_gets_one_line) {
+  expect_refused("image out --view grey -o grey.jpg", 2, {"grey.jpg", ".png or .pgm"});
+  expect_refused("image out --view grey --bits 12 -o grey.png", 2, {"--bits", "12"});
+  expect_refused("image out --view grey --tvg much -o grey.png", 2, {"--tvg", "much"});
+  expect_refused("image out --tvg nan -o x.png", 2, {"--tvg", "nan", "must be within"});
+  expect_refused("image out --tvg 30 --raw -o x.png", 2, {"--tvg", "--raw"});
+  expect_refused("image out --window 0 -o x.png", 2, {"--window = 0 dB", "must be > 0"});
+  expect_refused("image out --window inf -o x.png", 2, {"--window = inf dB"});
+  expect_refused("image out --max bright -o x.png", 2, {"--max = 'bright' is not a number"});
+  expect_refused("image out --layer multipath -o x.png", 2, {"--layer = 'multipath'", "it has direct, noise"});
+  expect_refused("image out --view waterfall -o x.png", 2, {"--view", "waterfall"});
+  expect_refused("image out --ping 3 -o x.png", 2, {"--ping = 3", "must be below 1"});
+  expect_refused("image out --beam 24 -o x.png", 2, {"--beam = 24", "must be below 24"});
+}
