@@ -136,6 +136,10 @@ void add_ping_options(CLI::App& verb, PingOptions& o) {
       ->option_text("WORD");
   verb.add_flag("--noise", o.noise, "add thermal noise, and the wind's and the platform's if the environment has them");
   verb.add_flag("--multipath", o.multipath, "add echoes by way of the environment's surface and bottom");
+  verb.add_option("--keep", o.keep, "elements: also write elements.h5, the series of every element of a line array")
+      ->check(CLI::IsMember({"elements"}))
+      ->option_text("WORD")
+      ->allow_extra_args(false);
   verb.add_flag("--layers", o.layers, "keep each kind of echo as a layer of the cube");
   verb.add_option("--absorption-order", o.absorption_order, "0: one absorption for the pulse; 1, 2: slope, curvature")
       ->check(CLI::Range(0, 2))

@@ -74,6 +74,7 @@ struct PingOptions {
   int rays_per_beam = 64;
   bool noise = false;
   bool multipath = false;
+  std::vector<std::string> keep;  ///< "elements"
   bool layers = false;
   int absorption_order = 0;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead

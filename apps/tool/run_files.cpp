@@ -51,6 +51,8 @@ ordered_json sonar_json(const HeadSetup& setup) {
           {"bin_size_m", head.gate.bin_size},
           {"centre_frequency_hz", head.pulse.centre_frequency},
           {"bandwidth_hz", head.pulse.bandwidth},
+          {"range_resolution_fwhm_m", range_resolution(head.pulse, setup.medium.sound_speed)},
+          {"range_resolution_nominal_m", nominal_range_resolution(head.pulse, setup.medium.sound_speed)},
           {"source_level_db", head.pulse.source_level_db},
           {"not_sourced", doubtful}};
 }

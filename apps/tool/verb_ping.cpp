@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "store/element_file.hpp"
 #include "store/trajectory_file.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/plan_report.hpp"
@@ -39,6 +40,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.noise = o.noise;
   s.multipath = o.multipath;
   s.keep_layers = o.layers;
+  s.keep_elements = !o.keep.empty();
   s.absorption_order = o.absorption_order;
   if (!o.velocity.empty()) s.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
   if (!o.turn_rate.empty())
@@ -274,6 +276,8 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   start = Clock::now();
   save_soundings(directory.file("returns.pcd"), result.soundings);
   save_soundings(directory.file("returns.ply"), result.soundings);
+  if (simulation.keep_elements)
+    write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
   manifest["sampling"] = sampling_json(result);
   manifest["layers"] = layers_json(result.layers);
   if (!simulation.motion.none()) manifest["motion"] = motion_json(simulation.motion);

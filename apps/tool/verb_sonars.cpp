@@ -21,6 +21,10 @@ void print_one(const SonarFile& file) {
   fmt::print("{}: {}\n\n", file.spec.name, file.description);
   for (const SonarNumber& n : file.numbers)
     fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
+  const SonarHead head = make_head(file.spec, nominal_sound_speed);
+  fmt::print("\n  range resolution at {:g} m/s: {:.3g} mm (full width at half intensity), {:.3g} mm (c / 2B)\n",
+             nominal_sound_speed, 1e3 * range_resolution(head.pulse, nominal_sound_speed),
+             1e3 * nominal_range_resolution(head.pulse, nominal_sound_speed));
 }
 
 void print_table(const std::vector<SonarFile>& files) {

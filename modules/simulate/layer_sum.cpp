@@ -10,6 +10,11 @@ LayerSum::LayerSum(const SonarHead& head, const Medium& medium, const Simulation
 void LayerSum::add(const std::string& name, const Echoes& echoes) {
   add_pressure(name, echoes.size(),
                synthesize(echoes, head_, medium_, options_.method, {options_.tolerance, options_.threads}));
+  if (!options_.keep_elements) return;
+  ElementSeries series =
+      hear_elements(echoes, head_, medium_, {options_.tolerance, Wavefront::spherical, options_.threads});
+  if (elements_.pressure.size() > 0) series.pressure += elements_.pressure;
+  elements_ = std::move(series);
 }
 
 void LayerSum::add_noise(const Environment& environment) {

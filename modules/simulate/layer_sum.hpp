@@ -19,6 +19,8 @@ class LayerSum {
   /// The sum in single precision, with its layers.
   Ping ping(const Pose& world_from_head) const;
   const std::vector<LayerReport>& report() const { return report_; }
+  /// Sum of the element series of all echoes added; empty unless the options ask for it.
+  ElementSeries& elements() { return elements_; }
 
  private:
   void add_pressure(const std::string& name, std::size_t echoes, const ComplexGrid& pressure);
@@ -29,6 +31,7 @@ class LayerSum {
   ComplexGrid sum_;
   std::vector<Layer> layers_;
   std::vector<LayerReport> report_;
+  ElementSeries elements_;
 };
 
 }  // namespace insonify

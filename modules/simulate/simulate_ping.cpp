@@ -46,6 +46,7 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   if (options.noise) layers.add_noise(environment);
   result.ping = layers.ping(world_from_head);
   result.layers = layers.report();
+  result.elements = std::move(layers.elements());
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.

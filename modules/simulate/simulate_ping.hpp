@@ -8,6 +8,7 @@
 #include "acoustics/hear_multipath.hpp"
 #include "acoustics/hear_scatterers.hpp"
 #include "acoustics/motion.hpp"
+#include "beamforming/element_series.hpp"
 #include "beamforming/synthesize.hpp"
 #include "returns/detect_soundings.hpp"
 #include "returns/ping.hpp"
@@ -37,8 +38,10 @@ struct SimulationOptions {
   DetectionOptions detection{};           ///< noise floor -inf: all noise in the band, less the array's gain
   std::int64_t ping = 0;                  ///< number of the ping: noise, water and waves are new in every one
   double time = 0;                        ///< of transmission [s]
-  bool keep_layers = false;               ///< keeps each kind of echo as a layer of its own
-  int threads = 0;                        ///< 0: all cores; the result does not depend on it
+  bool keep_elements =
+      false;                 ///< keeps what every element of a line array hears, before beams (E61); noise is not in it
+  bool keep_layers = false;  ///< keeps each kind of echo as a layer of its own
+  int threads = 0;           ///< 0: all cores; the result does not depend on it
 };
 
 /// Wall time of each stage [s].
@@ -68,6 +71,7 @@ struct SimulatedPing {
   SamplingReport sampling;
   Medium medium;
   RefractionReport refraction;
+  ElementSeries elements;           ///< if they were asked for
   std::vector<LayerReport> layers;  ///< in the order in which they were added
   double noise_floor_db = 0;        ///< used by the detection [dB re 1 uPa]
   StageSeconds seconds;

@@ -131,4 +131,30 @@ std::string read_text(const Place& place, hid_t where, const char* name) {
   return result;
 }
 
+Handle create_file(const Place& place, const std::string& name) {
+  const Handle properties(place.checked(H5Pcreate(H5P_FILE_CREATE), "file"), H5Pclose);
+  place.checked(H5Pset_obj_track_times(properties, false), "file");  // same input, same bytes
+  return {place.checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), "cannot be written"),
+          H5Fclose};
+}
+
+// A dataset without time stamps; with `chunk` if not empty.
+Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+                      const Extent& chunk) {
+  const Handle space(
+      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
+  const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
+  place.checked(H5Pset_obj_track_times(properties, false), name.path);
+  if (!chunk.empty()) {
+    place.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
+    place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
+                  name.path);  // no chance bytes in edge chunks
+  }
+  Handle dataset(
+      place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
+      H5Dclose);
+  if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
+  return dataset;
+}
+
 }  // namespace insonify::hdf5

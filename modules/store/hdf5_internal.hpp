@@ -7,6 +7,7 @@
 #include <hdf5.h>
 
 #include "core/error.hpp"
+#include "store/cube_layout.hpp"
 
 namespace insonify::hdf5 {
 
@@ -59,6 +60,13 @@ class Handle {
 };
 
 using Extent = std::vector<hsize_t>;
+
+/// A new file without time stamps: same input, same bytes.
+Handle create_file(const Place& place, const std::string& name);
+
+/// A dataset without time stamps, with its unit as attribute "units"; with `chunk` if not empty.
+Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+                      const Extent& chunk = {});
 
 /// complex<float> as h5py knows it: compound {r, i}; little endian in files.
 Handle complex_type(const Place& place, hid_t real_type);

@@ -110,6 +110,8 @@ INSTANTIATE_TEST_SUITE_P(Sweep, PingSynthesizerPromise,
                                          Case{.dynamic_range_db = 150}, Case{.dynamic_range_db = 0},
                                          Case{.bins = 31, .beam_width = radians(60)}, Case{.absorption_order = 1},
                                          Case{.bandwidth = 100e3, .dynamic_range_db = 60, .absorption_order = 2},
+                                         Case{.echoes = 200, .beams = 4096, .bins = 131, .field_of_view = radians(120)},
+                                         Case{.echoes = 100000, .beams = 5, .bins = 251, .bandwidth = 200e3},
                                          Case{.beams = 61, .field_of_view = radians(170), .beam_width = radians(5)}));
 
 // 400 dB from one end of the axis to the other: what is near cannot disturb what is far.

@@ -239,3 +239,17 @@ TEST(SimulatePing, in_a_profile_of_one_sound_speed_is_that_without_a_profile_bit
   EXPECT_EQ(p.refraction.bound.range, 0);
   EXPECT_TRUE(same(p.ping.pressure, Case{}.ping().ping.pressure));
 }
+
+// The series of all elements, beamformed by true delays, is the ping without its noise.
+TEST(Elements, of_a_ping_beamform_to_the_ping_itself) {
+  Case plain;
+  plain.options.noise = false;
+  plain.options.method = SynthesisMethod::element_exact;
+  plain.options.keep_elements = true;
+  const SimulatedPing p = plain.ping();
+  const ComplexGrid beams =
+      beam_from_elements(p.elements, plain.head, p.medium, {plain.options.tolerance, Wavefront::spherical, 0});
+  EXPECT_LT(compare_images(beams, p.ping.pressure.cast<std::complex<double>>()).relative_l2, 1e-6);
+  plain.options.keep_elements = false;
+  EXPECT_EQ(plain.ping().elements.pressure.size(), 0);
+}

@@ -8,6 +8,7 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "store/element_file.hpp"
 #include "store/run_directory.hpp"
 #include "store_testing.hpp"
 
@@ -118,6 +119,32 @@ TEST(Cube, keeps_the_row_width_of_a_planar_array) {
   EXPECT_EQ(read_cube(write(cube, "line.h5")).pings[0].fan.row_width, 0);
   cube.pings[0].fan.row_width = radians(2);
   EXPECT_EQ(read_cube(write(cube)).pings[0].fan.row_width, radians(2));
+}
+
+TEST(ElementFile, holds_series_axis_and_steering) {
+  SonarHead head;
+  head.array = {0.001, {1, 1, 1}};
+  head.pulse = {750e3, 50e3, 200};
+  ElementSeries series{0.002, 1e-6, ComplexGrid::Random(3, 50)};
+  const std::string path = own_path("elements.h5");
+  write_element_file(path, series, head, 1490);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  const hid_t dataset = H5Dopen2(file, "/pressure", H5P_DEFAULT);
+  std::vector<std::complex<float>> samples(150);
+  const hid_t type = H5Tcreate(H5T_COMPOUND, 8);
+  H5Tinsert(type, "r", 0, H5T_NATIVE_FLOAT);
+  H5Tinsert(type, "i", 4, H5T_NATIVE_FLOAT);
+  EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data()), 0);
+  EXPECT_EQ(samples[57], std::complex<float>(series.pressure(1, 7)));
+  const hid_t step = H5Aopen(file, "step", H5P_DEFAULT);
+  double value = 0;
+  EXPECT_GE(H5Aread(step, H5T_NATIVE_DOUBLE, &value), 0);
+  EXPECT_EQ(value, 1e-6);
+  H5Aclose(step), H5Tclose(type), H5Dclose(dataset), H5Fclose(file);
+  series.pressure.conservativeResize(2, 50);
+  EXPECT_NE(error_of([&] { write_element_file(path, series, head, 1490); }).find("2 elements and 50 samples"),
+            std::string::npos);
 }
 
 TEST(CubeLayers, must_be_the_same_in_every_ping) {
