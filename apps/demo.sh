@@ -15,6 +15,7 @@ pose=0,0,-3,0,10,0
 show() { echo "+ $*"; "$@"; echo; }
 show "$insonify" make-scene harbour -o out/harbour.ply --points 200000 --force
 show "$insonify" info out/harbour.ply
+show "$insonify" plan out/harbour.ply --sonar oculus-m750d --pose=$pose --range 1:40
 show "$insonify" ping out/harbour.ply --sonar oculus-m750d --pose=$pose --range 1:40 -o out/harbour --force
 show "$insonify" image out/harbour --view fan -o out/harbour-fan.png
 

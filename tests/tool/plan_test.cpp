@@ -1,0 +1,51 @@
+// What a ping would compute and leave out, through the tool.
+#include <nlohmann/json.hpp>
+
+#include "tool/tool_runner.hpp"
+
+class Plan : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene plane -o plane.ply --size 20,20 --points 20000 -q");
+  }
+  static bool included(const nlohmann::json& plan, const std::string& name) {
+    for (const auto& stage : plan["stages"])
+      if (stage["name"] == name) return stage["included"];
+    ADD_FAILURE() << "no stage " << name;
+    return false;
+  }
+  const std::string ping = "plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:12 -q";
+};
+
+TEST_F(Plan, lists_stages_with_reason_and_bound_and_writes_nothing) {
+  const auto plan = nlohmann::json::parse(succeed("plan " + ping + " --json"));
+  int left_out = 0;
+  for (const auto& stage : plan["stages"]) {
+    EXPECT_FALSE(stage["why"].get<std::string>().empty()) << stage["name"];
+    EXPECT_TRUE(stage["bound_relative"].is_number() || stage["bound_relative"].is_null());
+    left_out += !stage["included"].get<bool>();
+  }
+  EXPECT_GE(left_out, 10);
+  EXPECT_NE(succeed("plan " + ping).find("absorption-slope"), std::string::npos);
+}
+
+TEST_F(Plan, stands_in_the_manifest_of_the_ping_that_follows_it) {
+  succeed(
+      "ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:5 -q -o out --no-picture --with noise "
+      "--with absorption-slope --keep elements");
+  const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+  EXPECT_TRUE(included(manifest["plan"], "noise"));
+  EXPECT_TRUE(included(manifest["plan"], "absorption-slope"));
+  EXPECT_FALSE(included(manifest["plan"], "multipath"));
+  EXPECT_EQ(manifest["layers"].back()["name"], "noise");
+  EXPECT_TRUE(std::filesystem::exists(path("out/elements.h5")));
+}
+
+TEST_F(Plan, refuses_stages_that_are_unknown_or_have_no_cause) {
+  expect_refused("plan " + ping + " --with noize", 2, {"'noize' cannot be forced", "noise"});
+  expect_refused("ping " + ping + " -o out --with multipath", 2, {"multipath", "neither surface nor bottom"});
+  expect_refused("ping " + ping + " -o out --with refraction", 2, {"refraction", "no sound-speed profile"});
+  expect_refused("ping " + ping + " -o out --with volume", 2, {"volume.scattering_db"});
+  expect_refused("ping " + ping + " -o out --keep everything", 2, {"--keep"});
+}
