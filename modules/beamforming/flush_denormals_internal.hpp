@@ -6,8 +6,8 @@
 
 namespace insonify {
 
-/// While it lives, numbers too small for full precision count as 0 on this thread: they would slow the hot loops down
-/// a hundredfold and are hundreds of dB below everything else.
+/// While it lives, numbers too small for full precision count as 0 on this thread: processors take
+/// many cycles over them, and they are hundreds of dB below everything else.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
