@@ -1,5 +1,7 @@
 #include "simulate/layer_sum.hpp"
 
+#include <utility>
+
 #include "beamforming/synthesize_noise.hpp"
 
 namespace insonify {
@@ -32,9 +34,12 @@ void LayerSum::add_pressure(const std::string& name, std::size_t echoes, const C
   if (options_.keep_layers) layers_.push_back({name, stored_pressure(pressure, "simulate_ping")});
 }
 
-Ping LayerSum::ping(const Pose& world_from_head) const {
-  return {options_.ping, options_.time, world_from_head, head_.fan, head_.gate, stored_pressure(sum_, "simulate_ping"),
-          layers_};
+void LayerSum::hand_over(const Pose& world_from_head, SimulatedPing& result) {
+  result.ping = {options_.ping,     options_.time, world_from_head,
+                 head_.fan,         head_.gate,    stored_pressure(sum_, "simulate_ping"),
+                 std::move(layers_)};
+  result.layers = std::move(report_);
+  result.elements = std::move(elements_);
 }
 
 }  // namespace insonify

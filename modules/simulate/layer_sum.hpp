@@ -16,11 +16,9 @@ class LayerSum {
   /// Adds what the elements hear without any echo.
   void add_noise(const Environment& environment);
 
-  /// The sum in single precision, with its layers.
-  Ping ping(const Pose& world_from_head) const;
-  const std::vector<LayerReport>& report() const { return report_; }
-  /// Sum of the element series of all echoes added; empty unless the options ask for it.
-  ElementSeries& elements() { return elements_; }
+  /// Gives `result` its ping (the sum in single precision, with its layers), its report of layers, and the sum of the
+  /// element series of all echoes if the options ask for it. Afterwards there is nothing left to add to.
+  void hand_over(const Pose& world_from_head, SimulatedPing& result);
 
  private:
   void add_pressure(const std::string& name, std::size_t echoes, const ComplexGrid& pressure);

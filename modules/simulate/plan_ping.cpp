@@ -28,7 +28,7 @@ class Planner {
         options_(options),
         medium_(medium_of(environment, head.pulse.centre_frequency, options.absorption_order)),
         glance_(glance_at(scene, head, pose, medium_, options)),
-        view_{pose, head.fan, sampled_gate(scene, head, medium_, options), sampling_options(head, medium_, options)} {
+        view_(view_of(largest_area(scene), head, pose, medium_, options)) {
     SonarHead row = head;
     row.column.reset();
     row.fan.row_width = 0;

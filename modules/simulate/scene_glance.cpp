@@ -21,7 +21,7 @@ SceneGlance glance_at(const SceneCloud& scene, const SonarHead& head, const Pose
   const SamplingOptions sampling = sampling_options(head, medium, options);
   const HearingOptions hearing = with_patterns({}, head);
   const Sector sector = insonified_sector(head.fan, sampling.elevation_half_extent, sampling.azimuth_margin);
-  const RangeGate gate = sampled_gate(scene, head, medium, options);
+  const RangeGate gate = sampled_gate(largest_area(scene), head, medium, options);
   const double reach = gate.max_range - head.gate.max_range;
   const Eigen::Matrix3d to_head = pose.linear().transpose();
   const Eigen::Vector3d shift = scene.origin - pose.translation();

@@ -3,17 +3,17 @@
 #include <cmath>
 
 #include "acoustics/hear_reverberation.hpp"
-#include "sampling/range_gaps.hpp"
 #include "simulate/layer_sum.hpp"
 #include "simulate/stage_options.hpp"
 #include "simulate/stop_watch.hpp"
 
 namespace insonify {
 
-SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
+SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
                             const Environment& environment, const SimulationOptions& options) {
   require_valid(head, "simulate_ping");
   require_valid(environment, "simulate_ping");
+  const SceneCloud& scene = prepared.scene();
   SimulatedPing result;
   StopWatch watch;
 
@@ -21,9 +21,8 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   result.medium = medium_of(environment, head.pulse.centre_frequency, options.absorption_order);
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
-  const View view{world_from_head, head.fan, sampled_gate(scene, head, result.medium, options),
-                  sampling_options(head, result.medium, options)};
-  Sampling sampling = find_scatterers(scene, world_from_head, view.fan, view.gate, view.sampling);
+  const View view = view_of(largest_area(prepared), head, world_from_head, result.medium, options);
+  Sampling sampling = find_scatterers(prepared, world_from_head, view.fan, view.gate, view.sampling);
   if (environment.profile)
     result.refraction = refract(environment, view, options.refraction, head.gate.bin_size, sampling.scatterers);
   result.seconds.sampling = watch.lap();
@@ -44,9 +43,7 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   for (const Reverberation& part : hear_reverberation(environment, view, sent, options.ping))
     layers.add(part.name, part.echoes);
   if (options.noise) layers.add_noise(environment);
-  result.ping = layers.ping(world_from_head);
-  result.layers = layers.report();
-  result.elements = std::move(layers.elements());
+  layers.hand_over(world_from_head, result);
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.
@@ -56,12 +53,18 @@ SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, cons
   result.seconds.detection = watch.lap();
 
   result.sampling = sampling.report;
-  if (options.sampling == SamplingKind::rays) {
-    const double cell = view.sampling.range_resolution;
-    const RangeGaps gaps = count_range_gaps(scene, world_from_head, sampling.scatterers, options.rays_per_beam, cell);
-    result.notes = range_gap_notes(gaps, options.rays_per_beam, cell);
-  }
+  if (options.sampling == SamplingKind::rays) result.notes = gap_notes(scene, view, sampling.scatterers);
   result.scatterers = std::move(sampling.scatterers);
+  return result;
+}
+
+SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
+                            const Environment& environment, const SimulationOptions& options) {
+  StopWatch watch;
+  const PreparedScene prepared(scene, options.threads);
+  const double seconds = watch.lap();
+  SimulatedPing result = simulate_ping(prepared, head, world_from_head, environment, options);
+  result.seconds.sampling += seconds;
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "returns/detect_soundings.hpp"
 #include "returns/ping.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "scene/prepared_scene.hpp"
 
 namespace insonify {
 
@@ -80,6 +81,10 @@ struct SimulatedPing {
 
 /// One ping: the whole signal path. Start reading here. What the environment does not hold and the options do not ask
 /// for is not computed.
+SimulatedPing simulate_ping(const PreparedScene& scene, const SonarHead& head, const Pose& world_from_head,
+                            const Environment& environment, const SimulationOptions& options = {});
+
+/// The same of a scene that is prepared for this one ping: the same bytes. For many pings of a scene, prepare it once.
 SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                             const Environment& environment, const SimulationOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include "acoustics/hear_reverberation.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "core/units.hpp"
+#include "sampling/range_gaps.hpp"
 
 namespace insonify {
 namespace {
@@ -48,16 +49,37 @@ DetectionOptions detection_options(const SonarHead& head, const Environment& env
   return d;
 }
 
-RangeGate sampled_gate(const SceneCloud& scene, const SonarHead& head, const Medium& medium,
+double largest_area(const SceneCloud& scene) {
+  return scene.area.empty() ? 0.0 : *std::max_element(scene.area.begin(), scene.area.end());
+}
+
+double largest_area(const PreparedScene& scene) {
+  float largest = 0;
+  for (const SurfelBlock& block : scene.blocks()) largest = std::max(largest, block.largest_area);
+  return largest;
+}
+
+RangeGate sampled_gate(double largest_area, const SonarHead& head, const Medium& medium,
                        const SimulationOptions& options) {
-  const auto largest = std::max_element(scene.area.begin(), scene.area.end());
   const double widest = head.gate.max_range - head.gate.min_range;  // more is no part of a scene that a ping could use
-  const double part = largest == scene.area.end() ? 0 : std::min(widest, std::sqrt(static_cast<double>(*largest) / pi));
+  const double part = std::min(widest, std::sqrt(largest_area / pi));
   const double reach = part + 0.5 * medium.sound_speed * pulse_half_length(head.pulse, 0.5 * options.tolerance);
   RangeGate gate = head.gate;
   gate.min_range = std::max(std::min(nearest_range, gate.min_range), gate.min_range - reach);
   gate.max_range += reach;
   return gate;
+}
+
+View view_of(double largest_area, const SonarHead& head, const Pose& world_from_head, const Medium& medium,
+             const SimulationOptions& options) {
+  return {world_from_head, head.fan, sampled_gate(largest_area, head, medium, options),
+          sampling_options(head, medium, options)};
+}
+
+std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, const Scatterers& scatterers) {
+  const SamplingOptions& s = view.sampling;
+  const RangeGaps gaps = count_range_gaps(scene, view.world_from_head, scatterers, s.rays_per_beam, s.range_resolution);
+  return range_gap_notes(gaps, s.rays_per_beam, s.range_resolution);
 }
 
 RefractionReport refract(const Environment& environment, const View& view, Choice choice, double bin_size,

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/prepared_scene.hpp"
 #include "simulate/simulate_ping.hpp"
 
 /// What each stage of simulate_ping needs to be told, from head, medium and the options of the ping.
@@ -13,10 +14,21 @@ HearingOptions hearing_options(const SonarHead& head, const SimulationOptions& o
 DetectionOptions detection_options(const SonarHead& head, const Environment& environment,
                                    const SimulationOptions& options);
 
-/// The ranges that are sampled: the head's gate, and to either side as far as pulses reach into it and parts of surfels
-/// stand off their middles; never below 0.1 m, or the gate's own beginning if that is nearer.
-RangeGate sampled_gate(const SceneCloud& scene, const SonarHead& head, const Medium& medium,
+/// Of one surfel [m^2]; 0 without surfels.
+double largest_area(const SceneCloud& scene);
+double largest_area(const PreparedScene& scene);
+
+/// The ranges that are sampled: the head's gate, and to either side as far as pulses reach into it and parts of surfels of
+/// `largest_area` stand off their middles; never below 0.1 m, or the gate's own beginning if that is nearer.
+RangeGate sampled_gate(double largest_area, const SonarHead& head, const Medium& medium,
                        const SimulationOptions& options);
+
+/// Where the head looks in a scene of surfels up to `largest_area`, and how.
+View view_of(double largest_area, const SonarHead& head, const Pose& world_from_head, const Medium& medium,
+             const SimulationOptions& options);
+
+/// What to tell a user whose rays leave gaps in range.
+std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, const Scatterers& scatterers);
 
 /// Bends the rays to the scatterers if asked for, or if straight ones would be off by a range bin, or by an angle that the
 /// elevation pattern feels; says what was done.

@@ -1,0 +1,103 @@
+#include "tool/ping_report.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "acoustics/reflection.hpp"
+#include "core/units.hpp"
+
+namespace insonify::tool {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// What refraction does here, and whether it was left out.
+std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
+  const std::string bound =
+      fmt::format("straight rays would be off by at most {:.2g} m in range and {:.2g} deg in angle", r.bound.range,
+                  degrees(r.bound.elevation));
+  if (!r.bent) return fmt::format("refraction left out: {} (bin {:.3g} m)", bound, gate.bin_size);
+  return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
+}
+
+/// What to tell a user who asked for multipath and hears none: most often the sea is too rough.
+std::string no_multipath_note(const Environment& environment) {
+  const double waves = environment.surface ? rms_wave_height(environment) : 0;
+  const std::string sea = waves > 0
+                              ? fmt::format("waves of {:.2g} m rms scatter what a smooth surface would reflect", waves)
+                              : std::string("boundaries are out of reach, hidden or off the pattern");
+  return "no echo comes by way of surface or bottom: " + sea;
+}
+
+/// What to tell a user whose ping is silent: where the scene is.
+std::string silence_note(const std::vector<Eigen::Vector3d>& places) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& p : places) centre += p / static_cast<double>(places.size());
+  const Direction d = direction_of(centre);
+  return fmt::format(
+      "nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
+      "{:.0f} deg to {} and {:.0f} deg {} the head's axis",
+      centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
+      d.elevation > 0 ? "above" : "below");
+}
+
+}  // namespace
+
+ordered_json scene_json(const LoadedScene& loaded) {
+  const LoadReport& r = loaded.report;
+  return {{"path", r.path},
+          {"format", r.format},
+          {"points_read", r.points_read},
+          {"triangles_read", r.triangles_read},
+          {"surfels", loaded.scene.size()},
+          {"dropped_not_finite", r.dropped_not_finite},
+          {"dropped_duplicates", r.dropped_duplicates},
+          {"dropped_degenerate_triangles", r.dropped_degenerate},
+          {"dropped_without_normal", r.dropped_without_normal},
+          {"repaired_normals", r.repaired_normals},
+          {"normals", r.normals_estimated ? "estimated" : "from file"},
+          {"normals_oriented", loaded.scene.normals_oriented},
+          {"material_field", r.material_field},
+          {"outside_intervals", r.outside_intervals},
+          {"areas", r.areas_estimated ? "estimated" : "from file"},
+          {"origin", {loaded.scene.origin.x(), loaded.scene.origin.y(), loaded.scene.origin.z()}}};
+}
+
+ordered_json layers_json(const std::vector<LayerReport>& layers) {
+  ordered_json json = ordered_json::array();
+  for (const LayerReport& layer : layers) json.push_back({{"name", layer.name}, {"echoes", layer.echoes}});
+  return json;
+}
+
+ordered_json sampling_json(const SimulatedPing& p) {
+  const SamplingReport& s = p.sampling;
+  return {{"surfels", s.surfels},
+          {"in_fan_and_gate", s.in_gate},
+          {"back_facing", s.back_facing},
+          {"hidden", s.hidden},
+          {"visible", s.visible},
+          {"rays_missed", s.rays_missed},
+          {"scatterers", s.scatterers},
+          {"soundings", p.soundings.size()},
+          {"noise_floor_db", p.noise_floor_db}};
+}
+
+ordered_json motion_json(const Motion& motion) {
+  const auto list = [](const Eigen::Vector3d& v) { return ordered_json{v.x(), v.y(), v.z()}; };
+  return {{"velocity_m_s", list(motion.velocity)}, {"turn_rate_deg_s", list(motion.turn_rate * degrees(1))}};
+}
+
+std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
+                                    const std::vector<Eigen::Vector3d>& places) {
+  std::vector<std::string> notes = ping.notes;
+  const Environment& environment = setup.head.environment;
+  if (ping.scatterers.size() == 0) notes.push_back(silence_note(places));
+  for (const LayerReport& layer : ping.layers)
+    if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
+  if (environment.profile) notes.push_back(refraction_note(ping.refraction, setup.head.head.gate));
+  return notes;
+}
+
+}  // namespace insonify::tool

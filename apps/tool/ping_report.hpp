@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "scene_io/load_scene.hpp"
+#include "tool/ping_setup.hpp"
+
+/// What a ping's manifest says, and the notes beside it.
+namespace insonify::tool {
+
+nlohmann::ordered_json scene_json(const LoadedScene& loaded);
+nlohmann::ordered_json sampling_json(const SimulatedPing& ping);
+nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
+nlohmann::ordered_json motion_json(const Motion& motion);
+
+/// Notes on what the simulation found: silence, refraction, multipath that nobody hears. `places` are those of `glance`.
+std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
+                                    const std::vector<Eigen::Vector3d>& places);
+
+}  // namespace insonify::tool

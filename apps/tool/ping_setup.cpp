@@ -1,0 +1,120 @@
+#include "tool/ping_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "simulate/plan_ping.hpp"
+#include "store/trajectory_file.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/run_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+SimulationOptions simulation_options(const CommonOptions& common, const PingOptions& o) {
+  SimulationOptions s;
+  s.seed = common.seed;
+  s.threads = common.threads;
+  s.sampling = o.sampling == "rays" ? SamplingKind::rays : SamplingKind::surfels;
+  s.scatterers_per_cell = o.scatterers_per_cell;
+  s.rays_per_beam = o.rays_per_beam;
+  s.amplitude = o.amplitude == "coherent"       ? SurfaceAmplitude::coherent
+                : o.amplitude == "random-phase" ? SurfaceAmplitude::random_phase
+                                                : SurfaceAmplitude::complex_normal;
+  s.method = parse_method(o.run.method);
+  s.tolerance = o.run.tolerance;
+  s.noise = o.noise;
+  s.multipath = o.multipath;
+  s.keep_layers = o.layers;
+  s.keep_elements = !o.keep.empty();
+  s.absorption_order = o.absorption_order;
+  if (!o.velocity.empty()) s.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
+  if (!o.turn_rate.empty())
+    s.motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
+  s.detection.threshold_db = o.threshold_db;
+  if (!o.all_bins_above.empty()) {
+    s.detection.all_bins = true;
+    s.detection.above_db = parse_number("--all-bins-above", o.all_bins_above);
+  }
+  return s;
+}
+
+/// Where the head is, and how it moves if a trajectory says so.
+struct Track {
+  Pose pose;
+  Motion motion;
+};
+
+Track track_of(const PingOptions& o) {
+  if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
+  if (o.pose.empty() == o.trajectory.empty())
+    fail(ErrorKind::argument, "--pose or --trajectory must be given, one of them, e.g. --pose=0,0,-3,0,10,0");
+  if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), {}};
+  if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
+  if (!o.velocity.empty() || !o.turn_rate.empty())
+    fail(ErrorKind::argument, "--velocity and --turn-rate follow from --trajectory; leave them out");
+  const Trajectory trajectory = load_trajectory(o.trajectory);
+  return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
+}
+
+/// Boundaries must be there to send anything back.
+void require_boundaries(const PingOptions& o, const Environment& environment) {
+  if (o.multipath && !environment.surface && !environment.bottom)
+    fail(ErrorKind::argument, "--multipath: the environment has neither surface nor bottom; give their heights, e.g. ",
+         "--set surface.height_m=0");
+}
+
+}  // namespace
+
+PingSetup set_up_ping(const CommonOptions& common, const PingOptions& o) {
+  const Track track = track_of(o);
+  PingSetup setup{track.pose, set_up_head(common, o.run), simulation_options(common, o)};
+  if (!o.trajectory.empty()) setup.simulation.motion = track.motion;
+  setup.simulation.time = o.time;
+  for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
+  for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
+  require_boundaries(o, setup.head.environment);
+  return setup;
+}
+
+std::string run_toml_head(const PingOptions& o) {
+  return fmt::format(
+      "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nmaterial_field = {}\nviewpoint = {}\n"
+      "mesh_spacing = {}\n\n[ping]\npose = {}\nworld = {}\ntrajectory = {}\ntime = {}\nvelocity = {}\nturn_rate = {}\n"
+      "sampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\nnoise = {}\nmultipath = {}\n"
+      "layers = {}\nabsorption_order = {}\nthreshold_db = {}\nall_bins_above = {}\n",
+      toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
+      toml_text(o.scene.material_field), toml_text(o.scene.viewpoint), o.scene.mesh_spacing, toml_text(o.pose),
+      toml_text(o.world), toml_text(o.trajectory), o.time, toml_text(o.velocity), toml_text(o.turn_rate),
+      toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam, toml_text(o.amplitude), o.noise, o.multipath,
+      o.layers, o.absorption_order, o.threshold_db, toml_text(o.all_bins_above));
+}
+
+std::vector<Eigen::Vector3d> glance(const SceneCloud& scene, const Pose& pose) {
+  std::vector<Eigen::Vector3d> places;
+  const std::size_t step = std::max<std::size_t>(1, scene.size() / 10000);
+  for (std::size_t i = 0; i < scene.size(); i += step)
+    places.push_back(pose.linear().transpose() * (scene.origin - pose.translation() + scene.point[i].cast<double>()));
+  return places;
+}
+
+void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path) {
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::nth_element(places.begin(), middle, places.end(),
+                   [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+  const double range = middle->norm();
+  if (range > 10 * gate.max_range)
+    fail(ErrorKind::content, path, ": the middle point is ", range,
+         " m from the head, more than ten times the max range of ", gate.max_range,
+         " m; is the cloud in millimetres (--unit mm), or the pose in another frame?");
+  if (range < gate.min_range / 10)
+    fail(ErrorKind::content, path, ": the middle point is ", range,
+         " m from the head, less than a tenth of the min range of ", gate.min_range,
+         " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
+}
+
+}  // namespace insonify::tool
