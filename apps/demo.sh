@@ -17,7 +17,7 @@ show "$insonify" make-scene harbour -o out/harbour.ply --points 200000 --force
 show "$insonify" info out/harbour.ply
 show "$insonify" plan out/harbour.ply --sonar oculus-m750d --pose=$pose --range 1:40
 show "$insonify" ping out/harbour.ply --sonar oculus-m750d --pose=$pose --range 1:40 -o out/harbour --force
-show "$insonify" image out/harbour --view fan -o out/harbour-fan.png
+show "$insonify" image out/harbour --view fan -o out/harbour-fan.png --force
 
 echo "insonify wrote:"
 ls -1 out/harbour.ply out/harbour/* out/harbour-fan.png

@@ -72,7 +72,7 @@ $(field insonify_version), $(field threads) threads, seed $(field seed). Times h
 
 | method | what it is |
 |---|---|
-| stamped | the product's default: pulses stamped with a spreading kernel (E60), one FFT per bin |
+| stamped | the product's default: pulses stamped with a spreading kernel (E60), one FFT per bin; few echoes are summed directly instead, pulses cut and the pattern exact |
 | direct | the plain sum over echoes, beams, elements and all bins: the referee, not made to be fast |
 | windowed-direct | the direct sum as a careful programmer would write it: pulses cut at the tolerance, the pattern from a table. The competitor that counts |
 | spectrum | sums of spectra, one FFT per beam (on 4 beams, scaled up) |
@@ -103,7 +103,8 @@ $(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
   $(at["sweep"]) == "scaling" && $(at["timed_scatterers"]) < $(at["scatterers"]) { k = $(at["timed_scatterers"]) }
   END { if (1 in t) printf "Is the scaling up right? Direct with %d echoes: %.3g s scaled up from %d, %.3g s timed whole.", n, t[0], k, t[1] }' "$sweep")
 
-**Where it loses**: with few echoes the transforms of all bins they touch cost more than the sum itself; the rows with ratios below 1 say where. Much of
+**Where it loses**: up to some hundred echoes the transforms of all bins they touch would cost more than the sum itself, and the product sums directly with the exact
+pattern. The rows with ratios below 1 say what is left. Much of
 the ratio against direct is direct's own doing: it evaluates every pulse in every bin and the pattern element by element.
 
 ![Run time against scatterers](images/accuracy/crossover.png)

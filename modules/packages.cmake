@@ -20,8 +20,9 @@ if(INSONIFY_SCENE_IO OR INSONIFY_VIEW)
   find_package(VTK 9.1 REQUIRED COMPONENTS
     CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersGeometry IOGeometry IOImage IOLegacy IOPLY IOXML
     RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingContextOpenGL2
-    RenderingContext2D ChartsCore ViewsContext2D InteractionStyle)
+    RenderingContext2D RenderingUI ChartsCore ViewsContext2D InteractionStyle InteractionWidgets)
 endif()
 if(INSONIFY_VIEW)
   pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+  find_package(X11 REQUIRED)
 endif()

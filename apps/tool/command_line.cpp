@@ -11,6 +11,10 @@
 namespace insonify::tool {
 
 Command parse_command_line(int argc, char** argv) {
+  // The viewer reads its own options.
+  if (argc > 1 && std::string(argv[1]) == "view")
+    return {[arguments = std::vector<std::string>(argv + 2, argv + argc)] { view(arguments); }, 0};
+
   const auto all = std::make_shared<AllOptions>();
   CLI::App app{"insonify: what a sonar hears of a captured scene", "insonify"};
   app.set_version_flag("--version", INSONIFY_VERSION);
@@ -23,8 +27,11 @@ Command parse_command_line(int argc, char** argv) {
   add_ping(app, *all);
   add_synthesize(app, *all);
   add_image(app, *all);
+  add_export(app, *all);
+  add_merge(app, *all);
   add_beampattern(app, *all);
   add_accuracy(app, *all);
+  app.add_subcommand("view", "the interactive viewer: a run, or a scene before any ping; see insonify view --help");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // help and version: asked for, so on stdout
@@ -43,6 +50,8 @@ Command parse_command_line(int argc, char** argv) {
             if (verb == "ping") ping(all->common, all->ping);
             if (verb == "synthesize") synthesize(all->common, all->synthesize);
             if (verb == "image") image(all->common, all->image);
+            if (verb == "export") export_run(all->common, all->exporting);
+            if (verb == "merge") merge(all->common, all->merge);
             if (verb == "accuracy") accuracy(all->common, all->accuracy);
             if (verb == "beampattern") beampattern(all->common, all->beampattern);
           },

@@ -2,27 +2,9 @@
 #include <exception>
 #include <new>
 
-#include "core/error.hpp"
 #include "tool/command_line.hpp"
+#include "tool/exit_code.hpp"
 #include "tool/progress.hpp"
-
-namespace {
-
-int exit_code(insonify::ErrorKind kind) {
-  switch (kind) {
-    case insonify::ErrorKind::runtime:
-      return 1;
-    case insonify::ErrorKind::argument:
-      return 2;
-    case insonify::ErrorKind::content:
-      return 3;
-    case insonify::ErrorKind::file:
-      return 4;
-  }
-  return 1;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   try {
@@ -35,7 +17,7 @@ int main(int argc, char** argv) {
     return 130;
   } catch (const insonify::Error& error) {
     std::fprintf(stderr, "insonify: %s\n", error.what());
-    return exit_code(error.kind());
+    return insonify::tool::exit_code(error.kind());
   } catch (const std::bad_alloc&) {
     std::fputs("insonify: out of memory; use a smaller scene, fewer scatterers per cell or a shorter range\n", stderr);
     return 1;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct InfoOptions {
 struct PrepareOptions {
   SceneOptions scene;
   std::string output;
+  double thin = 0;  ///< [m] between the surfels that stay; 0: all stay
   bool force = false;
 };
 
@@ -72,9 +74,11 @@ struct PingOptions {
   std::string amplitude = "speckle";
   double scatterers_per_cell = 10;
   int rays_per_beam = 64;
+  double level_error_db = 0;  ///< 0: the sampling is taken as it is
   bool noise = false;
   bool multipath = false;
-  std::vector<std::string> keep;  ///< "elements"
+  std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"
+  int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
   int absorption_order = 0;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
@@ -83,6 +87,7 @@ struct PingOptions {
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = 11.4;
   std::string all_bins_above;              ///< dB re 1 uPa, or empty
+  double memory_limit = 0;                 ///< [GiB] for a .tiles scene; 0: what is available
   std::vector<std::string> with, without;  ///< stages of the plan forced in or out
 };
 
@@ -102,11 +107,31 @@ struct ImageOptions {
   double window_db = 45;
   std::string max_db;  ///< or empty: automatic
   std::size_t ping = 0;
-  int beam = -1;  ///< -1: the middle one
+  std::string beam;                     ///< number, "max", "all", or empty: what suits the view
+  std::optional<std::string> annotate;  ///< number of maxima, .csv file, or "": five maxima
+  bool animate = false;
+  bool force = false;
   bool raw = false;
   double tvg = 40;  ///< [dB per decade of range]
   int bits = 8;     ///< of view grey
   bool dark = false;
+  // Of view scene:
+  std::string scene;               ///< of a run, or empty: where run.toml says
+  std::string sonar, pose, range;  ///< to inspect a scene
+  std::string world = "z-up";
+  std::string camera = "auto", colour;  ///< colour empty: what suits
+};
+
+struct MergeOptions {
+  std::vector<std::string> runs;
+  std::string output;
+  bool force = false;
+};
+
+struct ExportOptions {
+  std::string run;
+  std::string output;
+  bool force = false;
 };
 
 struct AccuracyOptions {

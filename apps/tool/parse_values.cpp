@@ -83,7 +83,8 @@ SynthesisMethod parse_method(const std::string& text) {
   if (text == "stamped") return SynthesisMethod::stamped;
   if (text == "direct") return SynthesisMethod::direct;
   if (text == "element-exact") return SynthesisMethod::element_exact;
-  fail(ErrorKind::argument, "--method = '", text, "' must be stamped, direct or element-exact");
+  if (text == "incoherent") return SynthesisMethod::incoherent;
+  fail(ErrorKind::argument, "--method = '", text, "' must be stamped, direct, element-exact or incoherent");
 }
 
 std::pair<int, int> parse_size(const std::string& text) {

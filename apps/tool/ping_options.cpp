@@ -16,15 +16,26 @@ void add_ping_options(CLI::App& verb, PingOptions& o) {
   verb.add_option("--scatterers-per-cell", o.scatterers_per_cell,
                   "surfels are split until a resolution cell holds so many");
   verb.add_option("--rays-per-beam", o.rays_per_beam, "with --sampling rays");
+  verb.add_option("--level-error-db", o.level_error_db,
+                  "[dB] sampling is refined until 99 % of the cells have a smaller error of their expected level");
   verb.add_option("--amplitude", o.amplitude, "speckle, random-phase or coherent")
       ->check(CLI::IsMember({"speckle", "random-phase", "coherent"}))
       ->option_text("WORD");
   verb.add_flag("--noise", o.noise, "add thermal noise, and the wind's and the platform's if the environment has them");
   verb.add_flag("--multipath", o.multipath, "add echoes by way of the environment's surface and bottom");
-  verb.add_option("--keep", o.keep, "elements: also write elements.h5, the series of every element of a line array")
-      ->check(CLI::IsMember({"elements"}))
+  verb.add_option(
+          "--keep", o.keep,
+          "elements: also write elements.h5, the series of every element of a line array; mask: mark in the cube "
+          "where the scan has holes; contributors: write contributors.h5, the strongest surfels of every pixel; "
+          "insonification: write the scene with what was heard of it as .ply and .pcd; paths: write paths.vtp, "
+          "the ways of the strongest echoes as lines; several with commas")
+      ->check(CLI::IsMember({"elements", "mask", "contributors", "insonification", "paths"}))
       ->option_text("WORD")
+      ->delimiter(',')
       ->allow_extra_args(false);
+  verb.add_option("--contributors", o.contributors, "how many of each pixel, with --keep contributors")
+      ->check(CLI::Range(1, 255))
+      ->option_text("INT");
   verb.add_flag("--layers", o.layers, "keep each kind of echo as a layer of the cube");
   verb.add_option("--absorption-order", o.absorption_order, "0: one absorption for the pulse; 1, 2: slope, curvature")
       ->check(CLI::Range(0, 2))
@@ -33,6 +44,10 @@ void add_ping_options(CLI::App& verb, PingOptions& o) {
   verb.add_option("--turn-rate", o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world");
   verb.add_option("--threshold", o.threshold_db, "[dB] of a detection above the noise floor");
   verb.add_option("--all-bins-above", o.all_bins_above, "[dB re 1 uPa] every bin above is a returned point");
+  verb.add_option("--memory-limit", o.memory_limit,
+                  "[GiB] that a .tiles scene may take; more is refused before it is read; default: what is available")
+      ->check(CLI::PositiveNumber)
+      ->option_text("FLOAT");
   verb.add_option("--with", o.with, "force a stage of the plan in, any number of times")->allow_extra_args(false);
   verb.add_option("--without", o.without, "force a stage of the plan out, any number of times")
       ->allow_extra_args(false);

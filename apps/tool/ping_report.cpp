@@ -84,6 +84,23 @@ ordered_json sampling_json(const SimulatedPing& p) {
           {"noise_floor_db", p.noise_floor_db}};
 }
 
+ordered_json level_error_json(const ConvergenceReport& c) {
+  return {{"wanted_db", c.wanted_db},
+          {"reached", c.reached},
+          {"reached_db", c.reached_db},
+          {"share_below", c.share_below},
+          {"cells", c.judged},
+          {"samplings", c.samplings},
+          {"scatterers_per_cell", c.scatterers_per_cell},
+          {"rays_per_beam", c.rays_per_beam}};
+}
+
+ordered_json holes_json(const HoleReport& holes) {
+  return {{"directions", holes.directions},
+          {"unknown", holes.unknown},
+          {"share", static_cast<double>(holes.unknown) / static_cast<double>(holes.directions)}};
+}
+
 ordered_json motion_json(const Motion& motion) {
   const auto list = [](const Eigen::Vector3d& v) { return ordered_json{v.x(), v.y(), v.z()}; };
   return {{"velocity_m_s", list(motion.velocity)}, {"turn_rate_deg_s", list(motion.turn_rate * degrees(1))}};

@@ -9,11 +9,14 @@
 #include "core/units.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/trajectory_file.hpp"
+#include "tool/kept_files.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/run_files.hpp"
 
 namespace insonify::tool {
 namespace {
+
+constexpr int drawn_paths = 64;  // of each kind: enough to see where sound goes, few enough to see it
 
 SimulationOptions simulation_options(const CommonOptions& common, const PingOptions& o) {
   SimulationOptions s;
@@ -30,7 +33,17 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.noise = o.noise;
   s.multipath = o.multipath;
   s.keep_layers = o.layers;
-  s.keep_elements = !o.keep.empty();
+  s.keep_elements = keeps(o, "elements");
+  s.keep_mask = keeps(o, "mask");
+  s.keep_contributors = keeps(o, "contributors") ? o.contributors : 0;
+  s.keep_paths = keeps(o, "paths") ? drawn_paths : 0;
+  if (s.keep_elements && s.method == SynthesisMethod::incoherent)
+    fail(ErrorKind::argument,
+         "--keep elements: elements hear pressures, and --method incoherent has none; use stamped");
+  s.level_error_db = o.level_error_db;
+  if (!(s.level_error_db >= 0 && std::isfinite(s.level_error_db)))
+    fail(ErrorKind::argument, "--level-error-db = ", s.level_error_db,
+         " dB, must be finite and > 0; 0: taken as it is");
   s.absorption_order = o.absorption_order;
   if (!o.velocity.empty()) s.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
   if (!o.turn_rate.empty())
@@ -85,13 +98,14 @@ std::string run_toml_head(const PingOptions& o) {
   return fmt::format(
       "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nmaterial_field = {}\nviewpoint = {}\n"
       "mesh_spacing = {}\n\n[ping]\npose = {}\nworld = {}\ntrajectory = {}\ntime = {}\nvelocity = {}\nturn_rate = {}\n"
-      "sampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\namplitude = {}\nnoise = {}\nmultipath = {}\n"
+      "sampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\nlevel_error_db = {}\namplitude = {}\nnoise = "
+      "{}\nmultipath = {}\n"
       "layers = {}\nabsorption_order = {}\nthreshold_db = {}\nall_bins_above = {}\n",
       toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
       toml_text(o.scene.material_field), toml_text(o.scene.viewpoint), o.scene.mesh_spacing, toml_text(o.pose),
       toml_text(o.world), toml_text(o.trajectory), o.time, toml_text(o.velocity), toml_text(o.turn_rate),
-      toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam, toml_text(o.amplitude), o.noise, o.multipath,
-      o.layers, o.absorption_order, o.threshold_db, toml_text(o.all_bins_above));
+      toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam, o.level_error_db, toml_text(o.amplitude), o.noise,
+      o.multipath, o.layers, o.absorption_order, o.threshold_db, toml_text(o.all_bins_above));
 }
 
 std::vector<Eigen::Vector3d> glance(const SceneCloud& scene, const Pose& pose) {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "store/cube_layout.hpp"
 #include "store/environment_file.hpp"
 #include "view/show_fan.hpp"
 
@@ -75,6 +76,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
       manifest["notes"].push_back(std::string("no fan.png: ") + error.what());
     }
 
+  if (ping.expected_level) manifest["pressure"] = expected_level_text;
   manifest["sonar"] = sonar_json(setup);
   const Water& water = setup.environment.water;
   manifest["water"] = {{"temperature_c", water.temperature_c},
@@ -95,7 +97,8 @@ LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
 }
 
 std::string picture_title(const std::string& sonar, const Ping& ping) {
-  return fmt::format("{}, ping {}, {:g} to {:g} m", sonar, ping.number, ping.gate.min_range, ping.gate.max_range);
+  return fmt::format("{}, ping {}, {:g} to {:g} m{}", sonar, ping.number, ping.gate.min_range, ping.gate.max_range,
+                     ping.expected_level ? std::string(", ") + expected_level_text : "");
 }
 
 double peak_memory_mib() {

@@ -20,7 +20,8 @@ void add_work(CLI::App& verb, CommonOptions& o) {
 }
 
 void add_scene(CLI::App& verb, SceneOptions& o) {
-  verb.add_option("SCENE", o.path, "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv")->required();
+  verb.add_option("SCENE", o.path, "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv; or .tiles")
+      ->required();
   verb.add_option("--viewpoint", o.viewpoint, "x,y,z [m] where the capture stood; orients estimated normals");
   verb.add_option("--materials", o.materials_file, "TOML table of materials for the labels of the cloud");
   verb.add_option("--material-field", o.material_field, "field of the cloud that means materials, e.g. classification");
@@ -34,8 +35,10 @@ void add_sonar(CLI::App& verb, CommonOptions& common, RunOptions& o) {
       ->required();
   verb.add_option("--range", o.range, "min:max [m]; default: the sonar's");
   verb.add_option("--tolerance", o.tolerance, "relative error of the synthesis");
-  verb.add_option("--method", o.method, "stamped, direct: the slow referee, or element-exact: true delays per element")
-      ->check(CLI::IsMember({"stamped", "direct", "element-exact"}))
+  verb.add_option("--method", o.method,
+                  "stamped, direct: the slow referee, element-exact: true delays per element, or incoherent: the "
+                  "expected level, no speckle")
+      ->check(CLI::IsMember({"stamped", "direct", "element-exact", "incoherent"}))
       ->option_text("WORD");
   verb.add_option("--environment", o.environment,
                   "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run");

@@ -8,6 +8,7 @@
 #include "scene_io/describe_file.hpp"
 #include "store/cube.hpp"
 #include "store/sonar_file.hpp"
+#include "tool/tiled_scenes.hpp"
 #include "tool/verbs.hpp"
 
 namespace insonify::tool {
@@ -102,6 +103,8 @@ void info(const CommonOptions& common, const InfoOptions& o) {
     if (is_run || file.extension() == ".h5") {
       const std::string cube = is_run ? path + "/cube.h5" : path;
       all.push_back(cube_json(cube, read_cube(cube)));
+    } else if (is_tiles(path)) {
+      all.push_back(tiles_summary(path));
     } else if (file.extension() == ".toml") {
       all.push_back(sonar_summary(load_sonar_file(path)));
     } else {

@@ -8,11 +8,13 @@
 #include "scene_io/save_cloud.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
+#include "tool/tiled_scenes.hpp"
 #include "tool/verbs.hpp"
 
 namespace insonify::tool {
 
 void make_scene(const CommonOptions& common, const MakeSceneOptions& o) {
+  if (is_tiles(o.output)) return make_scene_as_tiles(common, o);
   if (!o.force && std::filesystem::exists(o.output))
     fail(ErrorKind::file, o.output, ": exists already; choose another name or add --force");
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 40,40");

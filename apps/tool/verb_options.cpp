@@ -12,7 +12,11 @@ void add_info(CLI::App& app, AllOptions& all) {
 void add_prepare(CLI::App& app, AllOptions& all) {
   CLI::App* verb = app.add_subcommand("prepare", "complete a cloud or mesh once: origin, normals, areas, materials");
   add_scene(*verb, all.prepare.scene);
-  verb->add_option("-o,--output", all.prepare.output, "prepared scene, .ply or .pcd")->required();
+  verb->add_option("-o,--output", all.prepare.output,
+                   "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees")
+      ->required();
+  verb->add_option("--thin", all.prepare.thin, "[m] between surfels: denser parts are thinned, area and materials kept")
+      ->check(CLI::PositiveNumber);
   verb->add_flag("--force", all.prepare.force, "replace an existing file");
   verb->add_flag_callback(
       "--normals", [] {}, "accepted for clarity: missing normals are always estimated");
@@ -20,14 +24,15 @@ void add_prepare(CLI::App& app, AllOptions& all) {
   add_work(*verb, all.common);
   verb->footer(
       "Examples:\n  insonify prepare reef.pcd -o reef.ply --material sand\n"
-      "  insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2");
+      "  insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2\n"
+      "  insonify prepare dense.pcd -o reef.ply --thin 0.02");
 }
 
 void add_make_scene(CLI::App& app, AllOptions& all) {
   MakeSceneOptions& o = all.make_scene;
   CLI::App* verb = app.add_subcommand("make-scene", "a built-in scene with normals, areas and materials");
   verb->add_option("NAME", o.name, "harbour, plane, sphere, wall or poles")->required();
-  verb->add_option("-o,--output", o.output, "scene to write, .ply or .pcd")->required();
+  verb->add_option("-o,--output", o.output, "scene to write, .ply or .pcd; or .tiles, for any size")->required();
   verb->add_option("--points", o.points, "surfels wanted");
   verb->add_option("--size", o.size, "plane: x,y extent; wall: width,height [m]");
   verb->add_option("--radius", o.radius, "of the sphere [m]");
@@ -50,15 +55,19 @@ void add_sonars(CLI::App& app, AllOptions& all) {
 void add_image(CLI::App& app, AllOptions& all) {
   ImageOptions& o = all.image;
   CLI::App* verb = app.add_subcommand("image", "a picture of a run, drawn without a display");
-  verb->add_option("RUN", o.run, "run directory or cube.h5")->required();
-  verb->add_option("-o,--output", o.output, "picture to write, .png (grey also .pgm)")->required();
-  verb->add_option("--view", o.view, "fan, rect, ascan, or grey: the bare samples as 8- or 16-bit .png or .pgm")
-      ->check(CLI::IsMember({"fan", "rect", "ascan", "grey"}))
+  verb->add_option("RUN", o.run, "run directory or cube.h5; for view scene also a cloud or mesh")->required();
+  verb->add_option("-o,--output", o.output, "picture to write, .png (grey also .pgm); with --animate a folder")
+      ->required();
+  verb->add_option("--view", o.view,
+                   "fan, rect, waterfall, ascan, spectrum, panels, scene, or grey: the bare samples as 8- or 16-bit "
+                   ".png or .pgm")
+      ->check(CLI::IsMember({"fan", "rect", "waterfall", "ascan", "spectrum", "panels", "scene", "grey"}))
       ->option_text("WORD");
   verb->add_option("--bits", o.bits, "of grey: 8 or 16")->check(CLI::IsMember({8, 16}))->option_text("INT");
   verb->add_option("--layer", o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
   verb->add_option("--ping", o.ping, "which ping, from 0");
-  verb->add_option("--beam", o.beam, "for ascan, from 0; default: the middle one");
+  verb->add_option("--beam", o.beam,
+                   "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
   CLI::Option* raw = verb->add_flag("--raw", o.raw, "levels as received; default: range compensated; excludes --tvg");
   raw->option_text(" ");
   verb->add_option("--tvg", o.tvg,
@@ -71,8 +80,57 @@ void add_image(CLI::App& app, AllOptions& all) {
   verb->add_option("--size", o.size, "WIDTHxHEIGHT [pixels]");
   verb->add_option("--title", o.title, "default: sonar and ping");
   verb->add_flag("--dark", o.dark, "dark background");
+  verb->add_option("--annotate", o.annotate,
+                   "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text")
+      ->expected(0, 1)
+      ->option_text("[N|CSV]");
+  verb->add_flag("--animate", o.animate, "one picture per ping in the folder -o, all with the same levels");
+  verb->add_flag("--force", o.force, "replace existing pictures");
+  const char* group = "Of view scene";
+  verb->add_option("--scene", o.scene, "the run's scene, if it is not where run.toml says")->group(group);
+  verb->add_option("--sonar", o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run")->group(group);
+  verb->add_option("--pose", o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]")->group(group);
+  verb->add_option("--range", o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's")->group(group);
+  verb->add_option("--world", o.world, "z-up or ned")
+      ->check(CLI::IsMember({"z-up", "ned"}))
+      ->option_text("WORD")
+      ->group(group);
+  verb->add_option("--camera", o.camera, "auto, behind (the head), top, side or iso")
+      ->check(CLI::IsMember({"auto", "behind", "top", "side", "iso"}))
+      ->option_text("WORD")
+      ->group(group);
+  verb->add_option("--colour", o.colour, "height, material, sight, level, grazing or incidence; default: what suits")
+      ->check(CLI::IsMember({"height", "material", "sight", "level", "grazing", "incidence"}))
+      ->option_text("WORD")
+      ->group(group);
   add_common(*verb, all.common, false);
-  verb->footer("Examples:\n  insonify image out -o fan.png\n  insonify image out --view ascan --beam 128 -o beam.png");
+  verb->footer(
+      "Examples:\n  insonify image out -o fan.png --annotate\n  insonify image out --view ascan --beam 128 -o "
+      "beam.png\n"
+      "  insonify image track --animate -o frames\n  insonify image track --view waterfall --beam max -o "
+      "waterfall.png\n  insonify image out --view scene -o scene.png\n"
+      "  insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o sight.png");
+}
+
+void add_merge(CLI::App& app, AllOptions& all) {
+  CLI::App* verb = app.add_subcommand("merge", "pings of several runs of one sonar in one run, by time");
+  verb->add_option("RUN", all.merge.runs, "run directories or cubes with the same fan and gate")->required();
+  verb->add_option("-o,--output", all.merge.output, "run directory to make")->required();
+  verb->add_flag("--force", all.merge.force, "replace an existing run directory");
+  add_common(*verb, all.common, true);
+  verb->footer(
+      "Examples:\n  insonify merge out-0 out-1 out-2 -o track\n"
+      "  insonify merge run-* -o track && insonify image track --view waterfall -o waterfall.png");
+}
+
+void add_export(CLI::App& app, AllOptions& all) {
+  ExportOptions& o = all.exporting;
+  CLI::App* verb = app.add_subcommand("export", "a run for ParaView and other VTK programs: .vts, .vti and .pvd");
+  verb->add_option("RUN", o.run, "run directory or cube.h5")->required();
+  verb->add_option("-o,--output", o.output, "directory to make")->required();
+  verb->add_flag("--force", o.force, "replace an existing directory of an earlier export");
+  add_common(*verb, all.common, false);
+  verb->footer("Examples:\n  insonify export out -o out-vtk\n  insonify export survey -o vtk && paraview vtk/fan.pvd");
 }
 
 void add_beampattern(CLI::App& app, AllOptions& all) {

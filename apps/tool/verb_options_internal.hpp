@@ -16,6 +16,8 @@ struct AllOptions {
   PingOptions ping;
   SynthesizeOptions synthesize;
   ImageOptions image;
+  ExportOptions exporting;
+  MergeOptions merge;
   BeamPatternOptions beampattern;
   AccuracyOptions accuracy;
 };
@@ -36,6 +38,8 @@ void add_plan(CLI::App& app, AllOptions& all);
 void add_ping(CLI::App& app, AllOptions& all);
 void add_synthesize(CLI::App& app, AllOptions& all);
 void add_image(CLI::App& app, AllOptions& all);
+void add_export(CLI::App& app, AllOptions& all);
+void add_merge(CLI::App& app, AllOptions& all);
 void add_beampattern(CLI::App& app, AllOptions& all);
 void add_accuracy(CLI::App& app, AllOptions& all);
 

@@ -8,10 +8,12 @@
 #include "scene_io/save_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/element_file.hpp"
+#include "tool/kept_files.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/plan_report.hpp"
 #include "tool/run_files.hpp"
+#include "tool/tiled_scenes.hpp"
 #include "tool/verbs.hpp"
 
 namespace insonify::tool {
@@ -37,10 +39,8 @@ void print_summary(const CommonOptions& common, const std::string& output, const
 void plan(const CommonOptions& common, const PingOptions& o) {
   Progress progress(common, 2);
   const PingSetup ready = set_up_ping(common, o);
-  const LoadOptions loading = load_options(common, o.scene);
   progress.step("loading " + o.scene.path);
-  const LoadedScene loaded = load_scene(o.scene.path, loading);
-  require_in_reach(glance(loaded.scene, ready.pose), ready.head.head.gate, o.scene.path);
+  const LoadedScene loaded = load_ping_scene(common, o, ready).loaded;
   for (const std::string& note : ready.head.notes) progress.note(note);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   progress.step("planning");
@@ -58,19 +58,17 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   const Pose& pose = ready.pose;
   const HeadSetup& setup = ready.head;
   const SimulationOptions& simulation = ready.simulation;
-  const LoadOptions loading = load_options(common, o.scene);
   RunDirectory directory(o.run.output, o.run.force);
 
   progress.step("loading " + o.scene.path);
   auto start = Clock::now();
-  const LoadedScene loaded = load_scene(o.scene.path, loading);
+  const PingScene in_reach = load_ping_scene(common, o, ready);
+  const LoadedScene& loaded = in_reach.loaded;
   const double load_seconds = seconds_since(start);
-  const std::vector<Eigen::Vector3d> places = glance(loaded.scene, pose);
-  require_in_reach(places, setup.head.gate, o.scene.path);
   ordered_json manifest = {{"schema", 1},
                            {"insonify_version", INSONIFY_VERSION},
                            {"seed", common.seed},
-                           {"scene", scene_json(loaded)},
+                           {"scene", in_reach.json},
                            {"notes", ordered_json::array()}};
   const auto tell = [&](const std::string& note) {
     progress.note(note);
@@ -83,7 +81,7 @@ void ping(const CommonOptions& common, const PingOptions& o) {
 
   progress.step("pinging");
   const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.environment, simulation);
-  for (const std::string& note : ping_notes(result, ready, places)) tell(note);
+  for (const std::string& note : ping_notes(result, ready, in_reach.places)) tell(note);
 
   progress.step("writing " + o.run.output);
   start = Clock::now();
@@ -91,7 +89,10 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   save_soundings(directory.file("returns.ply"), result.soundings);
   if (simulation.keep_elements)
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
+  write_kept(directory, o, loaded.scene, ready, result, manifest);
   manifest["sampling"] = sampling_json(result);
+  if (simulation.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);
+  if (simulation.keep_mask) manifest["holes"] = holes_json(result.holes);
   manifest["layers"] = layers_json(result.layers);
   if (!simulation.motion.none()) manifest["motion"] = motion_json(simulation.motion);
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
@@ -101,6 +102,7 @@ void ping(const CommonOptions& common, const PingOptions& o) {
                          {"acoustics", result.seconds.acoustics},
                          {"synthesis", result.seconds.synthesis},
                          {"detection", result.seconds.detection},
+                         {"contributors", result.seconds.contributors},
                          {"output", seconds_since(start)}};
   write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   progress.step("done");

@@ -31,7 +31,8 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
   const SynthesisMethod method = parse_method(o.run.method);
   const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
-  const Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
+  Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
+  ping.expected_level = method == SynthesisMethod::incoherent;
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
   progress.step("writing " + o.run.output);

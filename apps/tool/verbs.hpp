@@ -13,6 +13,11 @@ void ping(const CommonOptions& common, const PingOptions& options);
 void synthesize(const CommonOptions& common, const SynthesizeOptions& options);
 void beampattern(const CommonOptions& common, const BeamPatternOptions& options);
 void accuracy(const CommonOptions& common, const AccuracyOptions& options);
+void merge(const CommonOptions& common, const MergeOptions& options);
 void image(const CommonOptions& common, const ImageOptions& options);
+void export_run(const CommonOptions& common, const ExportOptions& options);
+
+/// Becomes insonify-view, the program beside this one, with these arguments. Comes back only by Error(runtime).
+void view(const std::vector<std::string>& arguments);
 
 }  // namespace insonify::tool

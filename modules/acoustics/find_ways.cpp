@@ -32,7 +32,14 @@ bool above_surface(const std::vector<Boundary>& boundaries, double z) {
                      [&](const Boundary& b) { return !b.bottom && z > b.height + b.thickness; });
 }
 
-MirroredScene mirrored_scene(const SceneCloud& scene, const Boundary& boundary,
+// Whether neither a surfel nor its image can come within the gate: both stand as far from the head across.
+bool out_of_reach(const SceneCloud& scene, std::size_t i, const View& view) {
+  const Eigen::Vector3d from_head = scene.origin - view.world_from_head.translation() + scene.point[i].cast<double>();
+  const double disc = view.sampling.footprint * std::sqrt(static_cast<double>(scene.area[i]));
+  return from_head.head<2>().norm() > (view.gate.max_range + disc) * (1 + 1e-6);
+}
+
+MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Boundary& boundary,
                              const std::vector<Boundary>& boundaries) {
   MirroredScene all;
   SceneCloud& cloud = all.cloud;
@@ -43,7 +50,7 @@ MirroredScene mirrored_scene(const SceneCloud& scene, const Boundary& boundary,
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const double z = scene.point[i].z(), into_water = boundary.water_side * (z - plane);
     if (into_water <= 0 || boundary.holds(into_water, scene.normal[i].z())) continue;
-    if (above_surface(boundaries, z + scene.origin.z())) continue;
+    if (above_surface(boundaries, z + scene.origin.z()) || out_of_reach(scene, i, view)) continue;
     append(scene, i, cloud);
     all.surfel.push_back(static_cast<std::uint32_t>(i));
   }
@@ -61,7 +68,7 @@ MirroredScene mirrored_scene(const SceneCloud& scene, const Boundary& boundary,
 void find_bounces(const SceneCloud& scene, const View& view, const std::vector<Boundary>& boundaries, std::size_t b,
                   FoundWays& found) {
   if (boundaries[b].strongest_bounce(view.gate.max_range) < amplitude_from_db(pattern_floor_db)) return;
-  const MirroredScene all = mirrored_scene(scene, boundaries[b], boundaries);
+  const MirroredScene all = mirrored_scene(scene, view, boundaries[b], boundaries);
   const auto sight = find_sight(all.cloud, view.world_from_head, view.fan, view.gate, all.asked, view.sampling);
   const std::size_t real = all.surfel.size();
   for (std::size_t k = 0; k < real; ++k) {

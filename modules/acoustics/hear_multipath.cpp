@@ -26,18 +26,24 @@ constexpr std::size_t patches_per_block = 4096;
 
 /// One way between head and patch, in the axes of the head.
 struct Way {
-  double range;    ///< [m]
-  double u, v;     ///< direction cosines
-  double azimuth;  ///< [rad]
-  double cosine;   ///< at the patch
-  complex gain;    ///< one-way pattern times reflection
-  bool bounces;
+  double range;     ///< [m]
+  double u, v;      ///< direction cosines
+  double azimuth;   ///< [rad]
+  double cosine;    ///< at the patch
+  complex gain;     ///< one-way pattern times reflection
+  std::uint8_t by;  ///< 0: direct; k: by the k-th boundary
 };
 
 /// Up to three ways to one patch, the direct one first.
 struct WaysToPatch {
   Way way[3];
   std::size_t count = 0;
+};
+
+/// Where the echoes of one block came from, echo by echo.
+struct Origins {
+  std::vector<std::uint32_t> surfel;
+  std::vector<WayPair> ways;
 };
 
 /// Hears the patches of one list by all their paths.
@@ -63,8 +69,10 @@ class PathListener {
   void hear(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& heard) const {
     std::atomic<std::size_t> two_bounces{0};
     std::vector<Echoes> echoes(1);
+    std::vector<Origins> origins((patches.size() + patches_per_block - 1) / patches_per_block);
     echoes[0] = collect_echoes(patches.size(), patches_per_block, hearing_.threads,
                                [&](std::size_t begin, std::size_t end, Echoes& out) {
+                                 Origins& from = origins[begin / patches_per_block];
                                  std::size_t twice = 0;
                                  for (std::size_t i = begin; i < end; ++i) {
                                    const std::uint32_t surfel = patches.surfel[i];
@@ -72,13 +80,19 @@ class PathListener {
                                    const WaysToPatch ways = ways_to(patches, i, cosines);
                                    if (ways.count == 0) continue;
                                    const double area = static_cast<double>(scene_.area[surfel]) / parts[surfel];
-                                   add_paths(ways, amplitude_of(patches, i, area), out, twice);
+                                   add_paths(ways, amplitude_of(patches, i, area), out, from);
+                                   from.surfel.resize(out.size(), surfel);
                                  }
+                                 for (const WayPair pair : from.ways) twice += pair.bounces() == 2;
                                  two_bounces += twice;
                                });
     heard.two_bounces += two_bounces;
     heard.one_bounce += echoes[0].size() - two_bounces;
     join_echoes(std::move(echoes), heard.echoes);
+    for (const Origins& from : origins) {
+      heard.surfel.insert(heard.surfel.end(), from.surfel.begin(), from.surfel.end());
+      heard.ways.insert(heard.ways.end(), from.ways.begin(), from.ways.end());
+    }
   }
 
  private:
@@ -91,7 +105,7 @@ class PathListener {
     if (open & direct_way) {
       Way& way = ways.way[ways.count];
       way = way_to(place, normal, 1);
-      way.bounces = false;
+      way.by = 0;
       if (cosines) way.cosine = patches.cos_incidence[i];
       ways.count += way.cosine > 0;
     }
@@ -102,7 +116,7 @@ class PathListener {
       const double sine = std::min(1.0, std::abs(boundary.up.dot(image)) / image.norm());
       Way& way = ways.way[ways.count];
       way = way_to(image, boundary.mirrored_direction(normal), boundary.reflection(std::asin(sine)));
-      way.bounces = true;
+      way.by = static_cast<std::uint8_t>(b + 1);
       ways.count += way.cosine > 0;
     }
     return ways;
@@ -139,15 +153,15 @@ class PathListener {
     return source_ * std::sqrt(material.lambert_mu * area) * xi;
   }
 
-  void add_paths(const WaysToPatch& ways, complex amplitude, Echoes& out, std::size_t& twice) const {
+  void add_paths(const WaysToPatch& ways, complex amplitude, Echoes& out, Origins& from) const {
     for (std::size_t o = 0; o < ways.count; ++o)
       for (std::size_t i = 0; i < ways.count; ++i) {
         const Way &there = ways.way[o], &back = ways.way[i];
         const double length = there.range + back.range;
-        if (!(there.bounces || back.bounces) || length < least_way_ || length > longest_way_) continue;
+        if (!(there.by || back.by) || length < least_way_ || length > longest_way_) continue;
         const complex gain = gain_out(there) * back.gain;
         if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
-        twice += there.bounces && back.bounces;
+        from.ways.push_back({there.by, back.by});
         const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * length);
         const double size = std::sqrt(there.cosine * back.cosine) / (there.range * back.range);
         add_echo(out, length / sound_speed_, back.u, back.v, amplitude * gain * std::polar(size, phase));  // (E48)

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include "acoustics/echoes.hpp"
 #include "acoustics/environment.hpp"
 #include "acoustics/hear_scatterers.hpp"
@@ -7,12 +10,22 @@
 
 namespace insonify {
 
+/// By which ways sound went out to a patch and came back: 0 direct, k by the k-th boundary (the surface before the bottom).
+struct WayPair {
+  std::uint8_t out = 0, back = 0;
+
+  int bounces() const { return (out != 0) + (back != 0); }
+  bool operator==(const WayPair&) const = default;
+};
+
 /// Echoes by way of the boundaries, and how many of each kind.
 struct Multipath {
   Echoes echoes;
-  std::size_t one_bounce = 0;   ///< out direct and back by a boundary, or the other way round
-  std::size_t two_bounces = 0;  ///< out and back by a boundary
-  std::size_t blocked = 0;      ///< ways from surfels by a boundary that the scene hides
+  std::vector<std::uint32_t> surfel{};  ///< of every echo, index in the scene
+  std::vector<WayPair> ways{};          ///< of every echo
+  std::size_t one_bounce = 0;           ///< out direct and back by a boundary, or the other way round
+  std::size_t two_bounces = 0;          ///< out and back by a boundary
+  std::size_t blocked = 0;              ///< ways from surfels by a boundary that the scene hides
 };
 
 /// Where a head looks, for stages that look again.

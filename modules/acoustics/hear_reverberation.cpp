@@ -86,9 +86,9 @@ class PlaneListener {
     const double sine = plane_.distance / r;                                          // of the grazing angle
     const double sigma = (plane_.strength + plane_.lambert_mu * sine * sine) * area;  // (E50, E51)
     const double transmitted = transmit_pattern_of(hearing_, std::atan2(place.y(), place.x()));
-    add_echo(out, two_over_c_ * r, place.y() / r, v,
-             source_ * std::sqrt(sigma) * pattern * transmitted / (r * r) *
-                 random_complex_normal(hearing_.seed, plane_.stage, counter));
+    add_echo(
+        out, two_over_c_ * r, place.y() / r, v,
+        source_ * std::sqrt(sigma) * pattern * transmitted / (r * r) * cell_amplitude(hearing_, plane_.stage, counter));
   }
 
   const ScatteringPlane& plane_;
@@ -154,7 +154,7 @@ class VolumeListener {
     const double elevation = law_.elevation_at(part);
     const double size = source_ * std::sqrt((cube2 - cube1) / 3) * transmit_pattern_of(hearing_, azimuth) / (r * r);
     add_echo(out, two_over_c_ * r, std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-             size * random_complex_normal(hearing_.seed, RandomStage::volume, counter));
+             size * cell_amplitude(hearing_, RandomStage::volume, counter));
   }
 
   const ReverberationCells& cells_;

@@ -56,7 +56,8 @@ Echoes room_for(std::size_t n) {
 }  // namespace
 
 std::complex<double> surface_amplitude(const HearingOptions& options, double coherent_fraction, std::uint64_t id) {
-  if (options.amplitude == SurfaceAmplitude::coherent) return 1;
+  const bool mean_power = options.amplitude == SurfaceAmplitude::mean_power;
+  if (options.amplitude == SurfaceAmplitude::coherent || mean_power) return 1;
   auto xi = random_complex_normal(options.seed, RandomStage::surface_amplitude, {id, 0, 0});  // (E9)
   if (options.amplitude == SurfaceAmplitude::random_phase) xi /= std::abs(xi);
   if (coherent_fraction == 0) return xi;

@@ -15,7 +15,8 @@ namespace insonify {
 enum class SurfaceAmplitude {
   complex_normal,  ///< Rayleigh speckle, bound to the scatterer id (E9)
   random_phase,    ///< unit amplitude, random phase
-  coherent         ///< 1: calibrated targets and closed forms
+  coherent,        ///< 1: calibrated targets and closed forms
+  mean_power       ///< 1 in water and boundaries too: for expected intensities, where phases do not count
 };
 
 struct HearingOptions {

@@ -63,6 +63,11 @@ double transmit_pattern_of(const HearingOptions& hearing, double azimuth) {
   return hearing.transmit_width > 0 ? transmit_response(hearing.transmit_width, std::remainder(azimuth, 2 * pi)) : 1;
 }
 
+std::complex<double> cell_amplitude(const HearingOptions& hearing, RandomStage stage, const RandomCounter& counter) {
+  if (hearing.amplitude == SurfaceAmplitude::mean_power) return 1;
+  return random_complex_normal(hearing.seed, stage, counter);
+}
+
 ElevationLaw::ElevationLaw(const BeamFan& fan, const HearingOptions& hearing) : low_(-pi / 2), high_(pi / 2) {
   if (hearing.elevation_width > 0) {
     const double half = elevation_half_extent(hearing.elevation_shape, hearing.elevation_width, pattern_floor_db);

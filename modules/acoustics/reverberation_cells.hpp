@@ -35,6 +35,9 @@ double elevation_pattern_of(const HearingOptions& hearing, double elevation);
 /// The transmitter's, 1 without a pattern; any azimuth.
 double transmit_pattern_of(const HearingOptions& hearing, double azimuth);
 
+/// Amplitude of one cell, complex normal; 1 for SurfaceAmplitude::mean_power.
+std::complex<double> cell_amplitude(const HearingOptions& hearing, RandomStage stage, const RandomCounter& counter);
+
 /// The two-way elevation pattern as an intensity over solid angle, b^2(e) cos(e), to integrate and to draw from.
 class ElevationLaw {
  public:

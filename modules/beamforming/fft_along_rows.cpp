@@ -5,10 +5,10 @@
 namespace insonify {
 
 template <typename Real>
-FftAlongRows<Real>::FftAlongRows(std::size_t n, std::size_t batch, int sign) {
-  AlignedArray<std::complex<Real>, Real> room(n * batch);
+FftAlongRows<Real>::FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign) {
+  AlignedArray<std::complex<Real>, Real> room(n * stride);
   const std::scoped_lock lock(fftw_planner());
-  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), room.data(), sign);
+  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), static_cast<int>(stride), room.data(), sign);
 }
 
 template <typename Real>

@@ -16,9 +16,9 @@ template <>
 struct Fftw<double> {
   using Plan = fftw_plan;
   static void destroy(Plan plan) { fftw_destroy_plan(plan); }
-  static Plan make(int n, int batch, std::complex<double>* room, int sign) {
+  static Plan make(int n, int batch, int stride, std::complex<double>* room, int sign) {
     auto* raw = reinterpret_cast<fftw_complex*>(room);
-    return fftw_plan_many_dft(1, &n, batch, raw, nullptr, batch, 1, raw, nullptr, batch, 1, sign, FFTW_ESTIMATE);
+    return fftw_plan_many_dft(1, &n, batch, raw, nullptr, stride, 1, raw, nullptr, stride, 1, sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<double>* data) {
     auto* raw = reinterpret_cast<fftw_complex*>(data);
@@ -32,9 +32,9 @@ template <>
 struct Fftw<float> {
   using Plan = fftwf_plan;
   static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
-  static Plan make(int n, int batch, std::complex<float>* room, int sign) {
+  static Plan make(int n, int batch, int stride, std::complex<float>* room, int sign) {
     auto* raw = reinterpret_cast<fftwf_complex*>(room);
-    return fftwf_plan_many_dft(1, &n, batch, raw, nullptr, batch, 1, raw, nullptr, batch, 1, sign, FFTW_ESTIMATE);
+    return fftwf_plan_many_dft(1, &n, batch, raw, nullptr, stride, 1, raw, nullptr, stride, 1, sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<float>* data) {
     auto* raw = reinterpret_cast<fftwf_complex*>(data);
@@ -69,7 +69,9 @@ class AlignedArray {
 template <typename Real>
 class FftAlongRows {
  public:
-  FftAlongRows(std::size_t n, std::size_t batch, int sign);
+  /// `stride`: from one row to the next, at least `batch`.
+  FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign);
+  FftAlongRows(std::size_t n, std::size_t batch, int sign) : FftAlongRows(n, batch, batch, sign) {}
   ~FftAlongRows();
   FftAlongRows(const FftAlongRows&) = delete;
   FftAlongRows& operator=(const FftAlongRows&) = delete;

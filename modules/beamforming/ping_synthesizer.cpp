@@ -6,19 +6,20 @@
 
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/spread_synthesis_internal.hpp"
+#include "beamforming/windowed_sum_internal.hpp"
 #include "core/error.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr double finest = 1e-13;
-/// So few echoes cost the direct sum no more than the transforms of the bins they touch; and it is exact.
-constexpr std::size_t few = 2;
 /// Errors of the kernel and of rounding go into all beams alike, so what a kernel may do is the tolerance times the share
 /// of the stamped energy that beams hear. From here on single precision is good enough for that.
 constexpr double single_precision_from = 2e-6;
 /// The finest kernel there is.
 constexpr double finest_kernel = 1e-15;
+/// What is lost of a cut pulse may weigh so much more by cancellation.
+constexpr double least_kept = 0.25;
 
 /// Share that an echo in the fan has in the image (see SpreadImage): the pattern's mean square over the fan's span.
 double expected_share(const SonarHead& head, double wavelength) {
@@ -39,19 +40,35 @@ struct PingSynthesizer::Plan {
   Medium medium;
   SynthesisOptions options;
   double share;
+  WindowedSum windowed;
   std::unique_ptr<SpreadSynthesis<float>> in_single;
   std::unique_ptr<SpreadSynthesis<double>> in_double;
 
   Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in, double share_in)
-      : head(head_in), medium(medium_in), options(options_in), share(share_in) {
+      : head(head_in),
+        medium(medium_in),
+        options(options_in),
+        share(share_in),
+        windowed(head, medium, pulse_cut(options.tolerance), options.threads) {
     const double kernel_tolerance = options.tolerance * share;
     if (kernel_tolerance >= single_precision_from)
       in_single = std::make_unique<SpreadSynthesis<float>>(head, medium, options, kernel_tolerance);
     else
       in_double = std::make_unique<SpreadSynthesis<double>>(head, medium, options, kernel_tolerance);
   }
-  SpreadImage image(const Echoes& echoes) const {
+  bool sums_directly(const Echoes& echoes) const {
+    return in_single ? in_single->direct_is_cheaper(echoes) : in_double->direct_is_cheaper(echoes);
+  }
+  SpreadImage stamped(const Echoes& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
+  }
+  /// The direct sum over what the pulses reach, and farther if the echoes cancel.
+  ComplexGrid summed(const Echoes& echoes) const {
+    WindowedImage image = windowed.image(echoes);
+    if (image.kept >= least_kept) return std::move(image.pressure);
+    const double finer = options.tolerance * image.kept;
+    if (finer < finest_kernel) return synthesize_direct(echoes, head, medium, options);
+    return WindowedSum(head, medium, pulse_cut(finer), options.threads).image(echoes).pressure;
   }
 };
 
@@ -75,16 +92,18 @@ SynthesisChoice PingSynthesizer::choice() const {
   return choice;
 }
 
+bool PingSynthesizer::sums_directly(const Echoes& echoes) const { return plan_->sums_directly(echoes); }
+
 ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
   const Plan& plan = *plan_;
   require_synthesis(echoes, plan.head, plan.medium, plan.options, "PingSynthesizer");
-  if (echoes.size() <= few) return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
-  SpreadImage image = plan.image(echoes);
+  if (plan.sums_directly(echoes)) return plan.summed(echoes);
+  SpreadImage image = plan.stamped(echoes);
   if (image.share >= 0.5 * plan.share) return std::move(image.pressure);
   // So little is heard of so much that the errors weigh: once more with as many digits as it takes.
   if (plan.options.tolerance * image.share < finest_kernel)
     return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
-  return Plan(plan.head, plan.medium, plan.options, image.share).image(echoes).pressure;
+  return Plan(plan.head, plan.medium, plan.options, image.share).stamped(echoes).pressure;
 }
 
 ComplexGrid synthesize_stamped(const Echoes& echoes, const SonarHead& head, const Medium& medium,

@@ -8,13 +8,14 @@
 
 namespace insonify {
 
-/// What a PingSynthesizer chose for its tolerance.
+/// What a PingSynthesizer chose for its tolerance: of stamping, but for direct_echoes.
 struct SynthesisChoice {
   bool single_precision = false;  ///< of tiles and transforms; delays and phases are always double
   std::size_t kernel_width = 0;   ///< grid steps over which an echo is spread along the array's dual axis
   std::size_t grid = 0;           ///< grid steps over that axis
   std::size_t pulse_samples = 0;  ///< bins over which a pulse is stamped
   double pulse_half_length = 0;   ///< where it is cut [s]
+  std::size_t direct_echoes = 0;  ///< so many echoes, spread over the gate, are summed directly: stamping costs more
   double share = 0;               ///< of what is stamped, expected in a beam: root of a ratio of energies
   double bytes_per_thread = 0;    ///< working memory beside the image
 };
@@ -23,7 +24,8 @@ struct SynthesisChoice {
 /// cut at the tolerance, times a spreading kernel (E60) on a grid over direction; per bin an FFT turns the grid into
 /// element series, deconvolved and shaded, and back into beams by the same kernel. No transform along range: nothing
 /// wraps round, and the error is local, relative to the level at each range.
-/// Cost: echoes x pulse samples x kernel width + bins x (grid log grid + beams x kernel width).
+/// Cost: echoes x pulse samples x kernel width + bins x (grid log grid + beams x kernel width). Where a few echoes cost
+/// less summed one by one, with the exact pattern and pulses cut at the tolerance, that is what is done.
 /// Errors of the kernel go into all beams alike: for the same tolerance, a fan of many narrow beams needs a wider kernel.
 ///
 /// Made once per head, medium and tolerance; `pressure` is const and may be called from several threads.
@@ -41,6 +43,8 @@ class PingSynthesizer {
   ComplexGrid pressure(const Echoes& echoes) const;
 
   SynthesisChoice choice() const;
+  /// Whether `pressure` sums these echoes directly: by a model of what either way costs, never by the clock.
+  bool sums_directly(const Echoes& echoes) const;
 
  private:
   struct Plan;

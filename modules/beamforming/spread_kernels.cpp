@@ -175,4 +175,13 @@ void interpolate(const double* weight, const std::uint32_t* row, std::size_t ter
   interpolate_rows(weight, row, terms, grid, stride, count, sum);
 }
 
+INSONIFY_CLONES
+void add_pulses(const double* weight, PulsePlaces places, const double* sample, std::size_t echoes, double* row) {
+  for (std::size_t i = 0; i < echoes; ++i) {
+    double* __restrict to = row + 2 * places.start[i];
+    const double* __restrict from = sample + places.place[i];
+    for (std::size_t k = 0; k < 2 * places.count[i]; ++k) to[k] += weight[i] * from[k];
+  }
+}
+
 }  // namespace insonify::kernels

@@ -51,4 +51,13 @@ void interpolate(const float* weight, const std::uint32_t* row, std::size_t term
 void interpolate(const double* weight, const std::uint32_t* row, std::size_t terms, const double* grid,
                  std::size_t stride, std::size_t count, double* sum);
 
+/// Where samples of pulses, complex, go: first bin, bins, and first number among the samples; one entry per echo in
+/// every array.
+struct PulsePlaces {
+  const std::uint32_t *start, *count, *place;
+};
+
+/// Adds weight[i] x pulse i to `row`, real and imaginary in turn, one echo after the other.
+void add_pulses(const double* weight, PulsePlaces places, const double* sample, std::size_t echoes, double* row);
+
 }  // namespace insonify::kernels

@@ -7,7 +7,8 @@
 namespace insonify {
 
 /// Which of the synthesizers below forms the beams.
-enum class SynthesisMethod { stamped, direct, spectrum, element_exact };
+/// `incoherent` gives the expected level instead, without speckle (synthesize_intensity).
+enum class SynthesisMethod { stamped, direct, spectrum, element_exact, incoherent };
 
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< of the image; a pulse is cut where its envelope falls below half this part of its peak
@@ -27,6 +28,8 @@ struct SynthesisOptions {
 /// most a tenth of the tolerance (relative L2 norm) of what a row hears of it; `direct` leaves none out.
 /// `element_exact` leaves the narrow-band far field: true delays per element, focused beams (hear_elements,
 /// beam_from_elements, E61, E62); its tolerance is within [1e-12, 0.1].
+/// `incoherent` gives the root of the expected intensity (E65) as a real pressure: levels and detections read it as any
+/// other, but such images add up by their squares, and phases mean nothing.
 /// Cost: that of the method for every row. The result does not depend on options.threads.
 /// Throws Error as the methods do, and if there are several rows or a column, but not one echoes.v per echo.
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,

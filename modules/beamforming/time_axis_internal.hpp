@@ -1,11 +1,8 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
-#include "acoustics/echoes.hpp"
 #include "acoustics/pulse.hpp"
 #include "sampling/range_gate.hpp"
 
@@ -27,6 +24,9 @@ struct TimeAxis {
     return {static_cast<std::size_t>(std::max(low, 0.0)), static_cast<std::size_t>(std::min(high, n - 1)) + 1};
   }
 };
+
+/// Where pulses are cut for an image good to `tolerance`, as a part of their peaks: what is lost stays a tenth of it.
+inline double pulse_cut(double tolerance) { return tolerance / 4; }
 
 /// How far an echo's pulse reaches to either side of its delay before it falls below the tolerance [s]. Curvature of
 /// the absorption lengthens a Gaussian on its way (E8).
@@ -50,29 +50,6 @@ struct PulseReach {
   }
 
   double at(double delay) const { return growth == 0 ? half : half * std::sqrt(std::max(1.0, 1 + growth * delay)); }
-};
-
-/// Which echoes touch which tile of bins, in order of echoes: the same for any number of threads.
-struct TileLists {
-  std::vector<std::size_t> begin;  ///< tiles + 1 offsets into `echo`
-  std::vector<std::uint32_t> echo;
-
-  TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins) {
-    const std::size_t tiles = (axis.bins + tile_bins - 1) / tile_bins;
-    begin.assign(tiles + 1, 0);
-    const auto each_tile = [&](auto&& visit) {
-      for (std::size_t i = 0; i < echoes.size(); ++i) {
-        const auto [first, last] = axis.around(echoes.delay[i], reach.at(echoes.delay[i]));
-        for (std::size_t t = first / tile_bins; first < last && t <= (last - 1) / tile_bins; ++t) visit(t, i);
-      }
-    };
-    each_tile([&](std::size_t t, std::size_t) { ++begin[t + 1]; });
-    for (std::size_t t = 0; t < tiles; ++t) begin[t + 1] += begin[t];
-    echo.resize(begin.back());
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    each_tile([&](std::size_t t, std::size_t i) { echo[next[t]++] = static_cast<std::uint32_t>(i); });
-  }
-  std::size_t tiles() const { return begin.size() - 1; }
 };
 
 }  // namespace insonify

@@ -25,6 +25,10 @@ struct Ping {
   RangeGate gate;
   ComplexGridF pressure;        ///< beams x bins [Pa], analytic baseband, linear
   std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless they were asked for
+  bool expected_level = false;  ///< `pressure` is the root of an expected intensity (E65): no speckle, no phase; layers
+                                ///< add up by their squares
+  Grid<float> level_error_db{};  ///< of the sampling, beams x bins [dB] (E66), NaN where not judged; or empty
+  Grid<std::uint8_t> unknown{};  ///< beams x bins, 1: surface may be missing here, the scan has a hole; or empty
 };
 
 /// Pressure as a ping holds it, in single precision. Throws Error(content) naming `who` if a sample does not fit

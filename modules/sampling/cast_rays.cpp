@@ -6,8 +6,6 @@
 #include <limits>
 #include <span>
 
-#include <Eigen/Geometry>
-
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
@@ -108,22 +106,6 @@ std::vector<Landing> land_by_raster(const std::vector<GatedSurfel>& surfels, con
   return landings;
 }
 
-// True if the candidates' centres stand on all sides of the ray: no half-plane through it is free of them.
-bool is_surrounded(const Eigen::Vector3f& ray, const std::vector<GatedSurfel>& surfels,
-                   const std::vector<std::uint32_t>& candidates) {
-  const Eigen::Vector3f right = ray.unitOrthogonal(), up = ray.cross(right);
-  std::vector<float> angles;
-  for (const std::uint32_t c : candidates)
-    if (squared_chord(ray, surfels[c]) <= squared_footprint_chord(surfels[c]))
-      angles.push_back(std::atan2(up.dot(surfels[c].position), right.dot(surfels[c].position)));
-  if (angles.size() < 3) return false;
-  std::sort(angles.begin(), angles.end());
-  constexpr auto half_turn = static_cast<float>(pi);
-  if (angles.front() + 2 * half_turn - angles.back() >= half_turn) return false;
-  return std::adjacent_find(angles.begin(), angles.end(), [](float a, float b) { return b - a >= half_turn; }) ==
-         angles.end();
-}
-
 // Rays that met nothing though surfels stand within three footprints on all sides of them.
 std::size_t count_holes(std::vector<GatedSurfel> surfels, const std::vector<Ray>& rays,
                         const std::vector<Landing>& landings, int threads) {
@@ -138,8 +120,10 @@ std::size_t count_holes(std::vector<GatedSurfel> surfels, const std::vector<Ray>
   if (missed.empty() || surfels.empty()) return 0;
   for (GatedSurfel& s : surfels) s.radius *= reach;
   std::atomic<std::size_t> holes{0};
-  for_candidates(surfels, queries, threads, [&](std::uint32_t q, const std::vector<std::uint32_t>& candidates) {
-    if (is_surrounded(rays[missed[q]].along, surfels, candidates)) ++holes;
+  for_candidates(surfels, queries, threads, [&](std::uint32_t q, std::vector<std::uint32_t>& candidates) {
+    const Eigen::Vector3f& along = rays[missed[q]].along;
+    keep_footprints_of(along, surfels, candidates);
+    if (is_surrounded(along, surfels, candidates)) ++holes;
   });
   return holes;
 }

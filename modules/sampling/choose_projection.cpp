@@ -1,18 +1,20 @@
 #include "sampling/choose_projection.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sampling/direction_raster.hpp"
+#include "sampling/list_where.hpp"
 
 namespace insonify {
 
-Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries) {
+Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries,
+                             int threads) {
   if (wanted != Projection::automatic) return wanted;
   // Measured times [ns]: a wide surfel against a direction, a surfel drawn, a tree's point sorted in and a search.
   constexpr double wide_test = 2, draw = 120, build = 25, search = 1500;
   const auto n = static_cast<double>(surfels.size()), asked = static_cast<double>(queries);
-  const auto wide = static_cast<double>(std::count_if(surfels.begin(), surfels.end(), DirectionRaster::is_wide));
+  const auto wide = static_cast<double>(
+      count_where(surfels.size(), threads, [&](std::size_t s) { return DirectionRaster::is_wide(surfels[s]); }));
   const double by_raster = wide * asked * wide_test + n * draw;
   const double by_tree = n * std::log2(n + 2) * build + asked * search;
   return by_raster <= by_tree ? Projection::raster : Projection::kdtree;

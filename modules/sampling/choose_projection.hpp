@@ -9,6 +9,7 @@ namespace insonify {
 
 /// `wanted`, or for automatic the projection that costs less for so many directions: raster, unless too many surfels fill
 /// more than it puts into tiles.
-Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries);
+Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries,
+                             int threads);
 
 }  // namespace insonify

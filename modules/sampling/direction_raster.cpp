@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.hpp"
+#include "sampling/list_where.hpp"
 
 namespace insonify {
 namespace {
@@ -48,6 +50,17 @@ std::uint32_t main_face(const Vector3f& v) {
   return static_cast<std::uint32_t>(2 * k + (v[k] < 0));
 }
 
+// Turns counts[block][tile] into where each block's share of each tile begins; returns where each tile begins, and the end.
+std::vector<std::size_t> starts_of(std::vector<std::vector<std::size_t>>& counts, std::size_t tiles) {
+  std::vector<std::size_t> first(tiles + 1, 0);
+  std::size_t total = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    for (auto& of_block : counts) total += std::exchange(of_block[t], total);
+    first[t + 1] = total;
+  }
+  return first;
+}
+
 }  // namespace
 
 CubePoint on_cube(const Vector3f& v) {
@@ -66,13 +79,7 @@ std::size_t DirectionTile::cell_of(const CubePoint& q) const {
 
 DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
                                  Footprint footprint, int threads) {
-  for (const CubePoint& q : queries) {
-    Face& face = faces_[q.face];
-    face.x0 = std::min(face.x0, q.x);
-    face.x1 = std::max(face.x1, q.x);
-    face.y0 = std::min(face.y0, q.y);
-    face.y1 = std::max(face.y1, q.y);
-  }
+  bound_faces(queries, threads);
   size_cells(surfels, queries, footprint);
 
   std::vector<std::vector<Box>> boxes((surfels.size() + block - 1) / block);
@@ -81,10 +88,23 @@ DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::s
     part.reserve(end - begin);
     for (std::size_t s = begin; s < end; ++s) add_boxes(surfels[s], static_cast<std::uint32_t>(s), footprint, part);
   });
-  for (std::uint32_t s = 0; s < surfels.size(); ++s)
-    if (is_wide(surfels[s])) wide_.push_back(s);
+  wide_ = list_where(surfels.size(), threads, [&](std::size_t s) { return is_wide(surfels[s]); });
   sort_boxes(boxes, threads);
-  sort_queries(queries);
+  sort_queries(queries, threads);
+}
+
+// What the queries fill of each face.
+void DirectionRaster::bound_faces(std::span<const CubePoint> queries, int threads) {
+  std::vector<std::array<Face, 6>> parts((queries.size() + block - 1) / block);
+  parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    for (const CubePoint& q : queries.subspan(begin, end - begin)) parts[begin / block][q.face].take_in(q.x, q.y);
+  });
+  for (const auto& part : parts)
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      if (part[f].x1 >= part[f].x0) {
+        faces_[f].take_in(part[f].x0, part[f].y0);
+        faces_[f].take_in(part[f].x1, part[f].y1);
+      }
 }
 
 // A typical footprint should fill a few cells; all together a bounded number for each surfel and query.
@@ -163,17 +183,8 @@ void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int
   parallel_for(boxes.size(), threads, [&](std::size_t b) {
     for (const Box& box : boxes[b]) for_tiles(box, [&](std::size_t t, int, int) { ++next[b][t]; });
   });
-  first_box_.assign(tiles_.size() + 1, 0);
-  std::size_t total = 0;
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    for (auto& of_block : next) {
-      const std::size_t count = of_block[t];
-      of_block[t] = total;
-      total += count;
-    }
-    first_box_[t + 1] = total;
-  }
-  boxes_.resize(total);
+  first_box_ = starts_of(next, tiles_.size());
+  boxes_.resize(first_box_.back());
   parallel_for(boxes.size(), threads, [&](std::size_t b) {
     for (const Box& box : boxes[b])
       for_tiles(box, [&](std::size_t t, int x, int y) {
@@ -184,7 +195,8 @@ void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int
   });
 }
 
-void DirectionRaster::sort_queries(std::span<const CubePoint> queries) {
+// Counting sort by tile.
+void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threads) {
   const auto tile_of = [this](const CubePoint& q) {
     const Face& face = faces_[q.face];
     const int x = std::min(face.nx - 1, static_cast<int>((q.x - face.x0) / cell_));
@@ -192,15 +204,19 @@ void DirectionRaster::sort_queries(std::span<const CubePoint> queries) {
     return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
   };
   std::vector<std::uint32_t> tile(queries.size());
-  first_query_.assign(tiles_.size() + 1, 0);
-  for (std::size_t q = 0; q < queries.size(); ++q) {
-    tile[q] = static_cast<std::uint32_t>(tile_of(queries[q]));
-    ++first_query_[tile[q] + 1];
-  }
-  for (std::size_t t = 0; t < tiles_.size(); ++t) first_query_[t + 1] += first_query_[t];
-  std::vector<std::size_t> next(first_query_.begin(), first_query_.end() - 1);
+  std::vector<std::vector<std::size_t>> next((queries.size() + block - 1) / block,
+                                             std::vector<std::size_t>(tiles_.size(), 0));
+  parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      tile[q] = static_cast<std::uint32_t>(tile_of(queries[q]));
+      ++next[begin / block][tile[q]];
+    }
+  });
+  first_query_ = starts_of(next, tiles_.size());
   queries_.resize(queries.size());
-  for (std::size_t q = 0; q < queries.size(); ++q) queries_[next[tile[q]]++] = static_cast<std::uint32_t>(q);
+  parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) queries_[next[begin / block][tile[q]]++] = static_cast<std::uint32_t>(q);
+  });
 }
 
 DirectionTile DirectionRaster::tile(std::size_t t) const {

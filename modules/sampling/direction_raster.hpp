@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -100,6 +101,13 @@ class DirectionRaster {
     int nx = 0, ny = 0;                      // cells
     int columns = 0;                         // tiles in a row
     std::size_t first_tile = 0;
+
+    void take_in(float x, float y) {
+      x0 = std::min(x0, x);
+      x1 = std::max(x1, x);
+      y0 = std::min(y0, y);
+      y1 = std::max(y1, y);
+    }
   };
   struct Tile {
     std::uint32_t face, column, row;
@@ -109,10 +117,11 @@ class DirectionRaster {
     std::uint16_t face, x0, x1, y0, y1;
   };
 
+  void bound_faces(std::span<const CubePoint> queries, int threads);
   void size_cells(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, Footprint footprint);
   void add_boxes(const GatedSurfel& s, std::uint32_t index, Footprint footprint, std::vector<Box>& boxes) const;
   void sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads);
-  void sort_queries(std::span<const CubePoint> queries);
+  void sort_queries(std::span<const CubePoint> queries, int threads);
 
   // Below 1/4, a disc that touches a face's directions lies wholly before the head as that face sees it.
   static constexpr float widest_ = 0.25f;

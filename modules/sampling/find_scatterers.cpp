@@ -9,6 +9,7 @@
 #include "sampling/cast_rays.hpp"
 #include "sampling/choose_projection.hpp"
 #include "sampling/gate_surfels.hpp"
+#include "sampling/list_where.hpp"
 #include "sampling/split_surfels.hpp"
 #include "sampling/surfel_visibility.hpp"
 #include "sampling/tilt_by_relief.hpp"
@@ -72,15 +73,15 @@ std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfel
                                           SamplingReport& report) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   if (options.occlusion) {
-    report.projection = choose_projection(surfels, options.projection, report.in_gate - report.back_facing);
+    report.projection =
+        choose_projection(surfels, options.projection, report.in_gate - report.back_facing, options.threads);
     hidden = find_hidden(surfels, report.projection, options.threads);
   }
-  std::vector<std::uint32_t> visible;
-  for (std::size_t s = 0; s < surfels.size(); ++s) {
-    report.hidden += hidden[s];
-    if (surfels[s].in_gate && surfels[s].facing && !hidden[s]) visible.push_back(surfels[s].surfel);
-  }
+  auto visible = list_where(surfels.size(), options.threads,
+                            [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing && !hidden[s]; });
+  for (std::uint32_t& v : visible) v = surfels[v].surfel;
   report.visible = visible.size();
+  report.hidden = report.in_gate - report.back_facing - report.visible;
   return visible;
 }
 
@@ -90,13 +91,13 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
   Sampling result;
   SamplingReport& report = result.report;
   report.surfels = scene.size();
-  for (const GatedSurfel& s : surfels) {
-    report.in_gate += s.in_gate;
-    report.back_facing += s.in_gate && !s.facing;
-  }
+  report.in_gate = count_where(surfels.size(), options.threads, [&](std::size_t s) { return surfels[s].in_gate; });
+  report.back_facing = count_where(surfels.size(), options.threads,
+                                   [&](std::size_t s) { return surfels[s].in_gate && !surfels[s].facing; });
   if (options.kind == SamplingKind::rays) {
     const auto shares = beam_shares(view.fan, view.sector);
-    report.projection = choose_projection(surfels, options.projection, shares.size() * options.rays_per_beam);
+    report.projection =
+        choose_projection(surfels, options.projection, shares.size() * options.rays_per_beam, options.threads);
     CastResult cast = cast_rays(scene, surfels, report.projection, shares, view.gate, options);
     result.scatterers = std::move(cast.scatterers);
     report.rays_missed = cast.missed;

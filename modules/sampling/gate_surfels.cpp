@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sampling/reach.hpp"
 
 namespace insonify {
 namespace {
@@ -78,12 +79,16 @@ struct Gate {
 // Surfels to look at, one bit each, so that they come in scene order whatever the order of the blocks.
 using Marks = std::vector<std::uint64_t>;
 
-bool reaches(const SurfelBlock& block, const Gate& gate) {
+bool reaches(const Vector3d& centre, double radius, double largest_area, const SectorTest& sector, double max_range,
+             double footprint) {
   constexpr double rounding = 1 + 1e-9;
-  const Vector3d centre = gate.head.position(block.centre);
-  if (centre.norm() > (gate.range.max_range + block.radius) * rounding) return false;
-  const double discs = gate.footprint * std::sqrt(static_cast<double>(block.largest_area));
-  return gate.sector.holds(centre, (block.radius + discs) * rounding + nothing_nearer);
+  if (centre.norm() > (max_range + radius) * rounding) return false;
+  return sector.holds(centre, (radius + footprint * std::sqrt(largest_area)) * rounding + nothing_nearer);
+}
+
+bool reaches(const SurfelBlock& block, const Gate& gate) {
+  return reaches(gate.head.position(block.centre), block.radius, block.largest_area, gate.sector, gate.range.max_range,
+                 gate.footprint);
 }
 
 Marks mark_reached(const PreparedScene& prepared, const Gate& gate, int threads) {
@@ -113,6 +118,21 @@ std::vector<GatedSurfel> join(const std::vector<std::vector<GatedSurfel>>& parts
 constexpr std::size_t gate_block = 1 << 15;
 
 }  // namespace
+
+Reach reach_around(const Vector3d& centre, double radius) {
+  Reach all;
+  all.world_from_head.translation() = centre;
+  all.sector = {-pi, pi, -pi / 2, pi / 2};
+  all.gate.max_range = radius;
+  return all;
+}
+
+bool may_hold(const Reach& reach, const Vector3d& ball_centre, double ball_radius, double largest_area) {
+  const Pose& pose = reach.world_from_head;
+  const Vector3d in_head_axes = pose.linear().transpose() * (ball_centre - pose.translation());
+  return reaches(in_head_axes, ball_radius, largest_area, SectorTest(reach.sector), reach.gate.max_range,
+                 reach.footprint);
+}
 
 std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& range, double footprint, int threads) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,6 +34,10 @@ inline float squared_chord(const Eigen::Vector3f& direction, const GatedSurfel& 
 /// Squared chord of the cone that a surfel's disc may fill, seen from the head.
 float squared_footprint_chord(const GatedSurfel& s);
 
+/// Keeps the candidates whose cone holds the direction.
+void keep_footprints_of(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+                        std::vector<std::uint32_t>& candidates);
+
 /// Where a ray meets the scene.
 struct RayHit {
   std::uint32_t surfel = 0;  ///< index among the gated surfels
@@ -41,9 +46,16 @@ struct RayHit {
 
 enum class RayFate { missed, blocked, echoes };  ///< blocked: by a surface that shows its back
 
+/// True if the centres stand on all sides of the direction: no half-plane through it is free of them.
+bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+                   std::span<const std::uint32_t> centres);
+
 /// The hit rule (E16): of the surfels whose cone holds the ray, the front cluster counts; the ray meets the
-/// tangent plane of its angularly nearest member. `candidates` must hold all those surfels and may hold more;
-/// it is used as scratch space. front_only = false takes all surfels for the cluster.
+/// tangent plane of its angularly nearest member. A cluster gives way to the next one behind it if the ray passes beside
+/// it: crosses the tangent plane of none of its members within 0.71 spacings of the centre, and has all their centres
+/// within a quarter turn to one side. So cones close the gaps inside a surface but do not make it grow at its edge.
+/// `candidates` must hold all those surfels and may hold more; it is used as scratch space. front_only = false takes all
+/// surfels for the cluster.
 RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
                     std::vector<std::uint32_t>& candidates, RayHit& hit);
 

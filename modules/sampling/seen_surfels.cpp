@@ -1,43 +1,70 @@
 #include "sampling/seen_surfels.hpp"
 
-#include <algorithm>
-
 #include "core/error.hpp"
 #include "sampling/choose_projection.hpp"
 #include "sampling/gate_surfels.hpp"
+#include "sampling/list_where.hpp"
 #include "sampling/split_surfels.hpp"
 #include "sampling/surfel_visibility.hpp"
 
 namespace insonify {
 
-std::vector<Sight> find_sight(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
-                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
-                              const SamplingOptions& options) {
+namespace {
+
+void require_valid(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate,
+                   const std::vector<std::uint8_t>& asked) {
   require_valid(fan, "find_sight");
   require_valid(gate, "find_sight");
   if (asked.size() != scene.size())
     fail(ErrorKind::argument, "find_sight: asked has ", asked.size(), " entries, must have one per surfel (",
          scene.size(), ")");
-  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
-  auto surfels = gate_surfels(scene, HeadFrame(scene, world_from_head),
-                              insonified_sector(fan, half_extent, options.azimuth_margin), gate, options.footprint,
-                              options.threads);
+}
+
+// What became of those gated surfels that were asked about; all others are outside.
+std::vector<Sight> sight_of(std::vector<GatedSurfel> surfels, const std::vector<std::uint8_t>& asked,
+                            const SamplingOptions& options) {
   // find_hidden looks at what is in the gate: the rest only blocks.
   for (GatedSurfel& s : surfels) s.in_gate = s.in_gate && asked[s.surfel];
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   if (options.occlusion) {
-    const auto queries =
-        std::count_if(surfels.begin(), surfels.end(), [](const GatedSurfel& s) { return s.in_gate && s.facing; });
-    hidden = find_hidden(surfels, choose_projection(surfels, options.projection, static_cast<std::size_t>(queries)),
-                         options.threads);
+    const std::size_t queries = count_where(surfels.size(), options.threads,
+                                            [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing; });
+    hidden =
+        find_hidden(surfels, choose_projection(surfels, options.projection, queries, options.threads), options.threads);
   }
 
-  std::vector<Sight> sight(scene.size());
+  std::vector<Sight> sight(asked.size());
   for (std::size_t i = 0; i < sight.size(); ++i) sight[i] = asked[i] ? Sight::outside : Sight::not_asked;
   for (std::size_t s = 0; s < surfels.size(); ++s)
     if (surfels[s].in_gate)
       sight[surfels[s].surfel] = !surfels[s].facing ? Sight::turned_away : hidden[s] ? Sight::hidden : Sight::seen;
   return sight;
+}
+
+Sector sector_of(const BeamFan& fan, const SamplingOptions& options) {
+  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
+  return insonified_sector(fan, half_extent, options.azimuth_margin);
+}
+
+}  // namespace
+
+std::vector<Sight> find_sight(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
+                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
+                              const SamplingOptions& options) {
+  require_valid(scene, fan, gate, asked);
+  return sight_of(gate_surfels(scene, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
+                               options.footprint, options.threads),
+                  asked, options);
+}
+
+std::vector<Sight> find_sight(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
+                              const SamplingOptions& options) {
+  const SceneCloud& scene = prepared.scene();
+  require_valid(scene, fan, gate, asked);
+  return sight_of(gate_surfels(prepared, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
+                               options.footprint, options.threads),
+                  asked, options);
 }
 
 Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
@@ -47,6 +74,12 @@ Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, co
              scene, HeadFrame(scene, world_from_head), surfels,
              {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width})
       .scatterers;
+}
+
+Scatterers split_listed(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                        const RangeGate& gate, const std::vector<std::uint32_t>& surfels,
+                        const SamplingOptions& options) {
+  return split_listed(prepared.scene(), world_from_head, fan, gate, surfels, options);
 }
 
 }  // namespace insonify

@@ -21,10 +21,19 @@ enum class Sight : std::uint8_t {
 std::vector<Sight> find_sight(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
                               const RangeGate& gate, const std::vector<std::uint8_t>& asked,
                               const SamplingOptions& options);
+/// The same from a scene in blocks: the same answer, at a cost that grows with what the fan reaches, beside one byte
+/// per surfel of the scene.
+std::vector<Sight> find_sight(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
+                              const SamplingOptions& options);
 
 /// Scatterers of the listed surfels, seen or not, split as find_scatterers splits them: the same parts with the same
 /// ids at the same places. A part that turns its back has cos_incidence and projected_area 0.
 Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
                         const std::vector<std::uint32_t>& surfels, const SamplingOptions& options);
+/// The same for a scene in blocks.
+Scatterers split_listed(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                        const RangeGate& gate, const std::vector<std::uint32_t>& surfels,
+                        const SamplingOptions& options);
 
 }  // namespace insonify

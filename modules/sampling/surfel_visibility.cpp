@@ -7,6 +7,7 @@
 #include "sampling/direction_index.hpp"
 #include "sampling/direction_raster.hpp"
 #include "sampling/hit_rule.hpp"
+#include "sampling/list_where.hpp"
 
 namespace insonify {
 namespace {
@@ -102,13 +103,12 @@ class DepthTile {
 };
 
 std::vector<std::uint8_t> hidden_by_raster(const std::vector<GatedSurfel>& surfels, int threads) {
-  std::vector<std::uint32_t> asked;
-  std::vector<CubePoint> queries;
-  for (std::uint32_t s = 0; s < surfels.size(); ++s)
-    if (surfels[s].in_gate && surfels[s].facing) {
-      asked.push_back(s);
-      queries.push_back(on_cube(surfels[s].position));
-    }
+  const auto asked =
+      list_where(surfels.size(), threads, [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing; });
+  std::vector<CubePoint> queries(asked.size());
+  parallel_blocks(asked.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) queries[k] = on_cube(surfels[asked[k]].position);
+  });
   const DirectionRaster raster(surfels, queries, Footprint::disc, threads);
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   parallel_for(raster.tiles(), threads, [&](std::size_t t) {

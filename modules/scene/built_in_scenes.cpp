@@ -53,29 +53,35 @@ void require_valid(const std::string& name, const BuiltInSceneOptions& options) 
     fail(ErrorKind::argument, "make_built_in_scene: radius = ", options.radius, " m, must be positive");
 }
 
+std::vector<Patch> patches_of(const std::string& name, const BuiltInSceneOptions& options) {
+  if (name == "harbour") return harbour_patches(options.seed);
+  if (name == "plane") return plane_patches(options);
+  if (name == "sphere") return sphere_patches(options);
+  if (name == "wall") return wall_patches(options);
+  return pole_patches();
+}
+
 }  // namespace
 
 std::vector<std::string> built_in_scene_names() { return {"harbour", "plane", "sphere", "wall", "poles"}; }
 
-SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOptions& options) {
+SceneCloud empty_built_in_scene(const std::string& name, const BuiltInSceneOptions& options) {
   require_valid(name, options);
   SceneCloud scene;
-  scene.materials = {{name, options.lambert_mu}};
-  std::vector<Patch> patches;
-  if (name == "harbour") {
-    scene.materials = harbour_materials();
-    patches = harbour_patches(options.seed);
-  } else if (name == "plane") {
-    patches = plane_patches(options);
-  } else if (name == "sphere") {
-    patches = sphere_patches(options);
-  } else if (name == "wall") {
-    patches = wall_patches(options);
-  } else {
-    patches = pole_patches();
-  }
-  sample_patches(scene, patches, options.points, options.seed);
+  scene.materials = name == "harbour" ? harbour_materials() : std::vector<Material>{{name, options.lambert_mu}};
   return scene;
+}
+
+SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOptions& options) {
+  SceneCloud scene = empty_built_in_scene(name, options);
+  sample_patches(scene, patches_of(name, options), options.points, options.seed);
+  return scene;
+}
+
+void make_built_in_scene_in_batches(const std::string& name, const BuiltInSceneOptions& options, std::size_t batch,
+                                    const std::function<void(const SceneCloud&)>& take) {
+  const SceneCloud like = empty_built_in_scene(name, options);
+  sample_patches_in_batches(like, patches_of(name, options), options.points, options.seed, batch, take);
 }
 
 }  // namespace insonify

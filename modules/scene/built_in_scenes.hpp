@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,12 @@ std::vector<std::string> built_in_scene_names();
 ///   poles    three vertical poles (radius 0.1 m) at x = 4, y = -1, 0, 1 before a wall at x = 7
 /// Throws Error for an unknown name (listing the known ones), no points, or a size that is not positive.
 SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOptions& options = {});
+
+/// The same surfels in the same order, handed over in scenes of about `batch` surfels: for more than memory holds.
+/// Throws also what `take` throws.
+void make_built_in_scene_in_batches(const std::string& name, const BuiltInSceneOptions& options, std::size_t batch,
+                                    const std::function<void(const SceneCloud&)>& take);
+/// A scene without surfels that has the materials of the built-in one.
+SceneCloud empty_built_in_scene(const std::string& name, const BuiltInSceneOptions& options = {});
 
 }  // namespace insonify

@@ -32,12 +32,15 @@ class PreparedScene {
   std::span<const std::uint32_t> order() const { return order_; }
   /// Root of the mean area of the surfels [m]; 0 without surfels.
   double mean_spacing() const { return mean_spacing_; }
+  /// Area of the largest surfel [m^2]; 0 without surfels.
+  float largest_area() const { return largest_area_; }
 
  private:
   const SceneCloud* scene_;
   std::vector<SurfelBlock> blocks_;
   std::vector<std::uint32_t> order_;
   double mean_spacing_ = 0;
+  float largest_area_ = 0;
 };
 
 }  // namespace insonify

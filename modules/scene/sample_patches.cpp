@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include <Eigen/Geometry>
 
@@ -65,7 +67,7 @@ std::vector<double> row_areas(const Patch& patch, const std::vector<double>& edg
 
 // One row of surfels: jittered in u across the row, one per equal interval of v.
 struct Row {
-  std::size_t first = 0, count = 0;  // surfels of the scene
+  std::size_t first = 0, count = 0;  // surfels of the whole sample
 };
 
 struct PatchSampler {
@@ -73,18 +75,18 @@ struct PatchSampler {
   std::size_t part;  // number of the patch, for the random counter
   std::uint64_t seed;
 
-  void sample(SceneCloud& scene, const Row& row, std::size_t index, double low, double high) const {
-    for (std::size_t k = 0; k < row.count; ++k) {
-      const std::size_t surfel = row.first + k;
+  // From place `at` of the scene on.
+  void sample(SceneCloud& scene, std::size_t at, const Row& row, std::size_t index, double low, double high) const {
+    for (std::size_t k = 0; k < row.count; ++k, ++at) {
       const auto jitter = random_uniform(seed, RandomStage::scene_points, {part, index, k});
       const double u = low + (high - low) * jitter[0];
       const double v = (static_cast<double>(k) + jitter[1]) / static_cast<double>(row.count);
       const Vector3d area = area_vector(patch, u, v);
-      scene.point[surfel] = (patch.at(u, v) - scene.origin).cast<float>();
-      scene.normal[surfel] = area.normalized().cast<float>();
-      scene.area[surfel] = static_cast<float>(area.norm() * (high - low) / static_cast<double>(row.count));
-      scene.material[surfel] = patch.material;
-      scene.id[surfel] = static_cast<std::uint32_t>(surfel);
+      scene.point[at] = (patch.at(u, v) - scene.origin).cast<float>();
+      scene.normal[at] = area.normalized().cast<float>();
+      scene.area[at] = static_cast<float>(area.norm() * (high - low) / static_cast<double>(row.count));
+      scene.material[at] = patch.material;
+      scene.id[at] = static_cast<std::uint32_t>(row.first + k);
     }
   }
 };
@@ -101,13 +103,8 @@ std::vector<Row> plan_rows(const std::vector<double>& row_area, double per_area,
   return plan;
 }
 
-// Random sampling leaves the sum of areas a little off: scale it to the area of the patch.
-void scale_areas(SceneCloud& scene, std::size_t first, double area) {
-  double sum = 0;
-  for (std::size_t i = first; i < scene.size(); ++i) sum += scene.area[i];
-  const auto factor = static_cast<float>(sum > 0 ? area / sum : 1);
-  for (std::size_t i = first; i < scene.size(); ++i) scene.area[i] *= factor;
-}
+// Random sampling leaves the sum of areas a little off that of the patch.
+float area_factor(double area, double sum) { return static_cast<float>(sum > 0 ? area / sum : 1); }
 
 void resize(SceneCloud& scene, std::size_t surfels) {
   scene.point.resize(surfels);
@@ -123,9 +120,28 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-}  // namespace
+// A patch and the rows that sample it.
+struct PatchPlan {
+  PatchSampler sampler;
+  double area = 0;
+  std::vector<double> edges;
+  std::vector<Row> rows;
 
-void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed) {
+  std::size_t first() const { return rows.front().first; }
+  std::size_t end() const { return rows.back().first + rows.back().count; }
+
+  // Rows [begin, to) into the scene, the first of them at its place `at`; areas not scaled yet.
+  void sample(SceneCloud& scene, std::size_t begin, std::size_t to, std::size_t at) const {
+    parallel_for(to - begin, 0, [&](std::size_t k) {
+      const Row& row = rows[begin + k];
+      sampler.sample(scene, at + row.first - rows[begin].first, row, begin + k, edges[begin + k], edges[begin + k + 1]);
+    });
+  }
+};
+
+// What to sample of all patches; the first surfel has number `first`.
+std::vector<PatchPlan> plan_patches(const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed,
+                                    std::size_t first) {
   std::vector<std::vector<double>> length;
   std::vector<double> area;
   double weighted_area = 0;
@@ -135,18 +151,61 @@ void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::s
     weighted_area += patch.density * area.back();
   }
 
-  double wanted = static_cast<double>(scene.size());
+  std::vector<PatchPlan> plans;
+  double wanted = static_cast<double>(first);
   for (std::size_t part = 0; part < patches.size(); ++part) {
     const Patch& patch = patches[part];
     const double per_area = static_cast<double>(points) * patch.density / weighted_area;
     const double rows = std::max(1.0, std::round(length[part].back() * std::sqrt(per_area)));
     const std::vector<double> edges = row_edges(length[part], static_cast<std::size_t>(rows));
-    const std::size_t first = scene.size();
-    const std::vector<Row> plan = plan_rows(row_areas(patch, edges, 16), per_area, first, wanted);
-    resize(scene, plan.back().first + plan.back().count);
-    const PatchSampler sampler{patch, part, seed};
-    parallel_for(plan.size(), 0, [&](std::size_t r) { sampler.sample(scene, plan[r], r, edges[r], edges[r + 1]); });
-    scale_areas(scene, first, area[part]);
+    plans.push_back(
+        {{patch, part, seed}, area[part], edges, plan_rows(row_areas(patch, edges, 16), per_area, first, wanted)});
+    first = plans.back().end();
+  }
+  return plans;
+}
+
+// Calls body(begin, end) for runs of rows of about `batch` surfels.
+template <typename Body>
+void for_runs_of_rows(const PatchPlan& plan, std::size_t batch, const Body& body) {
+  for (std::size_t begin = 0, end = 0; begin < plan.rows.size(); begin = end) {
+    for (std::size_t held = 0; end < plan.rows.size() && held < batch; ++end) held += plan.rows[end].count;
+    body(begin, end);
+  }
+}
+
+}  // namespace
+
+void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed) {
+  for (const PatchPlan& plan : plan_patches(patches, points, seed, scene.size())) {
+    resize(scene, plan.end());
+    plan.sample(scene, 0, plan.rows.size(), plan.first());
+    const auto areas = std::span(scene.area).subspan(plan.first());
+    const float factor = area_factor(plan.area, std::accumulate(areas.begin(), areas.end(), 0.0));
+    for (float& a : areas) a *= factor;
+  }
+}
+
+void sample_patches_in_batches(const SceneCloud& like, const std::vector<Patch>& patches, std::size_t points,
+                               std::uint64_t seed, std::size_t batch,
+                               const std::function<void(const SceneCloud&)>& take) {
+  SceneCloud part = like;
+  const auto sample = [&](const PatchPlan& plan, std::size_t begin, std::size_t end) {
+    resize(part, plan.rows[end - 1].first + plan.rows[end - 1].count - plan.rows[begin].first);
+    plan.sample(part, begin, end, 0);
+  };
+  for (const PatchPlan& plan : plan_patches(patches, points, seed, 0)) {
+    double sum = 0;
+    for_runs_of_rows(plan, batch, [&](std::size_t begin, std::size_t end) {
+      sample(plan, begin, end);
+      sum = std::accumulate(part.area.begin(), part.area.end(), sum);
+    });
+    const float factor = area_factor(plan.area, sum);
+    for_runs_of_rows(plan, batch, [&](std::size_t begin, std::size_t end) {
+      sample(plan, begin, end);
+      for (float& a : part.area) a *= factor;
+      take(part);
+    });
   }
 }
 

@@ -35,4 +35,10 @@ Patch torus(const Eigen::Vector3d& centre, double radius, double tube_radius);
 /// patch.
 void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed);
 
+/// The same surfels, handed over in scenes of about `batch` surfels with the origin and materials of `like`, ids ascending
+/// from 0. Every surfel is computed twice: the areas of a patch are scaled by their sum.
+void sample_patches_in_batches(const SceneCloud& like, const std::vector<Patch>& patches, std::size_t points,
+                               std::uint64_t seed, std::size_t batch,
+                               const std::function<void(const SceneCloud&)>& take);
+
 }  // namespace insonify

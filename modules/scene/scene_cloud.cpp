@@ -61,6 +61,7 @@ SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& kee
   part.origin = scene.origin;
   part.materials = scene.materials;
   part.normals_oriented = scene.normals_oriented;
+  part.part_of = scene.part_of;
   for (const std::uint32_t i : keep)
     if (i >= scene.size())
       fail(ErrorKind::argument, "subset: keep holds ", i, ", must be below the number of surfels, ", scene.size());

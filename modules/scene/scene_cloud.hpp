@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +9,14 @@
 #include "scene/material.hpp"
 
 namespace insonify {
+
+/// What depends on all surfels of a scene, for a cloud that holds only those near a head: a ping of the part then is the
+/// ping of the whole.
+struct WholeScene {
+  std::size_t surfels = 0;
+  double mean_spacing = 0;  ///< root of the mean area [m]
+  float largest_area = 0;   ///< of one surfel [m^2]
+};
 
 /// The captured scene: surfels (small oriented patches) as structure of arrays, one entry per surfel in every
 /// array. World frame; coordinates are stored relative to `origin`, which was subtracted in double.
@@ -19,7 +28,8 @@ struct SceneCloud {
   std::vector<std::uint16_t> material;               ///< index into `materials`
   std::vector<std::uint32_t> id;                     ///< unique; speckle is bound to it
   std::vector<Material> materials = {Material{}};
-  bool normals_oriented = true;  ///< false: the sign of a normal means nothing and both sides reflect
+  bool normals_oriented = true;         ///< false: the sign of a normal means nothing and both sides reflect
+  std::optional<WholeScene> part_of{};  ///< set if this is a part of a scene; empty: it is all there is
 
   std::size_t size() const { return point.size(); }
 };

@@ -13,24 +13,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-bool usable(const Vector3f& normal) { return normal.allFinite() && normal.norm() > 1e-12f; }
-
 /// Turns the normal so that it looks at the viewpoint (both relative to one origin).
 Vector3f facing(const Vector3f& normal, const Vector3f& point, const Eigen::Vector3d& viewpoint) {
   return normal.cast<double>().dot(viewpoint - point.cast<double>()) < 0 ? Vector3f(-normal) : normal;
-}
-
-/// Scales normals of another length to 1; those that save_scene wrote stay as they are. Returns how many were
-/// off by more than 1e-3.
-std::size_t renormalise(std::vector<Vector3f>& normals, bool prepared) {
-  std::size_t off = 0;
-  for (Vector3f& n : normals) {
-    if (!usable(n)) continue;
-    const double length = n.cast<double>().norm();
-    off += std::abs(length - 1) > 1e-3;
-    if (std::abs(length - 1) > (prepared ? 1e-3 : 1e-6)) n = (n.cast<double>() / length).cast<float>();
-  }
-  return off;
 }
 
 /// Estimates the normals listed in `bad` and gives each the sign of the good normals around it.
@@ -43,7 +28,7 @@ void repair(RawCloud& raw, const std::vector<std::uint32_t>& bad, const LoadOpti
     index.find_nearest(raw.point[bad[b]], static_cast<std::size_t>(options.normal_neighbours), around);
     Vector3f sum = Vector3f::Zero();
     for (const Neighbour& n : around) {
-      if (usable(raw.normal[n.index])) sum += raw.normal[n.index].normalized();
+      if (usable_normal(raw.normal[n.index])) sum += raw.normal[n.index].normalized();
     }
     if (sum.dot(estimates[b]) < 0) repaired[b] = -estimates[b];
     if (sum.isZero() && raw.viewpoint) {
@@ -96,11 +81,24 @@ void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
 
 }  // namespace
 
+bool usable_normal(const Vector3f& normal) { return normal.allFinite() && normal.norm() > 1e-12f; }
+
+std::size_t renormalise(std::vector<Vector3f>& normals, bool prepared) {
+  std::size_t off = 0;
+  for (Vector3f& n : normals) {
+    if (!usable_normal(n)) continue;
+    const double length = n.cast<double>().norm();
+    off += std::abs(length - 1) > 1e-3;
+    if (std::abs(length - 1) > (prepared ? 1e-3 : 1e-6)) n = (n.cast<double>() / length).cast<float>();
+  }
+  return off;
+}
+
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   if (options.viewpoint) raw.viewpoint = options.viewpoint;
   std::vector<std::uint32_t> bad;
   for (std::size_t i = 0; i < raw.normal.size(); ++i) {
-    if (!usable(raw.normal[i])) bad.push_back(static_cast<std::uint32_t>(i));
+    if (!usable_normal(raw.normal[i])) bad.push_back(static_cast<std::uint32_t>(i));
   }
   if (bad.size() == raw.normal.size()) {
     if (!bad.empty()) result.report.notes.push_back("all normals of the file are zero or NaN: estimated anew");
@@ -122,7 +120,7 @@ void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& re
   std::vector<std::uint32_t> keep;
   keep.reserve(raw.point.size());
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
-    if (usable(raw.normal[i])) keep.push_back(static_cast<std::uint32_t>(i));
+    if (usable_normal(raw.normal[i])) keep.push_back(static_cast<std::uint32_t>(i));
   }
   result.report.dropped_without_normal = raw.point.size() - keep.size();
   result.report.repaired_normals -= std::min(result.report.repaired_normals, result.report.dropped_without_normal);

@@ -110,35 +110,6 @@ void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScen
                                 " intervals: their Lambert coefficient is the default, -27 dB");
 }
 
-/// The table of materials: the caller's, the file's, or a default one per label.
-void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
-  SceneCloud& scene = result.scene;
-  const std::vector<std::uint16_t>& labels = scene.material;
-  scene.materials = !options.materials.empty() ? options.materials : raw.tags.materials;
-  result.report.materials_found = !labels.empty() || !raw.tags.materials.empty();
-  if (options.material || labels.empty()) return give_one_material(options.material.value_or(0), scene);
-  result.report.material_field = raw.label_field;
-  if (!options.material_field.intervals.empty()) return place_outsiders(options, raw, result);
-  const std::uint16_t largest = *std::max_element(labels.begin(), labels.end());
-  if (largest == no_label) {
-    fail(ErrorKind::content, raw.path,
-         ": a label is negative, above 65534 or no whole number; labels are indices of "
-         "materials from 0: correct them, give one material for all, or map intervals of field '",
-         raw.label_field, "' to materials");
-  }
-  if (scene.materials.empty()) {
-    for (std::size_t m = 0; m <= largest; ++m) scene.materials.push_back({.name = "label " + std::to_string(m)});
-    if (largest > 0) {
-      result.report.notes.push_back("labels 0 to " + std::to_string(largest) +
-                                    " found, but no materials given: all have the default Lambert coefficient");
-    }
-  }
-  if (largest >= scene.materials.size()) {
-    fail(ErrorKind::content, raw.path, ": label ", largest, " found, but there are ", scene.materials.size(),
-         " materials (labels from 0); give a material for every label");
-  }
-}
-
 /// Intervals must hold a number, name a material that is given, and not overlap.
 void check_intervals(const LoadOptions& options, const char* who) {
   const std::vector<MaterialInterval>& intervals = options.material_field.intervals;
@@ -227,6 +198,34 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
     first[i] = table[slot];
   }
   return first;
+}
+
+void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
+  SceneCloud& scene = result.scene;
+  const std::vector<std::uint16_t>& labels = scene.material;
+  scene.materials = !options.materials.empty() ? options.materials : raw.tags.materials;
+  result.report.materials_found = !labels.empty() || !raw.tags.materials.empty();
+  if (options.material || labels.empty()) return give_one_material(options.material.value_or(0), scene);
+  result.report.material_field = raw.label_field;
+  if (!options.material_field.intervals.empty()) return place_outsiders(options, raw, result);
+  const std::uint16_t largest = *std::max_element(labels.begin(), labels.end());
+  if (largest == no_label) {
+    fail(ErrorKind::content, raw.path,
+         ": a label is negative, above 65534 or no whole number; labels are indices of "
+         "materials from 0: correct them, give one material for all, or map intervals of field '",
+         raw.label_field, "' to materials");
+  }
+  if (scene.materials.empty()) {
+    for (std::size_t m = 0; m <= largest; ++m) scene.materials.push_back({.name = "label " + std::to_string(m)});
+    if (largest > 0) {
+      result.report.notes.push_back("labels 0 to " + std::to_string(largest) +
+                                    " found, but no materials given: all have the default Lambert coefficient");
+    }
+  }
+  if (largest >= scene.materials.size()) {
+    fail(ErrorKind::content, raw.path, ": label ", largest, " found, but there are ", scene.materials.size(),
+         " materials (labels from 0); give a material for every label");
+  }
 }
 
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {

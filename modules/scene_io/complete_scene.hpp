@@ -26,6 +26,16 @@ std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>
 /// Gives every point of `raw` a unit normal, drops points that get none, and reports.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
+/// Scales usable normals of another length to 1; those that save_scene wrote (`prepared`) stay as they are. Returns how
+/// many were off by more than 1e-3.
+std::size_t renormalise(std::vector<Eigen::Vector3f>& normals, bool prepared);
+/// True if it has a direction.
+bool usable_normal(const Eigen::Vector3f& normal);
+
+/// The table of materials: the caller's, the file's, or a default one per label; the labels in result.scene.material
+/// become indices into it.
+void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
+
 /// Drops all points not listed in `keep` (ascending).
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep);
 

@@ -56,6 +56,7 @@ struct LoadedScene {
 /// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
 /// are counted. A surfel of a mesh takes the number of its nearest corner. Error(content) lists the file's fields if it
 /// has none of the name asked for.
+/// A .tiles file is loaded whole and as it is: options do not change it.
 /// Coordinates may be float or double; the centre of the bounding box, in whole metres, becomes the origin.
 /// Throws Error(file) if missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds
 /// no usable point: always naming the file and what to do.

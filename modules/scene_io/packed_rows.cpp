@@ -1,6 +1,9 @@
 #include "scene_io/packed_rows.hpp"
 
+#include <limits>
+
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "scene_io/raw_cloud.hpp"
 
 namespace insonify {
@@ -72,6 +75,34 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
       put(out, scene.material[i]);
     else
       put(out, std::uint32_t{scene.material[i]});
+    put(out, scene.id[i]);
+  };
+  return rows;
+}
+
+PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format) {
+  const bool ply = format == CloudFormat::ply;
+  const bool wide = ply && !scene.origin.isZero(0);
+  const std::string prefix = ply ? "scalar_" : "";
+  PackedRows rows;
+  rows.rows = scene.size();
+  for (const char* axis : {"x", "y", "z"})
+    rows.columns.push_back({axis, wide ? NumberType::float64 : NumberType::float32});
+  for (const char* axis : {"x", "y", "z"})
+    rows.columns.push_back({std::string(ply ? "n" : "normal_") + axis, NumberType::float32});
+  for (const char* name : {"level_db", "grazing_deg", "range"})
+    rows.columns.push_back({prefix + name, NumberType::float32});
+  for (const char* name : {"hits", "material", "id"}) rows.columns.push_back({prefix + name, NumberType::uint32});
+  rows.write_row = [&scene, &map, wide](std::size_t i, char* out) {
+    constexpr float unheard = std::numeric_limits<float>::quiet_NaN();
+    const bool heard = map.hits[i] > 0;
+    put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
+    for (const float n : scene.normal[i]) put(out, n);
+    put(out, heard ? map.level_db[i] : unheard);
+    put(out, heard ? static_cast<float>(degrees(map.grazing_angle[i])) : unheard);
+    put(out, heard ? map.range[i] : unheard);
+    put(out, map.hits[i]);
+    put(out, std::uint32_t{scene.material[i]});
     put(out, scene.id[i]);
   };
   return rows;

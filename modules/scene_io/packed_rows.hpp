@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "returns/insonification.hpp"
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/number_type.hpp"
@@ -42,5 +43,9 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
 /// x y z (double if `wide`), normal, area (float32), material (uint16 in PLY, uint32 in PCD), id (uint32).
 enum class CloudFormat { ply, pcd };
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
+
+/// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where nothing was
+/// heard), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
+PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
 
 }  // namespace insonify

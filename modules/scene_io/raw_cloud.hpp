@@ -74,7 +74,8 @@ RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<dou
 struct ReadOptions {
   double unit = 1;  ///< metres per unit of the file
   int threads = 0;
-  MaterialField material_field{};  ///< where labels come from
+  MaterialField material_field{};           ///< where labels come from
+  std::optional<Eigen::Vector3d> origin{};  ///< [m] of a batch of a larger cloud, which may hold no usable point
 };
 
 /// What to read of a file for `options`: nothing of its labels if all surfels get one material.
@@ -84,6 +85,12 @@ ReadOptions read_options(const LoadOptions& options);
 /// Raw's viewpoint is scaled too. Throws Error(content) if x, y or z or the material field asked for is missing, or no
 /// point is finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
+
+/// Where a cloud of this box and these tags has its origin: the one noted, else the middle in whole metres.
+Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit);
+
+/// Coordinates of the rows in double [m], relative to options.origin; NaN where they are not usable.
+std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::string& path, const ReadOptions& options);
 
 /// Appends polygon corners as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
 void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);

@@ -8,6 +8,7 @@
 #include "scene_io/file_probe.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
 #include "scene_io/raw_cloud.hpp"
+#include "scene_io/row_file.hpp"
 #include "scene_io/text_lines.hpp"
 
 namespace insonify {
@@ -196,6 +197,12 @@ pcl::PCLPointCloud2 read_data(const Header& header) {
   return cloud;
 }
 
+std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
+  // The identity pose is what writers put when they know nothing.
+  if (header.viewpoint == std::vector<double>{0, 0, 0, 1, 0, 0, 0}) return std::nullopt;
+  return Eigen::Vector3d(header.viewpoint[0], header.viewpoint[1], header.viewpoint[2]);
+}
+
 }  // namespace
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
@@ -205,13 +212,24 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   raw.path = path;
   raw.format = "PCD " + header.data;
   raw.tags = header.tags;
-  // The identity pose is what writers put when they know nothing.
-  if (header.viewpoint != std::vector<double>{0, 0, 0, 1, 0, 0, 0}) {
-    raw.viewpoint = Eigen::Vector3d(header.viewpoint[0], header.viewpoint[1], header.viewpoint[2]);
-  }
+  raw.viewpoint = viewpoint_of(header);
   const pcl::PCLPointCloud2 cloud = read_data(header);
   fill_cloud(raw, table_of(cloud, raw), options);
   return raw;
+}
+
+std::optional<RowFile> find_pcd_rows(const std::string& path) {
+  const Header header = read_header(path);
+  if (header.data != "binary") return std::nullopt;
+  check_data(header);
+  RowFile file{path,       "PCD binary", {},          header.points,       header.stride(),
+               header.end, false,        header.tags, viewpoint_of(header)};
+  std::size_t offset = 0;
+  for (const Field& field : header.fields) {
+    if (field.name != "_") file.columns.push_back({field.name, type_of(header, field), offset});
+    offset += field.size * field.count;
+  }
+  return file;
 }
 
 RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {

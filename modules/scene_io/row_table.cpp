@@ -106,15 +106,15 @@ void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const 
     raw.box.max = raw.box.max.cwiseMax(boxes[b].max);
     raw.not_finite += unusable[b];
   }
+  if (options.origin) {
+    raw.origin = *options.origin;
+    return;
+  }
   if (raw.not_finite == table.rows) {
     fail(ErrorKind::content, raw.path, ": holds no usable point (", table.rows,
          " points, none with finite coordinates); export the cloud again");
   }
-  if (raw.tags.origin && options.unit == 1) {
-    raw.origin = *raw.tags.origin;
-  } else {
-    raw.origin = (0.5 * (raw.box.min + raw.box.max) + Eigen::Vector3d::Constant(0.5)).array().floor();
-  }
+  raw.origin = origin_of(raw.box, raw.tags, options.unit);
 }
 
 std::uint16_t label_from(double number) {
@@ -144,6 +144,24 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
 }
 
 }  // namespace
+
+Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit) {
+  if (tags.origin && unit == 1) return *tags.origin;
+  return (0.5 * (box.min + box.max) + Eigen::Vector3d::Constant(0.5)).array().floor();
+}
+
+std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::string& path, const ReadOptions& options) {
+  const Columns found = find_columns(table, path, options.material_field.name);
+  std::vector<Eigen::Vector3d> places(table.rows);
+  for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      const Eigen::Vector3d p = options.unit * read_triple(found.position, bytes + i * table.stride);
+      places[first + i] = usable(p) ? Eigen::Vector3d(p - options.origin.value_or(Eigen::Vector3d::Zero()))
+                                    : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
+  });
+  return places;
+}
 
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers) {
   RowTable table;

@@ -92,4 +92,14 @@ void save_soundings(const std::string& path, const Soundings& soundings) {
   write_file(path, ply ? ply_header(rows) : pcd_header(rows), rows, "save_soundings");
 }
 
+void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map) {
+  const CloudFormat format = format_of(path, "save_insonification");
+  for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.grazing_angle.size(), map.range.size()})
+    if (size != scene.size())
+      fail(ErrorKind::argument, "save_insonification: ", path, ": the map has ", size, " surfels, but the scene has ",
+           scene.size(), "; give the map of this scene");
+  const PackedRows rows = rows_of(scene, map, format);
+  write_file(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows, "save_insonification");
+}
+
 }  // namespace insonify

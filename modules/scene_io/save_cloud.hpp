@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "returns/insonification.hpp"
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
 
@@ -21,5 +22,12 @@ void save_scene(const std::string& path, const SceneCloud& scene);
 /// PCD, double in PLY. Written to a temporary name, then renamed. No soundings make a file with no points.
 /// Throws Error(argument) for another extension or columns of different lengths, Error(file) if it cannot be written.
 void save_soundings(const std::string& path, const Soundings& soundings);
+
+/// Writes the scene with what pings heard of it as .pcd (fields x y z normal_x normal_y normal_z level_db grazing_deg range
+/// hits material id) or .ply (normals nx ny nz, from level_db on named scalar_level_db ..., as CloudCompare shows them).
+/// Levels are dB re 1 uPa, ranges metres; level_db, grazing_deg and range are NaN where nothing was heard. x y z are world
+/// coordinates: float in PCD, double in PLY unless the scene's origin is zero. Written to a temporary name, then renamed.
+/// Throws Error(argument) for another extension or a map of another scene, Error(file) if it cannot be written.
+void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map);
 
 }  // namespace insonify

@@ -6,14 +6,14 @@
 
 namespace insonify {
 
-/// Forms beams of one kind of echo after another and adds them up.
+/// Forms beams of one kind of echo after another and adds them up; for SynthesisMethod::incoherent, by their squares.
 class LayerSum {
  public:
   LayerSum(const SonarHead& head, const Medium& medium, const SimulationOptions& options);
 
   /// Synthesizes `echoes` and adds them; kept as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
-  /// Adds what the elements hear without any echo.
+  /// Adds what the elements hear without any echo; for SynthesisMethod::incoherent, its expected intensity.
   void add_noise(const Environment& environment);
 
   /// Gives `result` its ping (the sum in single precision, with its layers), its report of layers, and the sum of the
@@ -26,6 +26,7 @@ class LayerSum {
   const SonarHead& head_;
   const Medium& medium_;
   const SimulationOptions& options_;
+  bool incoherent_;
   ComplexGrid sum_;
   std::vector<Layer> layers_;
   std::vector<LayerReport> report_;

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "acoustics/hear_reverberation.hpp"
+#include "simulate/converge_sampling.hpp"
+#include "simulate/keep_more.hpp"
 #include "simulate/layer_sum.hpp"
 #include "simulate/stage_options.hpp"
 #include "simulate/stop_watch.hpp"
@@ -13,33 +15,35 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
                             const Environment& environment, const SimulationOptions& options) {
   require_valid(head, "simulate_ping");
   require_valid(environment, "simulate_ping");
-  const SceneCloud& scene = prepared.scene();
   SimulatedPing result;
   StopWatch watch;
 
   // The water: how fast sound travels and how much of it is lost on the way.
   result.medium = medium_of(environment, head.pulse.centre_frequency, options.absorption_order);
+  const Transmission sent{head.pulse, result.medium, hearing_options(head, options)};
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
-  const View view = view_of(largest_area(prepared), head, world_from_head, result.medium, options);
-  Sampling sampling = find_scatterers(prepared, world_from_head, view.fan, view.gate, view.sampling);
+  View view = view_of(prepared.largest_area(), head, world_from_head, result.medium, options);
+  Sampling sampling = options.level_error_db == 0
+                          ? find_scatterers(prepared, world_from_head, view.fan, view.gate, view.sampling)
+                          : converge_sampling(prepared, head, sent, options.level_error_db, view, result.convergence);
   if (environment.profile)
     result.refraction = refract(environment, view, options.refraction, head.gate.bin_size, sampling.scatterers);
   result.seconds.sampling = watch.lap();
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase.
-  const Transmission sent{head.pulse, result.medium, hearing_options(head, options)};
-  Echoes echoes = hear_scatterers(sampling.scatterers, scene.materials, sent.pulse, sent.medium, sent.hearing);
+  const Scatterers& seen = sampling.scatterers;
+  Echoes echoes = hear_scatterers(seen, prepared.scene().materials, sent.pulse, sent.medium, sent.hearing);
   if (!options.motion.none())
-    move_echoes(options.motion, world_from_head, sampling.scatterers, sent.pulse.centre_frequency,
-                sent.medium.sound_speed, echoes);
+    move_echoes(options.motion, world_from_head, seen, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
   result.seconds.acoustics = watch.lap();
 
   // What the array makes of it: a complex time series per beam, and of all else there is to hear.
   LayerSum layers(head, result.medium, options);
   layers.add("direct", echoes);
-  if (options.multipath)
-    layers.add("multipath", hear_multipath(scene, sampling.scatterers, environment, view, sent).echoes);
+  Multipath bounced;
+  if (options.multipath) bounced = hear_multipath(prepared.scene(), seen, environment, view, sent);
+  if (options.multipath) layers.add("multipath", bounced.echoes);
   for (const Reverberation& part : hear_reverberation(environment, view, sent, options.ping))
     layers.add(part.name, part.echoes);
   if (options.noise) layers.add_noise(environment);
@@ -49,12 +53,13 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   // What an operator would mark: detections, as points in the world.
   const DetectionOptions detection = detection_options(head, environment, options);
   result.noise_floor_db = detection.noise_floor_db;
-  result.soundings = detect_soundings(result.ping, sampling.scatterers, echoes, detection);
+  result.soundings = detect_soundings(result.ping, seen, echoes, detection);
   result.seconds.detection = watch.lap();
 
+  // What else was asked for, and what to know about it.
   result.sampling = sampling.report;
-  if (options.sampling == SamplingKind::rays) result.notes = gap_notes(scene, view, sampling.scatterers);
   result.scatterers = std::move(sampling.scatterers);
+  keep_more(prepared, head, {view, environment, echoes, bounced}, options, result);
   return result;
 }
 

@@ -8,8 +8,10 @@
 #include "acoustics/hear_multipath.hpp"
 #include "acoustics/hear_scatterers.hpp"
 #include "acoustics/motion.hpp"
+#include "acoustics/sound_paths.hpp"
 #include "beamforming/element_series.hpp"
 #include "beamforming/synthesize.hpp"
+#include "returns/contributors.hpp"
 #include "returns/detect_soundings.hpp"
 #include "returns/ping.hpp"
 #include "sampling/find_scatterers.hpp"
@@ -27,8 +29,12 @@ struct SimulationOptions {
   int rays_per_beam = 64;
   bool occlusion = true;
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
+  /// `incoherent` gives the expected level without speckle (E65): all amplitudes are of mean power, and layers and noise
+  /// add up by their squares. There is nothing for elements to hear then.
   SynthesisMethod method = SynthesisMethod::stamped;
   double tolerance = 1e-4;
+  /// Sampling is refined until 99 % of the cells have a smaller error (E66); 0: taken as it is.
+  double level_error_db = 0;
   bool multipath = false;    ///< adds echoes by way of the environment's surface and bottom (E48)
   bool noise = false;        ///< adds thermal, wind and self noise of independent elements (E18, E25, E41)
   Motion motion{};           ///< of the head during the ping (E44); boundaries and water are heard as at rest
@@ -39,15 +45,17 @@ struct SimulationOptions {
   DetectionOptions detection{};           ///< noise floor -inf: all noise in the band, less the array's gain
   std::int64_t ping = 0;                  ///< number of the ping: noise, water and waves are new in every one
   double time = 0;                        ///< of transmission [s]
-  bool keep_elements =
-      false;                 ///< keeps what every element of a line array hears, before beams (E61); noise is not in it
-  bool keep_layers = false;  ///< keeps each kind of echo as a layer of its own
-  int threads = 0;           ///< 0: all cores; the result does not depend on it
+  /// What to keep beside the ping. keep_elements: what every element of a line array hears, before beams (E61), without
+  /// noise; keep_layers: each kind of echo as a layer of its own; keep_mask: the cells where the scan has holes; keep_paths:
+  /// so many paths of sound of each kind; keep_contributors: so many of the strongest surfels of every pixel (E63), <= 255.
+  bool keep_elements = false, keep_layers = false, keep_mask = false;
+  int keep_paths = 0, keep_contributors = 0;
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
 /// Wall time of each stage [s].
 struct StageSeconds {
-  double sampling = 0, acoustics = 0, synthesis = 0, detection = 0;
+  double sampling = 0, acoustics = 0, synthesis = 0, detection = 0, contributors = 0;
 };
 
 /// What refraction does to this scene. Rays are bent only when the error of straight ones would reach a range bin, or 2 %
@@ -64,6 +72,26 @@ struct LayerReport {
   std::size_t echoes = 0;
 };
 
+/// How the sampling was refined (converge_sampling).
+struct ConvergenceReport {
+  double wanted_db = 0;            ///< 0: it was not
+  int samplings = 0;               ///< that were made
+  double scatterers_per_cell = 0;  ///< at the last
+  int rays_per_beam = 0;           ///< at the last, of rays
+  std::size_t scatterers = 0;      ///< at the last
+  std::size_t judged = 0;          ///< cells within 40 dB of the strongest
+  double share_below = 0;          ///< of these, below wanted_db
+  double reached_db = 0;           ///< 99 % of them are at or below
+  bool reached = false;
+  Grid<float> level_error_db{};  ///< of each cell, beams x bins; moved to the ping
+};
+
+/// How much of the scene is not known (find_holes).
+struct HoleReport {
+  std::size_t directions = 0;  ///< looked at; 0: none
+  std::size_t unknown = 0;     ///< of these, into a hole of the scan
+};
+
 /// A ping and everything worth knowing about how it came about.
 struct SimulatedPing {
   Ping ping;
@@ -72,7 +100,11 @@ struct SimulatedPing {
   SamplingReport sampling;
   Medium medium;
   RefractionReport refraction;
+  ConvergenceReport convergence;
+  HoleReport holes;
   ElementSeries elements;           ///< if they were asked for
+  SoundPaths paths;                 ///< if they were asked for
+  Contributors contributors;        ///< if they were asked for; else empty
   std::vector<LayerReport> layers;  ///< in the order in which they were added
   double noise_floor_db = 0;        ///< used by the detection [dB re 1 uPa]
   StageSeconds seconds;

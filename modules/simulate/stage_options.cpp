@@ -6,7 +6,6 @@
 #include "acoustics/hear_reverberation.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "core/units.hpp"
-#include "sampling/range_gaps.hpp"
 
 namespace insonify {
 namespace {
@@ -35,7 +34,7 @@ SamplingOptions sampling_options(const SonarHead& head, const Medium& medium, co
 
 HearingOptions hearing_options(const SonarHead& head, const SimulationOptions& o) {
   HearingOptions h;
-  h.amplitude = o.amplitude;
+  h.amplitude = o.method == SynthesisMethod::incoherent ? SurfaceAmplitude::mean_power : o.amplitude;
   h.seed = o.seed;
   h.threads = o.threads;
   return with_patterns(h, head);
@@ -50,13 +49,8 @@ DetectionOptions detection_options(const SonarHead& head, const Environment& env
 }
 
 double largest_area(const SceneCloud& scene) {
+  if (scene.part_of) return scene.part_of->largest_area;
   return scene.area.empty() ? 0.0 : *std::max_element(scene.area.begin(), scene.area.end());
-}
-
-double largest_area(const PreparedScene& scene) {
-  float largest = 0;
-  for (const SurfelBlock& block : scene.blocks()) largest = std::max(largest, block.largest_area);
-  return largest;
 }
 
 RangeGate sampled_gate(double largest_area, const SonarHead& head, const Medium& medium,
@@ -74,12 +68,6 @@ View view_of(double largest_area, const SonarHead& head, const Pose& world_from_
              const SimulationOptions& options) {
   return {world_from_head, head.fan, sampled_gate(largest_area, head, medium, options),
           sampling_options(head, medium, options)};
-}
-
-std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, const Scatterers& scatterers) {
-  const SamplingOptions& s = view.sampling;
-  const RangeGaps gaps = count_range_gaps(scene, view.world_from_head, scatterers, s.rays_per_beam, s.range_resolution);
-  return range_gap_notes(gaps, s.rays_per_beam, s.range_resolution);
 }
 
 RefractionReport refract(const Environment& environment, const View& view, Choice choice, double bin_size,

@@ -14,9 +14,8 @@ HearingOptions hearing_options(const SonarHead& head, const SimulationOptions& o
 DetectionOptions detection_options(const SonarHead& head, const Environment& environment,
                                    const SimulationOptions& options);
 
-/// Of one surfel [m^2]; 0 without surfels.
+/// Of one surfel [m^2], of the whole scene if this is a part of it; 0 without surfels.
 double largest_area(const SceneCloud& scene);
-double largest_area(const PreparedScene& scene);
 
 /// The ranges that are sampled: the head's gate, and to either side as far as pulses reach into it and parts of surfels of
 /// `largest_area` stand off their middles; never below 0.1 m, or the gate's own beginning if that is nearer.
@@ -26,9 +25,6 @@ RangeGate sampled_gate(double largest_area, const SonarHead& head, const Medium&
 /// Where the head looks in a scene of surfels up to `largest_area`, and how.
 View view_of(double largest_area, const SonarHead& head, const Pose& world_from_head, const Medium& medium,
              const SimulationOptions& options);
-
-/// What to tell a user whose rays leave gaps in range.
-std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, const Scatterers& scatterers);
 
 /// Bends the rays to the scatterers if asked for, or if straight ones would be off by a range bin, or by an angle that the
 /// elevation pattern feels; says what was done.

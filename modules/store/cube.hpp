@@ -25,8 +25,10 @@ struct Cube {
 /// and /elevation [rad], /pose (pings x 4 x 4, world_from_head, row by row), /time [s], /ping (numbers) and,
 /// as root attributes, schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad], min_range, max_range,
 /// bin_size [m]. Byte-identical for identical input (no time stamps). Written to a temporary name, then
-/// renamed. Layers of the pings stand beside as /layers/NAME, laid out like /pressure. Throws Error(argument) if there is
-/// no ping or they differ in fan, gate, extent or layers; Error(file) if it cannot write.
+/// renamed. Layers of the pings stand beside as /layers/NAME, laid out like /pressure; so do, where the pings have them,
+/// /level_error_db (float32) and /unknown (uint8). Of expected levels the attribute expected_level says so. Throws
+/// Error(argument) if there is no ping or they differ in fan, gate, extent, layers, maps or expected_level; Error(file)
+/// if it cannot write.
 void write_cube(const std::string& path, const Cube& cube);
 
 /// Every field of what write_cube was given, bit for bit.

@@ -1,5 +1,7 @@
 #include "store/hdf5_internal.hpp"
 
+#include <filesystem>
+
 namespace insonify::hdf5 {
 namespace {
 
@@ -138,6 +140,17 @@ Handle create_file(const Place& place, const std::string& name) {
           H5Fclose};
 }
 
+Handle open_file(const Place& place) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(place.path, ignored)) fail(ErrorKind::file, place.path, ": no such file");
+  if (std::filesystem::is_directory(place.path, ignored))
+    fail(ErrorKind::file, place.path, ": is a folder, must be a file");
+  const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
+  if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
+  if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");
+  return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
+}
+
 // A dataset without time stamps; with `chunk` if not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk) {
@@ -155,6 +168,12 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
       H5Dclose);
   if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
   return dataset;
+}
+
+Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
+  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
+    fail(place.kind, place.path, ": dataset ", name.path, " is missing");
+  return {place.checked(H5Dopen2(file, name.path, H5P_DEFAULT), name.path), H5Dclose};
 }
 
 }  // namespace insonify::hdf5

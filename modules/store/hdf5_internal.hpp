@@ -64,9 +64,15 @@ using Extent = std::vector<hsize_t>;
 /// A new file without time stamps: same input, same bytes.
 Handle create_file(const Place& place, const std::string& name);
 
+/// An existing file, to be read. Throws Error(file) if it is missing or a folder, Error(content) if it is no HDF5.
+Handle open_file(const Place& place);
+
 /// A dataset without time stamps, with its unit as attribute "units"; with `chunk` if not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {});
+
+/// Throws Error(content) if it is missing.
+Handle open_dataset(const Place& place, hid_t file, const DatasetName& name);
 
 /// complex<float> as h5py knows it: compound {r, i}; little endian in files.
 Handle complex_type(const Place& place, hid_t real_type);

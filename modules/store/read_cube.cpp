@@ -1,5 +1,3 @@
-#include <filesystem>
-
 #include "core/error.hpp"
 #include "store/cube.hpp"
 #include "store/cube_layout.hpp"
@@ -11,29 +9,12 @@ using namespace hdf5;
 
 namespace {
 
-Handle open_file(const Place& place) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(place.path, ignored)) fail(ErrorKind::file, place.path, ": no such file");
-  if (std::filesystem::is_directory(place.path, ignored))
-    fail(ErrorKind::file, place.path, ": is a folder, must be a file");
-  const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
-  if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
-  if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");
-  return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
-}
-
 void require_schema(const Place& place, hid_t file) {
   if (H5Aexists(file, "schema") <= 0)
     fail(place.kind, place.path, ": is not a cube of insonify: attribute 'schema' is missing");
   const std::int64_t schema = read_integer(place, file, "schema");
   if (schema != cube_schema)
     fail(place.kind, place.path, ": has cube schema ", schema, ", this insonify reads schema ", cube_schema);
-}
-
-Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
-  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
-    fail(place.kind, place.path, ": dataset ", name.path, " is missing");
-  return {place.checked(H5Dopen2(file, name.path, H5P_DEFAULT), name.path), H5Dclose};
 }
 
 // The whole of a dataset that must have this extent.
@@ -76,18 +57,18 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
   return ping;
 }
 
-// Reads one complex image per ping to where `part` says.
+// Reads one image per ping, of numbers of `type`, to where `part` says.
 template <typename Part>
-void read_images(const Place& place, hid_t dataset, const std::string& name, const Extent& extent,
-                 std::vector<Ping>& pings, Part part) {
-  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::vector<Ping>& pings,
+                 Part part) {
+  const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
-    ComplexGridF& image = part(pings[p]);
+    auto& image = part(pings[p]);
     image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
     const Handle row = select_row(place, dataset, extent, p);
-    place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read as {r, i}");
+    place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read");
   }
 }
 
@@ -110,17 +91,36 @@ std::vector<std::string> layer_names(const Place& place, hid_t file) {
   return names;
 }
 
+void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
+  if (extent_of(place, dataset, name, 3) != extent)
+    fail(place.kind, place.path, ": ", name, " has another extent than /pressure");
+}
+
 void read_layers(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
+  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   for (const std::string& layer : layer_names(place, file)) {
     const std::string path = std::string(layers_group) + "/" + layer;
     const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
-    if (extent_of(place, dataset, path, 3) != extent)
-      fail(place.kind, place.path, ": ", path, " has another extent than /pressure");
+    require_extent(place, dataset, path, extent);
     require_complex(place, dataset, path);
     for (Ping& ping : pings) ping.layers.push_back({layer, {}});
-    read_images(place, dataset, path, extent, pings,
+    read_images(place, dataset, path, type, pings,
                 [](Ping& ping) -> ComplexGridF& { return ping.layers.back().pressure; });
   }
+}
+
+// A map that need not be there, to the member of each ping that holds it.
+template <typename Map>
+void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+              std::vector<Ping>& pings, Map Ping::*map) {
+  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return;
+  const Handle dataset = open_dataset(place, file, name);
+  require_extent(place, dataset, name.path, extent);
+  const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
+  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
+    fail(place.kind, place.path, ": ", name.path, " must be of ",
+         H5Tget_class(type) == H5T_FLOAT ? "float32" : "uint8");
+  read_images(place, dataset, name.path, type, pings, [map](Ping& ping) -> Map& { return ping.*map; });
 }
 
 std::vector<Ping> read_pings(const Place& place, hid_t file) {
@@ -132,16 +132,20 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
   const auto number = read_all<std::int64_t>(place, file, ping_name, {extent[0]}, H5T_NATIVE_INT64);
 
   std::vector<Ping> pings(extent[0], read_axes(place, file, extent));
+  const bool expected_level = H5Aexists(file, expected_level_attribute) > 0;
   for (std::size_t p = 0; p < pings.size(); ++p) {
     pings[p].time = time[p];
     pings[p].number = number[p];
+    pings[p].expected_level = expected_level;
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
         pings[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
   }
-  read_images(place, dataset, pressure_name.path, extent, pings,
+  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings,
               [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
   read_layers(place, file, extent, pings);
+  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::level_error_db);
+  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, &Ping::unknown);
   return pings;
 }
 

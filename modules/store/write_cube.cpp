@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <complex>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "store/cube.hpp"
@@ -24,6 +25,23 @@ void require_same_layers(const Ping& ping, const Ping& first, const std::string&
          first.number, "; keep the same ones in every ping");
 }
 
+// All pings must have the maps of the first, in full extent.
+void require_same_maps(const Ping& ping, const Ping& first, const std::string& path) {
+  const auto require = [&](const auto& map, const auto& like, const char* name) {
+    const bool fits =
+        like.size() == 0 ? map.size() == 0 : map.rows() == first.pressure.rows() && map.cols() == first.pressure.cols();
+    if (!fits)
+      fail(ErrorKind::argument, "write_cube: ", path, ": ", name, " of ping ", ping.number, " has ", map.rows(), " x ",
+           map.cols(), " cells, must be like that of ping ", first.number,
+           like.size() == 0 ? ": absent" : ", one cell for each of its pressure");
+  };
+  require(ping.level_error_db, first.level_error_db, "level_error_db");
+  require(ping.unknown, first.unknown, "unknown");
+  if (ping.expected_level != first.expected_level)
+    fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
+         " is an expected level; write it to a cube of its own");
+}
+
 // All pings must fit one set of axes.
 void require_writable(const Cube& cube, const std::string& path) {
   if (cube.pings.empty()) fail(ErrorKind::argument, "write_cube: ", path, ": no pings, must be at least one");
@@ -44,6 +62,7 @@ void require_writable(const Cube& cube, const std::string& path) {
       fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " has another fan or gate than ping ",
            first.number, "; write it to a cube of its own");
     require_same_layers(ping, first, path);
+    require_same_maps(ping, first, path);
   }
 }
 
@@ -59,12 +78,23 @@ hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
   return std::clamp<hsize_t>((hsize_t{64} << 20) / bytes_per_beam, 1, std::min<hsize_t>(beams, 64));
 }
 
-// One complex image per ping: the pressure, or the layer `part` says.
+// The numbers of an image, in the file or here.
+template <typename Number>
+Handle type_of(const Place& place, bool in_file) {
+  if constexpr (std::is_same_v<Number, std::complex<float>>)
+    return complex_type(place, in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT);
+  const bool real = std::is_floating_point_v<Number>;
+  const hid_t type = real ? (in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT) : (in_file ? H5T_STD_U8LE : H5T_NATIVE_UINT8);
+  return {place.checked(H5Tcopy(type), "type"), H5Tclose};
+}
+
+// One image per ping: the pressure, or the layer or map `part` says.
 template <typename Part>
 void write_images(const Place& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings, Part part) {
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
   const Extent extent = {pings.size(), beams, bins};
-  const Handle stored = complex_type(place, H5T_IEEE_F32LE), here = complex_type(place, H5T_NATIVE_FLOAT);
+  using Number = typename std::decay_t<decltype(part(pings[0]))>::Scalar;
+  const Handle stored = type_of<Number>(place, true), here = type_of<Number>(place, false);
   const Handle dataset = create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
   const Extent one_ping = {1, beams, bins};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
@@ -87,6 +117,15 @@ void write_layers(const Place& place, hid_t file, const std::vector<Ping>& pings
     write_images(place, file, {path.c_str(), pressure_name.unit}, pings,
                  [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
   }
+}
+
+void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+  if (pings.front().level_error_db.size() > 0)
+    write_images(place, file, level_error_name, pings,
+                 [](const Ping& ping) -> const Grid<float>& { return ping.level_error_db; });
+  if (pings.front().unknown.size() > 0)
+    write_images(place, file, unknown_name, pings,
+                 [](const Ping& ping) -> const Grid<std::uint8_t>& { return ping.unknown; });
 }
 
 void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
@@ -126,6 +165,7 @@ void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
   const Ping& ping = cube.pings.front();
   write_attribute(place, file, "beam_width", ping.fan.beam_width);
   write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
+  if (ping.expected_level) write_attribute(place, file, expected_level_attribute, std::string(expected_level_text));
   if (ping.fan.row_width > 0) write_attribute(place, file, "row_width", ping.fan.row_width);
   write_attribute(place, file, "min_range", ping.gate.min_range);
   write_attribute(place, file, "max_range", ping.gate.max_range);
@@ -146,6 +186,7 @@ void write_cube(const std::string& path, const Cube& cube) {
   write_images(place, file, pressure_name, cube.pings,
                [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
   write_layers(place, file, cube.pings);
+  write_maps(place, file, cube.pings);
   place.checked(file.close(), "cannot be written");  // a full disk shows here
   pending.commit();
 }

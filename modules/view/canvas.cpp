@@ -4,10 +4,8 @@
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
-#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -16,14 +14,12 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTexture.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "view/canvas_internal.hpp"
 #include "view/fonts_internal.hpp"
-#include "view/write_file.hpp"
+#include "view/window_picture_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -42,14 +38,14 @@ vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
   return actor;
 }
 
-// Points taken four by four as the corners of quads.
-vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, double height) {
+// Points taken four by four as the corners of quads, seen from the origin.
+vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, Point2 origin, double height) {
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(static_cast<vtkIdType>(corners.size()));
   vtkNew<vtkCellArray> cells;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto id = static_cast<vtkIdType>(i);
-    points->SetPoint(id, corners[i].x, corners[i].y, height);
+    points->SetPoint(id, origin.x + corners[i].x, origin.y + corners[i].y, height);
     if (i % 4 == 0) cells->InsertNextCell({id, id + 1, id + 2, id + 3});
   }
   vtkNew<vtkPolyData> shape;
@@ -100,17 +96,8 @@ Theme theme(bool dark) {
   return {{1, 1, 1}, {0.10, 0.11, 0.13}, {0.35, 0.37, 0.40}};
 }
 
-Canvas::Canvas(const PictureOptions& options, const char* who)
-    : who_(who),
-      width_(options.width),
-      height_(options.height),
-      theme_(theme(options.dark)),
-      window_(vtkSmartPointer<EglWindow>::New()) {
-  window_->SetMultiSamples(samples_per_pixel);
-  window_->SetDPI(72);  // one point of text is one pixel
-  window_->SetSize(width_, height_);
-  window_->open(who);
-  window_->AddRenderer(renderer_);
+Canvas::Canvas(vtkRenderer* renderer, const PictureOptions& options, const char* who)
+    : who_(who), width_(options.width), height_(options.height), theme_(theme(options.dark)), renderer_(renderer) {
   renderer_->SetBackground(theme_.background.data());
 
   // One unit of the plane is one pixel.
@@ -122,11 +109,23 @@ Canvas::Canvas(const PictureOptions& options, const char* who)
   camera->SetClippingRange(1, 2 * eye_height);
 }
 
+Canvas::Canvas(const PictureOptions& options, const char* who)
+    : Canvas(vtkSmartPointer<vtkRenderer>::New(), options, who) {
+  window_ = vtkSmartPointer<EglWindow>::New();
+  window_->SetMultiSamples(samples_per_pixel);
+  window_->SetDPI(72);  // one point of text is one pixel
+  window_->SetSize(width_, height_);
+  window_->open(who);
+  window_->AddRenderer(renderer_);
+}
+
+void Canvas::set_origin(Point2 origin) { origin_ = {std::round(origin.x), std::round(origin.y)}; }
+
 // Cells are drawn as one texture, a texel per cell, on a mesh with one column of quads per beam. Along a quad
 // the range is linear and the beam is constant, so every cell has its true place and edges, and a picture of
 // millions of cells costs a few hundred polygons and one upload.
 void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
-                       const Projection& projection, double largest_step) {
+                       const PlaneProjection& projection, double largest_step) {
   const vtkNew<vtkImageData> colours = coloured(patch.level_db, scale);
   const double far = patch.columns / colours->GetDimensions()[0];
   std::vector<Point2> corners, texture_points;
@@ -148,7 +147,7 @@ void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_e
 
 void Canvas::add_textured_strip(const std::vector<Point2>& points, const std::vector<Point2>& texture_points,
                                 vtkImageData* colours) {
-  const vtkNew<vtkPolyData> shape = quads(points, cells_height);
+  const vtkNew<vtkPolyData> shape = quads(points, origin_, cells_height);
   vtkNew<vtkFloatArray> coordinates;
   coordinates->SetNumberOfComponents(2);
   coordinates->SetNumberOfTuples(static_cast<vtkIdType>(texture_points.size()));
@@ -178,7 +177,7 @@ void Canvas::add_lines(const std::vector<Path>& paths, double width, const Colou
                                      {a.x - at_a.x, a.y - at_a.y}});
     }
   if (corners.empty()) return;
-  const vtkNew<vtkPolyData> shape = quads(corners, lines_height);
+  const vtkNew<vtkPolyData> shape = quads(corners, origin_, lines_height);
   const vtkNew<vtkActor> actor = flat_actor(shape);
   vtkProperty* property = actor->GetProperty();
   property->SetColor(colour[0], colour[1], colour[2]);
@@ -186,7 +185,9 @@ void Canvas::add_lines(const std::vector<Path>& paths, double width, const Colou
   renderer_->AddActor(actor);
 }
 
-void Canvas::add_text(const PlacedText& text) {
+void Canvas::add_text(const PlacedText& asked) {
+  PlacedText& text = texts_.emplace_back(asked);
+  text.centre = {text.centre.x + origin_.x, text.centre.y + origin_.y};
   const Box box = text.box();
   vtkNew<vtkTextActor> actor;
   actor->SetInput(readable_text(text.text).c_str());
@@ -199,7 +200,10 @@ void Canvas::add_text(const PlacedText& text) {
     property->SetBackgroundOpacity(0.65);
   }
   // Anchored where its first letter stands, on whole pixels, where letters are sharp.
-  actor->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
+  if (window_)
+    actor->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
+  else  // the camera may move
+    actor->GetPositionCoordinate()->SetCoordinateSystemToWorld();
   actor->SetPosition(std::round(text.turned ? box.right : box.left), std::round(box.bottom));
   property->SetJustificationToLeft();
   property->SetVerticalJustificationToBottom();
@@ -229,22 +233,7 @@ void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, doub
 
 void Canvas::save_png(const std::string& path, const VtkMessages& messages) {
   window_->Render();
-  vtkNew<vtkWindowToImageFilter> picture;
-  picture->SetInput(window_);
-  picture->SetInputBufferTypeToRGB();
-  picture->ReadFrontBufferOff();
-  picture->ShouldRerenderOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(picture->GetOutputPort());
-  writer->SetCompressionLevel(3);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* png = writer->GetResult();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
-    fail(ErrorKind::file, who_, ": cannot make the PNG for ", path, ": ",
-         vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
-  messages.throw_first_error(who_);
-  write_file_atomically(path, png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfTuples()), who_);
+  save_window(window_, path, messages, who_);
 }
 
 }  // namespace insonify

@@ -62,7 +62,8 @@ ColourTable expand(const std::vector<ColourStop>& stops) {
   return table;
 }
 
-// If no level stands out, the maximum puts all of them into the lowest colour.
+}  // namespace
+
 double automatic_max_db(const Grid<float>& level_db, double window_db) {
   float lowest = std::numeric_limits<float>::infinity();
   for (const float level : level_db.reshaped())
@@ -77,8 +78,6 @@ double automatic_max_db(const Grid<float>& level_db, double window_db) {
   std::nth_element(above.begin(), quantile, above.end());
   return 5.0 * std::ceil(static_cast<double>(*quantile) / 5.0);
 }
-
-}  // namespace
 
 std::vector<std::string> colour_map_names() {
   std::vector<std::string> names;

@@ -26,8 +26,11 @@ struct ColourScale {
   Rgb colour(double level_db) const { return table[index(level_db)]; }
 };
 
-/// Scale for an image. Automatic maximum: the 99.9 % quantile of the levels above the lowest one (the floor
-/// of empty samples does not count), rounded up to 5 dB. Throws Error(argument) for an unknown map, a window
+/// The 99.9 % quantile of the levels above the lowest one (the floor of empty samples does not count), rounded up to
+/// 5 dB. If no level stands out, one that puts all of them into the lowest colour.
+double automatic_max_db(const Grid<float>& level_db, double window_db);
+
+/// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a window
 /// that is not positive, or max_db <= min_db.
 ColourScale colour_scale(const Grid<float>& level_db, const PictureOptions& options, const char* who);
 

@@ -148,11 +148,15 @@ int font_size_for(int width, int height) {
   return std::max(11, static_cast<int>(std::lround(std::sqrt(static_cast<double>(width) * height) / 68.0)));
 }
 
+int font_size_for(const PictureOptions& options) {
+  return options.font_size > 0 ? options.font_size : font_size_for(options.width, options.height);
+}
+
 double line_width_for(int font_size) { return std::max(1.0, font_size / 15.0); }
 
 std::optional<PlacedText> place_title(const PictureOptions& options) {
   if (options.title.empty()) return {};
-  const int font = font_size_for(options.width, options.height);
+  const int font = font_size_for(options);
   const FittedText fitted = fit_text(options.title, (5 * font) / 4, options.width - 2.0 * font);
   PlacedText title(fitted.text, {options.width / 2.0, 0}, fitted.font_size);
   title.centre.y = options.height - 0.8 * font - title.extent.height / 2;
@@ -161,7 +165,7 @@ std::optional<PlacedText> place_title(const PictureOptions& options) {
 
 FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
                       const std::string& unit) {
-  const int font = font_size_for(options.width, options.height);
+  const int font = font_size_for(options);
   FanLayout layout;
   layout.low = fan.low;
   layout.high = fan.high;

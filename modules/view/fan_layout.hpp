@@ -33,6 +33,9 @@ struct FanLayout {
 /// Size of ordinary text for a picture of so many pixels.
 int font_size_for(int width, int height);
 
+/// The one asked for, or that for the size of the picture.
+int font_size_for(const PictureOptions& options);
+
 /// Width of thin lines beside text of that size [pixels].
 double line_width_for(int font_size);
 

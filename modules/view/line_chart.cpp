@@ -14,7 +14,7 @@
 #include <vtkPlotPoints.h>
 #include <vtkTable.h>
 
-#include "view/canvas_internal.hpp"
+#include "view/drawing_internal.hpp"
 #include "view/fan_layout.hpp"
 #include "view/text.hpp"
 #include "view/vtk_messages_internal.hpp"
@@ -81,9 +81,10 @@ void add_plot(vtkChartXY& chart, const ChartLine& line, const Colour& colour, do
 void add_chart(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& lines, bool dark, double width) {
   vtkNew<vtkChartXY> chart;
   const Box& frame = axes.frame;
+  const Point2 origin = canvas.origin();
   chart->SetAutoSize(false);
   chart->SetLayoutStrategy(vtkChart::AXES_TO_RECT);
-  chart->SetSize(vtkRectf(static_cast<float>(frame.left), static_cast<float>(frame.bottom),
+  chart->SetSize(vtkRectf(static_cast<float>(origin.x + frame.left), static_cast<float>(origin.y + frame.bottom),
                           static_cast<float>(frame.width()), static_cast<float>(frame.height())));
   const auto hide = [&](int which, double low, double high) {
     vtkAxis* axis = chart->GetAxis(which);
@@ -184,7 +185,7 @@ void add_point_labels(Canvas& canvas, const Axes& axes, const std::vector<ChartL
 
 // The frame is what title and labels leave.
 Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double title_bottom) {
-  const int font = font_size_for(options.width, options.height);
+  const int font = font_size_for(options);
   const double bottom = 0.8 * font + room_below(font), top = title_bottom - font;
   const double most_levels = std::min(10.0, (top - bottom) / (2.5 * font));
   const auto ticks = [](AxisScale scale) { return scale == AxisScale::linear ? round_ticks : decade_ticks; };
@@ -201,21 +202,18 @@ Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double 
 
 }  // namespace
 
-void draw_line_chart(const LineChart& asked, const PictureOptions& options, const char* who,
-                     const std::string& png_path) {
+Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOptions& options) {
   // Find a place for everything, then draw it.
-  const VtkMessages messages;
   const LineChart chart = with_logarithms_taken(asked);
   PictureOptions titled = options;
   titled.title = chart.title;
   const auto title = place_title(titled);
-  const int font = font_size_for(options.width, options.height);
+  const int font = font_size_for(options);
   const std::vector<ChartLine> lines = all_lines(chart);
   const double title_bottom = title ? title->box().bottom : options.height;
   const double across = lay_out_axes(chart, options, title_bottom).frame.width();
   const double legend_height = legend_row * font * static_cast<double>(legend_rows(lines, font, across).size());
   const Axes axes = lay_out_axes(chart, options, title_bottom - legend_height);
-  Canvas canvas(options, who);
   const double thin = line_width_for(font);
   canvas.add_lines(axes.grid, thin, canvas.colours().line, 0.25);
   std::vector<Path> ticks = axes.ticks;
@@ -226,6 +224,14 @@ void draw_line_chart(const LineChart& asked, const PictureOptions& options, cons
   add_chart(canvas, axes, lines, options.dark, 1.3 * thin);
   add_legend(canvas, lines, options.dark, 1.6 * thin, font, axes.frame, axes.frame.top + 0.5 * font + legend_height);
   add_point_labels(canvas, axes, lines, std::max(8, font * 3 / 4));
+  return axes;
+}
+
+void draw_line_chart(const LineChart& chart, const PictureOptions& options, const char* who,
+                     const std::string& png_path) {
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw_line_chart(canvas, chart, options);
   canvas.save_png(png_path, messages);
 }
 

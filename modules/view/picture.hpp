@@ -17,6 +17,13 @@ struct LevelImage {
   std::string unit;      ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
 };
 
+/// A place in a picture that is marked with a small cross-hair and, if there is room, named.
+struct Mark {
+  double bearing = 0;  ///< [rad], positive to starboard
+  double range = 0;    ///< [m]
+  std::string text;
+};
+
 struct PictureOptions {
   int width = 1400, height = 1050;  ///< [pixels]
   std::string title;
@@ -25,7 +32,9 @@ struct PictureOptions {
   double max_db = std::numeric_limits<double>::quiet_NaN();  ///< NaN: 99.9 % quantile of the levels above the
                                                              ///< lowest, rounded up to 5
   double window_db = 45;
-  bool dark = false;  ///< dark background
+  bool dark = false;          ///< dark background
+  int font_size = 0;          ///< of ordinary text [pixels]; 0: by the size of the picture
+  std::vector<Mark> marks{};  ///< drawn by show_fan, show_rect and show_panels; those outside the image are left out
 };
 
 /// Names accepted as colour_map.

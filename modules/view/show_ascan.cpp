@@ -7,8 +7,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "view/colour_maps.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/line_chart.hpp"
+#include "view/drawing_internal.hpp"
 #include "view/ticks.hpp"
 
 namespace insonify {
@@ -38,13 +37,9 @@ std::string chart_title(const LevelImage& image, std::size_t beam, const std::st
 
 }  // namespace
 
-void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions& options, const std::string& png_path) {
-  constexpr const char* who = "show_ascan";
-  require_drawable(image, options, who);
-  if (beam >= image.fan.beams())
-    fail(ErrorKind::argument, who, ": beam = ", beam, ", must be below the number of beams, ", image.fan.beams());
+Axes draw_ascan(Canvas& canvas, const LevelImage& image, std::size_t beam, const PictureOptions& options) {
   const Grid<float> level_db = image.level_db.row(static_cast<Eigen::Index>(beam));
-  const ColourScale limits = level_limits(level_db, options, who);
+  const ColourScale limits = level_limits(level_db, options, canvas.who());
 
   LineChart chart;
   chart.low_x = image.gate.min_range;
@@ -59,7 +54,18 @@ void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions&
     chart.x.push_back(image.gate.centre(static_cast<std::size_t>(bin)));
     chart.y.push_back(std::isfinite(db) ? db : limits.min_db - options.window_db);
   }
-  draw_line_chart(chart, options, who, png_path);
+  return draw_line_chart(canvas, chart, options);
+}
+
+void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions& options, const std::string& png_path) {
+  constexpr const char* who = "show_ascan";
+  require_drawable(image, options, who);
+  if (beam >= image.fan.beams())
+    fail(ErrorKind::argument, who, ": beam = ", beam, ", must be below the number of beams, ", image.fan.beams());
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw_ascan(canvas, image, beam, options);
+  canvas.save_png(png_path, messages);
 }
 
 }  // namespace insonify

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "view/canvas_internal.hpp"
+#include "view/draw_marks_internal.hpp"
+#include "view/drawing_internal.hpp"
 #include "view/fan_layout.hpp"
-#include "view/vtk_messages_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -40,20 +40,28 @@ void draw_grid(Canvas& canvas, const FanLayout& layout, double step) {
   canvas.add_lines(lines, thin, canvas.colours().line, 1);
 }
 
+// Anywhere in the picture but on its texts and the colour bar.
+MarkRoom room_for_marks(const FanLayout& layout, const PictureOptions& options) {
+  MarkRoom room;
+  room.box = {0, static_cast<double>(options.width), 0, static_cast<double>(options.height)};
+  room.taken.push_back(layout.colour_bar.outer());
+  for (const PlacedText& text : layout.texts) room.taken.push_back(text.box());
+  if (layout.title) room.taken.push_back(layout.title->box());
+  room.font_size = layout.font_size;
+  room.at = [layout](double bearing, double range) { return layout.at(bearing, range); };
+  return room;
+}
+
 }  // namespace
 
-void show_fan(const LevelImage& image, const PictureOptions& options, const std::string& png_path) {
-  constexpr const char* who = "show_fan";
-  require_drawable(image, options, who);
-  const ColourScale scale = colour_scale(image.level_db, options, who);
+FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions& options) {
+  const ColourScale scale = colour_scale(image.level_db, options, canvas.who());
   const BeamCells cells = order_beams(image);
   const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
 
   // Find a place for everything, then draw it.
-  const VtkMessages messages;
   const FanLayout layout = lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale,
                                        unit_text(image.unit, cells));
-  Canvas canvas(options, who);
   const double step = std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
   for (const CellPatch& patch : fan_patches(cells, image.gate, layout.pixels_per_metre))
     canvas.add_cells(
@@ -62,6 +70,17 @@ void show_fan(const LevelImage& image, const PictureOptions& options, const std:
   for (const PlacedText& text : layout.texts) canvas.add_text(text);
   if (layout.title) canvas.add_text(*layout.title);
   canvas.add_colour_bar(layout.colour_bar, scale, line_width_for(layout.font_size));
+  draw_marks(canvas, marks_within(options.marks, cells.low(), cells.high(), image.gate),
+             room_for_marks(layout, options));
+  return layout;
+}
+
+void show_fan(const LevelImage& image, const PictureOptions& options, const std::string& png_path) {
+  constexpr const char* who = "show_fan";
+  require_drawable(image, options, who);
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw_fan(canvas, image, options);
   canvas.save_png(png_path, messages);
 }
 

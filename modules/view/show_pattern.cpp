@@ -5,27 +5,11 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/line_chart.hpp"
+#include "view/drawing_internal.hpp"
 #include "view/ticks.hpp"
 
 namespace insonify {
 namespace {
-
-constexpr const char* who = "show_pattern";
-
-void require_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db,
-                     const PictureOptions& options) {
-  if (azimuth.size() < 2) fail(ErrorKind::argument, who, ": ", azimuth.size(), " points, must be at least 2");
-  if (level_db.size() != azimuth.size())
-    fail(ErrorKind::argument, who, ": ", level_db.size(), " levels for ", azimuth.size(), " azimuths, must be as many");
-  for (std::size_t i = 0; i < azimuth.size(); ++i) {
-    if (!std::isfinite(azimuth[i]))
-      fail(ErrorKind::argument, who, ": azimuth[", i, "] = ", azimuth[i], ", must be finite");
-    if (std::isnan(level_db[i])) fail(ErrorKind::argument, who, ": level_db[", i, "] is NaN, must be a level");
-  }
-  require_picture_size(options, who);
-}
 
 AxisTicks bearing_labels(double low_deg, double high_deg, double most) {
   const BearingTicks bearings = bearing_ticks(low_deg, high_deg, most);
@@ -37,14 +21,25 @@ AxisTicks bearing_labels(double low_deg, double high_deg, double most) {
 
 }  // namespace
 
-void show_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db,
-                  const PictureOptions& options, const std::string& png_path) {
-  require_pattern(azimuth, level_db, options);
+void require_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db, const char* who) {
+  if (azimuth.size() < 2) fail(ErrorKind::argument, who, ": ", azimuth.size(), " points, must be at least 2");
+  if (level_db.size() != azimuth.size())
+    fail(ErrorKind::argument, who, ": ", level_db.size(), " levels for ", azimuth.size(), " azimuths, must be as many");
+  for (std::size_t i = 0; i < azimuth.size(); ++i) {
+    if (!std::isfinite(azimuth[i]))
+      fail(ErrorKind::argument, who, ": azimuth[", i, "] = ", azimuth[i], ", must be finite");
+    if (std::isnan(level_db[i])) fail(ErrorKind::argument, who, ": level_db[", i, "] is NaN, must be a level");
+  }
+}
+
+void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std::vector<double>& level_db,
+                  const PictureOptions& options) {
   LineChart chart;
   chart.low_y = std::isnan(options.min_db) ? -60 : options.min_db;
   chart.high_y = std::isnan(options.max_db) ? 0 : options.max_db;
   if (!(chart.high_y > chart.low_y))
-    fail(ErrorKind::argument, who, ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y, " dB");
+    fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
+         " dB");
 
   // Head axes count to port; bearings in pictures count to starboard.
   for (const double a : azimuth) chart.x.push_back(-degrees(a));
@@ -57,7 +52,18 @@ void show_pattern(const std::vector<double>& azimuth, const std::vector<double>&
   chart.x_title = "Bearing [°], positive to starboard";
   chart.y_title = "Level [dB re the beam's peak]";
   chart.x_ticks = [&chart](double most) { return bearing_labels(chart.low_x, chart.high_x, most); };
-  draw_line_chart(chart, options, who, png_path);
+  draw_line_chart(canvas, chart, options);
+}
+
+void show_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db,
+                  const PictureOptions& options, const std::string& png_path) {
+  constexpr const char* who = "show_pattern";
+  require_pattern(azimuth, level_db, who);
+  require_picture_size(options, who);
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw_pattern(canvas, azimuth, level_db, options);
+  canvas.save_png(png_path, messages);
 }
 
 }  // namespace insonify

@@ -428,3 +428,26 @@ TEST(HearMultipath, refuses_what_it_cannot_hear) {
   EXPECT_THAT(error_of([&] { hear_multipath(s.scene, wrong, s.environment, s.view, s.sent); }),
               testing::HasSubstr("direct.surfel = 5, but the scene has 1 surfels"));
 }
+
+// Two targets far apart, the farther one first in the scene.
+TEST(HearMultipath, knows_surfel_and_ways_of_every_echo) {
+  Setting s;
+  s.scene.materials = {{"m", mu}};
+  add_surfel(s.scene, {40, 0, -3}, {-1, 0, 0}, area);
+  add_surfel(s.scene, target, {-1, 0, 0}, area);
+  const Multipath m = s.hear();
+  ASSERT_EQ(m.echoes.size(), 16u);
+  ASSERT_EQ(m.surfel.size(), 16u);
+  ASSERT_EQ(m.ways.size(), 16u);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(m.surfel[i], 750 * m.echoes.delay[i] > 30 ? 0u : 1u);
+    if (m.surfel[i] != 1) continue;
+    const double length[] = {r_direct, r_surface, r_bottom}, height[] = {-1, 5, -15};
+    EXPECT_NEAR(1500 * m.echoes.delay[i], length[m.ways[i].out] + length[m.ways[i].back], 1e-9);
+    EXPECT_NEAR(m.echoes.v[i], height[m.ways[i].back] / length[m.ways[i].back], 1e-9);
+  }
+  EXPECT_EQ(std::count_if(m.ways.begin(), m.ways.end(), [](WayPair w) { return w.bounces() == 1; }),
+            static_cast<std::ptrdiff_t>(m.one_bounce));
+  EXPECT_EQ(std::count_if(m.ways.begin(), m.ways.end(), [](WayPair w) { return w.bounces() == 2; }),
+            static_cast<std::ptrdiff_t>(m.two_bounces));
+}

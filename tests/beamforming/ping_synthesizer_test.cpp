@@ -202,6 +202,90 @@ TEST(PingSynthesizer, says_what_it_chose) {
   EXPECT_GE(coarse.grid, 2 * head.array.elements());
 }
 
+// By what either way costs: transforms of every bin against echoes x beams x elements.
+TEST(PingSynthesizer, sums_few_echoes_directly_and_stamps_many) {
+  for (const double tolerance : {1e-3, 1e-6, 1e-10}) {
+    const Case wide{.echoes = 10, .beams = 256, .bins = 1000};
+    const SonarHead head = head_of(wide);
+    const PingSynthesizer plan(head, medium_of(wide, head), {tolerance, 1});
+    EXPECT_TRUE(plan.sums_directly(echoes_of(wide, head))) << tolerance;
+    const std::size_t most = plan.choice().direct_echoes;
+    EXPECT_GT(most, 30U) << tolerance;
+    EXPECT_LT(most, 3000U) << tolerance;
+    Case c = wide;
+    c.echoes = most / 2;
+    EXPECT_TRUE(plan.sums_directly(echoes_of(c, head))) << tolerance;
+    c.echoes = 2 * most;
+    EXPECT_FALSE(plan.sums_directly(echoes_of(c, head))) << tolerance;
+  }
+}
+
+// Where echoes touch a few bins, stamping transforms no others: then it wins sooner.
+TEST(PingSynthesizer, stamps_a_crowd_that_it_would_sum_if_it_were_spread_out) {
+  Case c{.beams = 256, .bins = 1000};
+  const SonarHead head = head_of(c);
+  const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});
+  c.echoes = plan.choice().direct_echoes / 2;
+  Echoes e = echoes_of(c, head);
+  EXPECT_TRUE(plan.sums_directly(e));
+  e.delay.assign(e.size(), 2 * head.gate.centre(500) / speed_of_sound);
+  EXPECT_FALSE(plan.sums_directly(e));
+}
+
+// Both ways on either side of the choice, and the same bits for any number of threads, with moving echoes too.
+TEST(PingSynthesizer, keeps_its_promise_on_both_sides_of_the_choice) {
+  for (const bool moving : {false, true}) {
+    Case c{.beams = 48, .bins = 1000, .bandwidth = 60e3};
+    const SonarHead head = head_of(c);
+    const Medium m = medium_of(c, head);
+    for (const double tolerance : {1e-3, 1e-7, 1e-11}) {
+      const PingSynthesizer plan(head, m, {tolerance, 1}), other(head, m, {tolerance, 3});
+      for (const double part : {0.05, 0.9, 1.3}) {
+        c.echoes = static_cast<std::size_t>(part * static_cast<double>(plan.choice().direct_echoes)) + 1;
+        Echoes e = echoes_of(c, head);
+        for (std::size_t i = 0; moving && i < e.size(); ++i)
+          e.doppler.push_back(500 * std::sin(static_cast<double>(i)));
+        const ComplexGrid image = plan.pressure(e);
+        EXPECT_LE(relative_l2(image, synthesize_direct(e, head, m)), tolerance) << c.echoes << " echoes";
+        EXPECT_TRUE((image == other.pressure(e)).all()) << c.echoes << " echoes";
+      }
+    }
+  }
+}
+
+// Two echoes a little apart and of opposite sign. Where a bin stands at the very end of one pulse and beyond that of the
+// other, what was cut is small against either, and not against what they leave of each other.
+TEST(PingSynthesizer, keeps_its_promise_for_few_echoes_that_cancel) {
+  const Case c{.beams = 4, .bins = 40};
+  const SonarHead head = head_of(c);
+  const Medium m = medium_of(c, head);
+  const double step = 2 * head.gate.bin_size / speed_of_sound, first = 2 * head.gate.centre(20) / speed_of_sound;
+  for (const double tolerance : {1e-2, 1e-6}) {
+    const PingSynthesizer plan(head, m, {tolerance, 1});
+    double worst = 0;
+    for (int k = 0; k < 500; ++k) {
+      const double delay = first + 0.002 * k * step;
+      const Echoes e{{delay, delay + 0.002 * step}, {0.1, 0.1}, {{1, 0}, {-1, 0}}};
+      ASSERT_TRUE(plan.sums_directly(e));
+      worst = std::max(worst, relative_l2(plan.pressure(e), synthesize_direct(e, head, m)));
+    }
+    EXPECT_LE(worst, tolerance);
+  }
+}
+
+// A thousand elements and a sweep: the pattern's terms and the pulse's samples are many for one echo.
+TEST(PingSynthesizer, sums_few_echoes_of_any_array) {
+  for (const double beam_width : {radians(0.11), radians(0.3), radians(60)}) {
+    const Case c{.echoes = 70, .beams = 21, .bins = 300, .beam_width = beam_width};
+    const SonarHead head = head_of(c);
+    const PingSynthesizer plan(head, medium_of(c, head), {1e-12, 2});
+    const Echoes e = echoes_of({.echoes = 3, .beams = 21, .bins = 300, .beam_width = beam_width}, head);
+    EXPECT_TRUE(plan.sums_directly(e)) << head.array.elements();
+    EXPECT_LE(relative_l2(plan.pressure(e), synthesize_direct(e, head, medium_of(c, head))), 1e-12);
+    EXPECT_LE(relative_l2(synthesized(c, 1e-12), referee(c)), 1e-12);
+  }
+}
+
 TEST(PingSynthesizer, refuses_a_tolerance_it_cannot_keep_and_a_nan) {
   const Case c;
   const SonarHead head = head_of(c);

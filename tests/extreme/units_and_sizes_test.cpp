@@ -99,7 +99,8 @@ TEST(ExtremeCase, n15_memory_grows_with_the_points_in_view_and_no_faster) {
 }
 
 // Points that neither lie in the gate nor can hide what does are let go at once: two million of them beyond the gate
-// cost a ping of one small plate nothing to speak of, and change no bit of it.
+// cost a ping of one small plate no more than it takes to sort them into blocks (two keys of 8 bytes each), and change no
+// bit of it.
 TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
   if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   const SceneCloud near = plate(6, 1, 30);
@@ -116,7 +117,7 @@ TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
   }
   for (std::size_t i = 0; i < beyond; ++i) far.id[i] += static_cast<std::uint32_t>(near.size());
   const double alone = memory_of_ping(near), among = memory_of_ping(far);
-  EXPECT_LT(among - alone, 10.0 * static_cast<double>(beyond));  // bytes
+  EXPECT_LT(among - alone, 18.0 * static_cast<double>(beyond));  // bytes
   EXPECT_TRUE(same(image(ping_of(far, {.scatterers_per_cell = 0})), image(ping_of(near, {.scatterers_per_cell = 0}))));
 }
 

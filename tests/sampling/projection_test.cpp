@@ -7,6 +7,7 @@
 
 #include "sampling_scenes.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "scene/thin_scene.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -38,7 +39,7 @@ void add_pole(SceneCloud& scene, double x, double y, double radius, double spaci
 }
 
 std::vector<Place> places() {
-  std::vector<Place> all(9);
+  std::vector<Place> all(11);
   all[0].name = "wall with a hole";
   add_wall(all[0].scene, 4, 3, 2, 0.08, 0.4);
   punch_hole(all[0].scene, 0.5);
@@ -79,6 +80,13 @@ std::vector<Place> places() {
     add_surfel(all[8].scene, p, n.normalized(), std::pow(10, size(random)));
   }
   all[8].scene.normals_oriented = false;
+  all[9].name = "all points at one place";
+  for (int i = 0; i < 300; ++i) add_surfel(all[9].scene, {5, 0.3, 0.1}, {-1, 0, 0}, 1);
+  all[9].hides_something = false;
+  all[10].name = "mixed density";
+  add_rectangle(all[10].scene, {4, -3, -2}, {0, 3, 0}, {0, 0, 4}, {-1, 0, 0}, 0.25, 0.4);
+  add_rectangle(all[10].scene, {4, 0, -2}, {0, 3, 0}, {0, 0, 4}, {-1, 0, 0}, 0.04, 0.4);
+  add_wall(all[10].scene, 7, 6, 3, 0.1, 0.4);
   return all;
 }
 
@@ -191,7 +199,7 @@ TEST(PreparedScene, still_refuses_what_is_wrong_with_the_ping) {
   EXPECT_NE(message_of([&] { find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1}); }), "no error");
 }
 
-// Lambert's cross-section without mu. Four and sixteen times as many surfels, or rays, change it by less than 0.2 dB.
+// Lambert's cross-section without mu. Four and sixteen times as many surfels, or rays, change it by less than 0.1 dB.
 TEST(Level, does_not_depend_on_density_of_points_or_rays) {
   const auto level_db = [](double spacing, const SamplingOptions& options) {
     SceneCloud scene;
@@ -213,12 +221,34 @@ TEST(Level, does_not_depend_on_density_of_points_or_rays) {
     for (const SamplingKind kind : kinds) {
       const double finest = level_db(0.02, options_of(kind, projection, 256));
       for (const double spacing : {0.04, 0.08})
-        EXPECT_NEAR(level_db(spacing, options_of(kind, projection, 256)), finest, 0.2)
+        EXPECT_NEAR(level_db(spacing, options_of(kind, projection, 256)), finest, 0.1)
             << spacing << " m, " << static_cast<int>(kind);
     }
     const double most_rays = level_db(0.04, options_of(SamplingKind::rays, projection, 1024));
     for (const int rays : {64, 256})
       EXPECT_NEAR(level_db(0.04, options_of(SamplingKind::rays, projection, rays)), most_rays, 0.1) << rays << " rays";
+  }
+}
+
+// The same, when one cloud is thinned to a quarter and a sixteenth of its surfels.
+TEST(Level, is_kept_by_thinning) {
+  SceneCloud scene;
+  add_rectangle(scene, {2, -6, -2}, {12, 0, 0}, {0, 12, 0}, {0, 0, 1}, 0.03, 0.5);
+  add_sphere(scene, {6, 0.5, -1}, 0.8, static_cast<int>(4 * pi * 0.64 / (0.03 * 0.03)));
+  add_wall(scene, 11, 4, 2, 0.03, 0.5);
+  const BeamFan fan = make_fan(64, radians(50), radians(1), radians(15));
+  const auto level_db = [&](const SceneCloud& cloud) {
+    const Scatterers s = find_scatterers(cloud, at(0, 0, 0, 0, 10), fan, {0.1, 13, 0.05}, unsplit()).scatterers;
+    double sum = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) sum += s.projected_area[i] * s.cos_incidence[i];
+    return 10 * std::log10(sum);
+  };
+  const double dense = level_db(scene);
+  for (const double spacing : {0.06, 0.12}) {
+    const SceneCloud thinned = thin_scene(scene, spacing);
+    EXPECT_NEAR(static_cast<double>(scene.size()) / static_cast<double>(thinned.size()), std::pow(spacing / 0.03, 2),
+                0.25 * std::pow(spacing / 0.03, 2));
+    EXPECT_NEAR(level_db(thinned), dense, 0.1) << spacing << " m";
   }
 }
 

@@ -116,6 +116,31 @@ TEST(Rays, meet_the_facing_side_of_a_thin_plate) {
     ASSERT_NEAR(s.range[i] * std::cos(s.elevation[i]) * std::cos(s.azimuth[i]), 4, 1e-4);
 }
 
+// A plate ends at y = 0, half a spacing beyond its outermost centres. Discs of 1.2 spacings go on; echoes must not.
+TEST(Rays, that_pass_beside_a_surface_meet_what_stands_behind) {
+  constexpr double spacing = 0.1;
+  for (const double jitter : {0.0, 0.3}) {
+    SceneCloud scene;
+    add_rectangle(scene, {4, -3, -2}, {0, 3, 0}, {0, 0, 4}, {-1, 0, 0}, spacing, jitter);
+    add_wall(scene, 8, 6, 4, spacing, jitter);
+    const BeamFan fan = make_fan(64, radians(30), radians(0.5), radians(10));
+    const Scatterers s = find_scatterers(scene, at(0, 0, 0), fan, long_gate(), rays(128)).scatterers;
+    std::size_t close = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const double beyond = 4 * std::tan(s.azimuth[i]) / spacing;
+      const double x = s.range[i] * std::cos(s.elevation[i]) * std::cos(s.azimuth[i]);
+      if (beyond < -0.3 - jitter) {
+        ASSERT_NEAR(x, 4, 1e-3) << beyond;
+      }
+      if (beyond > 0.25 + jitter) {
+        ASSERT_NEAR(x, 8, 1e-3) << beyond;
+      }
+      close += beyond > 0.25 + jitter && beyond < 0.7;
+    }
+    EXPECT_GT(close, 50u);
+  }
+}
+
 TEST(Rays, have_ids_that_are_unique_in_a_ping_and_bound_to_their_surfel) {
   SceneCloud scene;
   add_wall(scene, 4, 3, 3, 0.5);

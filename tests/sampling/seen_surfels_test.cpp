@@ -28,6 +28,8 @@ TEST(FindSight, sees_what_find_scatterers_sees) {
     options.occlusion = occlusion;
     const Sampling expected = find_scatterers(scene, pose, fan, gate, options);
     const auto sight = find_sight(scene, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options);
+    EXPECT_EQ(find_sight(PreparedScene(scene), pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options),
+              sight);
     EXPECT_EQ(seen_of(sight), expected.scatterers.surfel);
     EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::hidden), expected.report.hidden);
     EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::turned_away), expected.report.back_facing);
@@ -42,6 +44,7 @@ TEST(FindSight, surfels_not_asked_about_still_block) {
   std::vector<std::uint8_t> asked(scene.size(), 0);
   asked[0] = 1;
   const auto sight = find_sight(scene, Pose::Identity(), wide_fan(), long_gate(), asked, unsplit());
+  EXPECT_EQ(find_sight(PreparedScene(scene), Pose::Identity(), wide_fan(), long_gate(), asked, unsplit()), sight);
   EXPECT_EQ(sight[0], Sight::hidden);
   EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::not_asked), scene.size() - 1);
 }
@@ -50,6 +53,9 @@ TEST(FindSight, refuses_a_list_of_another_length) {
   SceneCloud scene;
   add_wall(scene, 5, 1, 1, 1);
   EXPECT_EQ(message_of([&] { find_sight(scene, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
+            "find_sight: asked has 0 entries, must have one per surfel (4)");
+  const PreparedScene prepared(scene);
+  EXPECT_EQ(message_of([&] { find_sight(prepared, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
             "find_sight: asked has 0 entries, must have one per surfel (4)");
 }
 
@@ -61,4 +67,6 @@ TEST(SplitListed, splits_as_find_scatterers_does) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < scene.size(); ++i) all.push_back(i);
   EXPECT_TRUE(equal(split_listed(scene, Pose::Identity(), wide_fan(), long_gate(), all, {}), expected.scatterers));
+  EXPECT_TRUE(equal(split_listed(PreparedScene(scene), Pose::Identity(), wide_fan(), long_gate(), all, {}),
+                    expected.scatterers));
 }

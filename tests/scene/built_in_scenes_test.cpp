@@ -112,3 +112,28 @@ TEST(BuiltInScenes, refuse_bad_options) {
   EXPECT_THAT(message_of("plane", {.size = {0, 1}}), HasSubstr("size = 0 x 1 m"));
   EXPECT_THAT(message_of("sphere", {.radius = -1}), HasSubstr("radius = -1 m"));
 }
+
+TEST(BuiltInScenes, come_in_batches_without_a_bit_of_difference) {
+  for (const std::string& name : built_in_scene_names()) {
+    const BuiltInSceneOptions options{.points = 5000};
+    const SceneCloud whole = make_built_in_scene(name, options);
+    SceneCloud all = empty_built_in_scene(name, options);
+    std::size_t batches = 0;
+    make_built_in_scene_in_batches(name, options, 600, [&](const SceneCloud& batch) {
+      ++batches;
+      EXPECT_LT(batch.size(), 1200U);
+      all.point.insert(all.point.end(), batch.point.begin(), batch.point.end());
+      all.normal.insert(all.normal.end(), batch.normal.begin(), batch.normal.end());
+      all.area.insert(all.area.end(), batch.area.begin(), batch.area.end());
+      all.material.insert(all.material.end(), batch.material.begin(), batch.material.end());
+      all.id.insert(all.id.end(), batch.id.begin(), batch.id.end());
+    });
+    EXPECT_GT(batches, 4U);
+    EXPECT_EQ(all.point, whole.point) << name;
+    EXPECT_EQ(all.normal, whole.normal) << name;
+    EXPECT_EQ(all.area, whole.area) << name;
+    EXPECT_EQ(all.material, whole.material) << name;
+    EXPECT_EQ(all.id, whole.id) << name;
+    EXPECT_EQ(all.materials.size(), whole.materials.size()) << name;
+  }
+}

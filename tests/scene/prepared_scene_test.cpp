@@ -59,6 +59,13 @@ TEST(PreparedScene, knows_the_mean_spacing) {
   EXPECT_DOUBLE_EQ(PreparedScene(scene).mean_spacing(), std::sqrt(area / static_cast<double>(scene.size())));
 }
 
+TEST(PreparedScene, knows_the_largest_surfel) {
+  const SceneCloud scene = harbour_with_strays();
+  EXPECT_EQ(PreparedScene(scene).largest_area(), *std::max_element(scene.area.begin(), scene.area.end()));
+  const SceneCloud empty;
+  EXPECT_EQ(PreparedScene(empty).largest_area(), 0);
+}
+
 TEST(PreparedScene, of_nothing_or_of_one_place_is_valid) {
   const SceneCloud empty;
   EXPECT_TRUE(PreparedScene(empty).blocks().empty());

@@ -1,6 +1,8 @@
 #include "store/cube.hpp"
 
 #include <chrono>
+#include <cstring>
+#include <limits>
 #include <thread>
 
 #include <hdf5.h>
@@ -112,6 +114,78 @@ TEST(CubeLayers, come_back_bit_for_bit_in_their_order) {
       EXPECT_TRUE((back.pings[p].layers[l].pressure == cube.pings[p].layers[l].pressure).all());
     }
   }
+}
+
+TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
+  Cube cube = make_cube(2);
+  for (Ping& ping : cube.pings) {
+    ping.level_error_db = ping.pressure.abs();
+    ping.level_error_db(1, 2) = std::numeric_limits<float>::quiet_NaN();
+    ping.unknown = (ping.pressure.real() > 0.3f).cast<std::uint8_t>();
+    ping.expected_level = true;
+  }
+  const std::string path = write(cube);
+  const Cube back = read_cube(path);
+  for (std::size_t p = 0; p < 2; ++p) {
+    const Ping &a = back.pings[p], &b = cube.pings[p];
+    ASSERT_EQ(a.level_error_db.size(), b.level_error_db.size());
+    ASSERT_EQ(a.unknown.size(), b.unknown.size());
+    const std::size_t cells = static_cast<std::size_t>(b.unknown.size());
+    EXPECT_EQ(std::memcmp(a.level_error_db.data(), b.level_error_db.data(), cells * sizeof(float)), 0);
+    EXPECT_EQ(std::memcmp(a.unknown.data(), b.unknown.data(), cells), 0);
+    EXPECT_TRUE(a.expected_level);
+  }
+  const RawFile file(path);
+  EXPECT_EQ(raw_extent(file, "/level_error_db"), raw_extent(file, "/pressure"));
+  EXPECT_EQ(raw_extent(file, "/unknown"), raw_extent(file, "/pressure"));
+  EXPECT_EQ(raw_text(file, "/level_error_db", "units"), "dB");
+  EXPECT_EQ(raw_text(file, "/", "expected_level"), "expected level, no speckle");
+}
+
+TEST(CubeMaps, are_absent_unless_the_pings_have_them) {
+  const std::string path = write(make_cube(1));
+  const Ping back = read_cube(path).pings[0];
+  EXPECT_EQ(back.level_error_db.size(), 0);
+  EXPECT_EQ(back.unknown.size(), 0);
+  EXPECT_FALSE(back.expected_level);
+  const RawFile file(path);
+  for (const char* name : {"/level_error_db", "/unknown"}) EXPECT_EQ(H5Lexists(file, name, H5P_DEFAULT), 0);
+  EXPECT_EQ(H5Aexists(file, "expected_level"), 0);
+}
+
+TEST(CubeMaps, must_be_the_same_in_every_ping) {
+  const auto error_with = [](const auto& change) {
+    Cube cube = make_cube(2);
+    change(cube.pings[0], cube.pings[1]);
+    return error_of([&] { write(cube); });
+  };
+  const auto contains = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  contains(error_with([](Ping&, Ping& b) { b.level_error_db.setZero(70, 46); }),
+           "level_error_db of ping 41 has 70 x 46 cells, must be like that of ping 40: absent");
+  contains(error_with([](Ping& a, Ping&) { a.unknown.setZero(70, 46); }),
+           "unknown of ping 41 has 0 x 0 cells, must be like that of ping 40, one cell for each of its pressure");
+  contains(error_with([](Ping& a, Ping&) { a.unknown.setZero(70, 45); }), "unknown of ping 40 has 70 x 45 cells");
+  contains(error_with([](Ping&, Ping& b) { b.expected_level = true; }),
+           "only one of pings 40 and 41 is an expected level");
+}
+
+TEST(CubeMaps, of_another_type_or_extent_are_refused) {
+  Cube cube = make_cube(2);
+  for (Ping& ping : cube.pings) ping.level_error_db.setZero(70, 46);
+  const std::string path = write(cube);
+  {
+    const RawFile file(path);
+    H5Lcreate_hard(file, "/level_error_db", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
+  }
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown must be of uint8");
+  {
+    const RawFile file(path);
+    H5Ldelete(file, "/unknown", H5P_DEFAULT);
+    H5Lcreate_hard(file, "/pose", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
+  }
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown has another extent than /pressure");
 }
 
 TEST(Cube, keeps_the_row_width_of_a_planar_array) {

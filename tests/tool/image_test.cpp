@@ -8,6 +8,7 @@
 #include "tool/tool_runner.hpp"
 
 using namespace insonify;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -46,7 +47,7 @@ TEST_F(ImageVerb, grey_values_are_the_levels_of_the_cube) {
   const double top = std::ceil(level.maxCoeff()), window = 60;
   for (const int bits : {8, 16}) {
     succeed("image out --view grey --raw --window 60 --max " + std::to_string(top) + " --bits " + std::to_string(bits) +
-            " -o grey.pgm -q");
+            " -o grey.pgm --force -q");
     const std::vector<int> grey = pixels("grey.pgm", beams, bins, bits);
     ASSERT_EQ(grey.size(), beams * bins);
     const double full = bits == 8 ? 255 : 65535;
@@ -85,7 +86,7 @@ TEST_F(ImageVerb, tvg_gives_back_what_it_says) {
   const Cube cube = read_cube(path("out/cube.h5"));
   const std::size_t beams = 24, bins = cube.pings[0].gate.bins();
   const auto grey = [&](const std::string& tvg) {
-    succeed("image out --view grey --bits 16 --max 220 --window 200 --tvg " + tvg + " -o tvg.pgm -q");
+    succeed("image out --view grey --bits 16 --max 220 --window 200 --tvg " + tvg + " -o tvg.pgm --force -q");
     return pixels("tvg.pgm", beams, bins, 16);
   };
   const std::vector<int> forty = grey("40"), twenty = grey("20");
@@ -116,7 +117,51 @@ TEST_F(ImageVerb, bad_input_gets_one_line) {
   expect_refused("image out --window inf -o x.png", 2, {"--window = inf dB"});
   expect_refused("image out --max bright -o x.png", 2, {"--max = 'bright' is not a number"});
   expect_refused("image out --layer multipath -o x.png", 2, {"--layer = 'multipath'", "it has direct, noise"});
-  expect_refused("image out --view waterfall -o x.png", 2, {"--view", "waterfall"});
+  expect_refused("image out --view sonogram -o x.png", 2, {"--view", "sonogram"});
   expect_refused("image out --ping 3 -o x.png", 2, {"--ping = 3", "must be below 1"});
   expect_refused("image out --beam 24 -o x.png", 2, {"--beam = 24", "must be below 24"});
+  expect_refused("image out --beam=-1 -o x.png", 2, {"--beam = -1", "from 0"});
+  expect_refused("image out --beam 2.5 -o x.png", 2, {"--beam = 2.5", "from 0"});
+  expect_refused("image out --beam all -o x.png", 2, {"--beam = 'all'", "not a number"});
+  expect_refused("image out --size 200x240 -o x.png", 2, {"200 x 240 pixels", "must be 240 to 8192"});
+  expect_refused("image out --size 9000x80 -o x.png", 2, {"9000"});
+  expect_refused("image out --view panels --size 480x360 -o x.png", 2, {"480 x 360", "at least 640 x 480"});
+  expect_refused("image out --annotate some -o x.png", 2, {"--annotate = 'some' is not a number"});
+  expect_refused("image out --annotate 0 -o x.png", 2, {"--annotate = 0", "1 to 1000, or a .csv file"});
+  expect_refused("image out --annotate none.csv -o x.png", 4, {"none.csv", "no such file"});
+  expect_refused("image out --view ascan --annotate -o x.png", 2, {"--annotate goes with", "not ascan"});
+  expect_refused("image out --view waterfall -o x.png", 3, {"out: holds one ping", "insonify merge"});
+  expect_refused("image out --view waterfall --animate -o frames", 2, {"--animate", "waterfall"});
+  expect_refused("image out -o nowhere/x.png", 4, {"nowhere/x.png"});
+}
+
+TEST_F(ImageVerb, existing_files_are_replaced_with_force_alone) {
+  write("x.png", "mine");
+  expect_refused("image out -o x.png", 4, {"x.png: exists already", "--force"});
+  EXPECT_EQ(read("x.png"), "mine");
+  succeed("image out -o x.png --size 400x300 --force -q");
+  EXPECT_EQ(read("x.png").substr(1, 3), "PNG");
+  expect_refused("image out --animate -o x.png", 4, {"x.png: is a file, must be a folder"});
+}
+
+TEST_F(ImageVerb, runs_that_are_none_are_told_apart) {
+  expect_refused("image nowhere -o x.png", 4, {"nowhere: no such run directory or cube"});
+  fs::create_directory(path("empty"));
+  expect_refused("image empty -o x.png", 3, {"empty: holds no cube.h5"});
+  write("plain.h5", "not HDF5");
+  expect_refused("image plain.h5 -o x.png", 3, {"plain.h5: is not an HDF5 file"});
+
+  // A cube of which the end was never written.
+  fs::create_directory(path("half"));
+  const std::string cube = read("out/cube.h5");
+  write("half/cube.h5", cube.substr(0, cube.size() / 2));
+  expect_refused("image half -o x.png", 3, {"half/cube.h5: is damaged or cut short"});
+
+  // The eight bytes of the attribute follow its name and type.
+  std::string other = cube;
+  const std::size_t value = other.rfind(std::string("\x01\0\0\0\0\0\0\0", 8), other.find("schema") + 64);
+  ASSERT_NE(value, std::string::npos);
+  other[value] = 7;
+  write("other.h5", other);
+  expect_refused("image other.h5 -o x.png", 3, {"other.h5: has cube schema 7, this insonify reads schema 1"});
 }

@@ -1,254 +1,199 @@
-// Range error of rays cast on point clouds against the true surfaces they were sampled from: sampling_accuracy.
+// Sampling of point clouds against the true surfaces they were scanned from: sampling_accuracy [SPACING_MM ...].
 //
-// A sea bed of facets, spheres, and boxes of six faces; the truth is the nearest intersection of the ray with triangles
-// and spheres, in closed form. Holes: rays that should have met a surface and met nothing.
+// Three tables: range errors of rays, the same apart near silhouettes and elsewhere, and surfels hidden or shown wrongly.
+// Holes: rays that should have met a surface and met nothing.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include "core/units.hpp"
+#include "core/parallel.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "true_world.hpp"
 
 namespace {
 
 using namespace insonify;
-using Eigen::Vector3d;
 
-struct Triangle {
-  Vector3d a, u, v;  // a corner and two sides
-};
-constexpr double none = 1e9;
-
-// Range at which a ray meets a triangle (Moeller and Trumbore 1997).
-double meet(const Triangle& t, const Vector3d& from, const Vector3d& along) {
-  const Vector3d p = along.cross(t.v), s = from - t.a, q = s.cross(t.u);
-  const double determinant = t.u.dot(p);
-  if (std::abs(determinant) < 1e-15) return none;
-  const double b = s.dot(p) / determinant, c = along.dot(q) / determinant, r = t.v.dot(q) / determinant;
-  return b >= 0 && c >= 0 && b + c <= 1 && r > 0 ? r : none;
-}
-
-struct Ball {
-  Vector3d centre;
-  double radius;
-};
-
-// A rough sea bed of facets on a grid of 0.1 m: hills of decimetres, ripples of centimetres, stones of a centimetre.
-class SeaBed {
- public:
-  static constexpr double cell = 0.1, length = 44, half_width = 22;
-
-  SeaBed() {
-    std::mt19937_64 random(3);
-    std::uniform_real_distribution<double> stones(-0.01, 0.01);
-    for (int j = 0; j <= rows; ++j)
-      for (int i = 0; i <= columns; ++i) {
-        const double x = i * cell, y = j * cell - half_width;
-        heights_.push_back(-8 + 0.25 * std::sin(0.9 * x + 0.3 * y) + 0.2 * std::sin(0.7 * y - 0.2 * x) +
-                           0.02 * std::sin(9 * x + 2 * y) + stones(random));
-      }
-  }
-
-  // The two facets of cell (i, j).
-  std::array<Triangle, 2> facets(int i, int j) const {
-    const auto at = [&](int di, int dj) {
-      return Vector3d((i + di) * cell, (j + dj) * cell - half_width,
-                      heights_[static_cast<std::size_t>((j + dj) * (columns + 1) + i + di)]);
-    };
-    const Vector3d a = at(0, 0), d = at(1, 1) - a;
-    return {Triangle{a, at(1, 0) - a, d}, Triangle{a, d, at(0, 1) - a}};
-  }
-
-  // Nearest facet that a ray meets: cell by cell along its track.
-  double range(const Vector3d& from, const Vector3d& along) const {
-    const double steepest = std::hypot(along.x(), along.y());
-    double nearest = none;
-    const double step = 0.2 * cell / std::max(steepest, 1e-9);
-    int last_i = -1, last_j = -1;
-    for (double r = 0; r < 60; r += std::min(step, 60.0)) {
-      const int i = static_cast<int>(std::floor((from.x() + r * along.x()) / cell));
-      const int j = static_cast<int>(std::floor((from.y() + r * along.y() + half_width) / cell));
-      if (i == last_i && j == last_j) continue;
-      last_i = i;
-      last_j = j;
-      // With its neighbours, for the corners that the steps jump over.
-      for (int b = std::max(0, j - 1); b <= std::min(rows - 1, j + 1); ++b)
-        for (int a = std::max(0, i - 1); a <= std::min(columns - 1, i + 1); ++a)
-          for (const Triangle& t : facets(a, b)) nearest = std::min(nearest, meet(t, from, along));
-      if (nearest < r) break;
-    }
-    return nearest;
-  }
-
-  void scan(double spacing, std::mt19937_64& random, SceneCloud& scene) const {
-    std::uniform_real_distribution<double> jitter(0.1, 0.9);
-    for (double x = 0; x < length - spacing; x += spacing)
-      for (double y = -half_width; y < half_width - spacing; y += spacing) {
-        const double px = x + jitter(random) * spacing, py = y + jitter(random) * spacing;
-        const int i = static_cast<int>(px / cell), j = static_cast<int>((py + half_width) / cell);
-        for (const Triangle& t : facets(i, j)) {
-          const double r = meet(t, {px, py, 0}, {0, 0, -1});
-          if (r == none) continue;
-          const Vector3d normal = t.u.cross(t.v).normalized();
-          add_surfel(scene, {px, py, -r}, normal, spacing * spacing / normal.z());
-          break;
-        }
-      }
-  }
-
- private:
-  static constexpr int columns = static_cast<int>(length / cell), rows = static_cast<int>(2 * half_width / cell);
-  std::vector<double> heights_;
-};
-
-class World {
- public:
-  World() {
-    balls_ = {{{9, 2, -6.8}, 0.8}, {{14, -4, -6.5}, 1.2}, {{20, 3, -7}, 0.5}};
-    add_box({12, 4, -7}, {1.5, 0.5, 1.5});
-    add_box({17, -1, -6.5}, {0.15, 0.15, 2});
-    add_box({30, 0, -6}, {0.3, 12, 3});
-    add_box({11, -3, -6.5}, {0.05, 0.05, 1.5});
-  }
-
-  // Range along a unit direction; nothing: the ray meets no surface.
-  std::optional<double> truth(const Vector3d& from, const Vector3d& along) const {
-    double nearest = bed_.range(from, along);
-    for (const Triangle& t : triangles_) nearest = std::min(nearest, meet(t, from, along));
-    for (const Ball& ball : balls_) {
-      const Vector3d s = from - ball.centre;
-      const double b = s.dot(along), discriminant = b * b - s.squaredNorm() + ball.radius * ball.radius;
-      if (discriminant >= 0 && -b - std::sqrt(discriminant) > 0)
-        nearest = std::min(nearest, -b - std::sqrt(discriminant));
-    }
-    return nearest < none ? std::optional(nearest) : std::nullopt;
-  }
-
-  // Surfels at random on all surfaces, thinned to about `spacing` like a scanner's.
-  SceneCloud scan(double spacing) const {
-    SceneCloud scene;
-    std::mt19937_64 random(7);
-    std::uniform_real_distribution<double> unit(0, 1);
-    bed_.scan(spacing, random, scene);
-    for (const Triangle& t : triangles_) {
-      const Vector3d cross = t.u.cross(t.v);
-      const int n = std::max(1, static_cast<int>(std::round(std::sqrt(cross.norm()) / spacing)));
-      // n x n small triangles of each kind: a point in the middle of each, jittered.
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n - i; ++j)
-          for (int flip = 0; flip < (j < n - i - 1 ? 2 : 1); ++flip) {
-            const double b = (i + (flip ? 2.0 : 1.0) / 3 + 0.3 * (unit(random) - 0.5)) / n;
-            const double c = (j + (flip ? 2.0 : 1.0) / 3 + 0.3 * (unit(random) - 0.5)) / n;
-            add_surfel(scene, t.a + b * t.u + c * t.v, cross.normalized(), cross.norm() / 2 / (n * n));
-          }
-    }
-    for (const Ball& ball : balls_) {
-      const int n = static_cast<int>(4 * pi * ball.radius * ball.radius / (spacing * spacing));
-      for (int k = 0; k < n; ++k) {
-        const double z = 1 - (2 * k + 1.0) / n, turn = k * pi * (3 - std::sqrt(5.0)), s = std::sqrt(1 - z * z);
-        const Vector3d d(s * std::cos(turn), s * std::sin(turn), z);
-        add_surfel(scene, ball.centre + ball.radius * d, d, 4 * pi * ball.radius * ball.radius / n);
-      }
-    }
-    return scene;
-  }
-
- private:
-  void add_box(const Vector3d& centre, const Vector3d& half) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {-1.0, 1.0}) {
-        Vector3d u = Vector3d::Zero(), v = Vector3d::Zero(), n = Vector3d::Zero();
-        n[axis] = side * half[axis];
-        u[(axis + 1) % 3] = 2 * half[(axis + 1) % 3];
-        v[(axis + 2) % 3] = 2 * half[(axis + 2) % 3];
-        if (side < 0) std::swap(u, v);  // u x v points outward
-        const Vector3d corner = centre + n - u / 2 - v / 2;
-        // Two triangles a metre or less on a side at a time, so that surfels stay square.
-        const int nu = static_cast<int>(std::ceil(u.norm())), nv = static_cast<int>(std::ceil(v.norm()));
-        for (int i = 0; i < nu; ++i)
-          for (int j = 0; j < nv; ++j) {
-            const Vector3d a = corner + u * i / nu + v * j / nv;
-            triangles_.push_back({a, u / nu, u / nu + v / nv});
-            triangles_.push_back({a, u / nu + v / nv, v / nv});
-          }
-      }
-  }
-
-  SeaBed bed_;
-  std::vector<Triangle> triangles_;
-  std::vector<Ball> balls_;
-};
+constexpr double far_off = 0.3;  // [m]: an error of another object, not of a surface
 
 struct View {
   std::string name;
   Pose pose;
   BeamFan fan;
-  double max_range;
+  RangeGate gate;
 };
 
-// Prints one row: the rays of one ping against the truth. Rays are recognised by their directions.
-void report(const World& world, const SceneCloud& scene, double spacing, const View& view, Projection projection) {
-  SamplingOptions options{.kind = SamplingKind::rays, .projection = projection, .rays_per_beam = 64};
-  const RangeGate gate{0.5, view.max_range, 0.01};
-  const Sampling sampling = find_scatterers(scene, view.pose, view.fan, gate, options);
-  const Scatterers& s = sampling.scatterers;
-  const std::size_t cast = view.fan.beams() * static_cast<std::size_t>(options.rays_per_beam);
-  std::vector<double> error;
-  std::size_t silhouettes = 0, beyond = 0;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const Vector3d along = view.pose.linear() * unit_vector({s.azimuth[i], s.elevation[i]});
-    const auto truth = world.truth(view.pose.translation(), along);
-    if (!truth) {
-      ++beyond;
-      continue;
-    }
-    error.push_back(s.range[i] - *truth);
-    silhouettes += std::abs(error.back()) > 0.3;
+std::vector<View> views() {
+  const BeamFan low = make_fan(256, radians(40), radians(0.5), radians(5));
+  const BeamFan high = make_fan(256, radians(40), radians(0.5), radians(20));
+  // Every direction meets the bed or the wall behind it: what is missed is a hole.
+  return {{"grazing", pose_from_yaw_pitch_roll({2, 0, -4.5}, 0, radians(14), 0), low, {0.5, 60, 0.01}},
+          {"steep", pose_from_yaw_pitch_roll({14, 0, -1}, 0, radians(80), 0), high, {0.5, 30, 0.01}},
+          {"normal", pose_from_yaw_pitch_roll({19, 0, -1}, 0, radians(90), 0), high, {0.5, 30, 0.01}}};
+}
+
+// Absolute errors, and what a table says of them.
+struct Errors {
+  std::vector<double> size;
+
+  void add(double error) { size.push_back(std::abs(error)); }
+  void sort() { std::sort(size.begin(), size.end()); }
+  double quantile_mm(double q) const {
+    return size.empty() ? 0 : 1e3 * size[static_cast<std::size_t>(q * static_cast<double>(size.size() - 1))];
   }
-  const double median = [&] {
-    std::nth_element(error.begin(), error.begin() + static_cast<std::ptrdiff_t>(error.size() / 2), error.end());
-    return error[error.size() / 2];
-  }();
-  for (double& e : error) e = std::abs(e);
-  std::sort(error.begin(), error.end());
-  const auto quantile = [&](double q) {
-    return error[static_cast<std::size_t>(q * static_cast<double>(error.size() - 1))];
-  };
-  const auto percent = [&](std::size_t n) {
-    return 100.0 * static_cast<double>(n) / static_cast<double>(error.size());
-  };
-  std::printf("| %s | %.0f | %s | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f | %.0f | %.2f | %.2f |\n",
-              view.name.c_str(), 1e3 * spacing, projection == Projection::raster ? "raster" : "kdtree", error.size(),
-              percent(cast - s.size() - sampling.report.rays_missed), percent(sampling.report.rays_missed),
-              percent(sampling.report.rays_unknown), 1e3 * median, 1e3 * quantile(0.5), 1e3 * quantile(0.9),
-              1e3 * quantile(0.99), percent(silhouettes), percent(beyond));
+  double far_percent() const {
+    const auto far = size.end() - std::upper_bound(size.begin(), size.end(), far_off);
+    return size.empty() ? 0 : 100.0 * static_cast<double>(far) / static_cast<double>(size.size());
+  }
+};
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// True if the true range jumps within `distance` of where the ray meets the world: on one of four lines across it, the
+// inverse range is not linear as that of a plane is, by more than far_off.
+bool is_near_silhouette(const World& world, const Vector3d& from, const Vector3d& along, double range,
+                        double distance) {
+  const Vector3d right = along.unitOrthogonal(), up = along.cross(right);
+  for (int line = 0; line < 4; ++line) {
+    const Vector3d step = distance / range * (std::cos(line * pi / 4) * right + std::sin(line * pi / 4) * up);
+    double inverse = 0;
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3d beside = along + side * step;
+      const auto r = world.truth(from, beside.normalized());
+      inverse += 0.5 * (r ? beside.norm() / *r : 0);
+    }
+    if (!(std::abs(1 / inverse - range) <= far_off)) return true;
+  }
+  return false;
+}
+
+bool same(const Sampling& a, const Sampling& b) {
+  return a.scatterers.range == b.scatterers.range && a.scatterers.id == b.scatterers.id &&
+         a.scatterers.cos_incidence == b.scatterers.cos_incidence && a.report.rays_missed == b.report.rays_missed &&
+         a.report.rays_unknown == b.report.rays_unknown;
+}
+
+struct Tables {
+  std::string rays, silhouettes, surfels;
+};
+
+template <typename... Values>
+void add_row(std::string& table, const char* format, Values... values) {
+  char row[256];
+  std::snprintf(row, sizeof row, format, values...);
+  table += row;
+}
+
+void compare_rays(const World& world, const PreparedScene& scene, double spacing, const View& view, Tables& tables) {
+  SamplingOptions options{.kind = SamplingKind::rays, .projection = Projection::kdtree, .rays_per_beam = 64};
+  const Sampling sampling = find_scatterers(scene, view.pose, view.fan, view.gate, options);
+  options.projection = Projection::raster;
+  const bool agree = same(sampling, find_scatterers(scene, view.pose, view.fan, view.gate, options));
+
+  // The truth along every ray that gave an echo.
+  const Scatterers& s = sampling.scatterers;
+  const Vector3d from = view.pose.translation();
+  std::vector<double> truth(s.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::uint8_t> at_edge(s.size(), 0);
+  parallel_blocks(s.size(), 64, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector3d along = view.pose.linear() * unit_vector({s.azimuth[i], s.elevation[i]});
+      const auto range = world.truth(from, along);
+      if (!range) continue;
+      truth[i] = *range;
+      at_edge[i] = is_near_silhouette(world, from, along, *range, 2 * spacing);
+    }
+  });
+
+  Errors all, edge, rest;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (std::isnan(truth[i])) continue;
+    errors.push_back(s.range[i] - truth[i]);
+    all.add(errors.back());
+    (at_edge[i] ? edge : rest).add(errors.back());
+  }
+  for (Errors* e : {&all, &edge, &rest}) e->sort();
+  const std::size_t cast = view.fan.beams() * static_cast<std::size_t>(options.rays_per_beam);
+  const auto percent = [&](std::size_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(cast); };
+  const char* const name = view.name.c_str();
+  add_row(tables.rays, "| %s | %.0f | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f | %.0f | %.2f | %s |\n", name,
+          1e3 * spacing, s.size(), percent(cast - s.size() - sampling.report.rays_missed),
+          percent(sampling.report.rays_missed), percent(sampling.report.rays_unknown), 1e3 * median_of(errors),
+          all.quantile_mm(0.5), all.quantile_mm(0.9), all.quantile_mm(0.99), all.far_percent(), agree ? "yes" : "NO");
+  add_row(tables.silhouettes, "| %s | %.0f | %.1f | %.2f / %.0f / %.0f | %.1f | %.2f / %.1f / %.0f | %.2f |\n", name,
+          1e3 * spacing, percent(edge.size.size()), edge.quantile_mm(0.5), edge.quantile_mm(0.9),
+          edge.quantile_mm(0.99), edge.far_percent(), rest.quantile_mm(0.5), rest.quantile_mm(0.9),
+          rest.quantile_mm(0.99), rest.far_percent());
+}
+
+// Surfels against the true line of sight to their centres, weighted by their Lambert cross-sections.
+void compare_surfels(const World& world, const PreparedScene& scene, double spacing, const View& view, Tables& tables) {
+  constexpr double on_surface = 0.01;  // [m]
+  constexpr std::size_t most = 40000;
+  SamplingOptions options{.scatterers_per_cell = 0};
+  const Scatterers seen = find_scatterers(scene, view.pose, view.fan, view.gate, options).scatterers;
+  options.occlusion = false;
+  const Scatterers all = find_scatterers(scene, view.pose, view.fan, view.gate, options).scatterers;
+  std::vector<std::uint8_t> is_seen(scene.scene().size(), 0);
+  for (const std::uint32_t surfel : seen.surfel) is_seen[surfel] = 1;
+
+  const std::size_t stride = all.size() / most + 1, looked_at = all.size() / stride;
+  std::vector<std::uint8_t> open(looked_at, 0);
+  parallel_blocks(looked_at, 64, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = k * stride;
+      const Vector3d along = view.pose.linear() * unit_vector({all.azimuth[i], all.elevation[i]});
+      open[k] = world.truth(view.pose.translation(), along).value_or(none) > all.range[i] - on_surface;
+    }
+  });
+  double in_sight = 0, hidden = 0, shown = 0;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    const std::size_t i = k * stride;
+    const double energy = all.projected_area[i] * all.cos_incidence[i];
+    in_sight += open[k] ? energy : 0;
+    hidden += open[k] && !is_seen[all.surfel[i]] ? energy : 0;
+    shown += !open[k] && is_seen[all.surfel[i]] ? energy : 0;
+  }
+  add_row(tables.surfels, "| %s | %.0f | %zu | %.2f | %.2f | %.2f |\n", view.name.c_str(), 1e3 * spacing, seen.size(),
+          100 * hidden / in_sight, 100 * shown / in_sight, 10 * std::log10((in_sight - hidden + shown) / in_sight));
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  std::vector<double> spacings;
+  for (int i = 1; i < argc; ++i) spacings.push_back(1e-3 * std::atof(argv[i]));
+  if (spacings.empty()) spacings = {0.16, 0.08, 0.04, 0.02};
+
   const World world;
-  // Every direction of both fans meets the bed or the wall behind it: what is missed is a hole.
-  const std::vector<View> views = {{"grazing", pose_from_yaw_pitch_roll({2, 0, -4.5}, 0, radians(14), 0),
-                                    make_fan(256, radians(40), radians(0.5), radians(5)), 60},
-                                   {"steep", pose_from_yaw_pitch_roll({14, 0, -1}, 0, radians(80), 0),
-                                    make_fan(256, radians(40), radians(0.5), radians(20)), 30}};
-  std::puts(
-      "| view | spacing, mm | projection | rays | blocked, % | holes, % | unknown, % | median, mm | p50, mm | p90, mm "
-      "| p99, mm | "
-      "over 0.3 m, % | past the edge, % |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-  for (const double spacing : {0.16, 0.08, 0.04, 0.02}) {
-    const SceneCloud scene = world.scan(spacing);
-    for (const View& view : views)
-      for (const Projection projection : {Projection::kdtree, Projection::raster})
-        report(world, scene, spacing, view, projection);
+  Tables tables = {
+      "| view | spacing, mm | rays with echo | blocked, % | holes, % | unknown, % | median error, mm | p50, mm | p90, "
+      "mm "
+      "| p99, mm | over 0.3 m, % | kdtree = raster |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "| view | spacing, mm | rays near a silhouette, % | there: p50 / p90 / p99, mm | over 0.3 m, % | elsewhere: p50 "
+      "/ "
+      "p90 / p99, mm | over 0.3 m, % |\n|---|---|---|---|---|---|---|\n",
+      "| view | spacing, mm | surfels seen | wrongly hidden, % | wrongly shown, % | level, dB "
+      "|\n|---|---|---|---|---|---|"
+      "\n"};
+  for (const double spacing : spacings) {
+    const SceneCloud cloud = world.scan(spacing);
+    const PreparedScene scene(cloud);
+    for (const View& view : views()) {
+      compare_rays(world, scene, spacing, view, tables);
+      compare_surfels(world, scene, spacing, view, tables);
+    }
   }
+  std::printf("%s\n%s\n%s", tables.rays.c_str(), tables.silhouettes.c_str(), tables.surfels.c_str());
 }

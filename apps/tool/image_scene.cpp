@@ -1,0 +1,153 @@
+#include "tool/image_scene.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "scene_io/load_scene.hpp"
+#include "scene_io/load_soundings.hpp"
+#include "tool/head_setup.hpp"
+#include "tool/image_run.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/progress.hpp"
+#include "tool/run_files.hpp"
+#include "tool/run_scene.hpp"
+#include "view/show_scene.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+SceneColour colour_of(const std::string& word) {
+  if (word == "height") return SceneColour::height;
+  if (word == "material") return SceneColour::material;
+  if (word == "grazing") return SceneColour::grazing;
+  if (word == "incidence") return SceneColour::incidence;
+  if (word == "level") return SceneColour::level;
+  return SceneColour::sight;
+}
+
+ScenePreset preset_of(const std::string& word) {
+  if (word == "behind") return ScenePreset::behind;
+  if (word == "top") return ScenePreset::top;
+  if (word == "side") return ScenePreset::side;
+  if (word == "iso") return ScenePreset::iso;
+  return ScenePreset::automatic;
+}
+
+/// A scene, what is to be drawn of it, and its title.
+struct Drawing {
+  SceneCloud scene;
+  SceneLook look;
+  std::string title;
+};
+
+SceneCloud load(const CommonOptions& common, const SceneOptions& options, Progress& progress) {
+  LoadedScene loaded = load_scene(options.path, load_options(common, options));
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  return std::move(loaded.scene);
+}
+
+/// Those of one ping, with as much gain as the other views give.
+Soundings of_ping(const Soundings& all, std::int64_t number, const std::optional<Tvg>& tvg) {
+  Soundings some;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (static_cast<std::int64_t>(all.ping[i]) != number) continue;
+    some.position.push_back(all.position[i]);
+    some.level_db.push_back(all.level_db[i] + (tvg ? static_cast<float>(gain_db(*tvg, all.range[i])) : 0));
+  }
+  return some;
+}
+
+/// Returns in the colour of their level over the grey scene, unless another colour is asked for.
+Drawing drawing_of_run(const CommonOptions& common, const ImageOptions& o, Progress& progress) {
+  if (!o.sonar.empty() || !o.pose.empty() || !o.range.empty())
+    fail(ErrorKind::argument, o.run,
+         " is a run, whose sonar and poses are known; leave --sonar, --pose and --range out");
+  const Cube cube = read_run_cube(o.run);
+  if (o.ping >= cube.pings.size())
+    fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ",
+         o.run);
+  const Ping& ping = cube.pings[o.ping];
+  SceneOptions options = scene_of_run(o.run);
+  if (!o.scene.empty()) options.path = o.scene;
+  if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
+
+  Drawing drawing;
+  drawing.scene = load(common, options, progress);
+  drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
+  drawing.look.colour = o.colour.empty() ? SceneColour::level : colour_of(o.colour);
+  const fs::path returns = fs::path(o.run) / "returns.ply";
+  const bool covered = drawing.look.colour == SceneColour::sight || drawing.look.colour == SceneColour::grazing ||
+                       drawing.look.colour == SceneColour::incidence;
+  if (!fs::exists(returns)) {
+    progress.note(returns.string() + " is missing, so no returns are drawn");
+  } else if (!covered) {
+    const auto tvg = o.raw ? std::nullopt : std::optional(Tvg{o.tvg, cube.absorption_db_per_m});
+    drawing.look.soundings = of_ping(load_soundings(returns.string()), ping.number, tvg);
+    drawing.look.level_unit = level_image(ping, tvg).unit;
+  }
+  drawing.title = picture_title(cube.sonar, ping);
+  return drawing;
+}
+
+Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Progress& progress) {
+  Drawing drawing;
+  if (o.sonar.empty() != o.pose.empty())
+    fail(ErrorKind::argument, "--sonar and --pose go together, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
+  if (o.colour == "level") fail(ErrorKind::argument, "--colour level: a scene alone has no levels; give a run");
+  SceneOptions options;
+  options.path = o.run;
+  drawing.title = fs::path(o.run).filename().string();
+  drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::sight;
+  if (!o.sonar.empty()) {
+    RunOptions run;
+    run.sonar = o.sonar;
+    run.range = o.range;
+    const SonarHead head = set_up_head(common, run).head;
+    drawing.look.head = SceneHead{parse_pose(o.pose, o.world), head.fan, head.gate};
+    drawing.title = head.name + " before " + drawing.title;
+  }
+  if (!o.colour.empty()) drawing.look.colour = colour_of(o.colour);
+  if (!drawing.look.head && (o.colour == "sight" || o.colour == "grazing" || o.colour == "incidence"))
+    fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
+  drawing.scene = load(common, options, progress);
+  return drawing;
+}
+
+}  // namespace
+
+void image_scene(const CommonOptions& common, const ImageOptions& o, const PictureOptions& asked) {
+  Progress progress(common, 2);
+  progress.step("reading " + o.run);
+  const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
+  Drawing drawing = run ? drawing_of_run(common, o, progress) : drawing_of_scene(common, o, progress);
+  SceneLook& look = drawing.look;
+  look.camera.preset = preset_of(o.camera);
+  if (look.colour == SceneColour::sight) {
+    SamplingOptions sampling;
+    sampling.threads = common.threads;
+    const std::vector<std::uint8_t> all(drawing.scene.size(), 1);
+    look.sight = find_sight(drawing.scene, look.head->world_from_head, look.head->fan, look.head->gate, all, sampling);
+  }
+
+  progress.step("drawing " + o.output);
+  PictureOptions picture = asked;
+  picture.title = o.title.empty() ? drawing.title : o.title;
+  show_scene(drawing.scene, look, picture, o.output);
+  fmt::print("{}\n", o.output);
+}
+
+void require_no_scene_options(const ImageOptions& o) {
+  const std::pair<const char*, bool> given[] = {{"--scene", !o.scene.empty()},    {"--sonar", !o.sonar.empty()},
+                                                {"--pose", !o.pose.empty()},      {"--range", !o.range.empty()},
+                                                {"--camera", o.camera != "auto"}, {"--colour", !o.colour.empty()}};
+  for (const auto& [option, is_given] : given)
+    if (is_given) fail(ErrorKind::argument, option, " goes with --view scene, not ", o.view);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "simulate/simulate_ping.hpp"
+#include "store/run_directory.hpp"
+#include "tool/options.hpp"
+#include "tool/ping_setup.hpp"
+
+namespace insonify::tool {
+
+/// Whether --keep names `what`.
+bool keeps(const PingOptions& options, const std::string& what);
+
+/// Writes what --keep asks for beside the cube: contributors.h5, insonification.ply and .pcd, paths.vtp; the manifest
+/// says what is in them.
+void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
+                const PingSetup& setup, const SimulatedPing& ping, nlohmann::ordered_json& manifest);
+
+}  // namespace insonify::tool

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "returns/quantise.hpp"
+#include "store/cube.hpp"
+#include "store/run_directory.hpp"
+#include "tool/image_run.hpp"
+#include "tool/progress.hpp"
+#include "tool/verbs.hpp"
+#include "view/save_grid.hpp"
+
+namespace insonify::tool {
+namespace {
+
+/// Everything a cube knows of the samples of one ping.
+std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m) {
+  const Grid<float> level = level_db(ping);
+  std::vector<SampleField> fields = {
+      {"level_db", level},
+      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, absorption_db_per_m})},
+      {"pressure_re", ping.pressure.real()},
+      {"pressure_im", ping.pressure.imag()}};
+  for (const Layer& layer : ping.layers)
+    fields.push_back(
+        {"level_db_" + layer.name, level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure})});
+  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db});
+  if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
+  return fields;
+}
+
+}  // namespace
+
+void export_run(const CommonOptions& common, const ExportOptions& o) {
+  Progress progress(common, 2);
+  progress.step("reading " + o.run);
+  const Cube cube = read_run_cube(o.run);
+  RunDirectory directory(o.output, o.force);
+
+  progress.step("writing " + o.output);
+  std::vector<SeriesEntry> fans, images;
+  for (std::size_t k = 0; k < cube.pings.size(); ++k) {
+    const Ping& ping = cube.pings[k];
+    const std::vector<SampleField> fields = fields_of(ping, cube.absorption_db_per_m);
+    const auto files = save_fan_grid(directory.file(fmt::format("fan_{:06}.vts", k)), ping.fan, ping.gate, fields,
+                                     ping.world_from_head);
+    for (std::size_t part = 0; part < files.size(); ++part)
+      fans.push_back({ping.time, static_cast<int>(part), files[part]});
+    const std::string image = directory.file(fmt::format("image_{:06}.vti", k));
+    save_sample_image(image, ping.fan, ping.gate, fields);
+    images.push_back({ping.time, 0, image});
+  }
+  save_series(directory.file("fan.pvd"), fans);
+  save_series(directory.file("image.pvd"), images);
+  write_text_file(
+      directory.file("manifest.json"),
+      nlohmann::ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}}.dump(2) +
+          "\n");
+  directory.commit();
+  fmt::print("{}: {} grids and {} images of {} pings; open fan.pvd in ParaView\n", o.output, fans.size(), images.size(),
+             cube.pings.size());
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,74 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "store/merge_cubes.hpp"
+#include "store/run_directory.hpp"
+#include "tool/image_run.hpp"
+#include "tool/progress.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What went in, for the manifest.
+ordered_json inputs_json(const std::vector<NamedCube>& cubes) {
+  ordered_json inputs = ordered_json::array();
+  for (const NamedCube& one : cubes) inputs.push_back({{"path", one.name}, {"pings", one.cube.pings.size()}});
+  return inputs;
+}
+
+/// What merging changed and a reader of the cube would not expect.
+std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, const Cube& merged) {
+  std::vector<std::string> notes;
+  std::size_t same_time = 0;
+  for (std::size_t p = 1; p < merged.pings.size(); ++p) same_time += merged.pings[p].time == merged.pings[p - 1].time;
+  bool had_layers = false, other_settings = false;
+  for (const NamedCube& one : cubes) {
+    had_layers |= !one.cube.pings.front().layers.empty();
+    other_settings |= one.cube.seed != merged.seed || one.cube.tolerance != merged.tolerance ||
+                      one.cube.source_level_db != merged.source_level_db;
+  }
+  if (same_time > 0)
+    notes.push_back(
+        fmt::format("{} pings have the time of the one before them and follow in the order given", same_time));
+  if (had_layers && merged.pings.front().layers.empty())
+    notes.emplace_back("layers are left out: not all pings have the same ones");
+  if (other_settings)
+    notes.emplace_back("runs differ in seed, tolerance or source level; the cube states those of the first");
+  return notes;
+}
+
+}  // namespace
+
+void merge(const CommonOptions& common, const MergeOptions& o) {
+  Progress progress(common, static_cast<int>(o.runs.size()) + 1);
+  RunDirectory directory(o.output, o.force);
+  std::vector<NamedCube> cubes;
+  for (const std::string& run : o.runs) {
+    progress.step("reading " + run);
+    cubes.push_back({run, read_run_cube(run)});
+  }
+  ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"merged", inputs_json(cubes)}};
+  const Cube merged = merge_cubes(cubes);
+  manifest["pings"] = merged.pings.size();
+  manifest["notes"] = merging_notes(cubes, merged);
+  for (const auto& note : manifest["notes"]) progress.note(note.get<std::string>());
+
+  progress.step("writing " + o.output);
+  write_cube(directory.file("cube.h5"), merged);
+  const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
+  if (std::filesystem::exists(settings)) write_text_file(directory.file("run.toml"), read_text_file(settings.string()));
+  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  directory.commit();
+  if (common.json)
+    fmt::print("{}\n", manifest.dump(2));
+  else
+    fmt::print("{}: {} pings of {} runs\n", o.output, merged.pings.size(), o.runs.size());
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,25 @@
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "tool/verbs.hpp"
+
+namespace insonify::tool {
+
+void view(const std::vector<std::string>& arguments) {
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  std::string viewer = error ? "insonify-view" : (self.parent_path() / "insonify-view").string();
+  std::vector<char*> argv{viewer.data()};
+  std::vector<std::string> own = arguments;
+  for (std::string& argument : own) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  execvp(viewer.c_str(), argv.data());  // comes back only if it failed
+  fail(ErrorKind::runtime, "cannot start ", viewer, ": ", std::strerror(errno),
+       "; it is installed beside insonify, unless that was built without INSONIFY_VIEW");
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,70 @@
+// insonify-view: the interactive viewer, and its pictures without a display.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "store/run_directory.hpp"
+#include "tool/exit_code.hpp"
+#include "tool/parse_values.hpp"
+#include "view/show_viewer.hpp"
+#include "viewer/load_viewer_data.hpp"
+#include "viewer/viewer_command.hpp"
+
+namespace insonify::viewer {
+namespace {
+
+// Everything that can be wrong without reading the data.
+ViewerOptions options_of(const ViewerCommand& command) {
+  ViewerOptions options;
+  std::tie(options.width, options.height) = tool::parse_size(command.size);
+  options.events = parse_viewer_script(command.script.empty() ? "" : read_text_file(command.script));
+  for (const ViewerEvent& event : parse_viewer_script(command.events)) options.events.push_back(event);
+  options.say = [](const std::string& text) {
+    std::printf("%s\n", text.c_str());
+    std::fflush(stdout);
+  };
+  if (!(command.window_db >= 5 && command.window_db <= 150))
+    fail(ErrorKind::argument, "--window = ", command.window_db, " dB, must be 5 to 150");
+  if (command.screenshot.empty() && !has_display())
+    fail(ErrorKind::runtime,
+         "no display: set DISPLAY, run under xvfb-run, or use insonify image (or --screenshot FILE.png)");
+  if (!command.screenshot.empty() && !command.force && std::filesystem::exists(command.screenshot))
+    fail(ErrorKind::file, command.screenshot, ": exists already; --force replaces it");
+  if (!std::filesystem::exists(command.target)) fail(ErrorKind::file, command.target, ": no such run or scene");
+  return options;
+}
+
+void view(const ViewerCommand& command) {
+  ViewerOptions options = options_of(command);
+  const LoadedView loaded = is_run(command.target) ? load_run(command) : load_inspection(command);
+  if (!command.common.quiet)
+    for (const std::string& note : loaded.notes) std::fprintf(stderr, "insonify: note: %s\n", note.c_str());
+  options.start = loaded.start;
+  options.start.colour_map = command.colour_map;
+  options.start.window_db = command.window_db;
+  if (command.screenshot.empty()) return show_viewer(loaded.data, options);
+  draw_viewer(loaded.data, options, command.screenshot);
+  std::printf("%s\n", command.screenshot.c_str());
+}
+
+}  // namespace
+}  // namespace insonify::viewer
+
+int main(int argc, char** argv) {
+  using namespace insonify;
+  try {
+    const viewer::ViewerCommand command = viewer::parse_viewer_command(argc, argv);
+    if (command.finished) return command.exit_code;
+    viewer::view(command);
+    return 0;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "insonify: %s\n", error.what());
+    return tool::exit_code(error.kind());
+  } catch (const std::bad_alloc&) {
+    std::fputs("insonify: out of memory; view a thinner scene, or a run with --no-scene\n", stderr);
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "insonify: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,94 @@
+#include "acoustics/sound_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+double amplitude_of(const Echoes& echoes, std::size_t i, const Medium& medium) {
+  return std::abs(echoes.amplitude[i]) * std::exp(-medium.absorption.a0 * medium.sound_speed * echoes.delay[i]);
+}
+
+/// The loudest echo of each of `count` intervals of u among those that `in_group` takes; in the order of u.
+template <typename InGroup>
+std::vector<std::size_t> loudest(const Echoes& echoes, const Medium& medium, std::size_t count, InGroup in_group) {
+  if (count < 1) fail(ErrorKind::argument, "SoundPaths: count = 0, must be at least 1");
+  std::map<std::size_t, std::size_t> of_interval;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    if (!in_group(i)) continue;
+    const double place = std::floor(0.5 * (echoes.u[i] + 1) * static_cast<double>(count));
+    const auto interval = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+    const auto [held, is_new] = of_interval.emplace(interval, i);
+    if (!is_new && amplitude_of(echoes, i, medium) > amplitude_of(echoes, held->second, medium)) held->second = i;
+  }
+  std::vector<std::size_t> found;
+  for (const auto& [interval, i] : of_interval) found.push_back(i);
+  return found;
+}
+
+void add_path(SoundPaths& paths, std::vector<Vector3d> points, double amplitude, int bounces) {
+  paths.points.push_back(std::move(points));
+  paths.level_db.push_back(static_cast<float>(pressure_level_db(amplitude)));
+  paths.bounces.push_back(bounces);
+}
+
+/// Where the way from `head` to the image of `place` in the plane z = height meets that plane.
+Vector3d bounce_of(const Vector3d& head, const Vector3d& place, double height) {
+  const Vector3d image(place.x(), place.y(), 2 * height - place.z());
+  return head + (height - head.z()) / (image.z() - head.z()) * (image - head);
+}
+
+}  // namespace
+
+SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, const Pose& world_from_head,
+                        const Medium& medium, std::size_t count) {
+  SoundPaths paths;
+  const Vector3d head = world_from_head.translation();
+  for (const std::size_t i : loudest(echoes, medium, count, [](std::size_t) { return true; })) {
+    const Vector3d place =
+        world_from_head * Vector3d(scatterers.range[i] * unit_vector({scatterers.azimuth[i], scatterers.elevation[i]}));
+    add_path(paths, {head, place, head}, amplitude_of(echoes, i, medium), 0);
+  }
+  return paths;
+}
+
+SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
+                         const View& view, const Medium& medium, std::size_t count) {
+  std::vector<double> heights;  // of the boundaries, as ways count them
+  if (environment.surface) heights.push_back(environment.surface->height);
+  if (environment.bottom) heights.push_back(environment.bottom->height);
+  const auto boundaries = static_cast<std::uint8_t>(heights.size());
+
+  SoundPaths paths;
+  const Vector3d head = view.world_from_head.translation();
+  for (std::uint8_t out = 0; out <= boundaries; ++out)
+    for (std::uint8_t back = 0; back <= boundaries; ++back) {
+      const WayPair ways{out, back};
+      const auto in_group = [&](std::size_t i) { return multipath.ways[i] == ways; };
+      for (const std::size_t i : loudest(multipath.echoes, medium, count, in_group)) {
+        const Vector3d place = scene.origin + scene.point[multipath.surfel[i]].cast<double>();
+        std::vector<Vector3d> points = {head};
+        if (out > 0) points.push_back(bounce_of(head, place, heights[out - 1]));
+        points.push_back(place);
+        if (back > 0) points.push_back(bounce_of(head, place, heights[back - 1]));
+        points.push_back(head);
+        add_path(paths, std::move(points), amplitude_of(multipath.echoes, i, medium), ways.bounces());
+      }
+    }
+  return paths;
+}
+
+void append(SoundPaths& paths, const SoundPaths& more) {
+  paths.points.insert(paths.points.end(), more.points.begin(), more.points.end());
+  paths.level_db.insert(paths.level_db.end(), more.level_db.begin(), more.level_db.end());
+  paths.bounces.insert(paths.bounces.end(), more.bounces.begin(), more.bounces.end());
+}
+
+}  // namespace insonify

@@ -1,0 +1,144 @@
+#include "beamforming/synthesize_intensity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "beamforming/require_synthesis_internal.hpp"
+#include "beamforming/row_echoes_internal.hpp"
+#include "beamforming/time_axis_internal.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double finest = 1e-13;  // tolerance of stamping
+constexpr std::size_t echoes_at_once = 256;
+
+/// An image still to be made: what is heard by what.
+struct LineImage {
+  Echoes echoes;
+  SonarHead head;
+  Medium medium;
+};
+
+/// The array whose response is the square of that of `array`.
+LineArray squared(const LineArray& array) {
+  const std::size_t n = array.elements();
+  const auto elements = static_cast<double>(n);
+  LineArray result{array.spacing, std::vector<double>(2 * n - 1)};
+  for (std::size_t lag = 0; lag < n; ++lag) {
+    double pairs = 0;
+    for (std::size_t m = 0; m + lag < n; ++m) pairs += array.shading[m] * array.shading[m + lag];
+    // The response divides by 2N - 1, not by N^2.
+    const double weight = pairs * (2 * elements - 1) / (elements * elements);  // (E65)
+    result.shading[n - 1 + lag] = result.shading[n - 1 - lag] = weight;
+  }
+  return result;
+}
+
+/// The image whose echoes' parts are the squared magnitudes of those of `image`, for Gaussian pulses.
+LineImage squared(LineImage image) {
+  const EchoShapes shapes(image.head.pulse, image.medium);
+  const double sent = echo_envelope(image.head.pulse, {}, 0).a;
+  for (std::size_t i = 0; i < image.echoes.size(); ++i) {
+    const EchoEnvelope g = shapes.of(image.echoes.delay[i]);
+    const double gain = std::sqrt(sent / g.a) * std::exp(g.b * g.b / (2 * g.a));  // (E65)
+    image.echoes.amplitude[i] = gain * std::norm(image.echoes.amplitude[i]);
+  }
+  image.echoes.doppler.clear();
+  image.head.array = squared(image.head.array);
+  image.head.array.spacing /= 2;  // the same in wavelengths: room for the bandwidth below twice the frequency
+  image.head.pulse.centre_frequency *= 2;
+  image.head.pulse.bandwidth *= std::numbers::sqrt2;
+  const Absorption& absorption = image.medium.absorption;
+  image.medium.absorption = {2 * absorption.a0, 0, absorption.a2 / 2};
+  return image;
+}
+
+/// Samples of |G|^(2 power) of one echo, from a first bin on.
+struct PulsePower {
+  std::size_t first = 0;
+  std::vector<double> sample;
+};
+
+/// The sum of (|A|^2 |B|^2 |G|^2)^power over echoes, one by one.
+Grid<double> sum_directly(const LineImage& image, int power, int threads) {
+  const auto& [echoes, head, medium] = image;
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  const std::vector<double> u_beam = beam_cosines(head.fan);
+  const EchoShapes shapes(head.pulse, medium);
+  const TimeAxis axis(head.gate, medium.sound_speed);
+  Grid<double> sum = Grid<double>::Zero(head.fan.beams(), axis.bins);
+  for (std::size_t first = 0; first < echoes.size(); first += echoes_at_once) {
+    const std::size_t count = std::min(echoes_at_once, echoes.size() - first);
+    std::vector<PulsePower> pulses(count);
+    parallel_for(count, threads, [&](std::size_t k) {
+      const double delay = echoes.delay[first + k];
+      const EchoEnvelope envelope = shapes.of(delay, echoes.doppler_of(first + k));
+      const auto [begin, end] = axis.around(delay, head.pulse.duration);
+      pulses[k].first = begin;
+      for (std::size_t n = begin; n < end; ++n) {
+        const double t = axis.start + static_cast<double>(n) * axis.step - delay;
+        pulses[k].sample.push_back(std::pow(std::norm(envelope.at(t)), power));
+      }
+    });
+    parallel_for(head.fan.beams(), threads, [&](std::size_t b) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double response = array_response(head.array, wavelength, echoes.u[first + k], u_beam[b]);
+        const double weight = std::pow(std::norm(echoes.amplitude[first + k]) * response * response, power);
+        double* at = &sum(static_cast<Eigen::Index>(b), 0) + pulses[k].first;
+        for (const double sample : pulses[k].sample) *at++ += weight * sample;  // (E65)
+      }
+    });
+  }
+  return sum;
+}
+
+/// The sum of (|A|^2 |B|^2 |G|^2)^power over the echoes of a line array, power 1 or 2.
+Grid<double> sum_of_powers(const Echoes& echoes, const SonarHead& head, const Medium& medium, int power,
+                           const SynthesisOptions& options) {
+  LineImage image{echoes, head, medium};
+  if (head.pulse.shape == PulseShape::linear_fm) return sum_directly(image, power, options.threads);
+  for (int k = 0; k < power; ++k) image = squared(std::move(image));
+  return synthesize_stamped(image.echoes, image.head, image.medium, options).real().max(0);
+}
+
+}  // namespace
+
+Grid<double> synthesize_intensity(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                  const SynthesisOptions& options) {
+  require_synthesis(echoes, head, medium, options, "synthesize_intensity");
+  const SynthesisOptions squares{std::max(finest, options.tolerance * options.tolerance), options.threads};
+  return image_by_rows<Grid<double>>(
+      echoes, head, medium, row_part(options.tolerance, fan_rows(head.fan).size()), options.threads,
+      [&](const Echoes& heard, const SonarHead& line) { return sum_of_powers(heard, line, medium, 1, squares); });
+}
+
+Grid<float> predict_level_error_db(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                   const LevelErrorOptions& options) {
+  if (!(options.dynamic_range_db > 0 && options.dynamic_range_db <= 50))
+    fail(ErrorKind::argument, "predict_level_error_db: dynamic_range_db = ", options.dynamic_range_db,
+         " dB, must be within (0, 50]");
+  require_synthesis(echoes, head, medium, {1e-3, options.threads}, "predict_level_error_db");
+  // One part in a hundred of the weakest cell that is judged.
+  const double weakest = std::pow(10, -0.1 * options.dynamic_range_db);
+  const auto sum = [&](int power) {
+    const SynthesisOptions fine{std::max(finest, 0.01 * std::pow(weakest, power)), options.threads};
+    return image_by_rows<Grid<double>>(
+        echoes, head, medium, row_part(weakest, fan_rows(head.fan).size()), options.threads,
+        [&](const Echoes& heard, const SonarHead& line) { return sum_of_powers(heard, line, medium, power, fine); });
+  };
+  const Grid<double> once = sum(1), twice = sum(2);
+  const double least = weakest * once.maxCoeff(), db_per_part = 10 / std::numbers::ln10;
+  return once.binaryExpr(twice, [&](double w, double w2) {
+    if (!(w > 0 && w >= least)) return std::numeric_limits<float>::quiet_NaN();
+    return static_cast<float>(db_per_part * std::sqrt(w2) / w);  // (E66)
+  });
+}
+
+}  // namespace insonify

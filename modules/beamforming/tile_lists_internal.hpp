@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acoustics/echoes.hpp"
+#include "beamforming/time_axis_internal.hpp"
+
+namespace insonify {
+
+/// Which echoes touch which tile of bins, in order of echoes: the same for any number of threads.
+struct TileLists {
+  std::vector<std::size_t> begin;   ///< tiles + 1 offsets into `echo`
+  std::vector<std::uint32_t> echo;  ///< less than 2^32 of them
+
+  TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins, int threads);
+
+  std::size_t tiles() const { return begin.size() - 1; }
+  std::span<const std::uint32_t> of(std::size_t tile) const {
+    return {echo.data() + begin[tile], begin[tile + 1] - begin[tile]};
+  }
+};
+
+/// How many tiles hold part of a pulse: what TileLists would not find empty.
+std::size_t touched_tiles(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins);
+
+}  // namespace insonify

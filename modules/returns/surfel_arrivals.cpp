@@ -1,0 +1,74 @@
+#include "returns/surfel_arrivals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/pulse.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+
+TimeAxis::TimeAxis(const SonarHead& head, const Medium& medium, double floor_db, double doppler)
+    : start(2 * head.gate.centre(0) / medium.sound_speed),
+      step(2 * head.gate.bin_size / medium.sound_speed),
+      half(pulse_half_length(head.pulse, amplitude_from_db(floor_db))),
+      bins(head.gate.bins()) {
+  // The peak of a sweep's echo moves with its Doppler shift.
+  if (head.pulse.shape == PulseShape::linear_fm) half += doppler * head.pulse.duration / head.pulse.bandwidth;
+  length = static_cast<std::size_t>(std::min(2 * half / step + 1, static_cast<double>(bins)));
+}
+
+void require_heard(const SceneCloud& scene, const SurfelEchoes& heard, const char* who) {
+  const std::size_t n = heard.echoes.size();
+  if (heard.surfel.size() != n || heard.echoes.v.size() != n || !(heard.ways.empty() || heard.ways.size() == n))
+    fail(ErrorKind::argument, who, ": ", n, " echoes, but ", heard.surfel.size(), " surfels, ", heard.echoes.v.size(),
+         " directions upwards and ", heard.ways.size(), " pairs of ways; give one of each (no ways: all direct)");
+  for (std::size_t i = 0; i < n; ++i) {
+    if (heard.surfel[i] >= scene.size())
+      fail(ErrorKind::argument, who, ": surfel[", i, "] = ", heard.surfel[i], ", but the scene has ", scene.size());
+    const Echoes& e = heard.echoes;
+    if (!std::isfinite(e.delay[i] + e.u[i] + e.v[i] + std::norm(e.amplitude[i]) + e.doppler_of(i)))
+      fail(ErrorKind::argument, who, ": echo ", i, " is not finite (delay ", e.delay[i], " s, amplitude ",
+           std::abs(e.amplitude[i]), " Pa)");
+  }
+}
+
+std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> heard, const TimeAxis& axis) {
+  std::vector<Arrival> arrivals;
+  std::size_t total = 0;
+  for (const SurfelEchoes& h : heard) total += h.echoes.size();
+  arrivals.reserve(total);
+  for (const SurfelEchoes& h : heard)
+    for (std::size_t i = 0; i < h.echoes.size(); ++i) {
+      const Echoes& e = h.echoes;
+      if (!axis.reaches(e.delay[i])) continue;
+      arrivals.push_back({e.delay[i], e.u[i], e.v[i], std::norm(e.amplitude[i]), e.doppler_of(i), h.surfel[i],
+                          h.ways.empty() ? WayPair{} : h.ways[i]});
+    }
+  const auto before = [](const Arrival& a, const Arrival& b) { return a.key() < b.key(); };
+  if (!std::is_sorted(arrivals.begin(), arrivals.end(), before))
+    std::stable_sort(arrivals.begin(), arrivals.end(), before);
+  return arrivals;
+}
+
+std::vector<Group> groups_of(const std::vector<Arrival>& arrivals) {
+  std::vector<Group> groups;
+  double strongest = 0;
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    const Arrival& a = arrivals[i];
+    const bool opens = i == 0 || arrivals[i - 1].key() != a.key();
+    if (opens) groups.push_back({a.surfel, a.ways, 0, i, i, a.u, a.u}), strongest = -1;
+    Group& group = groups.back();
+    group.last = i + 1;
+    group.u_low = std::min(group.u_low, a.u);
+    group.u_high = std::max(group.u_high, a.u);
+    if (a.power > strongest) {
+      strongest = a.power;
+      group.elevation = static_cast<float>(std::asin(std::clamp(a.v, -1.0, 1.0)));
+    }
+  }
+  return groups;
+}
+
+}  // namespace insonify

@@ -1,0 +1,145 @@
+#include "sampling/find_holes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "sampling/cast_rays.hpp"
+#include "sampling/direction_raster.hpp"
+#include "sampling/hit_rule.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double golden = 0.61803398874989485;
+constexpr float reach = 3;          // footprints that surfels around a hole may be away
+constexpr float other_surface = 8;  // spacings in range between two surfaces
+
+struct Look {
+  std::uint32_t beam;
+  Direction direction;
+  Eigen::Vector3f along;
+};
+
+// One direction per equal interval of elevation, jittered in it, spread in azimuth by the golden ratio.
+std::vector<Look> looks_of(const std::vector<BeamShare>& shares, const SamplingOptions& options) {
+  const auto n = static_cast<std::size_t>(options.rays_per_beam);
+  std::vector<Look> looks(shares.size() * n);
+  parallel_for(shares.size(), options.threads, [&](std::size_t beam) {
+    const BeamShare& share = shares[beam];
+    const double shift = random_uniform(options.seed, RandomStage::ray_jitter, {beam, ~0ull, 0})[0];
+    for (std::size_t k = 0; k < n; ++k) {
+      const double jitter = random_uniform(options.seed, RandomStage::ray_jitter, {beam, k, 0})[0];
+      const double across = shift + static_cast<double>(k) * golden,
+                   up = (static_cast<double>(k) + jitter) / static_cast<double>(n);
+      Look& look = looks[beam * n + k];
+      look.beam = static_cast<std::uint32_t>(beam);
+      look.direction.azimuth = std::remainder(
+          share.min_azimuth + (share.max_azimuth - share.min_azimuth) * (across - std::floor(across)), 2 * pi);
+      look.direction.elevation = share.min_elevation + (share.max_elevation - share.min_elevation) * up;
+      look.along = unit_vector(look.direction).cast<float>();
+    }
+  });
+  return looks;
+}
+
+// Surfels as they are, and with the footprints that reach across a hole.
+struct TwoSizes {
+  std::vector<GatedSurfel> own, wide;
+
+  explicit TwoSizes(std::vector<GatedSurfel> surfels) : own(std::move(surfels)), wide(own) {
+    for (GatedSurfel& s : wide) s.radius *= reach;
+  }
+};
+
+// The hole that a ray looks into, if any; `candidates` may hold more than the surfels around it.
+std::optional<Hole> hole_at(const TwoSizes& surfels, const Look& look, std::vector<std::uint32_t> candidates) {
+  std::vector<std::uint32_t> around = candidates;
+  RayHit hit;
+  const RayFate fate = hit_surface(surfels.own, look.along, true, candidates, hit);
+  if (fate == RayFate::blocked) return {};
+  // Only what stands clearly before the surface that is met can be the rim of a hole.
+  const float limit = fate == RayFate::missed ? std::numeric_limits<float>::infinity()
+                                              : hit.range - other_surface * surfels.own[hit.surfel].spacing;
+  keep_footprints_of(look.along, surfels.wide, around);
+  std::erase_if(around, [&](std::uint32_t s) { return !(surfels.own[s].range < limit); });
+  if (!is_surrounded(look.along, surfels.own, around)) return {};
+  const auto nearer = [&](std::uint32_t a, std::uint32_t b) { return surfels.own[a].range < surfels.own[b].range; };
+  const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end(), nearer);
+  return Hole{look.beam, look.direction.azimuth, look.direction.elevation, surfels.own[*nearest].range,
+              surfels.own[*farthest].range};
+}
+
+std::vector<std::optional<Hole>> look_along(const std::vector<Look>& looks, const TwoSizes& surfels, int threads) {
+  std::vector<CubePoint> queries;
+  for (const Look& look : looks) queries.push_back(on_cube(look.along));
+  std::vector<std::optional<Hole>> found(looks.size());
+  const DirectionRaster raster(surfels.wide, queries, Footprint::cone, threads);
+  parallel_for(raster.tiles(), threads, [&](std::size_t t) {
+    const DirectionTile tile = raster.tile(t);
+    if (tile.queries.empty()) return;
+    CellLists<std::uint32_t> cells;
+    for (std::uint32_t k = 0; k < tile.queries.size(); ++k) cells.add(k, tile.cell_of(queries[tile.queries[k]]));
+    std::vector<std::vector<std::uint32_t>> candidates(tile.queries.size(), raster.wide());
+    for (const TileBox& box : tile.boxes)
+      cells.for_each(box, [&](std::uint32_t k) { candidates[k].push_back(box.surfel); });
+    for (std::size_t k = 0; k < tile.queries.size(); ++k)
+      found[tile.queries[k]] = hole_at(surfels, looks[tile.queries[k]], std::move(candidates[k]));
+  });
+  return found;
+}
+
+void require_valid(const Pose& pose, const SamplingOptions& o) {
+  if (!pose.matrix().allFinite()) fail(ErrorKind::argument, "find_holes: world_from_head must be finite");
+  const auto require = [](bool good, const char* name, double value, const char* rule) {
+    if (!good) fail(ErrorKind::argument, "find_holes: options.", name, " = ", value, ", must be ", rule);
+  };
+  require(o.rays_per_beam >= 1, "rays_per_beam", o.rays_per_beam, "at least 1");
+  require(o.footprint > 0 && std::isfinite(o.footprint), "footprint", o.footprint, "> 0");
+  require(o.elevation_half_extent >= 0 && std::isfinite(o.elevation_half_extent), "elevation_half_extent",
+          o.elevation_half_extent, ">= 0 rad");
+  require(o.azimuth_margin >= 0 && std::isfinite(o.azimuth_margin), "azimuth_margin", o.azimuth_margin, ">= 0 rad");
+}
+
+}  // namespace
+
+Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
+                 const SamplingOptions& options) {
+  require_valid(fan, "find_holes");
+  require_valid(gate, "find_holes");
+  require_valid(world_from_head, options);
+  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
+  const Sector sector = insonified_sector(fan, half_extent, options.azimuth_margin);
+  const HeadFrame head(prepared.scene(), world_from_head);
+  const TwoSizes surfels(gate_surfels(prepared, head, sector, gate, options.footprint, options.threads));
+  const std::vector<Look> looks = looks_of(beam_shares(fan, sector), options);
+  Holes result;
+  result.directions = looks.size();
+  if (surfels.own.empty()) return result;
+  for (const std::optional<Hole>& hole : look_along(looks, surfels, options.threads))
+    if (hole) result.holes.push_back(*hole);
+  return result;
+}
+
+Grid<std::uint8_t> mask_holes(const Holes& holes, const BeamFan& fan, const RangeGate& gate) {
+  require_valid(fan, "mask_holes");
+  require_valid(gate, "mask_holes");
+  const auto bins = static_cast<double>(gate.bins());
+  Grid<std::uint8_t> mask = Grid<std::uint8_t>::Zero(fan.beams(), gate.bins());
+  for (const Hole& hole : holes.holes) {
+    if (hole.beam >= fan.beams())
+      fail(ErrorKind::argument, "mask_holes: beam = ", hole.beam, ", but there are ", fan.beams(), " beams");
+    const double first = std::max(0.0, std::floor((hole.min_range - gate.min_range) / gate.bin_size));
+    const double last = std::min(bins - 1, std::floor((hole.max_range - gate.min_range) / gate.bin_size));
+    for (double n = first; n <= last; ++n) mask(hole.beam, static_cast<Eigen::Index>(n)) = 1;
+  }
+  return mask;
+}
+
+}  // namespace insonify

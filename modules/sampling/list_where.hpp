@@ -1,0 +1,40 @@
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "core/parallel.hpp"
+
+namespace insonify {
+
+/// Indices in [0, n) for which test(index) is true, ascending.
+template <typename Test>
+std::vector<std::uint32_t> list_where(std::size_t n, int threads, Test&& test) {
+  constexpr std::size_t block = 1 << 14;
+  std::vector<std::vector<std::uint32_t>> parts((n + block - 1) / block);
+  parallel_blocks(n, block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (test(i)) parts[begin / block].push_back(static_cast<std::uint32_t>(i));
+  });
+  std::vector<std::uint32_t> list;
+  list.reserve(std::accumulate(parts.begin(), parts.end(), std::size_t{0},
+                               [](std::size_t sum, const auto& part) { return sum + part.size(); }));
+  for (const auto& part : parts) list.insert(list.end(), part.begin(), part.end());
+  return list;
+}
+
+/// How many indices in [0, n) pass test(index).
+template <typename Test>
+std::size_t count_where(std::size_t n, int threads, Test&& test) {
+  std::atomic<std::size_t> count{0};
+  parallel_blocks(n, 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
+    std::size_t here = 0;
+    for (std::size_t i = begin; i < end; ++i) here += test(i) ? 1 : 0;
+    count += here;
+  });
+  return count;
+}
+
+}  // namespace insonify

@@ -1,0 +1,201 @@
+#include "scene_io/prepare_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "scene_io/complete_scene.hpp"
+#include "scene_io/raw_cloud.hpp"
+#include "scene_io/row_file.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d, Eigen::Vector3f;
+
+constexpr std::size_t batch_rows = 1 << 18;
+constexpr double first_pass = 0.15, both_passes = 0.35;  // of the progress
+
+/// What both passes know of the file.
+struct Survey {
+  RowFile file;
+  ReadOptions reading;
+  RawCloud whole;  // tags, box, counts; no points
+  bool normals = false, areas = false, ids_ascend = true;
+  std::size_t bad_areas = 0;
+  std::vector<std::size_t> label_count = std::vector<std::size_t>(no_label + 1, 0);
+  bool labels = false;
+};
+
+/// Rows from `first` on as they are in the file.
+struct Batch {
+  RawCloud raw;
+  std::vector<Vector3d> places;
+};
+
+Batch read_batch(const Survey& survey, std::size_t first) {
+  const std::size_t count = std::min(batch_rows, survey.file.rows - first);
+  const RowTable table = read_rows(survey.file, first, count);
+  Batch batch;
+  batch.raw.path = survey.file.path;
+  fill_cloud(batch.raw, table, survey.reading);
+  batch.places = read_places(table, survey.file.path, survey.reading);
+  return batch;
+}
+
+bool bad_area(float area) { return !(std::isfinite(area) && area >= 0); }
+
+void tell(const PrepareTilesOptions& options, double part) {
+  if (options.progress) options.progress(part);
+}
+
+/// First pass: box, labels, and what is there at all.
+void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
+  RawCloud& whole = survey.whole;
+  std::int64_t last_id = -1;
+  for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
+    const RawCloud raw = read_batch(survey, first).raw;
+    whole.box.min = whole.box.min.cwiseMin(raw.box.min);
+    whole.box.max = whole.box.max.cwiseMax(raw.box.max);
+    whole.not_finite += raw.not_finite;
+    whole.float_coordinates = raw.float_coordinates;
+    whole.label_field = raw.label_field;
+    survey.normals = !raw.normal.empty();
+    survey.areas = !raw.area.empty();
+    survey.labels = !raw.label.empty();
+    survey.bad_areas += static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad_area));
+    for (const std::uint16_t label : raw.label) ++survey.label_count[label];
+    survey.ids_ascend = survey.ids_ascend && !raw.id.empty();
+    for (const std::uint32_t id : raw.id) {
+      survey.ids_ascend = survey.ids_ascend && id > last_id;
+      last_id = id;
+    }
+    tell(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
+  }
+  if (whole.not_finite == survey.file.rows)
+    fail(ErrorKind::content, whole.path, ": holds no usable point (", survey.file.rows,
+         " points, none with finite coordinates); export the cloud again");
+}
+
+/// The materials, and of each label the index into them.
+std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOptions& options, LoadedScene& result) {
+  // The labels that occur stand for all surfels that bear them.
+  std::vector<std::uint16_t> labels;
+  for (std::size_t label = 0; label < survey.label_count.size(); ++label)
+    if (survey.label_count[label] > 0) labels.push_back(static_cast<std::uint16_t>(label));
+  result.scene.material = labels;
+  result.scene.point.resize(std::max<std::size_t>(1, labels.size()));
+  complete_materials(survey.whole, options, result);
+  std::vector<std::uint16_t> index(survey.label_count.size(), result.scene.material.front());
+  for (std::size_t k = 0; k < labels.size(); ++k) index[labels[k]] = result.scene.material[k];
+  if (result.report.outside_intervals > 0) {
+    result.report.outside_intervals = survey.label_count[no_label];
+    result.report.notes.back() = share(result.report.outside_intervals, survey.file.rows, "points") + " have a '" +
+                                 survey.whole.label_field +
+                                 "' in none of the intervals: their Lambert coefficient is the default, -27 dB";
+  }
+  return index;
+}
+
+/// The usable surfels of a batch; counts the others.
+SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, const std::vector<std::uint16_t>& material,
+                      std::vector<Vector3d>& places, LoadedScene& result) {
+  RawCloud& raw = batch.raw;
+  renormalise(raw.normal, survey.whole.tags.prepared);
+  const bool turn = !survey.whole.tags.oriented && survey.whole.viewpoint;
+  const Vector3d viewpoint = survey.whole.viewpoint.value_or(Vector3d::Zero()) - *survey.reading.origin;
+  SceneCloud scene;
+  scene.materials = result.scene.materials;
+  places.clear();
+  for (std::size_t i = 0; i < raw.point.size(); ++i) {
+    if (!raw.point[i].allFinite()) continue;
+    if (!usable_normal(raw.normal[i])) {
+      ++result.report.dropped_without_normal;
+      continue;
+    }
+    const bool away = turn && raw.normal[i].cast<double>().dot(viewpoint - batch.places[i]) < 0;
+    places.push_back(batch.places[i]);
+    scene.point.push_back(raw.point[i]);
+    scene.normal.push_back(away ? Vector3f(-raw.normal[i]) : raw.normal[i]);
+    scene.area.push_back(result.report.areas_estimated ? 0 : raw.area[i]);
+    scene.material.push_back(material[survey.labels ? raw.label[i] : 0]);
+    scene.id.push_back(survey.ids_ascend ? raw.id[i] : static_cast<std::uint32_t>(first + i));
+  }
+  return scene;
+}
+
+PreparedTiles stream(RowFile file, const std::string& output, const PrepareTilesOptions& options) {
+  Survey survey{std::move(file), read_options(options.load), {}};
+  RawCloud& whole = survey.whole;
+  whole.path = survey.file.path;
+  whole.tags = survey.file.tags;
+  if (survey.file.viewpoint) whole.viewpoint = options.load.unit * *survey.file.viewpoint;
+  if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
+  survey.reading.origin = Vector3d::Zero();
+  survey_rows(survey, options);
+  if (!survey.normals)
+    fail(ErrorKind::content, whole.path, ": has no normals, and ", survey.file.rows, " points (more than ",
+         options.whole_points,
+         ") are prepared in batches, which cannot find any: compute normals first, or run "
+         "`insonify prepare` with a .ply output, not .tiles, if memory holds the cloud");
+  survey.reading.origin = whole.origin = origin_of(whole.box, whole.tags, options.load.unit);
+
+  LoadedScene result;
+  LoadReport& report = result.report;
+  report.path = whole.path;
+  report.format = survey.file.format;
+  report.points_read = survey.file.rows;
+  report.dropped_not_finite = whole.not_finite;
+  report.areas_estimated = !survey.areas || survey.bad_areas > 0;
+  if (survey.bad_areas > 0)
+    report.notes.push_back(share(survey.bad_areas, survey.file.rows, "areas") +
+                           " were negative or NaN: all were estimated");
+  if (!survey.ids_ascend && std::any_of(survey.file.columns.begin(), survey.file.columns.end(),
+                                        [](const auto& c) { return c.name == "id" || c.name == "scalar_id"; }))
+    report.notes.push_back("the ids in the file do not ascend: renumbered by row");
+  const std::vector<std::uint16_t> material = plan_materials(survey, options.load, result);
+
+  TileWriterOptions writing;
+  writing.origin = *survey.reading.origin;
+  writing.materials = result.scene.materials;
+  writing.normals_oriented = whole.tags.oriented || whole.viewpoint.has_value();
+  writing.drop_duplicates = !whole.tags.prepared;
+  writing.estimate_areas = report.areas_estimated;
+  writing.memory = options.memory;
+  writing.threads = options.load.threads;
+  writing.progress = [&](double part) { tell(options, both_passes + (1 - both_passes) * part); };
+  TileWriter writer(output, writing);
+  std::vector<Vector3d> places;
+  for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
+    Batch batch = read_batch(survey, first);
+    const SceneCloud scene = surfels_of(batch, first, survey, material, places, result);
+    writer.add(scene, places);
+    tell(options,
+         first_pass + (both_passes - first_pass) * static_cast<double>(first) / static_cast<double>(survey.file.rows));
+  }
+  PreparedTiles prepared{{}, writer.finish(), writing.normals_oriented, true};
+  report.dropped_duplicates = prepared.tiles.dropped_duplicates;
+  const double spacing =
+      std::sqrt(prepared.tiles.total_area / std::max(1.0, static_cast<double>(prepared.tiles.surfels)));
+  if (!whole.tags.prepared)
+    for (std::string& doubt : doubts_about(whole, spacing, options.load.unit)) report.notes.push_back(std::move(doubt));
+  prepared.report = report;
+  return prepared;
+}
+
+}  // namespace
+
+PreparedTiles prepare_tiles(const std::string& path, const std::string& output, const PrepareTilesOptions& options) {
+  check_options(options.load, "prepare_tiles");
+  std::optional<RowFile> rows = find_rows(path);
+  if (rows && rows->rows > options.whole_points) return stream(std::move(*rows), output, options);
+  LoadedScene loaded = load_scene(path, options.load);
+  TileWriterOptions writing;
+  writing.memory = options.memory;
+  writing.threads = options.load.threads;
+  writing.progress = options.progress;
+  return {loaded.report, save_tiles(output, loaded.scene, writing), loaded.scene.normals_oriented, false};
+}
+
+}  // namespace insonify

@@ -1,0 +1,59 @@
+#include "scene_io/row_file.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "scene_io/file_probe.hpp"
+#include "scene_io/ply_header.hpp"
+#include "scene_io/tile_file.hpp"
+
+namespace insonify {
+namespace {
+
+std::optional<RowFile> find_ply_rows(const std::string& path) {
+  // Text is checked line by line when it is read.
+  if (read_beginning(path, 64).find("format ascii") != std::string::npos) return std::nullopt;
+  const PlyHeader header = probe_ply(path);
+  if (header.encoding == "ascii") return std::nullopt;
+  RowFile file{path, "PLY " + header.encoding, {}, header.vertex().count, 0, header.end, false, header.tags, {}};
+  file.big_endian = header.encoding == "binary_big_endian";
+  for (const PlyElement& element : header.elements) {
+    if (element.has_list() && element.count > 0) return std::nullopt;  // a mesh
+    std::size_t stride = 0;
+    for (const PlyProperty& property : element.properties) {
+      if (element.name == "vertex") file.columns.push_back({property.name, property.type, stride});
+      stride += size_of(property.type);
+    }
+    if (element.name == "vertex") {
+      file.stride = stride;
+      return file;
+    }
+    file.begin += element.count * stride;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RowFile> find_rows(const std::string& path) {
+  require_readable(path);
+  const std::string extension = extension_of(path);
+  if (extension == ".ply") return find_ply_rows(path);
+  if (extension == ".pcd") return find_pcd_rows(path);
+  return std::nullopt;
+}
+
+RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
+  const auto bytes = std::make_shared<std::vector<char>>(count * file.stride);
+  BinaryFile(file.path, BinaryFile::Mode::read).read(file.begin + first * file.stride, *bytes);
+  if (file.big_endian) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (const RowTable::Column& column : file.columns) {
+        char* number = bytes->data() + i * file.stride + column.offset;
+        std::reverse(number, number + size_of(column.type));
+      }
+  }
+  return {file.columns, count, file.stride, bytes->data(), bytes};
+}
+
+}  // namespace insonify

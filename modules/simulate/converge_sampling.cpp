@@ -1,0 +1,87 @@
+#include "simulate/converge_sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "beamforming/synthesize_intensity.hpp"
+#include "core/error.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double wanted_share = 0.99;
+constexpr int most_samplings = 6;
+constexpr double most_points = 1 << 23;             // scatterers, or rays cast
+constexpr double least_step = 1.3, most_step = 16;  // of the number of points, from one sampling to the next
+
+/// Share of the judged cells that are below the wanted error, and below which error the wanted share is.
+void judge(ConvergenceReport& report) {
+  std::vector<float> errors;
+  for (Eigen::Index k = 0; k < report.level_error_db.size(); ++k)
+    if (const float error = report.level_error_db.data()[k]; !std::isnan(error)) errors.push_back(error);
+  report.judged = errors.size();
+  report.share_below = 1;
+  report.reached_db = 0;
+  if (errors.empty()) return;
+  const auto below = std::count_if(errors.begin(), errors.end(), [&](float e) { return e < report.wanted_db; });
+  report.share_below = static_cast<double>(below) / static_cast<double>(errors.size());
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(wanted_share * static_cast<double>(errors.size()))) - 1;
+  std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
+  report.reached_db = errors[static_cast<std::size_t>(rank)];
+}
+
+/// How many times as many points the next sampling should have; below `least_step` there is no use in one.
+double next_step(const ConvergenceReport& report, double points) {
+  const double needed = 1.1 * std::pow(report.reached_db / report.wanted_db, 2);  // sigma falls with the root
+  return std::min(std::clamp(needed, least_step, most_step), most_points / std::max(points, 1.0));
+}
+
+void refine(SamplingOptions& sampling, double step) {
+  if (sampling.kind == SamplingKind::rays)
+    sampling.rays_per_beam = static_cast<int>(std::ceil(sampling.rays_per_beam * step));
+  else
+    sampling.scatterers_per_cell = std::max(1.0, sampling.scatterers_per_cell) * step;
+}
+
+}  // namespace
+
+Sampling converge_sampling(const PreparedScene& prepared, const SonarHead& head, const Transmission& sent,
+                           double wanted_db, View& view, ConvergenceReport& report) {
+  if (!(wanted_db > 0 && std::isfinite(wanted_db)))
+    fail(ErrorKind::argument, "converge_sampling: wanted_db = ", wanted_db, " dB, must be finite and > 0");
+  report.wanted_db = wanted_db;
+  HearingOptions mean_power = sent.hearing;
+  mean_power.amplitude = SurfaceAmplitude::mean_power;
+  while (true) {
+    Sampling sampling = find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+    const Echoes echoes =
+        hear_scatterers(sampling.scatterers, prepared.scene().materials, sent.pulse, sent.medium, mean_power);
+    report.level_error_db =
+        predict_level_error_db(echoes, head, sent.medium, {.threads = view.sampling.threads});  // (E66)
+    report.scatterers = sampling.scatterers.size();
+    report.scatterers_per_cell = view.sampling.scatterers_per_cell;
+    report.rays_per_beam = view.sampling.rays_per_beam;
+    ++report.samplings;
+    judge(report);
+    const double rays = static_cast<double>(report.rays_per_beam) * static_cast<double>(view.fan.beams());
+    const double step =
+        next_step(report, view.sampling.kind == SamplingKind::rays ? rays : static_cast<double>(report.scatterers));
+    report.reached = report.share_below >= wanted_share;
+    if (report.reached || report.samplings == most_samplings || step < least_step) return sampling;
+    refine(view.sampling, step);
+  }
+}
+
+std::vector<std::string> convergence_notes(const ConvergenceReport& report) {
+  if (report.reached || report.samplings == 0) return {};
+  std::ostringstream note;
+  note.precision(3);
+  note << "level error: " << 100 * report.share_below << " % of the cells are below the " << report.wanted_db
+       << " dB asked for, 99 % are below " << report.reached_db << " dB: stopped after " << report.samplings
+       << " samplings at " << report.scatterers
+       << " scatterers; ask for a larger error, a smaller range gate or fewer beams";
+  return {note.str()};
+}
+
+}  // namespace insonify

@@ -1,0 +1,70 @@
+#include "store/merge_cubes.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.hpp"
+
+namespace insonify {
+namespace {
+
+// What makes two cubes one sonar's.
+void require_alike(const NamedCube& one, const NamedCube& first) {
+  const auto refuse = [&](const auto&... difference) {
+    fail(ErrorKind::content, one.name, ": ", difference..., " in ", first.name,
+         "; only pings of one sonar, fan and gate can be merged");
+  };
+  const Cube &a = one.cube, &b = first.cube;
+  const BeamFan &fan = a.pings.front().fan, &first_fan = b.pings.front().fan;
+  const RangeGate &gate = a.pings.front().gate, &first_gate = b.pings.front().gate;
+  if (a.sonar != b.sonar) refuse("is of sonar ", a.sonar, ", not ", b.sonar, " as");
+  if (fan.beams() != first_fan.beams()) refuse("has ", fan.beams(), " beams, not ", first_fan.beams(), " as");
+  if (fan.azimuth != first_fan.azimuth || fan.elevation != first_fan.elevation ||
+      fan.beam_width != first_fan.beam_width || fan.elevation_width != first_fan.elevation_width ||
+      fan.row_width != first_fan.row_width)
+    refuse("has beams of other directions or widths than");
+  if (gate.min_range != first_gate.min_range || gate.max_range != first_gate.max_range ||
+      gate.bin_size != first_gate.bin_size)
+    refuse("has ranges ", gate.min_range, " to ", gate.max_range, " m in bins of ", gate.bin_size, " m, not ",
+           first_gate.min_range, " to ", first_gate.max_range, " m in bins of ", first_gate.bin_size, " m as");
+  if (a.centre_frequency != b.centre_frequency || a.bandwidth != b.bandwidth)
+    refuse("has a pulse of ", a.centre_frequency, " Hz and ", a.bandwidth, " Hz wide, not ", b.centre_frequency,
+           " and ", b.bandwidth, " Hz as");
+  if (a.sound_speed != b.sound_speed)
+    refuse("has a sound speed of ", a.sound_speed, " m/s, not ", b.sound_speed, " m/s as");
+}
+
+std::vector<std::string> layer_names(const Ping& ping) {
+  std::vector<std::string> names;
+  for (const Layer& layer : ping.layers) names.push_back(layer.name);
+  return names;
+}
+
+void count_up_unless_unique(std::vector<Ping>& pings) {
+  std::set<std::int64_t> numbers;
+  for (const Ping& ping : pings) numbers.insert(ping.number);
+  if (numbers.size() == pings.size()) return;
+  for (std::size_t p = 0; p < pings.size(); ++p) pings[p].number = static_cast<std::int64_t>(p);
+}
+
+}  // namespace
+
+Cube merge_cubes(std::vector<NamedCube> cubes) {
+  if (cubes.empty()) fail(ErrorKind::argument, "merge_cubes: no cubes, must be at least one");
+  for (const NamedCube& one : cubes) {
+    if (one.cube.pings.empty()) fail(ErrorKind::content, one.name, ": holds no pings");
+    require_alike(one, cubes.front());
+  }
+  Cube merged = std::move(cubes.front().cube);
+  for (auto one = cubes.begin() + 1; one != cubes.end(); ++one)
+    std::move(one->cube.pings.begin(), one->cube.pings.end(), std::back_inserter(merged.pings));
+  std::vector<Ping>& pings = merged.pings;
+  std::stable_sort(pings.begin(), pings.end(), [](const Ping& a, const Ping& b) { return a.time < b.time; });
+  count_up_unless_unique(pings);
+  const std::vector<std::string> layers = layer_names(pings.front());
+  if (!std::all_of(pings.begin(), pings.end(), [&](const Ping& ping) { return layer_names(ping) == layers; }))
+    for (Ping& ping : pings) ping.layers.clear();
+  return merged;
+}
+
+}  // namespace insonify

@@ -1,0 +1,32 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "view/axes.hpp"
+#include "view/canvas_internal.hpp"
+#include "view/colour_bar.hpp"
+
+namespace insonify {
+
+/// One side of a rectangle of cells.
+struct CellAxis {
+  double low = 0, high = 1;
+  std::string title;
+  std::function<AxisTicks(double pixels)> ticks;  ///< for so many pixels
+};
+
+/// Where everything about a rectangle of cells goes: axes at the left and below, colour bar at the right, title on top.
+struct CellFrame {
+  Axes axes;
+  ColourBar bar;
+  std::optional<PlacedText> title;
+  int font_size = 0;
+};
+CellFrame lay_out_cell_frame(const CellAxis& across, const CellAxis& up, const ColourScale& scale,
+                             const std::string& unit, const PictureOptions& options);
+
+/// Grid lines over the cells, and all the rest around them.
+void draw_cell_frame(Canvas& canvas, const CellFrame& frame, const ColourScale& scale);
+
+}  // namespace insonify

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "view/canvas_internal.hpp"
+#include "view/drawn_cells.hpp"
+#include "view/fan_layout.hpp"
+#include "view/line_chart.hpp"
+#include "view/picture.hpp"
+#include "view/show_panels.hpp"
+#include "view/show_spectrum.hpp"
+#include "view/show_waterfall.hpp"
+
+namespace insonify {
+
+/// The drawings without their files. Each fills options.width x options.height pixels from the canvas's origin, so that
+/// several can share one picture. The caller has checked image and size, and keeps VtkMessages alive. Error(argument) for
+/// limits of levels that contradict each other, in the name of canvas.who(). Fans and charts give back where they
+/// lie, from the origin.
+FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions& options);
+void draw_rect(Canvas& canvas, const LevelImage& image, const PictureOptions& options);
+void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOptions& options);
+Axes draw_ascan(Canvas& canvas, const LevelImage& image, std::size_t beam, const PictureOptions& options);
+void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std::vector<double>& level_db,
+                  const PictureOptions& options);
+void require_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db, const char* who);
+Axes draw_line_chart(Canvas& canvas, const LineChart& chart, const PictureOptions& options);
+void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const PictureOptions& options);
+void draw_panels(Canvas& canvas, const Panels& panels, const PictureOptions& options);
+
+}  // namespace insonify

@@ -1,0 +1,140 @@
+#include "view/save_grid.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkStructuredGrid.h>
+#include <vtkXMLImageDataWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
+
+#include "core/error.hpp"
+#include "view/drawn_cells.hpp"
+#include "view/save_xml_internal.hpp"
+
+namespace insonify {
+namespace {
+
+void require_fields(const BeamFan& fan, const RangeGate& gate, const std::vector<SampleField>& fields,
+                    const char* who) {
+  require_valid(fan, who);
+  require_valid(gate, who);
+  if (fields.empty()) fail(ErrorKind::argument, who, ": no field to write");
+  std::set<std::string> names;
+  const auto beams = static_cast<Eigen::Index>(fan.beams()), bins = static_cast<Eigen::Index>(gate.bins());
+  for (const SampleField& field : fields) {
+    if (field.values.rows() != beams || field.values.cols() != bins)
+      fail(ErrorKind::argument, who, ": field '", field.name, "' is ", field.values.rows(), " x ", field.values.cols(),
+           ", must be beams x bins, ", beams, " x ", bins);
+    if (!names.insert(field.name).second) fail(ErrorKind::argument, who, ": two fields are called '", field.name, "'");
+  }
+}
+
+/// The part of an image that one row of beams heard.
+LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>& values, const FanRow& row) {
+  LevelImage part{{{}, {}, fan.beam_width, fan.elevation_width, 0}, gate, {}, {}};
+  part.level_db.resize(static_cast<Eigen::Index>(row.beams.size()), values.cols());
+  for (std::size_t b = 0; b < row.beams.size(); ++b) {
+    part.fan.azimuth.push_back(fan.azimuth[row.beams[b]]);
+    part.fan.elevation.push_back(row.elevation);
+    part.level_db.row(static_cast<Eigen::Index>(b)) = values.row(static_cast<Eigen::Index>(row.beams[b]));
+  }
+  return part;
+}
+
+/// An array of cells with ranges fastest.
+vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const Grid<float>& values) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(values.size());
+  std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+  return array;
+}
+
+/// Corners of the cells, ranges fastest, then bearings.
+vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, double elevation, const RangeGate& gate,
+                                   const Pose& world_from_head) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->Allocate(static_cast<vtkIdType>(bearing_edges.size() * (gate.bins() + 1)));
+  for (const double bearing : bearing_edges) {
+    const Eigen::Vector3d direction = unit_vector({-bearing, elevation});
+    for (std::size_t n = 0; n <= gate.bins(); ++n) {
+      const double range = gate.min_range + static_cast<double>(n) * gate.bin_size;
+      const Eigen::Vector3d corner = world_from_head * Eigen::Vector3d(range * direction);
+      points->InsertNextPoint(corner.data());
+    }
+  }
+  return points;
+}
+
+void save_row(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+              const std::vector<SampleField>& fields, const Pose& world_from_head, const FanRow& row) {
+  vtkNew<vtkStructuredGrid> grid;
+  for (const SampleField& field : fields) {
+    const BeamCells cells = order_beams(part_of(fan, gate, field.values, row));
+    if (grid->GetNumberOfPoints() == 0) {
+      grid->SetDimensions(static_cast<int>(gate.bins()) + 1, static_cast<int>(cells.edges.size()), 1);
+      grid->SetPoints(corners(cells.edges, row.elevation, gate, world_from_head));
+    }
+    grid->GetCellData()->AddArray(cell_array(field.name, cells.level_db));
+  }
+  grid->GetCellData()->SetActiveScalars(fields.front().name.c_str());
+  vtkNew<vtkXMLStructuredGridWriter> writer;
+  write_xml(*writer, grid, path, "save_fan_grid");
+}
+
+}  // namespace
+
+std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+                                       const std::vector<SampleField>& fields, const Pose& world_from_head) {
+  require_fields(fan, gate, fields, "save_fan_grid");
+  const std::vector<FanRow> rows = fan_rows(fan);
+  std::vector<std::string> files;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::filesystem::path file = path;
+    char row[32];
+    std::snprintf(row, sizeof row, "_row_%03zu.vts", r);
+    if (rows.size() > 1) file.replace_filename(file.stem().string() + row);
+    save_row(file.string(), fan, gate, fields, world_from_head, rows[r]);
+    files.push_back(file.string());
+  }
+  return files;
+}
+
+void save_sample_image(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+                       const std::vector<SampleField>& fields) {
+  require_fields(fan, gate, fields, "save_sample_image");
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(fan.beams()) + 1, static_cast<int>(gate.bins()) + 1, 1);
+  image->SetOrigin(0, gate.min_range, 0);
+  image->SetSpacing(1, gate.bin_size, 1);
+  // Cells have beams fastest.
+  for (const SampleField& field : fields)
+    image->GetCellData()->AddArray(cell_array(field.name, field.values.transpose()));
+  image->GetCellData()->SetActiveScalars(fields.front().name.c_str());
+  vtkNew<vtkXMLImageDataWriter> writer;
+  write_xml(*writer, image, path, "save_sample_image");
+}
+
+void save_series(const std::string& path, const std::vector<SeriesEntry>& entries) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+       << "  <Collection>\n";
+  for (const SeriesEntry& e : entries)
+    text << "    <DataSet timestep=\"" << e.time << "\" part=\"" << e.part << "\" file=\""
+         << std::filesystem::path(e.file).filename().string() << "\"/>\n";
+  text << "  </Collection>\n</VTKFile>\n";
+  const std::string bytes = text.str();
+  write_file_atomically(path, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), "save_series");
+}
+
+}  // namespace insonify

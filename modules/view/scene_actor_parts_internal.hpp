@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkSmartPointer.h>
+
+#include "view/fan_layout.hpp"
+#include "view/scene_actors_internal.hpp"
+#include "view/scene_camera.hpp"
+#include "view/scene_points_internal.hpp"
+
+namespace insonify {
+
+/// What SceneActors holds.
+struct SceneActors::Parts {
+  Parts(const SceneCloud& cloud, SceneLook wanted, const PictureOptions& picture, const char* name)
+      : scene(cloud), look(std::move(wanted)), options(picture), who(name) {}
+
+  const SceneCloud& scene;
+  SceneLook look;
+  PictureOptions options;
+  const char* who;
+  SceneKey key;
+  std::vector<Eigen::Vector3d> interest;  // what the camera looks at
+
+  // Surfels: both details share their arrays.
+  PointCloudArrays surfels;
+  std::vector<std::uint32_t> drawn;  // at `still`
+  std::size_t moving_drawn = 0;
+  vtkSmartPointer<vtkActor> still, moving, footprint, marks;
+
+  std::vector<Eigen::Vector3f> sounding_places;
+  PointCloudArrays sounding_arrays;
+  vtkSmartPointer<vtkActor> soundings;
+
+  vtkSmartPointer<vtkActor> outline, arcs, beams, body, floor, grid;
+  std::array<vtkSmartPointer<vtkActor>, 3> head_axes;
+  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels;
+  bool axes_shown = true;
+
+  std::vector<vtkActor*> actors() const {
+    return {still.Get(),   moving.Get(),       footprint.Get(),    marks.Get(),       soundings.Get(),
+            outline.Get(), arcs.Get(),         beams.Get(),        body.Get(),        floor.Get(),
+            grid.Get(),    head_axes[0].Get(), head_axes[1].Get(), head_axes[2].Get()};
+  }
+  double thin() const { return line_width_for(font_size_for(options)); }
+  Eigen::AlignedBox3d box() const;  // of the interest, and of the axes
+
+  void make_surfels();
+  void make_lines();
+  void colour();
+  void grow();
+  void look_again() { interest = points_of_interest(scene, look); }
+};
+
+}  // namespace insonify

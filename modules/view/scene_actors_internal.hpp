@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <vtkRenderer.h>
+
+#include "view/scene_axes.hpp"
+#include "view/scene_colours.hpp"
+#include "view/show_scene.hpp"
+
+namespace insonify {
+
+/// How many surfels are drawn. A subset is chosen by the surfels' ids alone, and its surfels grow to close the gaps.
+enum class SceneDetail {
+  still,  ///< at most SceneLook::most_surfels
+  moving  ///< at most 200 000: for as long as the user turns the scene
+};
+
+/// A scene in a VTK renderer: built once, changed in place. Positions in the renderer are relative to scene.origin
+/// (world position = origin + renderer position). The scene is not copied: it must outlive the actors and not move.
+/// No function renders: the owner of the window does. Not for several threads.
+class SceneActors {
+ public:
+  /// Throws as show_scene for an unusable look. `who` names the caller in errors.
+  SceneActors(const SceneCloud& scene, SceneLook look, const PictureOptions& options, const char* who);
+  ~SceneActors();
+  SceneActors(const SceneActors&) = delete;
+  SceneActors& operator=(const SceneActors&) = delete;
+
+  /// Adds everything to a renderer, once; remove_from takes it out again.
+  void add_to(vtkRenderer* renderer);
+  void remove_from(vtkRenderer* renderer);
+
+  /// Colours the surfels anew. Throws as show_scene if what the colour shows is not known.
+  void set_colour(SceneColour colour);
+  void set_levels(std::vector<float> level_db, const std::string& unit);  ///< per surfel; also colours if shown
+  void set_sight(std::vector<Sight> sight);                               ///< per surfel; also colours if shown
+  void set_level_range(double min_db, double max_db);                     ///< of the level colours; NaN: automatic
+  void set_colour_map(const std::string& name);                           ///< of the level colours
+
+  void highlight(std::span<const std::uint32_t> surfels);  ///< replaces what was highlighted
+  void show_soundings(const Soundings& soundings);         ///< replaces what was shown; empty: none
+  void show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate);
+  void hide_head();
+
+  void set_detail(SceneDetail detail);
+  void set_point_size(double point_size);  ///< as SceneLook::point_size
+  double point_size() const;
+
+  /// Edges, ticks and labels of the axes on the side turned away from the camera: call it after the camera has moved.
+  void update_axes(vtkRenderer* renderer);
+  /// The same without labels, which it gives back for the caller to place.
+  std::vector<AxisLabel> turn_axes(vtkRenderer* renderer);
+  void show_axes(bool on);
+
+  /// Puts the renderer's camera where `camera` says, fitted to the renderer's aspect, and its clipping range.
+  void place_camera(vtkRenderer* renderer, const SceneCamera& camera) const;
+
+  /// The renderer's camera.
+  static CameraView view(vtkRenderer* renderer);
+
+  /// The surfel drawn frontmost at a place in the window [pixels from its lower left corner]; none: nothing there
+  /// within two pixels. Only surfels drawn at `still` detail are found.
+  std::optional<std::uint32_t> surfel_at(vtkRenderer* renderer, double x, double y) const;
+
+  const SceneLook& look() const;
+  const SceneKey& key() const;                    ///< of the surfels' colours
+  std::optional<SceneKey> soundings_key() const;  ///< of the soundings', if they need one of their own
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace insonify

@@ -1,0 +1,115 @@
+// How the actors of a scene are looked at: camera, axes, picking.
+#include <algorithm>
+#include <cmath>
+
+#include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkTextProperty.h>
+
+#include "core/units.hpp"
+#include "view/canvas_internal.hpp"
+#include "view/fonts_internal.hpp"
+#include "view/scene_actor_parts_internal.hpp"
+#include "view/scene_camera.hpp"
+#include "view/scene_lines_internal.hpp"
+#include "view/scene_surfels.hpp"
+#include "view/text.hpp"
+
+namespace insonify {
+
+Eigen::AlignedBox3d SceneActors::Parts::box() const {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : interest) box.extend(point);
+  return box;
+}
+
+void SceneActors::show_axes(bool on) {
+  parts_->axes_shown = on;
+  for (vtkProp* prop : {static_cast<vtkProp*>(parts_->floor), static_cast<vtkProp*>(parts_->grid)})
+    prop->SetVisibility(on);
+  for (const auto& label : parts_->labels) label->SetVisibility(on);
+}
+
+std::vector<AxisLabel> SceneActors::turn_axes(vtkRenderer* renderer) {
+  Parts& p = *parts_;
+  show_axes(p.axes_shown);
+  if (!p.axes_shown) return {};
+  SceneAxes axes = lay_out_axes(p.box(), p.scene.origin, view(renderer));
+  axes.edges.insert(axes.edges.end(), axes.ticks.begin(), axes.ticks.end());
+  set_lines(p.floor, axes.edges);
+  set_lines(p.grid, axes.grid);
+  return axes.labels;
+}
+
+void SceneActors::update_axes(vtkRenderer* renderer) {
+  Parts& p = *parts_;
+  for (const auto& label : p.labels) renderer->RemoveActor(label);
+  p.labels.clear();
+  const Colour text = theme(p.options.dark).text;
+  for (const AxisLabel& label : turn_axes(renderer)) {
+    vtkNew<vtkBillboardTextActor3D> actor;
+    const Eigen::Vector3d place =
+        label.place + (label.is_name ? 0.08 : 0.02) * p.box().diagonal().norm() * label.outward;
+    actor->SetInput(label.text.c_str());
+    actor->SetPosition(place.x(), place.y(), place.z());
+    set_font(actor->GetTextProperty(), font_size_for(p.options));
+    actor->GetTextProperty()->SetColor(text[0], text[1], text[2]);
+    actor->GetTextProperty()->SetJustificationToCentered();
+    actor->GetTextProperty()->SetVerticalJustificationToCentered();
+    renderer->AddActor(actor);
+    p.labels.emplace_back(actor);
+  }
+}
+
+void SceneActors::place_camera(vtkRenderer* renderer, const SceneCamera& camera) const {
+  const Parts& p = *parts_;
+  const int* size = renderer->GetSize();
+  const double narrow = std::min(size[0], size[1]);
+  const auto place = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
+    return place_view(p.scene, p.look, camera, points, size[0], size[1], margin, p.who);
+  };
+  CameraView view = place(p.interest, 0.04 * narrow);
+
+  // Which edges carry the axes depends on the view; then they and their labels find room in it.
+  if (p.axes_shown) {
+    std::vector<Eigen::Vector3d> points = p.interest;
+    double widest = 0;
+    const int font = font_size_for(p.options);
+    for (const AxisLabel& label : lay_out_axes(p.box(), p.scene.origin, view).labels) {
+      points.push_back(label.place);
+      widest = std::max(widest, text_size(label.text, font).width);
+    }
+    view = place(points, std::min(widest + 1.2 * font, 0.16 * narrow));
+  }
+  vtkCamera* eye = renderer->GetActiveCamera();
+  eye->ParallelProjectionOff();
+  eye->SetViewAngle(degrees(view.view_angle));
+  eye->SetPosition(view.position.data());
+  eye->SetFocalPoint(view.focal_point.data());
+  eye->SetViewUp(view.up.data());
+  renderer->ResetCameraClippingRange();
+}
+
+std::optional<std::uint32_t> SceneActors::surfel_at(vtkRenderer* renderer, double x, double y) const {
+  const Parts& p = *parts_;
+  vtkMatrix4x4* clip =
+      renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
+  const Eigen::Matrix4d clip_from_world =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(clip->GetData());
+  const double focal_length = 1 / std::tan(radians(renderer->GetActiveCamera()->GetViewAngle()) / 2);
+  const PickingWindow window{clip_from_world,
+                             {x - renderer->GetOrigin()[0], y - renderer->GetOrigin()[1]},
+                             static_cast<double>(renderer->GetSize()[0]),
+                             static_cast<double>(renderer->GetSize()[1]),
+                             focal_length * mapper_of(p.still)->growth};
+  return front_surfel(p.scene, p.drawn, sides_of(p.surfels), window);
+}
+
+CameraView SceneActors::view(vtkRenderer* renderer) {
+  vtkCamera* camera = renderer->GetActiveCamera();
+  return {Eigen::Vector3d(camera->GetPosition()), Eigen::Vector3d(camera->GetFocalPoint()),
+          Eigen::Vector3d(camera->GetViewUp()), radians(camera->GetViewAngle())};
+}
+
+}  // namespace insonify

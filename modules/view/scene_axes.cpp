@@ -1,0 +1,97 @@
+#include "view/scene_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "view/ticks.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double along_view = 0.96;    // cosine above which the camera looks along an axis
+constexpr double tick_length = 0.015;  // of the diagonal
+
+// An edge of the box that carries the values of one axis.
+struct AxisEdge {
+  int axis = 0;
+  Vector3d low, high;  // ends
+  Vector3d outward;
+};
+
+// Of the two floor edges along `axis`, the one that the camera sees in front.
+AxisEdge floor_edge(const Eigen::AlignedBox3d& box, int axis, const CameraView& view) {
+  const int other = 1 - axis;
+  const double looks = view.position[other] - box.center()[other] - view.forward()[other] * 1e-9;
+  // From straight above, the edge at the foot of the picture, or at its left.
+  const bool from_above = std::abs(view.forward().z()) > along_view;
+  const bool at_high = !from_above && looks > 0;
+  AxisEdge edge{axis, box.min(), box.min(), Vector3d::Zero()};
+  edge.low[other] = edge.high[other] = at_high ? box.max()[other] : box.min()[other];
+  edge.high[axis] = box.max()[axis];
+  edge.outward[other] = at_high ? 1 : -1;
+  return edge;
+}
+
+// Of the four upright edges, the leftmost in the picture.
+AxisEdge upright_edge(const Eigen::AlignedBox3d& box, const CameraView& view) {
+  AxisEdge best;
+  double leftmost = 1e300;
+  for (const double x : {box.min().x(), box.max().x()})
+    for (const double y : {box.min().y(), box.max().y()}) {
+      const double across = show_point(view, {x, y, box.min().z()}, 1, 1).at.x;
+      if (across >= leftmost) continue;
+      leftmost = across;
+      best = {2, {x, y, box.min().z()}, {x, y, box.max().z()}, Vector3d::Zero()};
+    }
+  best.outward = -view.forward().cross(view.up).normalized();
+  return best;
+}
+
+// Step of ticks: five or so along the longest side, the same for x and y.
+double tick_step(double length) { return round_step(std::max(length, 1e-6) / 6); }
+
+void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin, double tick) {
+  const int axis = edge.axis;
+  const auto place_of = [&](double world) {
+    Vector3d place = edge.low;
+    place[axis] = world - origin;
+    return place;
+  };
+  for (const double value : multiples(step, edge.low[axis] + origin, edge.high[axis] + origin)) {
+    const Vector3d place = place_of(value);
+    axes.ticks.push_back({place, place + tick * edge.outward});
+    axes.labels.push_back({number_text(value, step), place + tick * edge.outward, edge.outward, false});
+  }
+  const Vector3d middle = (edge.low + edge.high) / 2;
+  axes.labels.push_back({std::string(1, "xyz"[axis]) + " [m]", middle + tick * edge.outward, edge.outward, true});
+}
+
+}  // namespace
+
+SceneAxes lay_out_axes(const Eigen::AlignedBox3d& box, const Vector3d& scene_origin, const CameraView& view) {
+  SceneAxes axes;
+  const Vector3d low = box.min(), high = box.max(), forward = view.forward();
+  const double step = tick_step(std::max(high.x() - low.x(), high.y() - low.y()));
+  const double tick = tick_length * box.diagonal().norm();
+
+  axes.edges.push_back(
+      {low, {high.x(), low.y(), low.z()}, {high.x(), high.y(), low.z()}, {low.x(), high.y(), low.z()}, low});
+  for (const double x : multiples(step, low.x() + scene_origin.x(), high.x() + scene_origin.x()))
+    axes.grid.push_back({{x - scene_origin.x(), low.y(), low.z()}, {x - scene_origin.x(), high.y(), low.z()}});
+  for (const double y : multiples(step, low.y() + scene_origin.y(), high.y() + scene_origin.y()))
+    axes.grid.push_back({{low.x(), y - scene_origin.y(), low.z()}, {high.x(), y - scene_origin.y(), low.z()}});
+
+  for (const int axis : {0, 1})
+    if (std::abs(forward[axis]) < along_view)
+      add_axis(axes, floor_edge(box, axis, view), step, scene_origin[axis], tick);
+  if (std::abs(forward.z()) < along_view && high.z() > low.z()) {
+    const AxisEdge edge = upright_edge(box, view);
+    axes.edges.push_back({edge.low, edge.high});
+    add_axis(axes, edge, round_step(std::max((high.z() - low.z()) / 5, step / 10)), scene_origin.z(), tick);
+  }
+  return axes;
+}
+
+}  // namespace insonify

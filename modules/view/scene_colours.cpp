@@ -1,0 +1,175 @@
+#include "view/scene_colours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t block = 1 << 16;
+
+// Ten colours that differ for most eyes, the first for the commonest material.
+constexpr Rgb material_colours[] = {{203, 180, 135}, {86, 140, 185}, {214, 104, 74},  {104, 160, 92},  {150, 116, 176},
+                                    {222, 170, 50},  {60, 165, 160}, {206, 122, 160}, {128, 128, 128}, {140, 96, 66}};
+constexpr std::size_t most_entries = 10;  // of a legend
+
+struct SightColour {
+  Sight sight;
+  const char* text;
+  Rgb colour;
+};
+constexpr SightColour sight_colours[] = {{Sight::seen, "seen", {255, 200, 70}},
+                                         {Sight::hidden, "hidden: in shadow", {42, 66, 138}},
+                                         {Sight::turned_away, "turned away", {140, 92, 58}},
+                                         {Sight::outside, "outside the fan or gate", {172, 174, 178}},
+                                         {Sight::not_asked, "not asked", {205, 207, 210}}};
+
+// Light from behind, starboard and above, for a head that looks along x: faces differ in brightness, and ripples show.
+const Eigen::Vector3f to_light = Eigen::Vector3f(-0.45F, -0.42F, 0.79F).normalized();
+
+// Part of its colour that a surface shows, from 0.4 where light grazes it to 1.1 where it is full. Backs get less, but
+// not so little that a room seen from outside is black.
+float light_on(const SceneCloud& scene, std::size_t i) {
+  const float cosine = scene.normal[i].dot(to_light);
+  if (!scene.normals_oriented) return 0.4F + 0.7F * std::abs(cosine);
+  return cosine > 0 ? 0.4F + 0.7F * cosine : 0.4F - 0.4F * cosine;
+}
+
+Rgb shaded(const Rgb& colour, float light) {
+  Rgb result{};
+  for (std::size_t c = 0; c < 3; ++c)
+    result[c] = static_cast<std::uint8_t>(std::min(255.0F, std::round(light * static_cast<float>(colour[c]))));
+  return result;
+}
+
+template <typename ColourOf>
+std::vector<Rgb> per_surfel(const SceneCloud& scene, ColourOf&& colour_of) {
+  std::vector<Rgb> colour(scene.size());
+  parallel_blocks(scene.size(), block, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) colour[i] = colour_of(i);
+  });
+  return colour;
+}
+
+// Heights from low to high but for a thousandth at either end, which stray points may fill.
+ColourScale height_scale(const SceneCloud& scene) {
+  const std::size_t step = 1 + scene.size() / 200000;
+  std::vector<float> z;
+  for (std::size_t i = 0; i < scene.size(); i += step) z.push_back(scene.point[i].z());
+  std::sort(z.begin(), z.end());
+  const std::size_t stray = z.size() / 1000;
+  double low = scene.origin.z() + z[stray], high = scene.origin.z() + z[z.size() - 1 - stray];
+  const double least = std::max(1e-3, 1e-9 * std::abs(high));
+  if (high - low < least) low -= least / 2, high = low + least;
+  return {colour_table("viridis", "show_scene"), low, high};
+}
+
+SceneColours by_height(const SceneCloud& scene) {
+  const ColourScale scale = height_scale(scene);
+  return {per_surfel(scene,
+                     [&](std::size_t i) {
+                       const double z = scene.origin.z() + static_cast<double>(scene.point[i].z());
+                       return shaded(scale.colour(z), light_on(scene, i));
+                     }),
+          {scale, "Height z [m]", {}}};
+}
+
+SceneColours by_material(const SceneCloud& scene) {
+  std::vector<std::uint8_t> used(scene.materials.size());
+  for (const std::uint16_t material : scene.material)
+    if (material < used.size()) used[material] = 1;
+  SceneColours result;
+  std::size_t more = 0;
+  for (std::size_t m = 0; m < used.size(); ++m) {
+    if (!used[m]) continue;
+    if (result.key.legend.size() < most_entries)
+      result.key.legend.push_back({scene.materials[m].name, material_colours[m % std::size(material_colours)]});
+    else
+      ++more;
+  }
+  if (more > 0) result.key.legend.push_back({"and " + std::to_string(more) + " more", unknown_grey});
+  result.colour = per_surfel(scene, [&](std::size_t i) {
+    return shaded(material_colours[scene.material[i] % std::size(material_colours)], light_on(scene, i));
+  });
+  return result;
+}
+
+// Shaded less than the others: the shadow is dark enough.
+SceneColours by_sight(const SceneCloud& scene, const SceneLook& look, const char* who) {
+  if (look.sight.empty())
+    fail(ErrorKind::argument, who, ": look.sight is empty, but colour is sight; fill it by find_sight");
+  SceneColours result;
+  std::array<std::size_t, std::size(sight_colours)> count{};
+  for (const Sight sight : look.sight) ++count[std::min<std::size_t>(static_cast<std::size_t>(sight), 4)];
+  std::array<Rgb, std::size(sight_colours)> table{};
+  for (const SightColour& entry : sight_colours) {
+    table[static_cast<std::size_t>(entry.sight)] = entry.colour;
+    if (count[static_cast<std::size_t>(entry.sight)] > 0) result.key.legend.push_back({entry.text, entry.colour});
+  }
+  result.colour = per_surfel(scene, [&](std::size_t i) {
+    const auto sight = std::min<std::size_t>(static_cast<std::size_t>(look.sight[i]), 4);
+    return shaded(table[sight], 0.4F + 0.6F * light_on(scene, i));
+  });
+  return result;
+}
+
+SceneColours by_level(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options, const char* who) {
+  const auto grey = [&](std::size_t i) { return shaded(unknown_grey, light_on(scene, i)); };
+  if (look.level_db.empty()) return {per_surfel(scene, grey), {}};
+  const ColourScale scale = level_scale(look, options, who);
+  return {per_surfel(
+              scene,
+              [&](std::size_t i) { return std::isnan(look.level_db[i]) ? grey(i) : scale.colour(look.level_db[i]); }),
+          {scale, look.level_unit, {}}};
+}
+
+// Angle between ray and normal, or its complement; surfels that show their back are grey.
+SceneColours by_angle(const SceneCloud& scene, const SceneLook& look, bool grazing, const char* who) {
+  if (!look.head)
+    fail(ErrorKind::argument, who, ": look.head is absent, but colour is ", grazing ? "grazing" : "incidence",
+         "; the angle is that to the head");
+  const ColourScale scale{colour_table("viridis", who), 0, 90};
+  const Eigen::Vector3f head = (look.head->world_from_head.translation() - scene.origin).cast<float>();
+  return {per_surfel(scene,
+                     [&](std::size_t i) {
+                       float cosine = (head - scene.point[i]).normalized().dot(scene.normal[i]);
+                       if (!scene.normals_oriented) cosine = std::abs(cosine);
+                       if (!(cosine > 0)) return shaded(unknown_grey, light_on(scene, i));
+                       const double incidence = degrees(std::acos(std::min(1.0F, cosine)));
+                       return scale.colour(grazing ? 90 - incidence : incidence);
+                     }),
+          {scale, grazing ? "Grazing angle [°]" : "Angle of incidence [°]", {}}};
+}
+
+}  // namespace
+
+ColourScale level_scale(const SceneLook& look, const PictureOptions& options, const char* who) {
+  Grid<float> levels(1, static_cast<Eigen::Index>(look.level_db.size() + look.soundings.level_db.size()));
+  auto* const end = std::copy(look.level_db.begin(), look.level_db.end(), levels.data());
+  std::copy(look.soundings.level_db.begin(), look.soundings.level_db.end(), end);
+  return colour_scale(levels, options, who);
+}
+
+SceneColours colour_surfels(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
+                            const char* who) {
+  switch (look.colour) {
+    case SceneColour::height:
+      return by_height(scene);
+    case SceneColour::material:
+      return by_material(scene);
+    case SceneColour::sight:
+      return by_sight(scene, look, who);
+    case SceneColour::grazing:
+    case SceneColour::incidence:
+      return by_angle(scene, look, look.colour == SceneColour::grazing, who);
+    case SceneColour::level:
+      break;
+  }
+  return by_level(scene, look, options, who);
+}
+
+}  // namespace insonify

@@ -1,0 +1,62 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <vtkActor.h>
+#include <vtkDataArray.h>
+#include <vtkOpenGLPolyDataMapper.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "view/colour_maps.hpp"
+
+namespace insonify {
+
+/// Draws points as squares that have a size in metres, and so grow as the camera comes nearer.
+class SquareMapper : public vtkOpenGLPolyDataMapper {
+ public:
+  static SquareMapper* New();
+  vtkTypeMacro(SquareMapper, vtkOpenGLPolyDataMapper);
+
+  double growth = 1;                       ///< times the points' own side
+  double min_pixels = 2, max_pixels = 64;  ///< limits of a side
+  std::array<double, 6> bounds{};          ///< of the points drawn; VTK would look for them in every frame
+  double lift = 0;  ///< drawn as if nearer to the eye by this part of the distance; 1: in front of everything
+
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
+
+ protected:
+  void ComputeBounds() override;
+  void ReplaceShaderPositionVC(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer,
+                               vtkActor* actor) override;
+  void SetMapperShaderParameters(vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;
+};
+
+/// Points of any number with what VTK needs to draw them. The positions are not copied and must stay where they are.
+struct PointCloudArrays {
+  vtkSmartPointer<vtkDataArray> position;         ///< 3 floats each
+  vtkSmartPointer<vtkDataArray> side;             ///< [m]
+  vtkSmartPointer<vtkUnsignedCharArray> colours;  ///< 4 bytes each
+};
+PointCloudArrays point_arrays(std::span<const Eigen::Vector3f> position, const std::vector<float>& side);
+
+std::span<const float> sides_of(const PointCloudArrays& arrays);
+
+/// Overwrites the colours, one per point, and marks them as changed.
+void set_colours(vtkUnsignedCharArray* to, std::span<const Rgb> colour);
+
+/// An actor that draws the points listed in `drawn`. Actors may share arrays: the points are then held, and given to
+/// GL, once.
+vtkSmartPointer<vtkActor> point_actor(const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
+
+/// Lets an actor made by point_actor draw other points, of the same arrays or of others.
+void set_points(vtkActor* actor, const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
+
+/// The mapper of an actor made by point_actor.
+SquareMapper* mapper_of(vtkActor* actor);
+
+}  // namespace insonify

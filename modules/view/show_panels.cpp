@@ -1,0 +1,92 @@
+#include "view/show_panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "view/drawing_internal.hpp"
+#include "view/drawn_cells.hpp"
+#include "view/fan_layout.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr const char* who = "show_panels";
+constexpr int min_width = 640, min_height = 480;
+constexpr double left_share = 0.56, lower_share = 0.42;  // of the picture
+constexpr double smaller_font = 0.85;                    // than that of a picture of one drawing
+
+// Options of a drawing that fills a box.
+PictureOptions options_for(const Box& box, const PictureOptions& options, int font_size) {
+  PictureOptions smaller = options;
+  smaller.width = static_cast<int>(box.width());
+  smaller.height = static_cast<int>(box.height());
+  smaller.font_size = font_size;
+  smaller.title.clear();
+  return smaller;
+}
+
+// Names in one column, values in the next, from the top; the rows share the height that there is.
+void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, const PictureOptions& options) {
+  const int font = options.font_size;
+  const double row =
+      std::min(1.9 * font, (options.height - 2.0 * font) / static_cast<double>(std::max<std::size_t>(1, facts.size())));
+  const int size = std::min(font, static_cast<int>(row / 1.25));
+  double names = 0;
+  for (const Fact& fact : facts) names = std::max(names, text_size(fact.name, size).width);
+  const double left = 1.5 * font, middle = left + names + 1.5 * font;
+  const double used = row * static_cast<double>(facts.size());
+  double height = (options.height + used) / 2 - row / 2;
+  for (const Fact& fact : facts) {
+    canvas.add_text({fact.name, {left + text_size(fact.name, size).width / 2, height}, size});
+    const FittedText value = fit_text(fact.value, size, options.width - font - middle);
+    canvas.add_text({value.text, {middle + text_size(value.text, value.font_size).width / 2, height}, value.font_size});
+    height -= row;
+  }
+}
+
+}  // namespace
+
+void draw_panels(Canvas& canvas, const Panels& panels, const PictureOptions& options) {
+  const auto title = place_title(options);
+  const int font = std::max(9, static_cast<int>(std::lround(smaller_font * font_size_for(options))));
+  const double top = std::floor(title ? title->box().bottom - 0.3 * font : options.height);
+  const double across = std::round(left_share * options.width), up = std::round(lower_share * top);
+  const double right = options.width;
+  if (title) canvas.add_text(*title);
+
+  const auto draw_in = [&](const Box& box, auto&& draw) {
+    canvas.set_origin({box.left, box.bottom});
+    draw(options_for(box, options, font));
+  };
+  draw_in({0, across, up, top}, [&](const PictureOptions& part) { draw_fan(canvas, panels.image, part); });
+  draw_in({across, right, up, top},
+          [&](const PictureOptions& part) { draw_ascan(canvas, panels.image, panels.beam, part); });
+  draw_in({0, across, 0, up}, [&](PictureOptions part) {
+    part.marks.clear();
+    part.title = panels.pattern_title;
+    if (panels.azimuth.empty()) return draw_rect(canvas, panels.image, part);
+    part.min_db = part.max_db = std::numeric_limits<double>::quiet_NaN();
+    draw_pattern(canvas, panels.azimuth, panels.pattern_db, part);
+  });
+  draw_in({across, right, 0, up}, [&](const PictureOptions& part) { draw_facts(canvas, panels.facts, part); });
+  canvas.set_origin({});
+}
+
+void show_panels(const Panels& panels, const PictureOptions& options, const std::string& png_path) {
+  require_drawable(panels.image, options, who);
+  if (options.width < min_width || options.height < min_height)
+    fail(ErrorKind::argument, who, ": options.width x height = ", options.width, " x ", options.height,
+         " pixels, must be at least ", min_width, " x ", min_height, " for four panels");
+  if (panels.beam >= panels.image.fan.beams())
+    fail(ErrorKind::argument, who, ": beam = ", panels.beam, ", must be below the number of beams, ",
+         panels.image.fan.beams());
+  if (!panels.azimuth.empty()) require_pattern(panels.azimuth, panels.pattern_db, who);
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw_panels(canvas, panels, options);
+  canvas.save_png(png_path, messages);
+}
+
+}  // namespace insonify

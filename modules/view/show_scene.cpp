@@ -1,0 +1,152 @@
+#include "view/show_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include "view/canvas_internal.hpp"
+#include "view/fan_layout.hpp"
+#include "view/scene_actors_internal.hpp"
+#include "view/vtk_messages_internal.hpp"
+
+namespace insonify {
+namespace {
+
+// Where the scene goes, and what stands around it.
+struct SceneFrame {
+  Box scene;
+  std::optional<PlacedText> title;
+  std::vector<std::pair<ColourBar, ColourScale>> bars;
+  std::vector<std::pair<PlacedText, Rgb>> legend;
+};
+
+// A legend in rows at the foot of the picture, each in the middle; gives back its top.
+double lay_out_legend(SceneFrame& frame, const std::vector<LegendEntry>& entries, double width, int font) {
+  const double patch = 1.5 * font, gap = 1.5 * font, room = width - 2.0 * font;
+  std::vector<std::vector<std::pair<PlacedText, Rgb>>> rows(1);
+  double used = 0;
+  for (const LegendEntry& entry : entries) {
+    const FittedText fitted = fit_text(entry.text, font, room - patch);
+    PlacedText text(fitted.text, {0, 0}, fitted.font_size);
+    if (used > 0 && used + gap + patch + text.extent.width > room) rows.emplace_back(), used = 0;
+    used += (used > 0 ? gap : 0) + patch + text.extent.width;
+    rows.back().emplace_back(text, entry.colour);
+  }
+  double y = font * (1.5 + 1.7 * static_cast<double>(rows.size() - 1));
+  const double top = y + font;
+  for (auto& row : rows) {
+    double length = gap * static_cast<double>(row.size() - 1);
+    for (const auto& [text, colour] : row) length += patch + text.extent.width;
+    double x = (width - length) / 2;
+    for (auto& [text, colour] : row) {
+      text.centre = {x + patch + text.extent.width / 2, y};
+      x += patch + text.extent.width + gap;
+      frame.legend.emplace_back(text, colour);
+    }
+    y -= 1.7 * font;
+  }
+  return top;
+}
+
+// A colour bar at the right, that of the soundings below if the place is taken; a legend below.
+SceneFrame lay_out_frame(const SceneKey& key, const std::optional<SceneKey>& soundings, const PictureOptions& options) {
+  const int font = font_size_for(options);
+  const double margin = font;
+  SceneFrame frame;
+  frame.title = place_title(options);
+  frame.scene = {0, static_cast<double>(options.width), 0,
+                 frame.title ? frame.title->box().bottom - 0.5 * font : static_cast<double>(options.height)};
+  const double inset = 0.1 * frame.scene.top;
+  const auto add_upright = [&](const SceneKey& bar_key) {
+    const ColourBar bar =
+        upright_colour_bar(*bar_key.scale, bar_key.unit, font, options.width - margin, inset, frame.scene.top - inset);
+    frame.bars.emplace_back(bar, *bar_key.scale);
+    frame.scene.right = bar.outer().left - margin;
+  };
+
+  if (!key.legend.empty()) frame.scene.bottom = lay_out_legend(frame, key.legend, options.width, font) + 0.5 * font;
+  if (key.scale) add_upright(key);
+  if (soundings && !key.scale) add_upright(*soundings);
+  if (soundings && key.scale) {
+    const ColourBar bar =
+        lying_colour_bar(*soundings->scale, soundings->unit, font, 0.2 * options.width, 0.7 * options.width, margin);
+    frame.bars.emplace_back(bar, *soundings->scale);
+    frame.scene.bottom = bar.outer().top + margin;
+  }
+  frame.scene = {0, std::floor(frame.scene.right), std::ceil(frame.scene.bottom), std::floor(frame.scene.top)};
+  return frame;
+}
+
+void draw_frame(Canvas& canvas, const SceneFrame& frame, int font) {
+  for (const auto& [bar, scale] : frame.bars) canvas.add_colour_bar(bar, scale, line_width_for(font));
+  for (const auto& [text, rgb] : frame.legend) {
+    const Point2 patch{text.box().left - 0.9 * font, text.centre.y};
+    canvas.add_lines({{{patch.x - 0.5 * font, patch.y}, {patch.x + 0.5 * font, patch.y}}}, font,
+                     {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0}, 1);
+    canvas.add_text(text);
+  }
+  if (frame.title) canvas.add_text(*frame.title);
+}
+
+// Labels of the axes beside their ticks, names beyond the numbers; those that are inside the frame and touch no other.
+void draw_labels(Canvas& canvas, const std::vector<AxisLabel>& labels, const CameraView& view, const Box& frame,
+                 int font) {
+  std::vector<Box> taken;
+  double widest = 0;  // of the axis at hand
+  for (const AxisLabel& label : labels) {
+    const ShownPoint at = show_point(view, label.place, frame.width(), frame.height());
+    const double step = 1e-3 * at.distance;
+    const ShownPoint out = show_point(view, label.place + step * label.outward, frame.width(), frame.height());
+    PlacedText text(label.text, {frame.left + at.at.x, frame.bottom + at.at.y}, font);
+    const double beyond_x = label.is_name ? widest + 0.6 * font : 0, beyond_y = label.is_name ? 1.3 * font : 0;
+    widest = label.is_name ? 0 : std::max(widest, text.extent.width);
+    if (!(at.distance > 0) || !(out.distance > 0)) continue;
+    const double dx = out.at.x - at.at.x, dy = out.at.y - at.at.y, length = std::max(std::hypot(dx, dy), 1e-9);
+    text.centre.x += dx / length * (text.extent.width / 2 + 0.3 * font + beyond_x);
+    text.centre.y += dy / length * (text.extent.height / 2 + 0.3 * font + beyond_y);
+    const Box box = text.box(), wide{box.left - 0.4 * font, box.right + 0.4 * font, box.bottom, box.top};
+    if (!frame.contains(box)) continue;
+    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return other.overlaps(wide); })) continue;
+    taken.push_back(box);
+    canvas.add_text(text);
+  }
+}
+
+}  // namespace
+
+void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
+                const std::string& png_path) {
+  constexpr const char* who = "show_scene";
+  require_picture_size(options, who);
+  const VtkMessages messages;
+  SceneActors actors(scene, look, options, who);
+  const int font = font_size_for(options);
+  const SceneFrame frame = lay_out_frame(actors.key(), actors.soundings_key(), options);
+
+  // The canvas with its texts lies on top; below it an empty background, and the scene in its own part.
+  Canvas canvas(options, who);
+  vtkRenderWindow* window = canvas.renderer()->GetRenderWindow();
+  window->SetNumberOfLayers(2);
+  canvas.renderer()->SetLayer(1);
+  vtkNew<vtkRenderer> background, renderer;
+  const Box& part = frame.scene;
+  renderer->SetViewport(part.left / options.width, part.bottom / options.height, part.right / options.width,
+                        part.top / options.height);
+  for (vtkRenderer* each : {background.Get(), renderer.Get()}) {
+    each->SetBackground(canvas.colours().background.data());
+    window->AddRenderer(each);
+  }
+  actors.add_to(renderer);
+  actors.place_camera(renderer, look.camera);
+  const std::vector<AxisLabel> labels = actors.turn_axes(renderer);
+  renderer->ResetCameraClippingRange();
+
+  draw_labels(canvas, labels, actors.view(renderer), part, font);
+  draw_frame(canvas, frame, font);
+  canvas.save_png(png_path, messages);
+}
+
+}  // namespace insonify

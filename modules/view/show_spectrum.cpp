@@ -1,0 +1,94 @@
+#include "view/show_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/drawing_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr const char* who = "show_spectrum";
+
+void require_lines(const std::vector<SpectrumLine>& lines, const PictureOptions& options) {
+  if (lines.empty()) fail(ErrorKind::argument, who, ": no lines, must be at least one");
+  for (const SpectrumLine& line : lines) {
+    const auto& f = line.frequency;
+    if (f.size() < 2 || line.density.size() != f.size())
+      fail(ErrorKind::argument, who, ": ", f.size(), " frequencies and ", line.density.size(),
+           " densities, must be at least 2 and as many");
+    if (!std::isfinite(f.front()) || !std::isfinite(f.back()) ||
+        std::adjacent_find(f.begin(), f.end(), [](double a, double b) { return !(a < b); }) != f.end())
+      fail(ErrorKind::argument, who, ": frequencies must be finite and ascend");
+    for (const double density : line.density)
+      if (!(density >= 0)) fail(ErrorKind::argument, who, ": density = ", density, " Pa^2/Hz, must be >= 0");
+  }
+  require_picture_size(options, who);
+}
+
+ChartLine in_decibels(const SpectrumLine& line) {
+  ChartLine chart{{}, {}, line.name};
+  for (const double f : line.frequency) chart.x.push_back(f / 1000);
+  for (const double d : line.density) chart.y.push_back(db_from_power(d / (micropascal * micropascal)));
+  return chart;
+}
+
+// Multiples of 5 dB around all levels, at most `window_db` apart below the upper one.
+std::pair<double, double> limits_of(const std::vector<ChartLine>& lines, double window_db) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const ChartLine& line : lines) {
+    const auto [low, high] = std::minmax_element(line.y.begin(), line.y.end());
+    lowest = std::min(lowest, *low);
+    highest = std::max(highest, *high);
+  }
+  if (!std::isfinite(highest)) return {-window_db, 0};
+  const double top = 5 * std::floor(highest / 5) + 5;
+  return {std::max(top - window_db, 5 * std::ceil(lowest / 5) - 5), top};
+}
+
+}  // namespace
+
+void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const PictureOptions& options) {
+  std::vector<ChartLine> all;
+  for (const SpectrumLine& line : lines) all.push_back(in_decibels(line));
+  LineChart chart;
+  chart.low_x = all.front().x.front();
+  chart.high_x = all.front().x.back();
+  std::tie(chart.low_y, chart.high_y) = limits_of(all, options.window_db);
+  if (!std::isnan(options.max_db)) {
+    chart.high_y = options.max_db;
+    chart.low_y = options.max_db - options.window_db;
+  }
+  if (!std::isnan(options.min_db)) chart.low_y = options.min_db;
+  if (!(chart.high_y > chart.low_y))
+    fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
+         " dB");
+
+  // Silence is drawn below the chart.
+  for (ChartLine& line : all)
+    for (double& level : line.y) level = std::max(level, 2 * chart.low_y - chart.high_y);
+  for (std::size_t i = 1; i < all.size(); ++i) all[i].style = LineStyle::dashed;
+  chart.x = all.back().x;  // the chart's own line lies on top
+  chart.y = all.back().y;
+  chart.name = all.back().name;
+  chart.style = all.back().style;
+  chart.more.assign(all.rbegin() + 1, all.rend());
+  chart.title = options.title;
+  chart.x_title = "Frequency [kHz]";
+  chart.y_title = "Power spectral density [dB re 1 µPa²/Hz]";
+  draw_line_chart(canvas, chart, options);
+}
+
+void show_spectrum(const std::vector<SpectrumLine>& lines, const PictureOptions& options, const std::string& png_path) {
+  require_lines(lines, options);
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw_spectrum(canvas, lines, options);
+  canvas.save_png(png_path, messages);
+}
+
+}  // namespace insonify

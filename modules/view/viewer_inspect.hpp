@@ -1,0 +1,27 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sampling/seen_surfels.hpp"
+#include "view/viewer_data.hpp"
+
+namespace insonify {
+
+/// What a head would see of a scene, before anything is simulated.
+struct HeadView {
+  std::vector<Sight> sight;  ///< per surfel
+  std::size_t seen = 0, hidden = 0, turned_away = 0, outside = 0;
+  double nearest = 0, farthest = 0;                       ///< range of the surfels that are seen [m]; 0, 0: none
+  std::size_t rays = 0, rays_missed = 0, rays_holes = 0;  ///< 16 per beam; rays_holes: missed for a hole of the scan
+};
+HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate, const HeadPlace& head);
+
+/// The view in sentences, one per line, with the option --pose it belongs to.
+std::string explain_view(const HeadView& view, const ViewerState& state);
+
+/// One surfel as a head sees it: material, id, place, area, range, bearing (positive to starboard), incidence, sight.
+/// Throws Error(argument) if it is not in the scene.
+std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const HeadPlace& head, std::uint32_t surfel);
+
+}  // namespace insonify

@@ -1,0 +1,327 @@
+#include "returns/find_contributors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/head_patterns.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+using namespace insonify;
+
+namespace {
+
+const Medium medium{1500, {0.02, 0, 0}};
+
+/// 600 kHz, 11 beams over 40 degrees, bins of 1 cm from 2 m to 4 m.
+SonarHead small_head() {
+  SonarHead head;
+  head.pulse = {600e3, 30e3, 200};
+  head.array = array_for_beam_width(radians(3), 1500 / 600e3, Shading::taylor, -30);
+  head.fan = make_fan(11, radians(40), radians(3), radians(30));
+  head.gate = {2, 4, 0.01};
+  return head;
+}
+
+/// Echoes of surfels, put together by hand.
+struct Heard {
+  SceneCloud scene;
+  Echoes echoes;
+  std::vector<std::uint32_t> surfel;
+  std::vector<WayPair> ways;
+
+  /// A surfel named 100, 101 ..., of material 0, 1, 2, 0 ...
+  std::uint32_t add_surfel() {
+    const auto i = static_cast<std::uint32_t>(scene.size());
+    scene.point.emplace_back(0, 0, 0), scene.normal.emplace_back(1, 0, 0), scene.area.push_back(1);
+    scene.material.push_back(static_cast<std::uint16_t>(i % 3)), scene.id.push_back(100 + i);
+    return i;
+  }
+  void add(std::uint32_t of, double range, double azimuth, double elevation, std::complex<double> amplitude,
+           WayPair by = {}) {
+    echoes.delay.push_back(2 * range / medium.sound_speed);
+    echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)), echoes.v.push_back(std::sin(elevation));
+    echoes.amplitude.push_back(amplitude);
+    surfel.push_back(of), ways.push_back(by);
+  }
+  std::vector<SurfelEchoes> parts() const { return {{echoes, surfel, ways}}; }
+  Contributors find(const SonarHead& head, const ContributorOptions& options = {}) const {
+    return find_contributors(scene, parts(), head, medium, options);
+  }
+};
+
+/// Surfels of some parts all over the fan and a little beyond, some heard by a bounce too, in no order; `size` in radians.
+Heard random_heard(unsigned seed, bool doppler = false, int surfels = 60, int parts = 5, double size = 0.02) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> even(-1, 1);
+  std::normal_distribution<double> normal;
+  Heard heard;
+  for (int s = 0; s < surfels; ++s) heard.add_surfel();
+  for (int p = 0; p < parts; ++p)
+    for (std::uint32_t s = 0; s < heard.scene.size(); ++s) {
+      std::mt19937 own(seed + s);
+      const double range = 3 + 1.1 * even(own), azimuth = 0.4 * even(own), elevation = 0.2 * even(own);
+      heard.add(s, range + 0.01 * even(random), azimuth + size * even(random), elevation + size * even(random),
+                {normal(random), normal(random)});
+      if (s % 4 == 0) heard.add(s, range + 0.02, azimuth, 0.3, {normal(random), 0}, {0, 1});
+      if (s % 8 == 0) heard.add(s, range + 0.04, azimuth, 0.3, {normal(random), 0}, {1, 1});
+    }
+  if (doppler)
+    for (std::size_t i = 0; i < heard.echoes.size(); ++i) heard.echoes.doppler.push_back(300 * even(random));
+  return heard;
+}
+
+using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t>;
+
+/// The referee: every echo against every pixel, with the whole pulse and the array summed element by element (E63).
+std::map<Key, double> energies_at(const Heard& h, const SonarHead& head, std::size_t beam, std::size_t bin) {
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  const double u_beam = std::cos(head.fan.elevation[beam]) * std::sin(head.fan.azimuth[beam]);
+  const bool rows = head.column || fan_rows(head.fan).size() > 1;
+  const EchoShapes shapes(head.pulse, medium);
+  RowResponse row(head, wavelength, head.fan.elevation[beam]);
+  std::map<Key, double> energies;
+  for (std::size_t i = 0; i < h.echoes.size(); ++i) {
+    const double response =
+        array_response(head.array, wavelength, h.echoes.u[i], u_beam) * (rows ? row.at(h.echoes.v[i]) : 1);
+    const double t = 2 * head.gate.centre(bin) / medium.sound_speed - h.echoes.delay[i];
+    const double energy =
+        std::norm(h.echoes.amplitude[i] * response * shapes.of(h.echoes.delay[i], h.echoes.doppler_of(i)).at(t));
+    energies[{h.surfel[i], h.ways[i].out, h.ways[i].back}] += energy;
+  }
+  return energies;
+}
+
+/// Compares every listed contributor of every pixel with the referee. The floor takes parts of contributors away: -120 dB
+/// of peaks that are at most some 10^2 in energy.
+void expect_as_referee(const Heard& heard, const SonarHead& head) {
+  const ContributorOptions options{.per_pixel = 3, .floor_db = -120};
+  const Contributors c = heard.find(head, options);
+  std::size_t checked = 0;
+  for (std::size_t b = 0; b < c.beams; ++b)
+    for (std::size_t n = 0; n < c.bins; n += 3) {
+      const auto energies = energies_at(heard, head, b, n);
+      double total = 0;
+      std::vector<std::pair<double, Key>> sorted;
+      for (const auto& [key, energy] : energies) total += energy, sorted.emplace_back(energy, key);
+      std::sort(sorted.rbegin(), sorted.rend());
+      if (sorted[0].first < 1e-3) continue;  // the table's error of 2e-5 of peaks of about 10 shows
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t at = c.at(b, n, k);
+        const double share = sorted[k].first / total;
+        ASSERT_NEAR(c.share[at], share, 2e-3) << "beam " << b << " bin " << n << " k " << k;
+        const bool distinct = (k == 0 || sorted[k - 1].first - sorted[k].first > 4e-3 * total) &&
+                              sorted[k].first - sorted[k + 1].first > 4e-3 * total;
+        if (!distinct) continue;
+        const auto [surfel, out, back] = sorted[k].second;
+        ASSERT_EQ(c.surfel[at], surfel) << "beam " << b << " bin " << n << " k " << k;
+        ASSERT_EQ(c.id[at], 100 + surfel);
+        ASSERT_EQ(c.material[at], surfel % 3);
+        ASSERT_EQ(static_cast<int>(c.path[at]), (out > 0) + (back > 0));
+        ++checked;
+      }
+    }
+  EXPECT_GT(checked, 200U);
+}
+
+std::string error_of(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST(FindContributors, agrees_with_every_echo_against_every_pixel) {
+  for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_heard(seed), small_head());
+}
+
+// So many parts so close together that a few directions stand for all of them.
+TEST(FindContributors, agrees_with_the_referee_for_surfels_of_many_parts) {
+  expect_as_referee(random_heard(10, false, 25, 50, 0.003), small_head());
+  SonarHead head = small_head();
+  head.fan.elevation_width = radians(10);
+  for (std::size_t b = 0; b < 6; ++b) head.fan.elevation[b] = radians(-8);
+  expect_as_referee(random_heard(11, false, 25, 50, 0.003), head);
+}
+
+TEST(FindContributors, agrees_with_the_referee_for_a_sweep_with_doppler) {
+  SonarHead head = small_head();
+  head.pulse.shape = PulseShape::linear_fm;
+  head.pulse.duration = 1e-3;
+  expect_as_referee(random_heard(4, true), head);
+}
+
+TEST(FindContributors, agrees_with_the_referee_for_rows_and_for_a_planar_array) {
+  SonarHead head = small_head();
+  const BeamFan below = make_fan(11, radians(40), radians(3), radians(10), radians(-8));
+  head.fan.elevation_width = radians(10);
+  head.fan.azimuth.insert(head.fan.azimuth.end(), below.azimuth.begin(), below.azimuth.end());
+  head.fan.elevation.insert(head.fan.elevation.end(), below.elevation.begin(), below.elevation.end());
+  expect_as_referee(random_heard(5), head);
+  head.column = array_for_beam_width(radians(6), 1500 / 600e3, Shading::uniform, 0);
+  head.fan.row_width = radians(6);
+  expect_as_referee(random_heard(6), head);
+}
+
+// Elements two wavelengths apart hear a grating lobe at u = 0.5, as loud as the main lobe.
+TEST(FindContributors, hears_through_a_grating_lobe) {
+  SonarHead head = small_head();
+  head.array = {2 * 1500 / 600e3, std::vector<double>(16, 1.0)};
+  head.fan = make_fan(1, 0, radians(3), radians(30));
+  Heard heard;
+  heard.add(heard.add_surfel(), 3, std::asin(0.5), 0, 1);
+  heard.add(heard.add_surfel(), 3, std::asin(0.25), 0, 100);  // in a null
+  const Contributors c = heard.find(head, {.floor_db = -20});
+  EXPECT_EQ(c.surfel[c.at(0, 100)], 0U);
+}
+
+TEST(FindContributors, shares_of_a_pixel_add_up_to_one_when_all_are_listed) {
+  const Contributors c = random_heard(7).find(small_head(), {.per_pixel = 90});
+  for (std::size_t pixel = 0; pixel < c.beams * c.bins; ++pixel) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 90; ++k) {
+      const std::size_t at = pixel * 90 + k;
+      sum += c.share[at];
+      EXPECT_EQ(c.surfel[at] == Contributors::none, c.share[at] == 0);
+      if (k > 0) {
+        EXPECT_LE(c.share[at], c.share[at - 1]);
+      }
+    }
+    if (c.surfel[pixel * 90] != Contributors::none) {
+      EXPECT_NEAR(sum, 1, 1e-5);
+    }
+  }
+}
+
+TEST(FindContributors, a_single_target_is_named_where_it_is_heard_and_nowhere_else) {
+  Heard heard;
+  heard.add_surfel();
+  const SonarHead head = small_head();
+  heard.add(heard.add_surfel(), 3.005, head.fan.azimuth[7], radians(-5), {0, 2});
+  const Contributors c = heard.find(head);
+  const std::size_t at = c.at(7, 100);  // its centre is 3.005 m
+  EXPECT_EQ(c.surfel[at], 1U);
+  EXPECT_EQ(c.id[at], 101U);
+  EXPECT_EQ(c.material[at], 1U);
+  EXPECT_EQ(c.path[at], PathKind::direct);
+  EXPECT_FLOAT_EQ(c.share[at], 1);
+  EXPECT_NEAR(c.elevation[at], radians(-5), 1e-6);
+  EXPECT_EQ(c.surfel[at + 1], Contributors::none);
+  EXPECT_EQ(c.share[at + 1], 0);
+  EXPECT_EQ(c.surfel[c.at(7, 120)], Contributors::none);  // 20 cm farther
+  EXPECT_EQ(c.material[c.at(7, 120)], Contributors::no_material);
+}
+
+// Range and bearing cannot tell them apart: this is layover.
+TEST(FindContributors, two_targets_of_one_cell_at_different_elevations_are_both_listed) {
+  Heard heard;
+  heard.add(heard.add_surfel(), 3.005, 0, radians(10), 1);
+  heard.add(heard.add_surfel(), 3.005, 0, radians(-20), {0, 2});
+  const Contributors c = heard.find(small_head());
+  const std::size_t at = c.at(5, 100);
+  EXPECT_EQ(c.surfel[at], 1U);
+  EXPECT_EQ(c.surfel[at + 1], 0U);
+  EXPECT_NEAR(c.share[at], 0.8, 1e-4);
+  EXPECT_NEAR(c.share[at + 1], 0.2, 1e-4);
+  EXPECT_NEAR(c.elevation[at], radians(-20), 1e-6);
+  EXPECT_NEAR(c.elevation[at + 1], radians(10), 1e-6);
+}
+
+// Four parts of the first surfel, each weaker than the only one of the second.
+TEST(FindContributors, parts_of_a_surfel_count_together) {
+  Heard heard;
+  heard.add_surfel(), heard.add_surfel();
+  for (int p = 0; p < 4; ++p) heard.add(0, 3.005, 0, 0, std::polar(1.0, 1.5 * p));
+  heard.add(1, 3.005, 0, 0, std::sqrt(3.0));
+  const Contributors c = heard.find(small_head());
+  EXPECT_EQ(c.surfel[c.at(5, 100)], 0U);
+  EXPECT_NEAR(c.share[c.at(5, 100)], 4.0 / 7, 1e-4);
+}
+
+TEST(FindContributors, ways_of_one_surfel_are_contributors_of_their_own) {
+  Heard heard;
+  heard.add_surfel();
+  heard.add(0, 3.005, 0, 0, 3);
+  heard.add(0, 3.005, 0, radians(30), 2, {0, 1});
+  heard.add(0, 3.005, 0, radians(31), 1, {1, 1});
+  const Contributors c = heard.find(small_head());
+  const std::size_t at = c.at(5, 100);
+  EXPECT_EQ(c.path[at], PathKind::direct);
+  EXPECT_EQ(c.path[at + 1], PathKind::one_bounce);
+  EXPECT_EQ(c.path[at + 2], PathKind::two_bounces);
+  EXPECT_NEAR(c.elevation[at + 1], radians(30), 1e-6);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(c.surfel[at + k], 0U);
+}
+
+// A sea bed of mud to port and rock to starboard: high beams (port) show mud.
+TEST(FindContributors, label_images_put_materials_at_their_bearing) {
+  Heard heard;
+  for (int i = 0; i < 81; ++i)
+    for (int j = 0; j < 40; ++j) {
+      const std::uint32_t s = heard.add_surfel();
+      const double azimuth = radians(0.5) * (i - 40);
+      heard.scene.material[s] = azimuth > radians(5) ? 2 : 1;
+      heard.add(s, 2.5 + 0.02 * j, azimuth, radians(-20), 1);
+    }
+  SonarHead head = small_head();
+  const Contributors c = heard.find(head);
+  const auto materials = material_image(c);
+  const auto ids = instance_image(c);
+  for (int b = 0; b < 11; ++b) {
+    // On the cone of the beam, the boundary is seen at its own direction cosine.
+    const double u = std::sin(head.fan.azimuth[static_cast<std::size_t>(b)]);
+    const double boundary = std::cos(radians(20)) * std::sin(radians(5.25));
+    EXPECT_EQ(materials(b, 80), u > boundary ? 2 : 1) << b;
+    EXPECT_EQ(ids(b, 80), c.id[c.at(static_cast<std::size_t>(b), 80)]);
+    EXPECT_EQ(materials(b, 5), Contributors::no_material);
+    EXPECT_EQ(ids(b, 5), Contributors::none);
+  }
+}
+
+TEST(FindContributors, does_not_depend_on_threads) {
+  const Heard heard = random_heard(8);
+  const Contributors one = heard.find(small_head(), {.threads = 1});
+  for (const int threads : {2, 7}) {
+    const Contributors many = heard.find(small_head(), {.threads = threads});
+    EXPECT_EQ(one.surfel, many.surfel);
+    EXPECT_EQ(one.share, many.share);
+    EXPECT_EQ(one.elevation, many.elevation);
+  }
+}
+
+TEST(FindContributors, of_silence_are_none) {
+  const Contributors c = Heard().find(small_head());
+  EXPECT_EQ(c.beams, 11U);
+  EXPECT_EQ(c.bins, 200U);
+  for (const std::uint32_t s : c.surfel) EXPECT_EQ(s, Contributors::none);
+}
+
+TEST(FindContributors, refuses_what_does_not_fit) {
+  Heard heard = random_heard(9);
+  const SonarHead head = small_head();
+  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 0}); }),
+            "find_contributors: per_pixel = 0, must be within 1 and 255");
+  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 256}); }),
+            "find_contributors: per_pixel = 256, must be within 1 and 255");
+  EXPECT_EQ(error_of([&] { heard.find(head, {.floor_db = 0}); }),
+            "find_contributors: floor_db = 0 dB, must be within -200 and 0");
+  // 11 x 200 pixels x (31 x 255 + 16) bytes
+  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 255, .most_mib = 10}); }),
+            "find_contributors: 11 beams x 200 bins x 255 contributors take 17 MiB, must be at most 10; keep fewer "
+            "contributors, or make the range gate shorter");
+  heard.echoes.amplitude[17] = std::nan("");
+  EXPECT_NE(error_of([&] { heard.find(head); }).find("echo 17 is not finite"), std::string::npos);
+  heard.surfel[3] = 60;
+  EXPECT_EQ(error_of([&] { heard.find(head); }), "find_contributors: surfel[3] = 60, but the scene has 60");
+  heard.surfel.pop_back();
+  EXPECT_NE(error_of([&] { heard.find(head); }).find("give one of each"), std::string::npos);
+}

@@ -1,0 +1,178 @@
+#include "returns/insonification.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "sampling/find_scatterers.hpp"
+
+using namespace insonify;
+
+namespace {
+
+constexpr double alpha_db = 0.3;  ///< [dB/m]
+const Medium medium{1500, {alpha_db * nepers_per_db, 0, 0}};
+constexpr double mu = 0.05, area = 1e-4;
+
+/// 600 kHz, 21 beams over 40 degrees, 1 m to 30 m.
+SonarHead small_head() {
+  SonarHead head;
+  head.pulse = {600e3, 30e3, 210};
+  head.array = array_for_beam_width(radians(3), 1500 / 600e3, Shading::taylor, -30);
+  head.fan = make_fan(21, radians(40), radians(3), radians(30));
+  head.gate = {1, 30, 0.01};
+  return head;
+}
+
+SceneCloud empty_scene() {
+  SceneCloud scene;
+  scene.materials = {{"m", mu}};
+  return scene;
+}
+
+/// One surfel facing a head at the origin.
+SceneCloud target_at(double range, double azimuth = 0, double elevation = 0) {
+  SceneCloud scene = empty_scene();
+  const Eigen::Vector3d direction = unit_vector({azimuth, elevation});
+  add_surfel(scene, range * direction, -direction, area);
+  return scene;
+}
+
+Scatterers seen(const SceneCloud& scene, const SonarHead& head, const Pose& pose, double per_cell = 0) {
+  SamplingOptions options;
+  options.scatterers_per_cell = per_cell;
+  options.elevation_half_extent = radians(40);
+  options.azimuth_margin = radians(6);
+  return find_scatterers(scene, pose, head.fan, head.gate, options).scatterers;
+}
+
+Insonification map_of(const SceneCloud& scene, const SonarHead& head = small_head(),
+                      const Pose& pose = Pose::Identity(), double per_cell = 0) {
+  Insonification map;
+  add_ping(map, scene, seen(scene, head, pose, per_cell), head, medium);
+  return map;
+}
+
+/// SL - 2 TL + TS of `target_at`.
+double sonar_equation(double range) {
+  return 210 - 2 * (20 * std::log10(range) + alpha_db * range) + 10 * std::log10(mu * area);
+}
+
+std::string error_of(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST(Insonification, level_of_one_surfel_on_axis_is_the_sonar_equation) {
+  const Insonification map = map_of(target_at(7));
+  EXPECT_EQ(map.pings, 1U);
+  EXPECT_EQ(map.hits[0], 1U);
+  EXPECT_NEAR(map.level_db[0], sonar_equation(7), 1e-4);
+  EXPECT_NEAR(map.grazing_angle[0], pi / 2, 1e-3);
+  EXPECT_FLOAT_EQ(map.range[0], 7);
+}
+
+TEST(Insonification, twice_the_range_costs_12_db_and_absorption) {
+  const double near = map_of(target_at(6)).level_db[0], far = map_of(target_at(12)).level_db[0];
+  EXPECT_NEAR(near - far, 40 * std::log10(2) + 2 * alpha_db * 6, 1e-4);
+}
+
+// The parts of a surfel carry its area together, whatever their number.
+TEST(Insonification, level_does_not_depend_on_the_splitting) {
+  SceneCloud scene = target_at(7);
+  scene.area[0] = 0.0025F;
+  const Scatterers parts = seen(scene, small_head(), Pose::Identity(), 5000);
+  ASSERT_GT(parts.size(), 10U);
+  EXPECT_NEAR(map_of(scene, small_head(), Pose::Identity(), 5000).level_db[0], map_of(scene).level_db[0], 0.02);
+}
+
+// Half a beam spacing and 15 degrees of elevation off: the fan's pattern, the cone's, and -3 dB of the elevation pattern.
+TEST(Insonification, level_off_the_axes_holds_the_patterns) {
+  const SonarHead head = small_head();
+  const double azimuth = radians(20.0 / 21), elevation = radians(15);
+  const double u = std::cos(elevation) * std::sin(azimuth), u_beam = std::sin(radians(40.0 / 21));
+  const double nearest = std::min(std::abs(u), std::abs(u - u_beam));
+  const double beam_db = db_from_amplitude(array_response(head.array, 1500 / 600e3, nearest, 0));
+  const double level = map_of(target_at(7, azimuth, elevation)).level_db[0];
+  EXPECT_NEAR(level, sonar_equation(7) + beam_db + 10 * std::log10(0.5), 1e-3);
+  EXPECT_LT(beam_db, -0.2);
+}
+
+TEST(Insonification, of_a_planar_array_holds_the_response_of_the_best_row) {
+  SonarHead head = small_head();
+  head.fan = {{0, 0}, {radians(-5), radians(5)}, radians(3), radians(30), radians(6)};
+  head.column = array_for_beam_width(radians(6), 1500 / 600e3, Shading::uniform, 0);
+  const double v = std::sin(radians(4));
+  const double row_db = db_from_amplitude(array_response(*head.column, 1500 / 600e3, v, std::sin(radians(5))));
+  const double sent_db = db_from_amplitude(elevation_response(head.elevation_shape, radians(30), radians(4)));
+  EXPECT_NEAR(map_of(target_at(7, 0, radians(4)), head).level_db[0], sonar_equation(7) + row_db + sent_db, 1e-3);
+}
+
+// Inclined by 60 degrees, cos^2 of incidence is -6.02 dB.
+TEST(Insonification, tells_the_grazing_angle) {
+  SceneCloud scene = target_at(7);
+  scene.normal[0] = Eigen::Vector3f(-0.5F, 0, std::sqrt(0.75F));
+  const Insonification map = map_of(scene);
+  EXPECT_NEAR(map.grazing_angle[0], radians(30), 1e-6);
+  EXPECT_NEAR(map.level_db[0], sonar_equation(7) + 20 * std::log10(0.5), 1e-4);
+}
+
+// A plate hides the one behind it; a third stands beside the fan, a fourth beyond the gate.
+TEST(Insonification, what_is_hidden_or_outside_has_no_hits) {
+  SceneCloud scene = empty_scene();
+  const auto add_plate = [&](double x, double y, double half) {
+    for (double b = -half; b < half + 0.01; b += 0.05)
+      for (double c = -half; c < half + 0.01; c += 0.05) add_surfel(scene, {x, y + b, c}, {-1, 0, 0}, 0.0025);
+    return scene.size();
+  };
+  const std::size_t front = add_plate(5, 0, 0.6), behind = add_plate(6, 0, 0.3), beside = add_plate(5, 4, 0.3);
+  const std::size_t beyond = add_plate(40, 10, 0.3);
+  const Insonification map = map_of(scene);
+  for (std::size_t i = 0; i < beyond; ++i) ASSERT_EQ(map.hits[i], i < front ? 1U : 0U) << i;
+  EXPECT_GT(behind, front);
+  EXPECT_GT(beside, behind);
+}
+
+TEST(Insonification, what_stands_just_beside_the_fan_is_no_hit) {
+  const SonarHead head = small_head();
+  const double edge = head.fan.azimuth.back() > 0 ? head.fan.azimuth.back() : head.fan.azimuth.front();
+  EXPECT_EQ(map_of(target_at(7, edge + radians(0.5))).hits[0], 1U);
+  EXPECT_EQ(map_of(target_at(7, edge + radians(3.9))).hits[0], 0U);  // between main and side lobe
+}
+
+TEST(Insonification, pings_accumulate_hits_and_the_best) {
+  const SceneCloud scene = target_at(12);
+  const SonarHead head = small_head();
+  Pose near = Pose::Identity(), away = Pose::Identity();
+  near.translation() = Eigen::Vector3d(6, 0, 0);
+  away.translation() = Eigen::Vector3d(20, 0, 0);  // looks the other way
+  Insonification map;
+  for (const Pose& pose : {Pose::Identity(), near, away}) add_ping(map, scene, seen(scene, head, pose), head, medium);
+  EXPECT_EQ(map.pings, 3U);
+  EXPECT_EQ(map.hits[0], 2U);
+  EXPECT_NEAR(map.level_db[0], sonar_equation(6), 1e-4);
+  EXPECT_FLOAT_EQ(map.range[0], 6);
+}
+
+TEST(Insonification, of_another_scene_is_refused_and_left_alone) {
+  Insonification map = map_of(target_at(7));
+  SceneCloud other = target_at(7);
+  add_surfel(other, {5, 0, 0}, {-1, 0, 0}, area);
+  const SonarHead head = small_head();
+  EXPECT_EQ(error_of([&] { add_ping(map, other, {}, head, medium); }),
+            "add_ping: the map has 1 surfels, but the scene has 2; give an empty map, or one of this scene");
+  EXPECT_EQ(map.pings, 1U);
+  const Scatterers two = seen(other, head, Pose::Identity());
+  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), two, head, medium); }),
+            "add_ping: a scatterer is of surfel 1, but the scene has 1");
+  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, medium, {.least_response_db = 3}); }),
+            "add_ping: least_response_db = 3 dB, must be <= 0");
+}

@@ -1,0 +1,192 @@
+#include "scene_io/prepare_tiles.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "scene/built_in_scenes.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "test_files.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+/// Everything is read in batches, however small.
+PrepareTilesOptions in_batches() {
+  PrepareTilesOptions options;
+  options.whole_points = 0;
+  return options;
+}
+
+SceneCloud load_all(const std::string& path) {
+  const TiledScene tiled(path);
+  return tiled.load(tiled.select_all());
+}
+
+void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.material, b.material);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.normals_oriented, b.normals_oriented);
+  ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t m = 0; m < a.materials.size(); ++m) {
+    EXPECT_EQ(a.materials[m].name, b.materials[m].name);
+    EXPECT_EQ(a.materials[m].lambert_mu, b.materials[m].lambert_mu);
+  }
+}
+
+/// Prepares `cloud` in batches: what stands in the tiles is what load_scene makes of the file.
+PreparedTiles expect_as_loaded(const std::string& cloud, PrepareTilesOptions options = in_batches()) {
+  const PreparedTiles prepared = prepare_tiles(cloud, temporary("out.tiles"), options);
+  EXPECT_TRUE(prepared.streamed);
+  const LoadedScene loaded = load_scene(cloud, options.load);
+  expect_same_surfels(load_all(temporary("out.tiles")), loaded.scene);
+  EXPECT_EQ(prepared.report.points_read, loaded.report.points_read);
+  EXPECT_EQ(prepared.report.dropped_not_finite, loaded.report.dropped_not_finite);
+  EXPECT_EQ(prepared.report.dropped_duplicates, loaded.report.dropped_duplicates);
+  EXPECT_EQ(prepared.report.outside_intervals, loaded.report.outside_intervals);
+  return prepared;
+}
+
+/// Rows x y z nx ny nz area label of a PLY; coordinates double.
+struct Row {
+  double x, y, z;
+  float nx = 0, ny = 0, nz = 1, area = 0.01F;
+  std::uint8_t label = 0;
+};
+
+std::string ply_of(const std::vector<Row>& rows, bool big, bool with_area = true, const std::string& name = "in.ply") {
+  std::string text = "ply\nformat binary_" + std::string(big ? "big" : "little") + "_endian 1.0\n";
+  text += "element extra 2\nproperty short a\nelement vertex " + std::to_string(rows.size()) + "\n";
+  for (const char* axis : {"x", "y", "z"}) text += std::string("property double ") + axis + "\n";
+  for (const char* axis : {"nx", "ny", "nz"}) text += std::string("property float ") + axis + "\n";
+  if (with_area) text += "property float area\n";
+  text += "property uchar classification\nend_header\n";
+  text += bytes_of<std::int16_t>(1, big) + bytes_of<std::int16_t>(2, big);
+  for (const Row& r : rows) {
+    text += bytes_of(r.x, big) + bytes_of(r.y, big) + bytes_of(r.z, big);
+    text += bytes_of(r.nx, big) + bytes_of(r.ny, big) + bytes_of(r.nz, big);
+    if (with_area) text += bytes_of(r.area, big);
+    text += bytes_of(r.label, big);
+  }
+  return write_file(name, text);
+}
+
+std::vector<Row> plate(int side) {
+  std::vector<Row> rows;
+  for (int i = 0; i < side * side; ++i)
+    rows.push_back({431000.0 + 0.1 * (i % side), 5412000.0 + 0.1 * (i / side) + 0.013 * (i % 7), 3.5});
+  return rows;
+}
+
+}  // namespace
+
+TEST(PrepareTiles, a_prepared_ply_or_pcd_comes_back_bit_by_bit) {
+  SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
+  save_scene(temporary("a.pcd"), scene);
+  expect_as_loaded(temporary("a.pcd"));
+  scene.origin = {431000, 5412000, 0};
+  save_scene(temporary("a.ply"), scene);
+  const PreparedTiles prepared = expect_as_loaded(temporary("a.ply"));
+  EXPECT_EQ(prepared.report.format, "PLY binary_little_endian");
+  EXPECT_EQ(prepared.tiles.surfels, scene.size());
+}
+
+TEST(PrepareTiles, both_byte_orders_doubles_and_labels_are_read_as_load_scene_reads_them) {
+  std::vector<Row> rows = plate(60);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].label = static_cast<std::uint8_t>(i % 3);
+  rows[5].nz = 4;  // to be scaled
+  for (const bool big : {false, true}) {
+    const PreparedTiles prepared = expect_as_loaded(ply_of(rows, big));
+    EXPECT_EQ(prepared.report.material_field, "classification");
+  }
+  PrepareTilesOptions options = in_batches();
+  options.load.unit = 0.001;
+  expect_as_loaded(ply_of(rows, true), options);
+  options.load.unit = 1;
+  options.load.materials = {{"mud", 0.01}, {"rock", 0.1}};
+  options.load.material_field.intervals = {{0, 1, 1}, {1, 2, 0}};  // 2 lies in none
+  EXPECT_EQ(expect_as_loaded(ply_of(rows, false), options).report.outside_intervals, rows.size() / 3);
+  options.load.material_field.intervals.clear();
+  options.load.material = std::uint16_t{1};
+  expect_as_loaded(ply_of(rows, false), options);
+}
+
+TEST(PrepareTiles, points_that_cannot_be_used_are_dropped_and_counted) {
+  std::vector<Row> rows = plate(50);
+  rows[7].x = NAN;
+  rows[8].z = 1e12;
+  rows.push_back(rows[3]);
+  rows.push_back(rows[4]);
+  rows.push_back(rows[4]);
+  expect_as_loaded(ply_of(rows, false));
+  // Without a normal: load_scene would repair these.
+  rows[20].nz = 0;
+  rows[21].nx = NAN;
+  const PreparedTiles prepared = prepare_tiles(ply_of(rows, false), temporary("b.tiles"), in_batches());
+  EXPECT_EQ(prepared.report.dropped_not_finite, 2U);
+  EXPECT_EQ(prepared.report.dropped_duplicates, 3U);
+  EXPECT_EQ(prepared.report.dropped_without_normal, 2U);
+  EXPECT_EQ(prepared.tiles.surfels, 2500U - 4);
+  // Dropping renumbers nobody.
+  const SceneCloud scene = load_all(temporary("b.tiles"));
+  EXPECT_EQ(std::count(scene.id.begin(), scene.id.end(), 20U), 0);
+  EXPECT_EQ(scene.id.back(), 2499U);
+}
+
+TEST(PrepareTiles, missing_areas_are_found) {
+  const PreparedTiles prepared = prepare_tiles(ply_of(plate(80), false, false), temporary("a.tiles"), in_batches());
+  EXPECT_TRUE(prepared.report.areas_estimated);
+  EXPECT_NEAR(prepared.tiles.total_area, 64, 0.03 * 64);  // 80 x 80 cells of 0.1 m
+  std::vector<Row> rows = plate(80);
+  rows[100].area = -1;
+  const PreparedTiles again = prepare_tiles(ply_of(rows, false), temporary("a.tiles"), in_batches());
+  EXPECT_TRUE(again.report.areas_estimated);
+  EXPECT_THAT(again.report.notes.front(), testing::HasSubstr("1 of 6400 areas"));
+  EXPECT_NEAR(again.tiles.total_area, prepared.tiles.total_area, 1e-6);
+}
+
+TEST(PrepareTiles, small_files_are_completed_as_a_whole) {
+  const std::string path = write_file("a.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 1 0\n2 0 0\n");
+  const PreparedTiles prepared = prepare_tiles(path, temporary("a.tiles"));
+  EXPECT_FALSE(prepared.streamed);
+  EXPECT_TRUE(prepared.report.normals_estimated);
+  expect_same_surfels(load_all(temporary("a.tiles")), load_scene(path).scene);
+}
+
+TEST(PrepareTiles, what_cannot_be_prepared_is_refused) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n";
+  for (const char* axis : {"x", "y", "z"}) text += std::string("property float ") + axis + "\n";
+  text += "end_header\n" + std::string(12, '\0');
+  expect_error(ErrorKind::content, {"bare.ply", "no normals", "insonify prepare", ".ply output"},
+               [&] { prepare_tiles(write_file("bare.ply", text), temporary("a.tiles"), in_batches()); });
+  expect_error(ErrorKind::content, {"cut off"}, [&] {
+    prepare_tiles(write_file("cut.ply", text.substr(0, text.size() - 1)), temporary("a.tiles"), in_batches());
+  });
+  std::vector<Row> rows = plate(3);
+  for (Row& r : rows) r.y = NAN;
+  expect_error(ErrorKind::content, {"no usable point"},
+               [&] { prepare_tiles(ply_of(rows, false), temporary("a.tiles"), in_batches()); });
+  EXPECT_FALSE(std::filesystem::exists(temporary("a.tiles")));
+}
+
+TEST(PrepareTiles, giving_up_leaves_nothing) {
+  struct Stop {};
+  PrepareTilesOptions options = in_batches();
+  options.progress = [](double part) {
+    if (part > 0.6) throw Stop{};
+  };
+  const std::string cloud = ply_of(plate(50), false);
+  const auto files = [] {
+    const auto all = std::filesystem::directory_iterator(temporary_folder());
+    return std::distance(begin(all), end(all));
+  };
+  const auto before = files();
+  EXPECT_THROW(prepare_tiles(cloud, temporary("a.tiles"), options), Stop);
+  EXPECT_EQ(files(), before);
+}

@@ -1,0 +1,99 @@
+#include <cmath>
+#include <limits>
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/conversions.h>
+#include <pcl/io/pcd_io.h>
+
+#include "core/units.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "scene_io/test_files.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+/// Three surfels; the middle one was never heard.
+SceneCloud three_surfels(const Eigen::Vector3d& origin) {
+  SceneCloud scene;
+  scene.origin = origin;
+  scene.materials = {{"sand", 0.01}, {"rock", 0.1}};
+  for (int i = 0; i < 3; ++i)
+    add_surfel(scene, origin + Eigen::Vector3d(1 + i, 2, -0.5), {0, 0, 1}, 0.01, static_cast<std::uint16_t>(i % 2));
+  return scene;
+}
+
+Insonification three_entries() {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  return {4, {3, 0, 1}, {120.5F, -inf, 99}, {static_cast<float>(radians(30)), 0, 1}, {7.25F, inf, 9}};
+}
+
+template <typename T>
+T field(const pcl::PCLPointCloud2& cloud, std::size_t point, const std::string& name) {
+  for (const auto& f : cloud.fields)
+    if (f.name == name) {
+      T value;
+      std::memcpy(&value, cloud.data.data() + point * cloud.point_step + f.offset, sizeof value);
+      return value;
+    }
+  ADD_FAILURE() << "no field " << name;
+  return T{};
+}
+
+}  // namespace
+
+TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
+  const std::string path = temporary("map.pcd");
+  save_insonification(path, three_surfels({10, 0, 0}), three_entries());
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
+  ASSERT_EQ(cloud.width * cloud.height, 3U);
+  EXPECT_EQ(field<float>(cloud, 0, "x"), 11);
+  EXPECT_EQ(field<float>(cloud, 2, "normal_z"), 1);
+  EXPECT_EQ(field<float>(cloud, 0, "level_db"), 120.5F);
+  EXPECT_NEAR(field<float>(cloud, 0, "grazing_deg"), 30, 1e-5);
+  EXPECT_EQ(field<float>(cloud, 0, "range"), 7.25F);
+  EXPECT_EQ(field<std::uint32_t>(cloud, 0, "hits"), 3U);
+  EXPECT_EQ(field<std::uint32_t>(cloud, 1, "material"), 1U);
+  EXPECT_EQ(field<std::uint32_t>(cloud, 2, "id"), 2U);
+}
+
+TEST(SaveInsonification, what_was_never_heard_has_no_level) {
+  const std::string path = temporary("map.pcd");
+  save_insonification(path, three_surfels({0, 0, 0}), three_entries());
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
+  EXPECT_EQ(field<std::uint32_t>(cloud, 1, "hits"), 0U);
+  for (const char* name : {"level_db", "grazing_deg", "range"}) EXPECT_TRUE(std::isnan(field<float>(cloud, 1, name)));
+}
+
+TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
+  const std::string path = temporary("map.ply");
+  save_insonification(path, three_surfels({500000, 4600000, -20}), three_entries());
+  const std::string bytes = read_file(path);
+  EXPECT_THAT(bytes, ::testing::HasSubstr("element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+                                          "property float nx\nproperty float ny\nproperty float nz\n"
+                                          "property float scalar_level_db\nproperty float scalar_grazing_deg\n"
+                                          "property float scalar_range\nproperty uint scalar_hits\n"
+                                          "property uint scalar_material\nproperty uint scalar_id\nend_header\n"));
+  const std::size_t start = bytes.find("end_header\n") + 11, row = 3 * 8 + 9 * 4;
+  ASSERT_EQ(bytes.size(), start + 3 * row);
+  double x = 0;
+  std::memcpy(&x, bytes.data() + start, sizeof x);
+  EXPECT_NEAR(x, 500001, 1e-6);
+  std::uint32_t hits = 0;
+  std::memcpy(&hits, bytes.data() + start + 2 * row + 3 * 8 + 6 * 4, sizeof hits);
+  EXPECT_EQ(hits, 1U);
+}
+
+TEST(SaveInsonification, of_another_scene_is_refused) {
+  Insonification map = three_entries();
+  map.range.pop_back();
+  expect_error(ErrorKind::argument, {"save_insonification: ", "the map has 2 surfels, but the scene has 3"}, [&] {
+    save_insonification(temporary("map.ply"), three_surfels({0, 0, 0}), map);
+  });
+  expect_error(ErrorKind::argument, {"extension '.xyz'"}, [&] {
+    save_insonification(temporary("map.xyz"), three_surfels({0, 0, 0}), three_entries());
+  });
+}

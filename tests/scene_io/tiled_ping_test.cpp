@@ -1,0 +1,96 @@
+#include <complex>
+
+#include "beamforming/sonar_spec.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "scene_io/tile_writer.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "simulate/ping_reach.hpp"
+#include "test_files.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+SonarHead small_head() {
+  SonarSpec s;
+  s.name = "test";
+  s.centre_frequency = 450e3;
+  s.bandwidth = 20e3;
+  s.beams = 48;
+  s.field_of_view = radians(60);
+  s.beam_width = radians(2);
+  s.elevation_width = radians(20);
+  s.min_range = 2;
+  s.max_range = 15;
+  return make_head(s, sound_speed(Water{}));
+}
+
+const Pose& harbour_pose() {
+  static const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+  return pose;
+}
+
+SceneCloud harbour(std::size_t points = 60000) { return make_built_in_scene("harbour", {.points = points}); }
+
+/// Small tiles, so that small scenes have many.
+TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
+
+/// Pings the whole scene and what a .tiles file gives of it; both must be the same to the last bit.
+void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environment& environment,
+                      const SimulationOptions& options, double most_of_the_scene) {
+  const std::string path = temporary("part.tiles");
+  save_tiles(path, whole, small_tiles());
+  const TiledScene tiled(path);
+  const SonarHead head = small_head();
+  const TileSelection selection = tiled.select(ping_reach(tiled.info().whole, head, pose, environment, options));
+  EXPECT_LT(static_cast<double>(selection.surfels), most_of_the_scene * static_cast<double>(whole.size()));
+  const SimulatedPing all = simulate_ping(whole, head, pose, environment, options);
+  const SimulatedPing part = simulate_ping(tiled.load(selection), head, pose, environment, options);
+  EXPECT_GT(all.scatterers.size(), 100U);
+  EXPECT_EQ(part.scatterers.id, all.scatterers.id);
+  EXPECT_EQ(part.scatterers.range, all.scatterers.range);
+  EXPECT_EQ(part.scatterers.azimuth, all.scatterers.azimuth);
+  EXPECT_TRUE((part.ping.pressure == all.ping.pressure).all());
+  EXPECT_EQ(part.soundings.position, all.soundings.position);
+  EXPECT_EQ(part.layers.back().echoes, all.layers.back().echoes);
+}
+
+}  // namespace
+
+TEST(TiledPing, ping_of_the_part_is_the_ping_of_the_whole) {
+  expect_same_ping(harbour(), harbour_pose(), {Water{}}, {}, 0.4);
+}
+
+TEST(TiledPing, ping_from_within_the_scene_is_the_same) {
+  expect_same_ping(harbour(), pose_from_yaw_pitch_roll({30, 2, -5}, radians(150), radians(20), radians(5)), {Water{}},
+                   {.scatterers_per_cell = 3}, 0.6);
+}
+
+TEST(TiledPing, rays_meet_the_same_surfels) {
+  expect_same_ping(harbour(), harbour_pose(), {Water{}}, {.sampling = SamplingKind::rays, .rays_per_beam = 32}, 0.4);
+}
+
+TEST(TiledPing, relief_and_gate_are_those_of_the_whole_scene) {
+  SceneCloud scene = harbour();
+  for (Material& m : scene.materials) m.relief_slope = 0.2;
+  // Far away, but the largest: it decides how far beyond the gate parts of surfels may stand.
+  add_surfel(scene, {500, 0, 0}, Eigen::Vector3d::UnitZ(), 25.0);
+  expect_same_ping(scene, harbour_pose(), {Water{}}, {}, 0.6);
+}
+
+TEST(TiledPing, multipath_hears_the_same_from_all_sides) {
+  Environment environment{Water{}};
+  environment.surface = SeaSurface{.rms_height = 0.0};
+  environment.bottom = FlatBottom{.height = -8.5};
+  expect_same_ping(harbour(), harbour_pose(), environment, {.scatterers_per_cell = 2, .multipath = true}, 0.9);
+}
+
+TEST(TiledPing, utm_coordinates_keep_their_millimetres) {
+  SceneCloud scene = harbour();
+  scene.origin = {431234, 5412345, 12};
+  Pose pose = harbour_pose();
+  pose.translation() += scene.origin;
+  expect_same_ping(scene, pose, {Water{}}, {.scatterers_per_cell = 2}, 0.4);
+}

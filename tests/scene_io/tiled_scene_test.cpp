@@ -1,0 +1,299 @@
+#include "scene_io/tiled_scene.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "core/random.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "scene/surfel_area.hpp"
+#include "scene_io/tile_writer.hpp"
+#include "test_files.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+SceneCloud harbour(std::size_t points = 60000) { return make_built_in_scene("harbour", {.points = points}); }
+
+/// Small tiles, so that small scenes have many.
+TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
+
+void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.material, b.material);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.normals_oriented, b.normals_oriented);
+  ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t m = 0; m < a.materials.size(); ++m) {
+    EXPECT_EQ(a.materials[m].name, b.materials[m].name);
+    EXPECT_EQ(a.materials[m].lambert_mu, b.materials[m].lambert_mu);
+    EXPECT_EQ(a.materials[m].coherent_fraction, b.materials[m].coherent_fraction);
+    EXPECT_EQ(a.materials[m].relief_slope, b.materials[m].relief_slope);
+  }
+}
+
+std::size_t files_in_folder() {
+  const auto all = std::filesystem::directory_iterator(temporary_folder());
+  return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+SceneCloud one_point(std::size_t copies = 1) {
+  SceneCloud scene;
+  for (std::size_t i = 0; i < copies; ++i) add_surfel(scene, {1, 2, -3}, Eigen::Vector3d::UnitZ(), 0.01);
+  return scene;
+}
+
+}  // namespace
+
+TEST(TiledScene, loading_all_tiles_gives_the_scene_back_bit_by_bit) {
+  SceneCloud scene = harbour();
+  scene.materials[2] = {"old timber", 0.01, 0.25, 0.125};
+  scene.normals_oriented = false;
+  const TileReport report = save_tiles(temporary("a.tiles"), scene, small_tiles());
+  const TiledScene tiled(temporary("a.tiles"));
+  expect_same_surfels(tiled.load(tiled.select_all()), scene);
+  EXPECT_EQ(report.surfels, scene.size());
+  EXPECT_EQ(tiled.info().surfels, scene.size());
+  EXPECT_EQ(tiled.info().tiles, report.tiles);
+  EXPECT_GE(report.tiles, scene.size() / 200);
+  EXPECT_EQ(tiled.info().box.min, bounds(scene).min);
+  EXPECT_EQ(tiled.info().box.max, bounds(scene).max);
+  const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
+  EXPECT_EQ(tiled.info().total_area, area);
+  EXPECT_EQ(tiled.info().whole.mean_spacing, std::sqrt(area / static_cast<double>(scene.size())));
+}
+
+TEST(TiledScene, a_surfel_takes_34_bytes_and_a_little_of_a_tile_entry) {
+  const SceneCloud scene = harbour();
+  const TileReport report = save_tiles(temporary("a.tiles"), scene);
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(temporary("a.tiles")));
+  EXPECT_LT(static_cast<double>(report.bytes), 34.1 * static_cast<double>(scene.size()));
+}
+
+TEST(TiledScene, file_depends_neither_on_batches_nor_on_threads) {
+  const SceneCloud scene = harbour();
+  save_tiles(temporary("a.tiles"), scene, small_tiles());
+  TileWriterOptions options = small_tiles();
+  options.materials = scene.materials;
+  options.threads = 3;
+  TileWriter writer(temporary("b.tiles"), options);
+  for (std::uint32_t first = 0; first < scene.size(); first += 7777) {
+    std::vector<std::uint32_t> keep(std::min<std::size_t>(7777, scene.size() - first));
+    std::iota(keep.begin(), keep.end(), first);
+    writer.add(subset(scene, keep));
+  }
+  writer.finish();
+  EXPECT_EQ(read_file(temporary("a.tiles")), read_file(temporary("b.tiles")));
+}
+
+TEST(TiledScene, little_memory_changes_the_tiles_and_nothing_else) {
+  const SceneCloud scene =
+      harbour(100000);  // 15 MB while sorting: more than the 1 MiB given, also at a second division
+  TileWriterOptions options = small_tiles();
+  options.memory = 0;
+  save_tiles(temporary("a.tiles"), scene, options);
+  const TiledScene tiled(temporary("a.tiles"));
+  expect_same_surfels(tiled.load(tiled.select_all()), scene);
+}
+
+TEST(TiledScene, tiles_near_a_place_hold_every_surfel_near_it) {
+  const SceneCloud scene = harbour();
+  save_tiles(temporary("a.tiles"), scene, small_tiles());
+  const TiledScene tiled(temporary("a.tiles"));
+  const Eigen::Vector3d centre(20, 3, -7);
+  const TileSelection selection = tiled.select(reach_around(centre, 5));
+  EXPECT_LT(selection.surfels, scene.size() / 4);
+  const SceneCloud part = tiled.load(selection);
+  EXPECT_TRUE(std::is_sorted(part.id.begin(), part.id.end()));
+  std::vector<std::uint32_t> wanted, found;
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    if ((scene.point[i].cast<double>() - centre).norm() <= 5) wanted.push_back(scene.id[i]);
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if ((part.point[i].cast<double>() - centre).norm() <= 5) found.push_back(part.id[i]);
+  EXPECT_GT(wanted.size(), 1000U);
+  EXPECT_EQ(found, wanted);
+}
+
+TEST(TiledScene, a_scene_100_km_wide_keeps_its_millimetres) {
+  // Two plates 100 km apart, given in double; a float over that width has steps of 8 mm.
+  std::vector<Eigen::Vector3d> places;
+  SceneCloud batch;
+  for (int i = 0; i < 20000; ++i) {
+    const auto u = random_uniform(7, RandomStage::scene_points, {static_cast<std::uint64_t>(i), 0, 0});
+    places.push_back({(i % 2 ? 1 : -1) * 50e3 + 5 * u[0], 5 * u[1], u[2]});
+    add_surfel(batch, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 0.001);
+  }
+  TileWriterOptions options = small_tiles();
+  options.origin = {400000, 5400000, 0};
+  TileWriter writer(temporary("a.tiles"), options);
+  writer.add(batch, places);
+  writer.finish();
+  const TiledScene tiled(temporary("a.tiles"));
+  const Eigen::Vector3d near = options.origin + Eigen::Vector3d(50e3, 0, 0);
+  const SceneCloud part = tiled.load(tiled.select(reach_around(near, 100)));
+  ASSERT_EQ(part.size(), 10000U);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const Eigen::Vector3d world = part.origin + part.point[i].cast<double>();
+    EXPECT_LT((world - options.origin - places[part.id[i]]).norm(), 1e-4);
+  }
+}
+
+TEST(TiledScene, tiles_of_two_clouds_100_km_apart_are_small_in_both) {
+  SceneCloud scene = make_built_in_scene("plane", {.points = 20000, .size = {20, 20}});
+  const std::size_t one = scene.size();
+  for (std::size_t i = 0; i < one; ++i)
+    add_surfel(scene, scene.point[i].cast<double>() + Eigen::Vector3d(1e5, 0, 0), Eigen::Vector3d::UnitZ(), 0.02);
+  save_tiles(temporary("a.tiles"), scene, small_tiles());
+  const TiledScene tiled(temporary("a.tiles"));
+  for (const double x : {10.0, 1e5 + 10}) EXPECT_LT(tiled.select(reach_around({x, 0, 0}, 1)).surfels, one / 10);
+}
+
+TEST(TiledScene, strays_far_away_do_not_make_tiles_large) {
+  SceneCloud scene = harbour(20000);
+  add_surfel(scene, {1e5, 0, 0}, Eigen::Vector3d::UnitZ(), 0.01);
+  add_surfel(scene, {0, -3e6, 0}, Eigen::Vector3d::UnitZ(), 0.01);
+  TileWriterOptions options = small_tiles();
+  options.memory = 0;
+  save_tiles(temporary("a.tiles"), scene, options);
+  const TiledScene tiled(temporary("a.tiles"));
+  EXPECT_LT(tiled.select(reach_around({20, 3, -7}, 5)).surfels, scene.size() / 4);
+}
+
+TEST(TiledScene, scenes_without_extent_are_scenes) {
+  EXPECT_EQ(save_tiles(temporary("none.tiles"), SceneCloud{}).surfels, 0U);
+  const TiledScene none(temporary("none.tiles"));
+  EXPECT_EQ(none.load(none.select_all()).size(), 0U);
+  EXPECT_EQ(none.select(reach_around({0, 0, 0}, 1e9)).surfels, 0U);
+
+  save_tiles(temporary("one.tiles"), one_point());
+  const TiledScene one(temporary("one.tiles"));
+  expect_same_surfels(one.load(one.select(reach_around({0, 0, 0}, 10))), one_point());
+  EXPECT_EQ(one.select(reach_around({50, 0, 0}, 10)).surfels, 0U);
+
+  // More at one place than sorting has memory for.
+  TileWriterOptions little;
+  little.memory = 0;
+  save_tiles(temporary("pile.tiles"), one_point(20000), little);
+  const TiledScene pile(temporary("pile.tiles"));
+  expect_same_surfels(pile.load(pile.select_all()), one_point(20000));
+}
+
+TEST(TiledScene, duplicates_are_dropped_on_request_and_the_first_is_kept) {
+  SceneCloud scene = harbour(5000);
+  const std::size_t before = scene.size();
+  for (std::size_t i = 0; i < before; i += 3) {
+    add_surfel(scene, scene.point[i].cast<double>(), Eigen::Vector3d::UnitZ(), 7.0);
+  }
+  TileWriterOptions options = small_tiles();
+  options.drop_duplicates = true;
+  const TileReport report = save_tiles(temporary("a.tiles"), scene, options);
+  EXPECT_EQ(report.dropped_duplicates, scene.size() - before);
+  const TiledScene tiled(temporary("a.tiles"));
+  const SceneCloud kept = tiled.load(tiled.select_all());
+  ASSERT_EQ(kept.size(), before);
+  EXPECT_EQ(kept.id.back(), before - 1);
+  const double area = std::accumulate(kept.area.begin(), kept.area.end(), 0.0);
+  EXPECT_NEAR(tiled.info().total_area, area, 1e-9 * area);
+}
+
+TEST(TiledScene, areas_found_tile_by_tile_add_up_to_the_plate) {
+  SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {40, 40}});
+  TileWriterOptions options = small_tiles();
+  options.estimate_areas = true;
+  const TileReport report = save_tiles(temporary("a.tiles"), scene, options);
+  EXPECT_NEAR(report.total_area, 1600, 0.02 * 1600);  // the promise of estimate_surfel_areas
+  const TiledScene tiled(temporary("a.tiles"));
+  const SceneCloud found = tiled.load(tiled.select_all());
+  EXPECT_NEAR(std::accumulate(found.area.begin(), found.area.end(), 0.0), report.total_area, 1e-6 * 1600);
+  // Without a seam between tiles: each cell is the one that the whole cloud gives.
+  const auto whole = estimate_surfel_areas(scene.point, scene.normal);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) different += std::abs(found.area[i] - whole[i]) > 1e-5F * whole[i];
+  EXPECT_LT(different, whole.size() / 1000);
+}
+
+TEST(TiledScene, what_does_not_fit_into_memory_is_refused_before_it_is_read) {
+  save_tiles(temporary("a.tiles"), harbour(), small_tiles());
+  const TiledScene tiled(temporary("a.tiles"));
+  expect_error(ErrorKind::runtime, {"a.tiles", "surfels within reach need about", "GiB", "raise the limit"},
+               [&] { tiled.load(tiled.select_all(), 1e6); });
+  EXPECT_GT(tiled.load(tiled.select(reach_around({20, 3, -7}, 1)), 1e6).size(), 0U);
+}
+
+TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
+  save_tiles(temporary("good.tiles"), harbour(5000), small_tiles());
+  const std::string good = read_file(temporary("good.tiles"));
+  const auto refuse = [&](const std::string& bytes, const std::vector<std::string>& parts) {
+    const std::string path = write_file("bad.tiles", bytes);
+    expect_error(ErrorKind::content, parts, [&] {
+      const TiledScene tiled(path);
+      tiled.load(tiled.select_all());
+    });
+  };
+  const auto with = [&](std::size_t at, char value) {
+    std::string bytes = good;
+    bytes[at] = value;
+    return bytes;
+  };
+  refuse("", {"bad.tiles", "empty"});
+  refuse("ply\nformat ascii 1.0\n", {"bad.tiles", "not a .tiles file", "PLY"});
+  refuse(good.substr(0, 100), {"cut off", "256"});
+  refuse(good.substr(0, good.size() - 1), {"cut off", std::to_string(good.size())});
+  refuse(good.substr(0, 3000), {"cut off"});
+  refuse(good + "x", {"longer"});
+  refuse(with(8, 2), {"version 2", "update insonify"});
+  refuse(std::string(256, '\0') + good.substr(256), {"half written"});
+  refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
+  refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
+  refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
+  expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(temporary("none.tiles")); });
+}
+
+TEST(TileWriter, an_unfinished_or_interrupted_file_leaves_nothing) {
+  const std::size_t before = files_in_folder();
+  {
+    TileWriter writer(temporary("a.tiles"));
+    writer.add(one_point());
+    EXPECT_EQ(files_in_folder(), before);  // not even a temporary file has a name
+  }
+  EXPECT_EQ(files_in_folder(), before);
+  struct Stop {};
+  TileWriterOptions options = small_tiles();
+  options.progress = [](double part) {
+    if (part > 0.5) throw Stop{};
+  };
+  EXPECT_THROW(save_tiles(temporary("a.tiles"), harbour(), options), Stop);
+  EXPECT_EQ(files_in_folder(), before);
+}
+
+TEST(TileWriter, an_existing_file_stays_until_the_new_one_is_whole) {
+  save_tiles(temporary("a.tiles"), one_point());
+  const std::string old = read_file(temporary("a.tiles"));
+  {
+    TileWriter writer(temporary("a.tiles"));
+    writer.add(one_point(5));
+    EXPECT_EQ(read_file(temporary("a.tiles")), old);
+    writer.finish();
+  }
+  EXPECT_EQ(TiledScene(temporary("a.tiles")).info().surfels, 5U);
+}
+
+TEST(TileWriter, bad_input_is_refused) {
+  SceneCloud scene = one_point();
+  scene.materials.push_back({"other"});
+  scene.material[0] = 1;
+  TileWriter writer(temporary("a.tiles"));
+  expect_error(ErrorKind::content, {"material", "= 1"}, [&] { writer.add(scene); });
+  scene.material[0] = 0;
+  scene.point[0].x() = NAN;
+  expect_error(ErrorKind::content, {"finite"}, [&] { writer.add(scene); });
+  expect_error(ErrorKind::argument, {"places"}, [&] { writer.add(one_point(), {}); });
+  expect_error(ErrorKind::file, {"nowhere"}, [] { TileWriter("/nowhere/at/all.tiles"); });
+  expect_error(ErrorKind::argument, {"tile_surfels"}, [] { TileWriter(temporary("b.tiles"), {.tile_surfels = 0}); });
+  writer.finish();
+  expect_error(ErrorKind::argument, {"after finish"}, [&] { writer.add(one_point()); });
+}

@@ -1,0 +1,161 @@
+// Which surfels made a pixel, through the whole signal path.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/sonar_spec.hpp"
+#include "core/units.hpp"
+#include "returns/insonification.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "simulate/simulate_ping.hpp"
+
+using namespace insonify;
+
+namespace {
+
+SonarHead small_head() {
+  SonarSpec s;
+  s.centre_frequency = 450e3;
+  s.bandwidth = 20e3;
+  s.beams = 32;
+  s.field_of_view = radians(50);
+  s.beam_width = radians(2);
+  s.elevation_width = radians(20);
+  s.min_range = 2;
+  s.max_range = 18;
+  return make_head(s, sound_speed(Water{}));
+}
+
+/// A level plane 3 m below the head, one material to port (y > 0), another to starboard.
+SceneCloud two_materials() {
+  SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {30, 30}});
+  scene.materials = {{"mud", 0.01}, {"rock", 0.01}};
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    scene.material[i] = scene.origin.y() + static_cast<double>(scene.point[i].y()) > 0 ? 0 : 1;
+  return scene;
+}
+
+const Pose over_plane = pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0);
+
+}  // namespace
+
+TEST(SimulatedContributors, are_kept_when_asked_for) {
+  const SceneCloud scene = two_materials();
+  const SonarHead head = small_head();
+  const SimulatedPing without = simulate_ping(scene, head, over_plane, {});
+  EXPECT_TRUE(without.contributors.empty());
+  const SimulatedPing with = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 2});
+  EXPECT_EQ(with.contributors.beams, head.fan.beams());
+  EXPECT_EQ(with.contributors.bins, head.gate.bins());
+  EXPECT_EQ(with.contributors.per_pixel, 2U);
+  EXPECT_TRUE((with.ping.pressure == without.ping.pressure).all());
+}
+
+// Port is positive azimuth: beams that look to port show the mud there.
+TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
+  const SonarHead head = small_head();
+  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.keep_contributors = 1});
+  const auto image = material_image(p.contributors);
+  std::size_t right = 0, all = 0;
+  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
+    if (std::abs(head.fan.azimuth[b]) < radians(3)) continue;
+    for (std::size_t n = 0; n < head.gate.bins(); ++n) {
+      if (head.gate.centre(n) < 5 || head.gate.centre(n) > 14) continue;
+      right += image(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n)) == (head.fan.azimuth[b] > 0 ? 0 : 1);
+      ++all;
+    }
+  }
+  EXPECT_GT(all, 1000U);
+  EXPECT_EQ(right, all);
+}
+
+// The elevation that is named is where a plane 3 m below shows at that range: asin(-3 / r) in the world, 15 degrees up
+// in the head, as seen straight ahead.
+TEST(SimulatedContributors, of_a_plane_stand_at_the_elevation_of_the_plane) {
+  const SonarHead head = small_head();
+  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.keep_contributors = 1});
+  for (std::size_t n = 0; n < head.gate.bins(); ++n) {
+    const double r = head.gate.centre(n);
+    if (r < 7 || r > 14) continue;
+    const double expected = std::asin(-3 / r) + radians(15);
+    ASSERT_NEAR(p.contributors.elevation[p.contributors.at(16, n)], expected, radians(1)) << r;
+  }
+}
+
+// Under a smooth surface a target is heard by four paths; those by way of the surface arrive later and from above.
+TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
+  SceneCloud scene;
+  scene.materials = {{"m", 0.1}};
+  add_surfel(scene, {10, 0, -4}, {-1, 0, 0}, 1e-3);
+  SonarHead head = small_head();
+  head.fan.elevation_width = radians(170);
+  Environment environment;
+  environment.surface = SeaSurface{};
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0, 0, -2);
+  SimulationOptions options;
+  options.multipath = true;
+  options.keep_contributors = 4;
+  const SimulatedPing p = simulate_ping(scene, head, pose, environment, options);
+  const double direct = std::hypot(10, 2), bounced = std::hypot(10, 6);
+  const auto at_range = [&](double range) {
+    const auto bin = static_cast<std::size_t>((range - head.gate.min_range) / head.gate.bin_size);
+    return p.contributors.at(16, bin);
+  };
+  const Contributors& c = p.contributors;
+  EXPECT_EQ(c.path[at_range(direct)], PathKind::direct);
+  EXPECT_EQ(c.path[at_range((direct + bounced) / 2)], PathKind::one_bounce);
+  EXPECT_EQ(c.path[at_range(bounced)], PathKind::two_bounces);
+  EXPECT_NEAR(c.elevation[at_range(direct)], std::asin(-2 / direct), 1e-3);
+  EXPECT_NEAR(c.elevation[at_range(bounced)], std::asin(6 / bounced), 1e-3);
+  for (const double range : {direct, (direct + bounced) / 2, bounced}) EXPECT_EQ(c.surfel[at_range(range)], 0U);
+  // The mixed path comes from both directions, in equal parts.
+  const std::size_t mixed = at_range((direct + bounced) / 2);
+  EXPECT_EQ(c.path[mixed + 1], PathKind::one_bounce);
+  EXPECT_NEAR(c.share[mixed], 0.5, 0.01);
+  EXPECT_NEAR(c.share[mixed + 1], 0.5, 0.01);
+  EXPECT_NEAR(c.elevation[mixed] + c.elevation[mixed + 1], std::asin(6 / bounced) + std::asin(-2 / direct), 2e-3);
+}
+
+// Loud pixels are made by surfels that stand in their beam and at their range.
+TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
+  const SonarHead head = small_head();
+  const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+  const SimulatedPing p = simulate_ping(scene, head, pose, {}, {.keep_contributors = 1});
+  ASSERT_GT(p.soundings.size(), 100U);
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < p.soundings.size(); ++i) {
+    const std::size_t at = p.contributors.at(p.soundings.beam[i], p.soundings.bin[i]);
+    ASSERT_NE(p.contributors.surfel[at], Contributors::none);
+    const std::uint32_t s = p.contributors.surfel[at];
+    const Eigen::Vector3d place = pose.inverse() * (scene.origin + scene.point[s].cast<double>());
+    const double off = direction_of(place).azimuth - head.fan.azimuth[p.soundings.beam[i]];
+    near += std::abs(place.norm() - static_cast<double>(p.soundings.range[i])) < 0.3 && std::abs(off) < radians(4);
+  }
+  EXPECT_GT(near, 0.9 * static_cast<double>(p.soundings.size()));
+}
+
+// The map of a ping agrees with what sampling saw, and covers what contributors name.
+TEST(SimulatedContributors, are_insonified) {
+  const SceneCloud scene = two_materials();
+  const SonarHead head = small_head();
+  const SimulatedPing p = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 1});
+  Insonification map;
+  add_ping(map, scene, p.scatterers, head, p.medium, {.least_response_db = -300});
+  std::size_t hits = 0;
+  for (const std::uint32_t h : map.hits) hits += h;
+  EXPECT_LE(hits, p.sampling.visible);
+  EXPECT_GT(hits, p.sampling.visible / 2);
+  std::size_t named = 0, covered = 0;
+  for (std::size_t b = 4; b < 28; ++b)
+    for (std::size_t n = 100; n < head.gate.bins() - 100; ++n) {
+      const std::uint32_t s = p.contributors.surfel[p.contributors.at(b, n)];
+      if (s == Contributors::none) continue;
+      ++named;
+      covered += map.hits[s] > 0;
+    }
+  EXPECT_GT(named, 1000U);
+  EXPECT_EQ(covered, named);
+}

@@ -1,0 +1,175 @@
+#include "store/contributor_file.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include <hdf5.h>
+#include <malloc.h>
+
+#include "store/run_directory.hpp"
+#include "store_testing.hpp"
+
+using namespace insonify;
+
+namespace {
+
+/// 5 beams x 7 bins x 3; the last pixel is empty.
+NamedContributors make_contributors() {
+  NamedContributors named;
+  named.materials = {"fine sand", "", "Fels, grün"};
+  Contributors& c = named.contributors;
+  c.beams = 5, c.bins = 7, c.per_pixel = 3;
+  for (std::uint32_t i = 0; i < 5 * 7 * 3; ++i) {
+    const bool empty = i >= 4 * 7 * 3 + 6 * 3;
+    c.surfel.push_back(empty ? Contributors::none : 4000000000U - i);
+    c.id.push_back(empty ? Contributors::none : 3 * i);
+    c.share.push_back(empty ? 0 : 0.5F / static_cast<float>(1 + i % 3));
+    c.elevation.push_back(empty ? 0 : -0.01F * static_cast<float>(i));
+    c.material.push_back(empty ? Contributors::no_material : static_cast<std::uint16_t>(i % 3));
+    c.path.push_back(empty ? PathKind::direct : static_cast<PathKind>((i / 3) % 3));
+  }
+  return named;
+}
+
+std::string write(const NamedContributors& named, const std::string& name = "c.h5") {
+  const std::string path = own_path(name);
+  write_contributor_file(path, named);
+  return path;
+}
+
+std::string error_of_reading(const std::string& path) {
+  return replaced(error_of([&] { read_contributor_file(path); }), path, "c.h5");
+}
+
+/// Changes a file as another program would.
+template <typename Change>
+void change(const std::string& path, Change&& how) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  how(file);
+  H5Fclose(file);
+}
+
+std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  H5Sclose(space);
+  H5Dclose(dataset);
+  return extent;
+}
+
+}  // namespace
+
+TEST(ContributorFile, comes_back_bit_for_bit) {
+  const NamedContributors named = make_contributors(), back = read_contributor_file(write(named));
+  const Contributors &a = named.contributors, &b = back.contributors;
+  EXPECT_EQ(b.beams, 5U);
+  EXPECT_EQ(b.bins, 7U);
+  EXPECT_EQ(b.per_pixel, 3U);
+  EXPECT_EQ(a.surfel, b.surfel);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.share, b.share);
+  EXPECT_EQ(a.elevation, b.elevation);
+  EXPECT_EQ(a.material, b.material);
+  EXPECT_EQ(a.path, b.path);
+  EXPECT_EQ(named.materials, back.materials);
+}
+
+TEST(ContributorFile, has_the_documented_layout) {
+  const NamedContributors named = make_contributors();
+  change(write(named), [&](hid_t file) {
+    for (const char* name : {"/surfel", "/id", "/share", "/elevation", "/material", "/path"})
+      EXPECT_EQ(raw_extent(file, name), (std::vector<hsize_t>{5, 7, 3})) << name;
+    const hid_t materials = H5Dopen2(file, "/material_image", H5P_DEFAULT), material_type = H5Dget_type(materials);
+    EXPECT_GT(H5Tequal(material_type, H5T_STD_U16LE), 0);
+    std::vector<std::uint16_t> image(35);
+    H5Dread(materials, H5T_NATIVE_UINT16, H5S_ALL, H5S_ALL, H5P_DEFAULT, image.data());
+    EXPECT_EQ(raw_extent(file, "/material_image"), (std::vector<hsize_t>{5, 7}));
+    EXPECT_EQ(image[12], named.contributors.material[36]);
+    EXPECT_EQ(image[34], 65535);
+    const hid_t instances = H5Dopen2(file, "/instance_image", H5P_DEFAULT);
+    std::vector<std::uint32_t> ids(35);
+    H5Dread(instances, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, ids.data());
+    EXPECT_EQ(ids[12], 3 * 36U);
+    EXPECT_EQ(ids[34], 4294967295U);
+    EXPECT_EQ(raw_extent(file, "/material_names"), (std::vector<hsize_t>{3}));
+    H5Dclose(instances), H5Tclose(material_type), H5Dclose(materials);
+  });
+}
+
+TEST(ContributorFile, has_the_same_bytes_a_second_later_and_whatever_memory_held_before) {
+  const NamedContributors named = make_contributors();
+  mallopt(M_PERTURB, 0x55);
+  const std::string first = read_text_file(write(named, "first.h5"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  mallopt(M_PERTURB, 0xA3);
+  const std::string second = read_text_file(write(named, "second.h5"));
+  mallopt(M_PERTURB, 0);
+  EXPECT_TRUE(first == second);
+}
+
+TEST(ContributorFile, names_the_dataset_that_is_missing) {
+  for (const char* name : {"/surfel", "/id", "/share", "/elevation", "/material", "/path", "/material_names"}) {
+    const std::string path = write(make_contributors());
+    change(path, [&](hid_t file) { EXPECT_GE(H5Ldelete(file, name, H5P_DEFAULT), 0); });
+    EXPECT_EQ(error_of_reading(path), "content: c.h5: dataset " + std::string(name) + " is missing");
+  }
+}
+
+TEST(ContributorFile, of_another_schema_names_both_versions) {
+  const std::string path = write(make_contributors());
+  change(path, [](hid_t file) {
+    const hid_t attribute = H5Aopen(file, "schema", H5P_DEFAULT);
+    const std::int64_t schema = 7;
+    H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
+    H5Aclose(attribute);
+  });
+  EXPECT_EQ(error_of_reading(path), "content: c.h5: has contributor schema 7, this insonify reads schema 1");
+}
+
+TEST(ContributorFile, that_contradicts_itself_is_refused) {
+  const std::string path = write(make_contributors());
+  change(path, [](hid_t file) {
+    H5Ldelete(file, "/share", H5P_DEFAULT);
+    H5Lcreate_hard(file, "/material_image", file, "/share", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_EQ(error_of_reading(path), "content: c.h5: /share has 2 dimensions, must have 3");
+  const std::string other = write(make_contributors());
+  change(other, [](hid_t file) {
+    const hid_t dataset = H5Dopen2(file, "/path", H5P_DEFAULT);
+    std::vector<std::uint8_t> kinds(105, 9);
+    H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, kinds.data());
+    H5Dclose(dataset);
+  });
+  EXPECT_EQ(error_of_reading(other), "content: c.h5: /path holds 9, must be 0, 1 or 2");
+}
+
+TEST(ContributorFile, foreign_missing_and_truncated_files_are_refused) {
+  const std::string text = own_file("text.h5", "this is not HDF5\n");
+  EXPECT_EQ(error_of([&] { read_contributor_file(text); }), "content: " + text + ": is not an HDF5 file");
+  const std::string missing = own_path("missing.h5");
+  EXPECT_EQ(error_of([&] { read_contributor_file(missing); }), "file: " + missing + ": no such file");
+  const std::string foreign = own_path("foreign.h5");
+  H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_EQ(
+      error_of([&] { read_contributor_file(foreign); }),
+      "content: " + foreign + ": is not a contributor file of insonify: attribute 'content' is not \"contributors\"");
+  const std::string whole = read_text_file(write(make_contributors()));
+  const std::string cut = own_file("cut.h5", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(error_of([&] { read_contributor_file(cut); }).find(cut + ": is damaged or cut short"), std::string::npos);
+}
+
+TEST(ContributorFile, of_contributors_that_do_not_fit_is_not_written) {
+  const std::string old = own_file("old.h5", "old");
+  NamedContributors named = make_contributors();
+  named.contributors.share.pop_back();
+  EXPECT_EQ(
+      error_of([&] { write_contributor_file(old, named); }),
+      "argument: write_contributor_file: an array of the contributors has 104 entries, must have 5 beams x 7 bins x "
+      "3");
+  named = make_contributors();
+  named.materials.pop_back();
+  EXPECT_EQ(error_of([&] { write_contributor_file(old, named); }),
+            "argument: write_contributor_file: " + old + ": material 2 has no name, there are 2");
+  EXPECT_EQ(read_text_file(old), "old");
+}

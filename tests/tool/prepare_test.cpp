@@ -1,0 +1,33 @@
+#include <nlohmann/json.hpp>
+
+#include "tool/tool_runner.hpp"
+
+namespace {
+
+class Prepare : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene plane -o plane.ply --points 4000 --size 8,8 -q");
+  }
+  nlohmann::json prepared(const std::string& arguments) const {
+    return nlohmann::json::parse(succeed("prepare " + arguments + " --json -q"));
+  }
+};
+
+}  // namespace
+
+TEST_F(Prepare, thins_to_the_spacing_asked_for_and_keeps_the_area) {
+  const nlohmann::json whole = prepared("plane.ply -o whole.ply"), thin = prepared("plane.ply -o thin.ply --thin 0.5");
+  EXPECT_NEAR(thin["surfels"].get<double>(), 8 * 8 / (0.5 * 0.5), 40);
+  EXPECT_NEAR(thin["area_m2"].get<double>(), whole["area_m2"].get<double>(), 1e-4);
+  EXPECT_NE(thin["notes"].dump().find("thinned to 0.5 m"), std::string::npos);
+  const nlohmann::json again = prepared("thin.ply -o again.ply");
+  EXPECT_EQ(again["surfels"], thin["surfels"]);
+  EXPECT_NEAR(again["area_m2"].get<double>(), whole["area_m2"].get<double>(), 1e-4);
+}
+
+TEST_F(Prepare, refuses_a_spacing_that_is_not_positive) {
+  for (const char* spacing : {"0", "-1", "dense"})
+    expect_refused(std::string("prepare plane.ply -o thin.ply --thin ") + spacing, 2, {"--thin"});
+}

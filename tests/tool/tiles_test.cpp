@@ -1,0 +1,90 @@
+// Scenes on disk: a ping of what the fan reaches is the ping of the whole.
+#include <cstdlib>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "tool/tool_runner.hpp"
+
+namespace {
+
+const std::string sonar = " --sonar p900-45 --set sonar.beams=64 --scatterers-per-cell 3 --no-picture -q";
+const std::string head = sonar + " --pose=0,0,-3,0,10,0 --range 2:15";
+
+class Tiles : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene harbour -o harbour.ply --points 60000 -q");
+  }
+};
+
+}  // namespace
+
+TEST_F(Tiles, a_ping_of_the_tiles_is_the_ping_of_the_cloud_byte_for_byte) {
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  for (const std::string& more : {std::string(), std::string(" --multipath --set surface.height_m=0")}) {
+    succeed("ping harbour.ply --force -o a" + head + more);
+    succeed("ping harbour.tiles --force -o b" + head + more);
+    EXPECT_EQ(read("a/cube.h5"), read("b/cube.h5"));
+    EXPECT_EQ(read("a/returns.ply"), read("b/returns.ply"));
+  }
+}
+
+TEST_F(Tiles, a_built_in_scene_can_be_made_as_tiles) {
+  succeed("prepare harbour.ply -o prepared.tiles -q");
+  succeed("make-scene harbour -o made.tiles --points 60000 -q");
+  EXPECT_EQ(read("prepared.tiles"), read("made.tiles"));
+  succeed("prepare made.tiles -o back.ply -q");
+  EXPECT_EQ(read("back.ply"), read("harbour.ply"));
+}
+
+TEST_F(Tiles, the_manifest_says_how_much_was_read) {
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  const auto info = nlohmann::json::parse(succeed("info harbour.tiles --json"));
+  EXPECT_EQ(info["format"], "insonify tiles");
+  EXPECT_EQ(info["materials"][0], "sand");
+  const auto manifest = nlohmann::json::parse(succeed("ping harbour.tiles --json -o out" + head));
+  const auto& tiles = manifest["scene"]["tiles"];
+  EXPECT_EQ(tiles["surfels"], info["surfels"]);
+  EXPECT_EQ(tiles["tiles"], info["tiles"]);
+  EXPECT_GT(tiles["surfels_read"], 0);
+  EXPECT_LT(tiles["surfels_read"], tiles["surfels"]);
+  EXPECT_LT(tiles["tiles_read"], tiles["tiles"]);
+  EXPECT_NE(succeed("plan harbour.tiles" + head.substr(0, head.find(" --no-picture")) + " --pose=0,0,-3,0,10,0")
+                .find("direct"),
+            std::string::npos);
+}
+
+TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  const auto manifest = nlohmann::json::parse(
+      succeed("ping harbour.tiles --json -o out" + sonar + " --pose=0,5000,-3,90,10,0 --range 2:15"));
+  EXPECT_EQ(manifest["scene"]["tiles"]["surfels_read"], 0);
+  EXPECT_NE(manifest["notes"].dump().find("silent"), std::string::npos);
+}
+
+TEST_F(Tiles, what_cannot_be_pinged_is_refused) {
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  expect_refused("ping harbour.tiles -o out --memory-limit 0.001" + head, 1,
+                 {"harbour.tiles", "need about", "GiB", "raise the limit"});
+  expect_refused("ping harbour.tiles -o out --material sand" + head, 2, {"--material", "prepared already"});
+  expect_refused("prepare harbour.ply -o harbour.tiles", 4, {"harbour.tiles", "exists already"});
+  const std::string good = read("harbour.tiles");
+  write("cut.tiles", good.substr(0, good.size() / 2));
+  expect_refused("ping cut.tiles -o out" + head, 3, {"cut.tiles", "cut off"});
+  expect_refused("info cut.tiles", 3, {"cut.tiles", "cut off"});
+  write("text.tiles", "hello");
+  expect_refused("info text.tiles", 3, {"text.tiles", "not a .tiles file"});
+}
+
+TEST_F(Tiles, an_interrupted_preparation_leaves_nothing) {
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s INT 1 '" INSONIFY_TOOL
+                              "' make-scene plane -o big.tiles --points 50000000 -q 2>/dev/null";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().filename().string().find("tiles"), std::string::npos) << entry.path();
+}

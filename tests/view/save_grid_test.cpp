@@ -1,0 +1,174 @@
+#include "view/save_grid.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStructuredGrid.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLStructuredGridReader.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/save_lines.hpp"
+
+namespace insonify {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test, removed at its end.
+class SavedForVtk : public testing::Test {
+ protected:
+  SavedForVtk()
+      : folder_(fs::temp_directory_path() /
+                (std::string("insonify_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SavedForVtk() override { fs::remove_all(folder_); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  fs::path folder_;
+};
+
+const RangeGate gate{1, 3, 0.25};
+
+/// Value of beam b, bin n: 100 b + n.
+SampleField counted(const BeamFan& fan) {
+  SampleField field{"level_db", Grid<float>(fan.beams(), gate.bins())};
+  for (Eigen::Index b = 0; b < field.values.rows(); ++b)
+    for (Eigen::Index n = 0; n < field.values.cols(); ++n) field.values(b, n) = static_cast<float>(100 * b + n);
+  return field;
+}
+
+/// Middle of a cell's corners.
+Eigen::Vector3d middle_of(vtkDataSet* data, vtkIdType cell) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  vtkPoints* points = data->GetCell(cell)->GetPoints();
+  for (vtkIdType p = 0; p < points->GetNumberOfPoints(); ++p) sum += Eigen::Map<Eigen::Vector3d>(points->GetPoint(p));
+  return sum / static_cast<double>(points->GetNumberOfPoints());
+}
+
+template <typename Reader>
+void read(Reader& reader, const std::string& path) {
+  ASSERT_TRUE(reader.CanReadFile(path.c_str())) << path;
+  reader.SetFileName(path.c_str());
+  reader.Update();
+}
+
+TEST_F(SavedForVtk, every_cell_of_a_fan_stands_where_its_sample_does_in_the_world_and_holds_its_value) {
+  const BeamFan fan = make_fan(9, radians(90), radians(10), radians(20), radians(-15));
+  const Pose pose = pose_from_yaw_pitch_roll({500000.25, 4500000.5, -12}, radians(30), radians(20), radians(5));
+  const SampleField field = counted(fan);
+  save_fan_grid(file("fan.vts"), fan, gate, {field}, pose);
+
+  vtkNew<vtkXMLStructuredGridReader> reader;
+  read(*reader, file("fan.vts"));
+  vtkStructuredGrid* grid = reader->GetOutput();
+  auto* values = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("level_db"));
+  ASSERT_NE(values, nullptr);
+  ASSERT_EQ(grid->GetNumberOfCells(), field.values.size());
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    const Eigen::Vector3d in_head = pose.inverse() * middle_of(grid, cell);
+    const Direction direction = direction_of(in_head);
+    const auto number = static_cast<int>(values->GetValue(cell));
+    const int beam = number / 100, bin = number % 100;
+    EXPECT_NEAR(direction.azimuth, fan.azimuth[beam], 1e-6) << "beam " << beam;
+    EXPECT_NEAR(in_head.norm(), gate.centre(bin), 0.005 * gate.centre(bin));  // chord across 10 degrees
+  }
+}
+
+TEST_F(SavedForVtk, rows_of_a_fan_become_files_by_ascending_elevation) {
+  BeamFan fan = make_fan(3, radians(30), radians(10), radians(20), radians(10));
+  const BeamFan low = make_fan(3, radians(30), radians(10), radians(20), radians(-10));
+  fan.azimuth.insert(fan.azimuth.end(), low.azimuth.begin(), low.azimuth.end());
+  fan.elevation.insert(fan.elevation.end(), low.elevation.begin(), low.elevation.end());
+  const auto files = save_fan_grid(file("fan.vts"), fan, gate, {counted(fan)}, Pose::Identity());
+
+  ASSERT_EQ(files.size(), 2u);
+  for (int row = 0; row < 2; ++row) {
+    EXPECT_EQ(files[static_cast<std::size_t>(row)], file("fan_row_00" + std::to_string(row) + ".vts"));
+    vtkNew<vtkXMLStructuredGridReader> reader;
+    read(*reader, files[static_cast<std::size_t>(row)]);
+    EXPECT_NEAR(direction_of(middle_of(reader->GetOutput(), 0)).elevation, radians(row == 0 ? -10 : 10), 0.002);
+    double range[2];
+    reader->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
+    EXPECT_EQ(range[0], row == 0 ? 300 : 0);
+  }
+}
+
+TEST_F(SavedForVtk, image_holds_the_samples_bit_for_bit_beam_across_and_range_upwards) {
+  const BeamFan fan = make_fan(5, radians(60), radians(10), radians(20));
+  SampleField field = counted(fan);
+  field.values(2, 3) = 0.1f;
+  save_sample_image(file("image.vti"), fan, gate, {field});
+
+  vtkNew<vtkXMLImageDataReader> reader;
+  read(*reader, file("image.vti"));
+  auto* values = vtkFloatArray::SafeDownCast(reader->GetOutput()->GetCellData()->GetArray("level_db"));
+  ASSERT_NE(values, nullptr);
+  for (Eigen::Index b = 0; b < field.values.rows(); ++b)
+    for (Eigen::Index n = 0; n < field.values.cols(); ++n) {
+      const vtkIdType cell = n * field.values.rows() + b;
+      EXPECT_EQ(values->GetValue(cell), field.values(b, n));
+      const Eigen::Vector3d middle = middle_of(reader->GetOutput(), cell);
+      EXPECT_NEAR(middle.x(), static_cast<double>(b) + 0.5, 1e-9);
+      EXPECT_NEAR(middle.y(), gate.centre(static_cast<std::size_t>(n)), 1e-9);
+    }
+}
+
+TEST_F(SavedForVtk, series_names_its_files_beside_it_with_their_times) {
+  save_series(file("fan.pvd"), {{0.5, 0, file("fan_000000.vts")}, {1.25, 1, file("fan_000001.vts")}});
+  std::stringstream text;
+  text << std::ifstream(file("fan.pvd")).rdbuf();
+  EXPECT_NE(text.str().find(R"(<DataSet timestep="0.5" part="0" file="fan_000000.vts"/>)"), std::string::npos);
+  EXPECT_NE(text.str().find(R"(<DataSet timestep="1.25" part="1" file="fan_000001.vts"/>)"), std::string::npos);
+}
+
+TEST_F(SavedForVtk, lines_come_back_with_their_points_and_numbers) {
+  const LineSet lines{{{{1e6, 2, 3}, {4, 5, 6}}, {{0, 0, 0}, {1, 1, 1}, {2, 0, 0.1}}}, {{"level_db", {80, 90}}}};
+  save_lines(file("paths.vtp"), lines);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  read(*reader, file("paths.vtp"));
+  vtkPolyData* data = reader->GetOutput();
+  ASSERT_EQ(data->GetNumberOfLines(), 2);
+  EXPECT_EQ(data->GetCell(1)->GetNumberOfPoints(), 3);
+  EXPECT_EQ(Eigen::Vector3d(data->GetPoint(0)), Eigen::Vector3d(1e6, 2, 3));
+  EXPECT_EQ(Eigen::Vector3d(data->GetPoint(4)), Eigen::Vector3d(2, 0, 0.1));
+  EXPECT_EQ(data->GetCellData()->GetArray("level_db")->GetTuple1(1), 90);
+}
+
+TEST_F(SavedForVtk, same_samples_make_the_same_bytes) {
+  const BeamFan fan = make_fan(5, radians(60), radians(10), radians(20));
+  for (const char* name : {"a.vts", "b.vts"}) save_fan_grid(file(name), fan, gate, {counted(fan)}, Pose::Identity());
+  std::stringstream a, b;
+  a << std::ifstream(file("a.vts")).rdbuf();
+  b << std::ifstream(file("b.vts")).rdbuf();
+  EXPECT_GT(a.str().size(), 500u);
+  EXPECT_EQ(a.str(), b.str());
+}
+
+TEST_F(SavedForVtk, wrong_fields_lines_and_folders_are_refused_and_leave_nothing) {
+  const BeamFan fan = make_fan(5, radians(60), radians(10), radians(20));
+  SampleField narrow = counted(fan);
+  narrow.values.conservativeResize(4, narrow.values.cols());
+  EXPECT_THROW(save_fan_grid(file("x.vts"), fan, gate, {}, Pose::Identity()), Error);
+  EXPECT_THROW(save_fan_grid(file("x.vts"), fan, gate, {narrow}, Pose::Identity()), Error);
+  EXPECT_THROW(save_sample_image(file("x.vti"), fan, gate, {counted(fan), counted(fan)}), Error);
+  EXPECT_THROW(save_lines(file("x.vtp"), {{{{0, 0, 0}}}, {}}), Error);
+  EXPECT_THROW(save_lines(file("x.vtp"), {{{{0, 0, 0}, {1, 0, 0}}}, {{"level_db", {}}}}), Error);
+  EXPECT_THROW(save_sample_image(file("nowhere/x.vti"), fan, gate, {counted(fan)}), Error);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+}  // namespace
+}  // namespace insonify

@@ -1,0 +1,48 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace insonify::test {
+
+/// An X server without a screen, for as long as it lives; empty name: Xvfb is not installed. Throws if it does not answer.
+class VirtualDisplay {
+ public:
+  VirtualDisplay();
+  ~VirtualDisplay();
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+  const std::string& name() const { return name_; }  ///< e.g. ":3"
+
+ private:
+  pid_t server_ = -1;
+  void* client_ = nullptr;  ///< a server that loses its last client begins anew
+  std::string name_;
+};
+
+/// A program on a display, what it writes, and a user who clicks and types.
+class DesktopProgram {
+ public:
+  DesktopProgram(const VirtualDisplay& display, const std::vector<std::string>& command, const std::string& out_file);
+  ~DesktopProgram();
+  DesktopProgram(const DesktopProgram&) = delete;
+  DesktopProgram& operator=(const DesktopProgram&) = delete;
+
+  /// Waits for a window of this title; false after 60 s.
+  bool has_window(const std::string& title);
+  void click(int x, int y) const;  ///< [pixels] from the window's upper left corner
+  void type(const std::string& key_symbol) const;
+  void close_window() const;  ///< as the cross in its corner does
+  /// What it has written by the time that this holds `part`, or the time is over.
+  std::string output_with(const std::string& part, double seconds = 30) const;
+  int wait_for_end();  ///< exit code; -1 if it had to be killed after 30 s
+
+ private:
+  void* display_ = nullptr;
+  unsigned long window_ = 0;
+  pid_t program_ = -1;
+  std::string out_file_;
+};
+
+}  // namespace insonify::test

@@ -1,0 +1,82 @@
+#include "viewer/viewer_data.hpp"
+
+#include <cmath>
+
+#include "core/units.hpp"
+
+namespace insonify::test {
+namespace {
+
+constexpr std::size_t beams = 41, bins = 120;
+constexpr float loud = 10, soft = 0.01F;  // [Pa]: 60 dB
+
+// A plate of 5 x 5 surfels, 2 cm apart, facing the head.
+void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middle, std::uint16_t material) {
+  const Eigen::Vector3d towards = (pose.translation() - middle).normalized();
+  const Eigen::Vector3d across = towards.cross(Eigen::Vector3d::UnitZ()).normalized(), up = across.cross(towards);
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j) add_surfel(scene, middle + 0.02 * (i * across + j * up), towards, 4e-4, material);
+}
+
+void hear(ViewerData& data, const Target& target) {
+  for (Ping& ping : data.pings)
+    ping.pressure(static_cast<Eigen::Index>(target.place.beam), static_cast<Eigen::Index>(target.place.bin)) = loud;
+}
+
+}  // namespace
+
+TargetData three_targets(std::size_t pings, bool with_contributors) {
+  TargetData made;
+  ViewerData& data = made.data;
+  data.title = "three targets";
+  data.absorption_db_per_m = 0.25;
+  Ping ping;
+  ping.world_from_head = pose_from_yaw_pitch_roll({10, 20, -3}, radians(30), 0, 0);
+  ping.fan = make_fan(beams, radians(82), radians(2), radians(20));  // 2 degrees apart, beam 20 ahead
+  ping.gate = {2, 14, 0.1};
+  ping.pressure = ComplexGridF::Constant(beams, bins, soft);
+  for (std::size_t i = 0; i < pings; ++i) {
+    data.pings.push_back(ping);
+    data.pings.back().number = static_cast<std::int64_t>(7 + i);
+    data.pings.back().time = 0.5 * static_cast<double>(i);
+  }
+
+  data.scene.origin = {8, 22, 0};
+  data.scene.materials.clear();
+  for (const char* name : {"iron", "wood", "rubber"}) data.scene.materials.push_back({name});
+  const auto place = [&](const char* name, std::size_t beam, std::size_t bin, std::uint16_t material) {
+    Target target{name, ping.fan.azimuth[beam], ping.gate.centre(bin), {beam, bin}, {}};
+    target.position = ping.world_from_head * (target.range * unit_vector({target.azimuth, 0}));
+    add_plate(data.scene, ping.world_from_head, target.position, material);
+    hear(data, target);
+    return target;
+  };
+  const bool port_last = ping.fan.azimuth[0] < 0;  // whichever way the fan is numbered
+  made.port = place("iron", port_last ? 33 : 7, 40, 0);
+  made.starboard = place("wood", port_last ? 7 : 33, 40, 1);
+  made.far = place("rubber", 20, 100, 2);
+  if (!with_contributors) return made;
+
+  // Two of the port target's own surfels.
+  Contributors list{beams, bins, 2, {}, {}, {}, {}, {}, {}};
+  const std::size_t entries = beams * bins * 2;
+  list.surfel.assign(entries, Contributors::none);
+  list.id.assign(entries, Contributors::none);
+  list.share.assign(entries, 0);
+  list.elevation.assign(entries, 0);
+  list.material.assign(entries, Contributors::no_material);
+  list.path.assign(entries, PathKind::direct);
+  for (const std::uint32_t k : {0U, 1U}) {
+    const std::size_t at = list.at(made.port.place.beam, made.port.place.bin, k);
+    list.surfel[at] = 12 - 5 * k;
+    list.id[at] = data.scene.id[12 - 5 * k];
+    list.share[at] = k == 0 ? 0.75F : 0.2F;
+    list.elevation[at] = static_cast<float>(radians(k == 0 ? 0 : -1.5));
+    list.material[at] = 0;
+    list.path[at] = k == 0 ? PathKind::direct : PathKind::one_bounce;
+  }
+  data.contributors.assign(pings, list);
+  return made;
+}
+
+}  // namespace insonify::test

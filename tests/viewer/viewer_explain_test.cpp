@@ -1,0 +1,169 @@
+// What is said about a sample, and what is highlighted for it.
+#include "view/viewer_explain.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/viewer_inspect.hpp"
+#include "viewer/viewer_data.hpp"
+
+using namespace insonify;
+using insonify::test::three_targets;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(ExplainPixel, says_range_bearing_and_levels) {
+  const auto made = three_targets();
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.starboard.place);
+  EXPECT_NEAR(facts.range, 2 + 40.5 * 0.1, 1e-12);  // centre of bin 40
+  // 10 Pa peak: 20 log10(10 / sqrt 2 / 1e-6) = 136.99 dB; TVG: 40 log10(6.05) + 2 x 0.25 x 6.05 = 34.30 dB.
+  EXPECT_NEAR(facts.level_db, 136.99, 0.005);
+  EXPECT_NEAR(facts.compensated_level_db - facts.level_db, 40 * std::log10(6.05) + 0.5 * 6.05, 1e-9);
+  const std::string text = explain_pixel(facts);
+  EXPECT_THAT(text, HasSubstr("Ping 7, beam "));
+  EXPECT_THAT(text, HasSubstr("Range 6.050 m"));
+  EXPECT_THAT(text, HasSubstr("+26.00° (starboard)"));
+  EXPECT_THAT(text, HasSubstr("137.0 dB re 1 µPa"));
+}
+
+TEST(ExplainPixel, port_is_negative_and_starboard_positive) {
+  const auto made = three_targets();
+  EXPECT_GT(made.port.azimuth, 0);
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.port.place)), HasSubstr("-26.00° (port)"));
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.far.place)), HasSubstr("0.00° (ahead)"));
+}
+
+TEST(ExplainPixel, names_the_material_that_stands_there) {
+  const auto made = three_targets();
+  for (const auto* target : {&made.port, &made.starboard, &made.far}) {
+    const PixelFacts facts = find_pixel_facts(made.data, 0, target->place);
+    EXPECT_EQ(facts.seen_material, target->name);
+    EXPECT_EQ(facts.sight->seen.size(), 25U);
+    EXPECT_THAT(explain_pixel(facts), HasSubstr(std::string("25 seen (") + target->name));
+  }
+}
+
+TEST(ExplainPixel, contributors_come_strongest_first_with_share_and_path) {
+  const auto made = three_targets(1, true);
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.port.place);
+  ASSERT_EQ(facts.contributions.size(), 2U);
+  EXPECT_EQ(facts.contributions[0].surfel, 12U);
+  EXPECT_EQ(facts.contributions[0].material, "iron");
+  EXPECT_EQ(facts.contributions[1].path, PathKind::one_bounce);
+  const std::string text = explain_pixel(facts);
+  EXPECT_THAT(text, HasSubstr("iron, surfel 12"));
+  EXPECT_THAT(text, HasSubstr("75 % of the energy, direct"));
+  EXPECT_THAT(text, HasSubstr("20 % of the energy, by one bounce, elevation -1.50°"));
+  EXPECT_THAT(surfels_behind(facts), testing::ElementsAre(12, 7));
+}
+
+TEST(ExplainPixel, known_and_none_is_not_the_same_as_not_known) {
+  const auto known = three_targets(1, true);
+  EXPECT_THAT(explain_pixel(find_pixel_facts(known.data, 0, {0, 0})), HasSubstr("No surfel contributes"));
+  const auto not_known = three_targets();
+  EXPECT_THAT(explain_pixel(find_pixel_facts(not_known.data, 0, {0, 0})), Not(HasSubstr("contribut")));
+}
+
+TEST(ExplainPixel, without_contributors_what_is_seen_there_is_highlighted) {
+  const auto made = three_targets();
+  EXPECT_EQ(surfels_behind(find_pixel_facts(made.data, 0, made.port.place)).size(), 25U);
+  EXPECT_TRUE(surfels_behind(find_pixel_facts(made.data, 0, {0, 0})).empty());
+}
+
+TEST(ExplainPixel, says_what_casts_the_shadow_and_how_near_it_stands) {
+  auto made = three_targets();
+  // A screen of 40 x 40 surfels before the far target, at half its range.
+  const Pose& pose = made.data.pings[0].world_from_head;
+  const double range = 6;
+  for (int i = -20; i < 20; ++i)
+    for (int j = -20; j < 20; ++j)
+      add_surfel(made.data.scene, pose * Eigen::Vector3d(range, 0.02 * i + 0.01, 0.02 * j + 0.01),
+                 pose.linear() * Eigen::Vector3d(-1, 0, 0), 4e-4, 1);
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.place);
+  EXPECT_EQ(facts.sight->hidden.size(), 25U);
+  EXPECT_TRUE(facts.sight->seen.empty());
+  ASSERT_TRUE(facts.sight->occluder_range);
+  EXPECT_NEAR(*facts.sight->occluder_range, range, 0.01);
+  EXPECT_EQ(made.data.scene.material[*facts.sight->occluder_surfel], 1);
+  EXPECT_THAT(explain_pixel(facts), HasSubstr("hidden by what stands at 6.0"));
+}
+
+TEST(ExplainPixel, a_hole_of_the_scan_is_told_and_so_is_the_error_of_sampling) {
+  auto made = three_targets();
+  Ping& ping = made.data.pings[0];
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), Not(HasSubstr("Hole")));
+  ping.unknown.setZero(ping.pressure.rows(), ping.pressure.cols());
+  ping.unknown(3, 4) = 1;
+  ping.level_error_db.setConstant(ping.pressure.rows(), ping.pressure.cols(), 0.25F);
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), HasSubstr("Hole"));
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), Not(HasSubstr("Hole")));
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), HasSubstr("sampling error 0.25 dB"));
+}
+
+TEST(ExplainPixel, silence_has_no_level) {
+  auto made = three_targets();
+  made.data.pings[0].pressure(2, 2) = 0;
+  const std::string text = explain_pixel(find_pixel_facts(made.data, 0, {2, 2}));
+  EXPECT_THAT(text, HasSubstr("no sound at all"));
+  EXPECT_THAT(text, Not(HasSubstr("inf")));
+}
+
+TEST(ExplainPixel, refuses_a_sample_that_is_not_there) {
+  const auto made = three_targets();
+  EXPECT_THROW(find_pixel_facts(made.data, 1, {0, 0}), Error);
+  EXPECT_THROW(find_pixel_facts(made.data, 0, {41, 0}), Error);
+  EXPECT_THROW(find_pixel_facts(made.data, 0, {0, 120}), Error);
+}
+
+// --- from the world to a sample
+
+TEST(PlaceOf, a_target_is_heard_where_it_stands) {
+  const auto made = three_targets();
+  for (const auto* target : {&made.port, &made.starboard, &made.far})
+    EXPECT_EQ(place_of(made.data.pings[0], target->position), target->place) << target->name;
+}
+
+TEST(PlaceOf, nothing_is_heard_outside_fan_and_gate) {
+  const auto made = three_targets();
+  const Ping& ping = made.data.pings[0];
+  EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(1.9, 0, 0)));
+  EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(14.1, 0, 0)));
+  EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(-5, 0, 0)));
+  EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(1, 5, 0)));
+}
+
+// --- a scene before any ping
+
+TEST(HeadView, counts_what_a_head_sees) {
+  const auto made = three_targets();
+  const Ping& ping = made.data.pings[0];
+  HeadPlace head = head_place(ping.world_from_head);
+  const HeadView view = look_from(made.data.scene, ping.fan, ping.gate, head);
+  EXPECT_EQ(view.seen, 75U);
+  EXPECT_EQ(view.seen + view.hidden + view.turned_away + view.outside, made.data.scene.size());
+  EXPECT_NEAR(view.nearest, 6.05, 0.01);
+  EXPECT_NEAR(view.farthest, 12.05, 0.01);
+  head.yaw += pi;  // looks away
+  const HeadView away = look_from(made.data.scene, ping.fan, ping.gate, head);
+  EXPECT_EQ(away.seen, 0U);
+  ViewerState state;
+  state.head = head;
+  EXPECT_THAT(explain_view(away, state), HasSubstr("Nothing is seen"));
+}
+
+TEST(HeadView, explains_a_surfel) {
+  const auto made = three_targets();
+  const Ping& ping = made.data.pings[0];
+  const HeadPlace head = head_place(ping.world_from_head);
+  const HeadView view = look_from(made.data.scene, ping.fan, ping.gate, head);
+  const std::string text = explain_surfel(made.data.scene, view, head, 12);  // middle of the port target
+  EXPECT_THAT(text, HasSubstr("Material iron"));
+  EXPECT_THAT(text, HasSubstr("Range 6.050 m"));
+  EXPECT_THAT(text, HasSubstr("Bearing -26.00°"));
+  EXPECT_THAT(text, HasSubstr("Incidence 0."));
+  EXPECT_THAT(text, HasSubstr("It is seen"));
+  EXPECT_THROW(explain_surfel(made.data.scene, view, head, 75), Error);
+}

@@ -1,0 +1,266 @@
+// Keys and clicks as a model: state in, state out.
+#include "view/viewer_state.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "core/units.hpp"
+#include "view/picture.hpp"
+
+using namespace insonify;
+using testing::HasSubstr;
+
+namespace {
+
+constexpr ViewerExtent extent{5, 64, 200};
+
+ViewerState after(ViewerState state, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) state = apply_key(state, key, extent).state;
+  return state;
+}
+
+ViewerState inspecting() {
+  ViewerState state;
+  state.mode = ViewerMode::inspect;
+  state.head.position = {1, 2, -3};
+  return state;
+}
+
+}  // namespace
+
+TEST(ViewerKeys, step_through_the_pings_and_stop_at_both_ends) {
+  EXPECT_EQ(after({}, {"Right", "period"}).ping, 2U);
+  EXPECT_EQ(after({}, {"Right", "Right", "Left"}).ping, 1U);
+  EXPECT_EQ(after({}, {"Left", "comma"}).ping, 0U);
+  EXPECT_EQ(after({}, {"End"}).ping, 4U);
+  EXPECT_EQ(after({}, {"End", "Right"}).ping, 4U);
+  EXPECT_EQ(after({}, {"End", "Home"}).ping, 0U);
+}
+
+TEST(ViewerKeys, gain_and_window_move_by_decibels_within_limits) {
+  EXPECT_EQ(after({}, {"Up", "Up", "Down"}).gain_db, 2);
+  EXPECT_EQ(after({}, {"bracketright"}).window_db, 50);
+  EXPECT_EQ(after({}, {"bracketleft", "bracketleft"}).window_db, 35);
+  ViewerState state;
+  for (int i = 0; i < 1000; ++i) state = after(state, {"Down", "bracketleft"});
+  EXPECT_EQ(state.window_db, 5);
+  EXPECT_EQ(state.gain_db, -200);
+}
+
+TEST(ViewerKeys, colour_maps_come_round_after_all_of_them) {
+  ViewerState state;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < colour_map_names().size(); ++i) {
+    seen.insert(state.colour_map);
+    state = after(state, {"m"});
+  }
+  EXPECT_EQ(seen.size(), colour_map_names().size());
+  EXPECT_EQ(state.colour_map, ViewerState{}.colour_map);
+}
+
+TEST(ViewerKeys, a_switch_pressed_twice_is_as_before) {
+  for (const char* key : {"t", "h", "u", "g", "d", "space"}) {
+    const ViewerState once = after({}, {key}), twice = after(once, {key}), none;
+    const auto facts = [](const ViewerState& s) {
+      return std::vector<bool>{s.tvg, s.show_help, s.show_colour_bars, s.show_grid, s.measure.active, s.playing};
+    };
+    EXPECT_NE(facts(once), facts(none)) << key;
+    EXPECT_EQ(facts(twice), facts(none)) << key;
+  }
+}
+
+TEST(ViewerKeys, ask_for_what_is_not_a_state) {
+  const auto asked = [](const char* key) { return apply_key({}, key, extent).request; };
+  EXPECT_EQ(asked("q"), ViewerRequest::quit);
+  EXPECT_EQ(asked("e"), ViewerRequest::quit);
+  EXPECT_EQ(asked("j"), ViewerRequest::screenshot);
+  EXPECT_EQ(asked("r"), ViewerRequest::reset_cameras);
+  EXPECT_EQ(asked("p"), ViewerRequest::none);
+  EXPECT_EQ(apply_key(inspecting(), "p", {}).request, ViewerRequest::print_pose);
+  EXPECT_EQ(asked("Right"), ViewerRequest::none);
+}
+
+TEST(ViewerKeys, shift_and_arrows_move_the_selection_from_sample_to_sample) {
+  ViewerState state;
+  state.selected = PixelPlace{10, 20};
+  EXPECT_EQ(after(state, {"shift+Right", "shift+Up", "shift+Up"}).selected, (PixelPlace{11, 22}));
+  state.selected = PixelPlace{0, 199};
+  EXPECT_EQ(after(state, {"shift+Left", "shift+Up"}).selected, (PixelPlace{0, 199}));
+  EXPECT_TRUE(after({}, {"shift+Right"}).selected.has_value());  // begins in the middle
+}
+
+TEST(ViewerKeys, escape_lets_go_of_everything) {
+  ViewerState state = after({}, {"d", "h"});
+  state.selected = PixelPlace{1, 1};
+  state.measure.points = {{0, 1}};
+  state = after(state, {"Escape"});
+  EXPECT_FALSE(state.selected);
+  EXPECT_FALSE(state.measure.active);
+  EXPECT_TRUE(state.measure.points.empty());
+  EXPECT_FALSE(state.show_help);
+}
+
+TEST(ViewerKeys, one_ping_does_not_play) {
+  EXPECT_FALSE(apply_key({}, "space", {1, 8, 8}).state.playing);
+  EXPECT_TRUE(apply_key({}, "space", {2, 8, 8}).state.playing);
+}
+
+TEST(ViewerKeys, unknown_keys_change_nothing) {
+  const ViewerState before = after({}, {"Right", "Up"});
+  for (const char* key : {"F7", "x", "", "Shift_L", "6", "0"}) {
+    const KeyAnswer answer = apply_key(before, key, extent);
+    EXPECT_EQ(answer.state.ping, before.ping) << key;
+    EXPECT_EQ(answer.state.gain_db, before.gain_db) << key;
+    EXPECT_EQ(answer.state.scene_colour, before.scene_colour) << key;
+    EXPECT_EQ(answer.request, ViewerRequest::none) << key;
+  }
+}
+
+TEST(ViewerKeys, nothing_to_choose_from_is_no_harm) {
+  for (const char* key : {"Right", "End", "shift+Right", "space", "period"}) {
+    const ViewerState state = apply_key({}, key, {}).state;
+    EXPECT_EQ(state.ping, 0U) << key;
+    EXPECT_FALSE(state.selected) << key;
+  }
+}
+
+// Every key that help names does something, in the mode that names it.
+TEST(ViewerKeys, help_names_keys_that_work) {
+  const std::set<std::string> symbols = {
+      "Left", "Right",       "comma",        "period", "Home", "End", "space",      "less",     "greater", "Up",
+      "Down", "bracketleft", "bracketright", "t",      "m",    "d",   "shift+Left", "shift+Up", "Escape",  "1",
+      "5",    "plus",        "minus",        "g",      "u",    "r",   "j",          "h",        "q",       "e"};
+  ViewerState busy;
+  busy.ping = 2;
+  busy.selected = PixelPlace{5, 5};
+  busy.scene_colour = SceneColour::sight;
+  const auto print = [](const KeyAnswer& a) {
+    const ViewerState& s = a.state;
+    return testing::PrintToString(std::make_tuple(s.ping, s.selected ? s.selected->beam : 999,
+                                                  s.selected ? s.selected->bin : 999, s.gain_db, s.window_db, s.tvg,
+                                                  s.colour_map, s.playing)) +
+           testing::PrintToString(std::make_tuple(s.pings_per_second, s.measure.active,
+                                                  static_cast<int>(s.scene_colour), s.point_size, s.show_help,
+                                                  s.show_colour_bars, s.show_grid, static_cast<int>(a.request)));
+  };
+  for (const std::string& key : symbols) EXPECT_NE(print(apply_key(busy, key, extent)), print({busy})) << key;
+  for (const char* word : {"ping", "play", "gain", "window", "colour map", "measure", "screenshot", "quit"})
+    EXPECT_THAT(viewer_help(ViewerMode::run), HasSubstr(word));
+  for (const char* word : {"move the head", "yaw", "--pose"})
+    EXPECT_THAT(viewer_help(ViewerMode::inspect), HasSubstr(word));
+}
+
+// --- playing
+
+TEST(ViewerPlay, advances_by_time_and_comes_round) {
+  ViewerState state;
+  state.playing = true;
+  state.pings_per_second = 4;
+  double carried = 0;
+  state = play_on(state, 0.1, extent, carried);
+  EXPECT_EQ(state.ping, 0U);
+  state = play_on(state, 0.2, extent, carried);  // 1.2 pings in all
+  EXPECT_EQ(state.ping, 1U);
+  EXPECT_NEAR(carried, 0.2, 1e-12);
+  state = play_on(state, 1.0, extent, carried);  // 4 more of 5: round to the first
+  EXPECT_EQ(state.ping, 0U);
+  state.playing = false;
+  EXPECT_EQ(play_on(state, 10, extent, carried).ping, 0U);
+}
+
+TEST(ViewerPlay, shows_every_ping_for_as_long) {
+  ViewerState state;
+  state.playing = true;
+  double carried = 0;
+  std::vector<int> shown(5, 0);
+  for (int i = 0; i < 2000; ++i) {
+    state = play_on(state, 0.03125, extent, carried);  // 1/8 ping
+    ++shown[state.ping];
+  }
+  for (const int count : shown) EXPECT_EQ(count, 400);
+}
+
+// --- selecting and measuring
+
+TEST(ViewerSelect, a_click_selects_and_a_click_outside_does_not) {
+  ViewerState state = select_pixel({}, {3, 4}, {1, 2}, extent);
+  EXPECT_EQ(state.selected, (PixelPlace{3, 4}));
+  EXPECT_EQ(select_pixel(state, {64, 4}, {0, 0}, extent).selected, (PixelPlace{3, 4}));
+  EXPECT_EQ(select_pixel(state, {3, 200}, {0, 0}, extent).selected, (PixelPlace{3, 4}));
+}
+
+TEST(ViewerSelect, two_clicks_measure_a_distance_and_leave_the_selection) {
+  ViewerState state = select_pixel({}, {3, 4}, {0, 0}, extent);
+  state = after(state, {"d"});
+  state = select_pixel(state, {5, 6}, {1, 1}, extent);
+  EXPECT_EQ(state.measure.length(), 0);
+  state = select_pixel(state, {7, 8}, {4, 5}, extent);
+  EXPECT_DOUBLE_EQ(state.measure.length(), 5);  // 3-4-5
+  EXPECT_EQ(state.selected, (PixelPlace{3, 4}));
+  state = select_pixel(state, {7, 8}, {0, 0}, extent);
+  EXPECT_EQ(state.measure.points.size(), 1U);  // a new one
+}
+
+// --- the head
+
+TEST(ViewerHead, moves_along_its_own_heading) {
+  ViewerState state = inspecting();
+  state.stride = 2;
+  const auto moved = [&](const char* key) -> Eigen::Vector3d {
+    return apply_key(state, key, {}).state.head.position - state.head.position;
+  };
+  EXPECT_TRUE(moved("Up").isApprox(Eigen::Vector3d(2, 0, 0)));
+  EXPECT_TRUE(moved("Left").isApprox(Eigen::Vector3d(0, 2, 0)));  // port is y
+  EXPECT_TRUE(moved("Prior").isApprox(Eigen::Vector3d(0, 0, 2)));
+  state.head.yaw = radians(90);  // faces y
+  EXPECT_TRUE(moved("Up").isApprox(Eigen::Vector3d(0, 2, 0), 1e-12));
+  EXPECT_TRUE(moved("Right").isApprox(Eigen::Vector3d(2, 0, 0), 1e-12));
+  state.head.pitch = radians(60);  // level all the same
+  EXPECT_TRUE(moved("Down").isApprox(Eigen::Vector3d(0, -2, 0), 1e-12));
+}
+
+TEST(ViewerHead, turns_the_way_the_arrows_point) {
+  const ViewerState state = inspecting();
+  const double turn = radians(5);  // 10 degrees per metre of a stride of 0.5 m
+  EXPECT_NEAR(apply_key(state, "shift+Left", {}).state.head.yaw, turn, 1e-12);   // to port
+  EXPECT_NEAR(apply_key(state, "shift+Up", {}).state.head.pitch, -turn, 1e-12);  // nose up
+  EXPECT_NEAR(apply_key(state, "shift+Prior", {}).state.head.roll, turn, 1e-12);
+  ViewerState up = state;
+  for (int i = 0; i < 100; ++i) up = apply_key(up, "shift+Up", {}).state;
+  EXPECT_NEAR(up.head.pitch, -pi / 2, 1e-12);
+}
+
+TEST(ViewerHead, there_and_back_is_where_it_was) {
+  const ViewerState state = inspecting();
+  const std::pair<const char*, const char*> pairs[] = {{"Up", "Down"},
+                                                       {"Left", "Right"},
+                                                       {"Prior", "Next"},
+                                                       {"shift+Left", "shift+Right"},
+                                                       {"shift+Up", "shift+Down"},
+                                                       {"shift+Prior", "shift+Next"},
+                                                       {"comma", "period"}};
+  for (const auto& [there, back] : pairs) {
+    const ViewerState result = apply_key(apply_key(state, there, {}).state, back, {}).state;
+    EXPECT_TRUE(pose_of(result.head).isApprox(pose_of(state.head), 1e-12)) << there;
+    EXPECT_DOUBLE_EQ(result.stride, state.stride) << there;
+  }
+}
+
+TEST(ViewerHead, place_is_the_inverse_of_pose) {
+  for (const double yaw : {-170.0, -30.0, 0.0, 95.0})
+    for (const double pitch : {-90.0, -40.0, 0.0, 90.0})
+      for (const double roll : {-120.0, 0.0, 30.0}) {
+        const Pose pose = pose_from_yaw_pitch_roll({1, 2, 3}, radians(yaw), radians(pitch), radians(roll));
+        EXPECT_TRUE(pose_of(head_place(pose)).isApprox(pose, 1e-9)) << yaw << " " << pitch << " " << roll;
+      }
+}
+
+TEST(ViewerHead, its_option_reads_as_a_person_writes_it) {
+  HeadPlace head;
+  head.position = {-1, 4.25, -2.2};
+  head.pitch = radians(15);
+  head.yaw = -1e-9;
+  EXPECT_EQ(pose_option(head), "--pose=-1,4.25,-2.2,0,15,0");
+}

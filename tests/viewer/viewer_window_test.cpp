@@ -1,0 +1,270 @@
+// The whole window, drawn off-screen: clicks and keys reach the state, and what is drawn follows it.
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/test_pictures.hpp"
+#include "view/viewer_window_internal.hpp"
+#include "viewer/viewer_data.hpp"
+
+using namespace insonify;
+using insonify::test::three_targets;
+using testing::HasSubstr;
+
+namespace {
+
+class Window : public testing::Test {
+ protected:
+  void open(ViewerOptions options = {}) {
+    options.width = 1200;
+    options.height = 800;
+    options.say = [this](const std::string& text) { said_.push_back(text); };
+    window_.reset();  // one at a time: each has VTK's messages to itself
+    window_ = std::make_unique<ViewerWindow>(made_.data, options, ViewerScreen::off_screen);
+    window_->run(options.events);
+  }
+  ViewerEvent click_at(Point2 place, ViewerPanelName panel) const {
+    const Box& box = box_of(window_->layout(), panel);
+    ViewerEvent event;
+    event.kind = ViewerEvent::Kind::click;
+    event.panel = panel;
+    event.from = {place.x - box.left, place.y - box.bottom};
+    return event;
+  }
+  ViewerEvent drag_from(Point2 place, Point2 by, ViewerPanelName panel) const {
+    ViewerEvent event = click_at(place, panel);
+    event.kind = ViewerEvent::Kind::drag;
+    event.by = by;
+    return event;
+  }
+  Point2 middle(ViewerPanelName panel) const {
+    const Box& box = box_of(window_->layout(), panel);
+    return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
+  }
+  test::ReadPicture picture(const std::string& name) {
+    const std::string path = test::picture_path(name);
+    window_->save_png(path);
+    test::ReadPicture read = test::read_png(path);
+    std::filesystem::remove(path);
+    return read;
+  }
+  // Pixels that differ between two pictures within a box.
+  static int differences(const test::ReadPicture& a, const test::ReadPicture& b, const Box& box) {
+    int count = 0;
+    for (double x = box.left + 0.5; x < box.right; ++x)
+      for (double y = box.bottom + 0.5; y < box.top; ++y) count += test::colour_difference(a.at(x, y), b.at(x, y)) > 12;
+    return count;
+  }
+
+  test::TargetData made_ = three_targets(1, false);
+  std::unique_ptr<ViewerWindow> window_;
+  std::vector<std::string> said_;
+};
+
+}  // namespace
+
+TEST_F(Window, a_click_on_a_target_selects_its_sample_and_explains_it) {
+  open();
+  for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
+    window_->play(click_at(window_->pixel_of(target->place), ViewerPanelName::fan));
+    EXPECT_EQ(window_->state().selected, target->place) << target->name;
+    ASSERT_FALSE(said_.empty());
+    EXPECT_THAT(said_.back(), HasSubstr(target->name));
+  }
+}
+
+// Not the layout's word for it: the bright cell itself is looked for in the picture.
+TEST_F(Window, targets_are_drawn_where_clicks_find_them) {
+  ViewerOptions options;
+  options.start.colour_map = "grey";
+  open(options);
+  const Box& fan = window_->layout().fan;
+  const auto read = picture("viewer_targets.png");
+  const auto centre_of = [&](double left, double right, double bottom, double top) {
+    double x = 0, y = 0, n = 0;
+    for (double px = left + 0.5; px < right; ++px)
+      for (double py = bottom + 0.5; py < top; ++py) {
+        const Rgb c = read.at(px, py);
+        if (c[0] < 215 || c[1] < 215) continue;
+        x += px, y += py, ++n;
+      }
+    return std::pair(Point2{x / n, y / n}, n);
+  };
+  for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
+    const Point2 at = window_->pixel_of(target->place);
+    const auto [found, pixels] = centre_of(at.x - 12, at.x + 12, at.y - 12, at.y + 12);
+    EXPECT_GT(pixels, 4) << target->name;
+    EXPECT_NEAR(found.x, at.x, 1.5) << target->name;
+    EXPECT_NEAR(found.y, at.y, 1.5) << target->name;
+  }
+  // Port left, starboard right, far above near.
+  const Point2 port = window_->pixel_of(made_.port.place), starboard = window_->pixel_of(made_.starboard.place);
+  EXPECT_LT(port.x, window_->pixel_of(made_.far.place).x);
+  EXPECT_GT(starboard.x, window_->pixel_of(made_.far.place).x);
+  EXPECT_GT(window_->pixel_of(made_.far.place).y, port.y + 0.2 * fan.height());
+}
+
+TEST_F(Window, clicks_find_the_same_cell_after_the_fan_was_moved_and_zoomed) {
+  open();
+  const Point2 before = window_->pixel_of(made_.port.place);
+  window_->play(drag_from(middle(ViewerPanelName::fan), {40, -25}, ViewerPanelName::fan));
+  const Point2 after = window_->pixel_of(made_.port.place);
+  EXPECT_NEAR(after.x - before.x, 40, 1);
+  EXPECT_NEAR(after.y - before.y, -25, 1);
+  const Point2 at = middle(ViewerPanelName::fan);
+  window_->interactor()->SetEventInformation(static_cast<int>(at.x), static_cast<int>(at.y));
+  window_->interactor()->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  EXPECT_GT(std::abs(window_->pixel_of(made_.port.place).x - at.x), std::abs(after.x - at.x));
+  window_->play(click_at(window_->pixel_of(made_.port.place), ViewerPanelName::fan));
+  EXPECT_EQ(window_->state().selected, made_.port.place);
+  window_->press_key("Up");  // drawn anew, and where the user left it
+  EXPECT_NE(window_->pixel_of(made_.port.place).x, before.x);
+  window_->press_key("r");
+  EXPECT_NEAR(window_->pixel_of(made_.port.place).x, before.x, 1e-6);
+}
+
+TEST_F(Window, a_drag_is_no_click) {
+  open();
+  window_->play(drag_from(window_->pixel_of(made_.port.place), {30, 0}, ViewerPanelName::fan));
+  EXPECT_FALSE(window_->state().selected);
+  EXPECT_TRUE(said_.empty());
+}
+
+TEST_F(Window, a_click_on_a_target_in_3d_selects_where_it_is_heard) {
+  open();
+  for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
+    const auto at = window_->pixel_of_point(target->position);
+    ASSERT_TRUE(at);
+    window_->play(click_at(*at, ViewerPanelName::scene));
+    EXPECT_EQ(window_->state().selected, target->place) << target->name;
+  }
+  // Seen from behind the head, port is left and starboard right.
+  EXPECT_LT(window_->pixel_of_point(made_.port.position)->x, window_->pixel_of_point(made_.starboard.position)->x);
+}
+
+TEST_F(Window, a_click_on_the_ascan_keeps_the_beam_and_takes_the_range) {
+  ViewerOptions options;
+  options.start.selected = made_.port.place;
+  open(options);
+  window_->play(click_at(middle(ViewerPanelName::ascan), ViewerPanelName::ascan));
+  ASSERT_TRUE(window_->state().selected);
+  EXPECT_EQ(window_->state().selected->beam, made_.port.place.beam);
+  EXPECT_NEAR(static_cast<double>(window_->state().selected->bin), 60, 12);  // near the middle of the gate
+}
+
+TEST_F(Window, two_clicks_measure_the_distance_between_two_targets) {
+  open();
+  window_->press_key("d");
+  window_->play(click_at(window_->pixel_of(made_.port.place), ViewerPanelName::fan));
+  window_->play(click_at(window_->pixel_of(made_.starboard.place), ViewerPanelName::fan));
+  // Both at 6.05 m, 52 degrees apart: 2 x 6.05 sin 26 degrees.
+  EXPECT_NEAR(window_->state().measure.length(), 2 * 6.05 * std::sin(radians(26)), 0.05);
+  EXPECT_FALSE(window_->state().selected);
+}
+
+TEST_F(Window, keys_change_what_is_drawn) {
+  made_ = three_targets(3);
+  open();
+  const Box whole{0, 1200, 0, 800};
+  auto before = picture("viewer_before.png");
+  for (const char* key : {"m", "t", "bracketright", "Up", "h", "h", "Right", "2", "u", "g"}) {
+    window_->press_key(key);
+    const auto after = picture("viewer_after.png");
+    EXPECT_GT(differences(before, after, whole), 30) << key;
+    before = after;
+  }
+}
+
+TEST_F(Window, the_same_state_is_drawn_the_same_way_whatever_came_before) {
+  made_ = three_targets(3);
+  open();
+  const auto before = picture("viewer_before.png");
+  for (const char* key :
+       {"m", "m", "m", "m", "m", "t", "t", "Up", "Down", "Right", "Left", "h", "h", "u", "u", "g", "g"})
+    window_->press_key(key);
+  EXPECT_EQ(differences(before, picture("viewer_after.png"), {0, 1200, 0, 800}), 0);
+}
+
+TEST_F(Window, the_slider_sets_the_gain) {
+  open();
+  // The slider's tube lies between these ends; a press on it makes it jump there.
+  const Box& facts = window_->layout().facts;
+  const double font = window_->layout().font_size;
+  const double left = facts.left + 2 * font, right = facts.right - 2 * font;
+  const double height = facts.bottom + 0.5 * font + 0.75 * 11.5 * font;
+  window_->play(click_at({left + 0.75 * (right - left), height}, ViewerPanelName::facts));
+  EXPECT_NEAR(window_->state().gain_db, 20, 4);  // three quarters of the way from -40 to 40
+}
+
+TEST_F(Window, playing_moves_on_by_itself) {
+  made_ = three_targets(64);  // too many to come round in the time
+  ViewerOptions options;
+  options.events = parse_viewer_script("key space; wait 0.6; key space");
+  open(options);
+  EXPECT_GE(window_->state().ping, 2U);  // 4 a second
+  EXPECT_FALSE(window_->state().playing);
+}
+
+TEST_F(Window, quits_when_told_to) {
+  ViewerOptions options;
+  options.events = parse_viewer_script("key q; key Up");
+  open(options);
+  EXPECT_TRUE(window_->finished());
+  EXPECT_EQ(window_->state().gain_db, 0);
+}
+
+TEST_F(Window, inspects_a_scene_and_says_its_pose) {
+  const Ping ping = made_.data.pings[0];
+  made_.data.pings.clear();
+  made_.data.fan = ping.fan;
+  made_.data.gate = ping.gate;
+  ViewerOptions options;
+  options.start.mode = ViewerMode::inspect;
+  options.start.head = head_place(ping.world_from_head);
+  options.start.scene_colour = SceneColour::sight;
+  open(options);
+  EXPECT_THAT(window_->explanation(), HasSubstr("75 seen"));
+  window_->press_key("p");
+  ASSERT_FALSE(said_.empty());
+  EXPECT_EQ(said_.back(), "--pose=10,20,-3,30,0,0");
+  window_->press_key("Prior");
+  window_->press_key("p");
+  EXPECT_EQ(said_.back(), "--pose=10,20,-2.5,30,0,0");
+  const auto at = window_->pixel_of_point(made_.far.position);
+  window_->play(click_at(*at, ViewerPanelName::scene));
+  EXPECT_THAT(said_.back(), HasSubstr("rubber"));
+  for (int i = 0; i < 40; ++i) window_->press_key("shift+Left");
+  EXPECT_THAT(window_->explanation(), HasSubstr(" 0 seen"));
+}
+
+TEST_F(Window, a_run_without_scene_shows_its_fan_alone) {
+  made_.data.scene = {};
+  open();
+  EXPECT_EQ(window_->layout().scene.width(), 0);
+  window_->play(click_at(window_->pixel_of(made_.port.place), ViewerPanelName::fan));
+  EXPECT_EQ(window_->state().selected, made_.port.place);
+}
+
+TEST_F(Window, refuses_what_cannot_be_shown) {
+  const auto refuses = [&](const ViewerData& data, const ViewerOptions& options) {
+    try {
+      ViewerWindow window(data, options, ViewerScreen::off_screen);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  ViewerOptions options;
+  options.start.ping = 1;
+  EXPECT_THAT(refuses(made_.data, options), HasSubstr("ping = 1, must be below 1"));
+  options.start.ping = 0;
+  options.width = 300;
+  EXPECT_THAT(refuses(made_.data, options), HasSubstr("window of 300 x 1000 pixels"));
+  EXPECT_THAT(refuses({}, {}), HasSubstr("no pings"));
+  ViewerData uneven = made_.data;
+  uneven.pings[0].pressure.resize(3, 3);
+  EXPECT_THAT(refuses(uneven, {}), HasSubstr("3 x 3 samples"));
+}
