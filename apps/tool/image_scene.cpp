@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "sampling/find_holes.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/load_soundings.hpp"
 #include "tool/head_setup.hpp"
@@ -95,6 +96,17 @@ Drawing drawing_of_run(const CommonOptions& common, const ImageOptions& o, Progr
   return drawing;
 }
 
+/// What the head sees of every surfel, and where it looks into holes of the scan.
+void look_from_head(const SceneCloud& scene, int threads, SceneLook& look) {
+  const auto& [pose, fan, gate] = *look.head;
+  SamplingOptions sampling;
+  sampling.threads = threads;
+  sampling.rays_per_beam = 16;
+  const PreparedScene prepared(scene, threads);
+  look.sight = find_sight(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), sampling);
+  look.holes = places_of(find_holes(prepared, pose, fan, gate, sampling), pose);
+}
+
 Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Progress& progress) {
   Drawing drawing;
   if (o.sonar.empty() != o.pose.empty())
@@ -128,12 +140,8 @@ void image_scene(const CommonOptions& common, const ImageOptions& o, const Pictu
   Drawing drawing = run ? drawing_of_run(common, o, progress) : drawing_of_scene(common, o, progress);
   SceneLook& look = drawing.look;
   look.camera.preset = preset_of(o.camera);
-  if (look.colour == SceneColour::sight) {
-    SamplingOptions sampling;
-    sampling.threads = common.threads;
-    const std::vector<std::uint8_t> all(drawing.scene.size(), 1);
-    look.sight = find_sight(drawing.scene, look.head->world_from_head, look.head->fan, look.head->gate, all, sampling);
-  }
+  look.normals = o.normals;
+  if (look.colour == SceneColour::sight) look_from_head(drawing.scene, common.threads, look);
 
   progress.step("drawing " + o.output);
   PictureOptions picture = asked;
@@ -145,7 +153,8 @@ void image_scene(const CommonOptions& common, const ImageOptions& o, const Pictu
 void require_no_scene_options(const ImageOptions& o) {
   const std::pair<const char*, bool> given[] = {{"--scene", !o.scene.empty()},    {"--sonar", !o.sonar.empty()},
                                                 {"--pose", !o.pose.empty()},      {"--range", !o.range.empty()},
-                                                {"--camera", o.camera != "auto"}, {"--colour", !o.colour.empty()}};
+                                                {"--camera", o.camera != "auto"}, {"--colour", !o.colour.empty()},
+                                                {"--normals", o.normals}};
   for (const auto& [option, is_given] : given)
     if (is_given) fail(ErrorKind::argument, option, " goes with --view scene, not ", o.view);
 }

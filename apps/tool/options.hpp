@@ -120,6 +120,7 @@ struct ImageOptions {
   std::string sonar, pose, range;  ///< to inspect a scene
   std::string world = "z-up";
   std::string camera = "auto", colour;  ///< colour empty: what suits
+  bool normals = false;                 ///< drawn as lines
 };
 
 struct MergeOptions {

@@ -99,6 +99,7 @@ void add_image(CLI::App& app, AllOptions& all) {
       ->check(CLI::IsMember({"auto", "behind", "top", "side", "iso"}))
       ->option_text("WORD")
       ->group(group);
+  verb->add_flag("--normals", o.normals, "of view scene: draw some 4000 normals as lines");
   verb->add_option("--colour", o.colour, "height, material, sight, level, grazing or incidence; default: what suits")
       ->check(CLI::IsMember({"height", "material", "sight", "level", "grazing", "incidence"}))
       ->option_text("WORD")

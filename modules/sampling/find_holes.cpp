@@ -127,6 +127,14 @@ Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, con
   return result;
 }
 
+std::vector<Eigen::Vector3d> places_of(const Holes& holes, const Pose& world_from_head) {
+  std::vector<Eigen::Vector3d> places;
+  for (const Hole& hole : holes.holes)
+    places.push_back(world_from_head * Eigen::Vector3d(0.5 * (hole.min_range + hole.max_range) *
+                                                       unit_vector({hole.azimuth, hole.elevation})));
+  return places;
+}
+
 Grid<std::uint8_t> mask_holes(const Holes& holes, const BeamFan& fan, const RangeGate& gate) {
   require_valid(fan, "mask_holes");
   require_valid(gate, "mask_holes");

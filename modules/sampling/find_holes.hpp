@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "sampling/beam_fan.hpp"
@@ -32,6 +34,10 @@ struct Holes {
 /// options.threads. Throws Error for an invalid pose, fan, gate or option, as find_scatterers does.
 Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
                  const SamplingOptions& options = {});
+
+/// Where holes are in the world [m]: in their directions, half way between the nearest and the farthest of the surfels
+/// around them.
+std::vector<Eigen::Vector3d> places_of(const Holes& holes, const Pose& world_from_head);
 
 /// Mask, beams x bins: 1 where surface may be missing, in bins that touch the range interval of a hole in the beam's
 /// share; else 0. Shadows behind missing surface are not marked. Throws Error if a hole's beam is not of the fan.

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <vtkActor.h>
-#include <vtkBillboardTextActor3D.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 
 #include "view/fan_layout.hpp"
 #include "view/scene_actors_internal.hpp"
@@ -14,6 +14,8 @@
 #include "view/scene_points_internal.hpp"
 
 namespace insonify {
+
+constexpr Rgb hole_rgb = {222, 45, 38};
 
 /// What SceneActors holds.
 struct SceneActors::Parts {
@@ -36,22 +38,26 @@ struct SceneActors::Parts {
   std::vector<Eigen::Vector3f> sounding_places;
   PointCloudArrays sounding_arrays;
   vtkSmartPointer<vtkActor> soundings;
+  std::vector<Eigen::Vector3f> hole_places;
+  PointCloudArrays hole_arrays;
+  vtkSmartPointer<vtkActor> holes, normals;
 
   vtkSmartPointer<vtkActor> outline, arcs, beams, body, floor, grid;
   std::array<vtkSmartPointer<vtkActor>, 3> head_axes;
-  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels;
+  std::vector<vtkSmartPointer<vtkTextActor>> labels;
   bool axes_shown = true;
 
   std::vector<vtkActor*> actors() const {
-    return {still.Get(),   moving.Get(),       footprint.Get(),    marks.Get(),       soundings.Get(),
-            outline.Get(), arcs.Get(),         beams.Get(),        body.Get(),        floor.Get(),
-            grid.Get(),    head_axes[0].Get(), head_axes[1].Get(), head_axes[2].Get()};
+    return {still.Get(),   moving.Get(),       footprint.Get(),    marks.Get(),       soundings.Get(), outline.Get(),
+            arcs.Get(),    beams.Get(),        body.Get(),         floor.Get(),       grid.Get(),      holes.Get(),
+            normals.Get(), head_axes[0].Get(), head_axes[1].Get(), head_axes[2].Get()};
   }
   double thin() const { return line_width_for(font_size_for(options)); }
   Eigen::AlignedBox3d box() const;  // of the interest, and of the axes
 
   void make_surfels();
   void make_lines();
+  void make_marks();  // holes and normals
   void colour();
   void grow();
   void look_again() { interest = points_of_interest(scene, look); }

@@ -73,6 +73,7 @@ void SceneActors::Parts::make_lines() {
 void SceneActors::Parts::colour() {
   SceneColours colours = colour_surfels(scene, look, options, who);
   key = std::move(colours.key);
+  if (look.colour == SceneColour::sight && !look.holes.empty()) key.legend.push_back({"hole of the scan", hole_rgb});
   set_colours(surfels.colours, colours.colour);
 }
 
@@ -92,12 +93,15 @@ SceneActors::SceneActors(const SceneCloud& scene, SceneLook look, const PictureO
   Parts& p = *parts_;
   p.make_surfels();
   p.make_lines();
+  p.make_marks();
   p.colour();
   p.look_again();
   p.axes_shown = p.look.axes;
   if (p.look.head) show_head(p.look.head->world_from_head, p.look.head->fan, p.look.head->gate);
   highlight(std::vector<std::uint32_t>(p.look.highlighted));
   show_soundings(Soundings(p.look.soundings));
+  show_holes(std::vector<Eigen::Vector3d>(p.look.holes));
+  show_normals(p.look.normals);
 }
 
 SceneActors::~SceneActors() = default;
@@ -108,7 +112,7 @@ void SceneActors::add_to(vtkRenderer* renderer) {
 
 void SceneActors::remove_from(vtkRenderer* renderer) {
   for (vtkActor* actor : parts_->actors()) renderer->RemoveActor(actor);
-  for (const auto& label : parts_->labels) renderer->RemoveActor(label);
+  for (const auto& label : parts_->labels) renderer->RemoveActor2D(label);
   parts_->labels.clear();
 }
 

@@ -42,8 +42,10 @@ class SceneActors {
   void set_level_range(double min_db, double max_db);                     ///< of the level colours; NaN: automatic
   void set_colour_map(const std::string& name);                           ///< of the level colours
 
-  void highlight(std::span<const std::uint32_t> surfels);  ///< replaces what was highlighted
-  void show_soundings(const Soundings& soundings);         ///< replaces what was shown; empty: none
+  void highlight(std::span<const std::uint32_t> surfels);       ///< replaces what was highlighted
+  void show_soundings(const Soundings& soundings);              ///< replaces what was shown; empty: none
+  void show_holes(const std::vector<Eigen::Vector3d>& places);  ///< world [m]; replaces what was shown
+  void show_normals(bool on);
   void show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate);
   void hide_head();
 

@@ -44,20 +44,23 @@ std::vector<AxisLabel> SceneActors::turn_axes(vtkRenderer* renderer) {
 
 void SceneActors::update_axes(vtkRenderer* renderer) {
   Parts& p = *parts_;
-  for (const auto& label : p.labels) renderer->RemoveActor(label);
+  for (const auto& label : p.labels) renderer->RemoveActor2D(label);
   p.labels.clear();
-  const Colour text = theme(p.options.dark).text;
-  for (const AxisLabel& label : turn_axes(renderer)) {
-    vtkNew<vtkBillboardTextActor3D> actor;
-    const Eigen::Vector3d place =
-        label.place + (label.is_name ? 0.08 : 0.02) * p.box().diagonal().norm() * label.outward;
-    actor->SetInput(label.text.c_str());
-    actor->SetPosition(place.x(), place.y(), place.z());
-    set_font(actor->GetTextProperty(), font_size_for(p.options));
-    actor->GetTextProperty()->SetColor(text[0], text[1], text[2]);
-    actor->GetTextProperty()->SetJustificationToCentered();
-    actor->GetTextProperty()->SetVerticalJustificationToCentered();
-    renderer->AddActor(actor);
+  const auto [behind, colour, line] = theme(p.options.dark);
+  const int* size = renderer->GetSize();
+  const Box frame{0, static_cast<double>(size[0]), 0, static_cast<double>(size[1])};
+  for (const PlacedText& text : place_labels(turn_axes(renderer), view(renderer), frame, font_size_for(p.options))) {
+    vtkNew<vtkTextActor> actor;
+    actor->SetInput(text.text.c_str());
+    actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+    actor->SetPosition(std::round(text.box().left), std::round(text.box().bottom));
+    set_font(actor->GetTextProperty(), text.font_size);
+    actor->GetTextProperty()->SetColor(colour[0], colour[1], colour[2]);
+    actor->GetTextProperty()->SetBackgroundColor(behind[0], behind[1], behind[2]);
+    actor->GetTextProperty()->SetBackgroundOpacity(0.65);
+    actor->GetTextProperty()->SetJustificationToLeft();
+    actor->GetTextProperty()->SetVerticalJustificationToBottom();
+    renderer->AddActor2D(actor);
     p.labels.emplace_back(actor);
   }
 }

@@ -68,7 +68,58 @@ void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin,
   axes.labels.push_back({std::string(1, "xyz"[axis]) + " [m]", middle + tick * edge.outward, edge.outward, true});
 }
 
+// A label on its way out from its place.
+class OutwardText {
+ public:
+  OutwardText(const AxisLabel& label, const CameraView& view, const Box& frame, int font_size)
+      : text_(label.text, {}, font_size) {
+    const ShownPoint at = show_point(view, label.place, frame.width(), frame.height());
+    const ShownPoint out =
+        show_point(view, label.place + 1e-3 * at.distance * label.outward, frame.width(), frame.height());
+    text_.on_plate = true;
+    visible_ = at.distance > 0 && out.distance > 0;
+    start_ = {frame.left + at.at.x, frame.bottom + at.at.y};
+    const double dx = out.at.x - at.at.x, dy = out.at.y - at.at.y, length = std::max(std::hypot(dx, dy), 1e-9);
+    outward_ = {dx / length, dy / length};
+  }
+  bool visible() const { return visible_; }
+  const PlacedText& text() const { return text_; }
+  // Puts it so many pixels away from its place.
+  void put(double away) {
+    text_.centre = {start_.x + outward_.x * (text_.extent.width / 2 + away),
+                    start_.y + outward_.y * (text_.extent.height / 2 + away)};
+  }
+
+ private:
+  PlacedText text_;
+  bool visible_;
+  Point2 start_, outward_;
+};
+
+bool has_room(const Box& box, const Box& frame, const std::vector<PlacedText>& taken, double gap) {
+  const Box wide{box.left - gap, box.right + gap, box.bottom, box.top};
+  return frame.contains(box) &&
+         std::none_of(taken.begin(), taken.end(), [&](const PlacedText& other) { return other.box().overlaps(wide); });
+}
+
 }  // namespace
+
+std::vector<PlacedText> place_labels(const std::vector<AxisLabel>& labels, const CameraView& view, const Box& frame,
+                                     int font_size) {
+  constexpr double farthest = 6;  // font sizes that a name may move out
+  std::vector<PlacedText> placed;
+  for (const bool names : {false, true})
+    for (const AxisLabel& label : labels) {
+      if (label.is_name != names) continue;
+      OutwardText text(label, view, frame, font_size);
+      if (!text.visible()) continue;
+      double away = (names ? 1.5 : 0.3) * font_size;
+      for (text.put(away); names && away < farthest * font_size; text.put(away += 0.3 * font_size))
+        if (has_room(text.text().box(), frame, placed, 0.8 * font_size)) break;
+      if (has_room(text.text().box(), frame, placed, 0.4 * font_size)) placed.push_back(text.text());
+    }
+  return placed;
+}
 
 SceneAxes lay_out_axes(const Eigen::AlignedBox3d& box, const Vector3d& scene_origin, const CameraView& view) {
   SceneAxes axes;

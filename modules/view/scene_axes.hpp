@@ -25,4 +25,9 @@ struct SceneAxes {
 /// Labels are world coordinates [m]. No axis is labelled that the camera looks along.
 SceneAxes lay_out_axes(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& scene_origin, const CameraView& view);
 
+/// Where labels stand in the part `frame` of a picture that shows `view`: numbers beside their ticks, names beyond them and
+/// as far out as they need to touch nothing. What finds no room inside the frame is left out.
+std::vector<PlacedText> place_labels(const std::vector<AxisLabel>& labels, const CameraView& view, const Box& frame,
+                                     int font_size);
+
 }  // namespace insonify

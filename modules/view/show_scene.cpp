@@ -91,30 +91,6 @@ void draw_frame(Canvas& canvas, const SceneFrame& frame, int font) {
   if (frame.title) canvas.add_text(*frame.title);
 }
 
-// Labels of the axes beside their ticks, names beyond the numbers; those that are inside the frame and touch no other.
-void draw_labels(Canvas& canvas, const std::vector<AxisLabel>& labels, const CameraView& view, const Box& frame,
-                 int font) {
-  std::vector<Box> taken;
-  double widest = 0;  // of the axis at hand
-  for (const AxisLabel& label : labels) {
-    const ShownPoint at = show_point(view, label.place, frame.width(), frame.height());
-    const double step = 1e-3 * at.distance;
-    const ShownPoint out = show_point(view, label.place + step * label.outward, frame.width(), frame.height());
-    PlacedText text(label.text, {frame.left + at.at.x, frame.bottom + at.at.y}, font);
-    const double beyond_x = label.is_name ? widest + 0.6 * font : 0, beyond_y = label.is_name ? 1.3 * font : 0;
-    widest = label.is_name ? 0 : std::max(widest, text.extent.width);
-    if (!(at.distance > 0) || !(out.distance > 0)) continue;
-    const double dx = out.at.x - at.at.x, dy = out.at.y - at.at.y, length = std::max(std::hypot(dx, dy), 1e-9);
-    text.centre.x += dx / length * (text.extent.width / 2 + 0.3 * font + beyond_x);
-    text.centre.y += dy / length * (text.extent.height / 2 + 0.3 * font + beyond_y);
-    const Box box = text.box(), wide{box.left - 0.4 * font, box.right + 0.4 * font, box.bottom, box.top};
-    if (!frame.contains(box)) continue;
-    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return other.overlaps(wide); })) continue;
-    taken.push_back(box);
-    canvas.add_text(text);
-  }
-}
-
 }  // namespace
 
 void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
@@ -144,7 +120,7 @@ void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOpt
   const std::vector<AxisLabel> labels = actors.turn_axes(renderer);
   renderer->ResetCameraClippingRange();
 
-  draw_labels(canvas, labels, actors.view(renderer), part, font);
+  for (const PlacedText& text : place_labels(labels, actors.view(renderer), part, font)) canvas.add_text(text);
   draw_frame(canvas, frame, font);
   canvas.save_png(png_path, messages);
 }

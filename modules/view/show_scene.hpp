@@ -55,6 +55,8 @@ struct SceneLook {
   std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, footprint on the scene
   Soundings soundings;                     ///< points in the colour of their level
   std::vector<std::uint32_t> highlighted;  ///< surfels marked, in front of everything
+  std::vector<Eigen::Vector3d> holes;      ///< where the scan has holes [m, world], see find_holes: red points
+  bool normals = false;                    ///< of some 4000 surfels, as lines; of both sides if they have none
   SceneCamera camera;
   double point_size = 1.4;               ///< side of a drawn surfel in units of its spacing sqrt(area)
   bool axes = true;                      ///< box and floor grid, labelled in world metres

@@ -140,6 +140,7 @@ std::string contributor_lines(const PixelFacts& facts) {
 }
 
 std::string sight_lines(const PixelSight& sight, const std::string& seen_material) {
+  if (sight.seen.empty() && sight.hidden.empty() && sight.turned_away == 0) return {};
   std::string text = text_of("Surfels here: %zu seen", sight.seen.size());
   if (!seen_material.empty()) text += " (" + seen_material + ")";
   text += text_of(",\n  %zu hidden, %zu turned away\n", sight.hidden.size(), sight.turned_away);

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "sampling/find_holes.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "sampling/gate_surfels.hpp"
 
@@ -42,7 +43,8 @@ const char* sight_text(Sight sight) {
 HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate, const HeadPlace& place) {
   const Pose pose = pose_of(place);
   HeadView view;
-  view.sight = find_sight(scene, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), {});
+  const PreparedScene prepared(scene);
+  view.sight = find_sight(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), {});
   const HeadFrame head(scene, pose);
   for (std::size_t i = 0; i < scene.size(); ++i) {
     view.seen += view.sight[i] == Sight::seen;
@@ -57,10 +59,10 @@ HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate&
   SamplingOptions rays;
   rays.kind = SamplingKind::rays;
   rays.rays_per_beam = rays_per_beam;
-  const SamplingReport report = find_scatterers(scene, pose, fan, gate, rays).report;
+  const SamplingReport report = find_scatterers(prepared, pose, fan, gate, rays).report;
   view.rays = fan.beams() * static_cast<std::size_t>(rays_per_beam);
-  view.rays_missed = report.rays_missed;
-  view.rays_holes = report.rays_unknown;
+  view.rays_open = report.rays_missed - report.rays_unknown;
+  view.holes = places_of(find_holes(prepared, pose, fan, gate, rays), pose);
   return view;
 }
 
@@ -76,8 +78,8 @@ std::string explain_view(const HeadView& view, const ViewerState& state) {
   if (view.seen == 0) text += "Nothing is seen: a ping from here is silent\n";
   if (view.rays > 0)
     text += text_of("Rays: %.1f %% meet nothing,\n%.1f %% a hole of the scan\n",
-                    100.0 * static_cast<double>(view.rays_missed - view.rays_holes) / static_cast<double>(view.rays),
-                    100.0 * static_cast<double>(view.rays_holes) / static_cast<double>(view.rays));
+                    100.0 * static_cast<double>(view.rays_open) / static_cast<double>(view.rays),
+                    100.0 * static_cast<double>(view.holes.size()) / static_cast<double>(view.rays));
   return text;
 }
 

@@ -12,8 +12,9 @@ namespace insonify {
 struct HeadView {
   std::vector<Sight> sight;  ///< per surfel
   std::size_t seen = 0, hidden = 0, turned_away = 0, outside = 0;
-  double nearest = 0, farthest = 0;                       ///< range of the surfels that are seen [m]; 0, 0: none
-  std::size_t rays = 0, rays_missed = 0, rays_holes = 0;  ///< 16 per beam; rays_holes: missed for a hole of the scan
+  double nearest = 0, farthest = 0;     ///< range of the surfels that are seen [m]; 0, 0: none
+  std::size_t rays = 0, rays_open = 0;  ///< 16 per beam; rays_open: meet nothing, and no hole of the scan
+  std::vector<Eigen::Vector3d> holes;   ///< of the scan, where rays look into one: world [m]
 };
 HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate, const HeadPlace& head);
 

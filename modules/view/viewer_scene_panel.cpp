@@ -118,6 +118,7 @@ void ViewerScene::update(const ViewerState& state, const HeadView* view, double 
   }
   if (view && !own_ && !has_sight_) {
     actors_->set_sight(view->sight);
+    actors_->show_holes(view->holes);
     has_sight_ = true;
   }
   const SceneColour colour =
@@ -125,6 +126,7 @@ void ViewerScene::update(const ViewerState& state, const HeadView* view, double 
   if (colour != actors_->look().colour) actors_->set_colour(colour);
   if (state.point_size != drawn_.point_size) actors_->set_point_size(state.point_size);
   if (state.show_grid != drawn_.show_grid) actors_->show_axes(state.show_grid);
+  if (state.show_normals != drawn_.show_normals && !own_) actors_->show_normals(state.show_normals);
   if (state.colour_map != drawn_.colour_map) actors_->set_colour_map(state.colour_map);
   if (state.mode == ViewerMode::run) actors_->set_level_range(max_db - state.window_db, max_db);
   drawn_ = state;

@@ -75,6 +75,8 @@ bool apply_common_key(KeyAnswer& answer, const std::string& key) {
     s.show_colour_bars = !s.show_colour_bars;
   else if (key == "g")
     s.show_grid = !s.show_grid;
+  else if (key == "n")
+    s.show_normals = !s.show_normals;
   else if (key == "plus" || key == "KP_Add" || key == "equal")
     s.point_size = std::min(largest_point, s.point_size * point_step);
   else if (key == "minus" || key == "KP_Subtract")
@@ -190,6 +192,7 @@ std::vector<ViewerKey> viewer_keys(ViewerMode mode) {
                            {"1 2 3 4 5", "colour by height, material, sight, grazing angle, incidence"},
                            {"+ -", "point size"},
                            {"g", "axes of the 3-D panel on, off"},
+                           {"n", "normals of the scene on, off"},
                            {"u", "colour bars on, off"},
                            {"r", "reset the cameras"},
                            {"j", "screenshot"},

@@ -63,6 +63,7 @@ struct ViewerState {
   SceneColour scene_colour = SceneColour::height;
   double point_size = 1;                                              ///< of a surfel, in units of its spacing
   bool show_help = false, show_colour_bars = true, show_grid = true;  ///< the grid: axes of the scene
+  bool show_normals = false;                                          ///< of the scene
 
   HeadPlace head;       ///< to inspect
   double stride = 0.5;  ///< [m] a key moves the head, and 10 degrees per metre that it turns it

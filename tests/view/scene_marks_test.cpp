@@ -1,0 +1,68 @@
+// Holes of the scan and normals in the picture of a scene.
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "view/scene_samples.hpp"
+#include "view/show_scene.hpp"
+#include "view/test_pictures.hpp"
+
+using namespace insonify;
+using namespace insonify::test;
+
+namespace {
+
+class SceneMarks : public testing::Test {
+ protected:
+  SceneMarks() {
+    unsetenv("DISPLAY");
+    scene.origin = {5e5, 4e6, 0};
+    add_floor(scene, scene.origin + Eigen::Vector3d(-3, -3, 0), 60, 0.1);
+    look.colour = SceneColour::sight;
+    look.sight.assign(scene.size(), Sight::outside);
+    look.camera.preset = ScenePreset::top;
+    look.axes = false;
+    options.width = 500;
+    options.height = 400;
+  }
+  ~SceneMarks() override { std::filesystem::remove(path); }
+  ReadPicture show() {
+    show_scene(scene, look, options, path);
+    return read_png(path);
+  }
+  Blob above_legend(const ReadPicture& picture, const Rgb& colour) const {
+    return find_colour(picture, colour, 0, picture.width, 60, picture.height);
+  }
+
+  SceneCloud scene;
+  SceneLook look;
+  PictureOptions options;
+  std::string path = picture_path("marks.png");
+  const Rgb red = {222, 45, 38};
+};
+
+TEST_F(SceneMarks, holes_are_red_where_they_are_and_named_below) {
+  EXPECT_EQ(find_colour(show(), red, 0, 500, 0, 400).pixels, 0);
+  look.holes = {scene.origin + Eigen::Vector3d(2, 0, 0.01)};  // to the right, seen from above
+  const ReadPicture picture = show();
+  const Blob hole = above_legend(picture, red);
+  EXPECT_GT(hole.pixels, 4);
+  EXPECT_GT(hole.x, 280);
+  EXPECT_NEAR(hole.y, find_colour(picture, red, 0, 500, 60, 400).y, 1);
+  EXPECT_GT(find_colour(picture, red, 0, 500, 0, 60).pixels, 20);  // its patch in the legend
+}
+
+TEST_F(SceneMarks, normals_are_lines_only_if_asked_for) {
+  look.camera.preset = ScenePreset::side;
+  const ReadPicture without = show();
+  look.normals = true;
+  const ReadPicture with = show();
+  int changed = 0;
+  for (std::size_t i = 0; i < with.bytes.size(); ++i) changed += with.bytes[i] != without.bytes[i];
+  EXPECT_GT(changed, 500);
+  scene.normals_oriented = false;  // then they point both ways
+  EXPECT_NE(show().bytes, with.bytes);
+}
+
+}  // namespace
