@@ -7,47 +7,16 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "core/random.hpp"
 #include "core/units.hpp"
-#include "sampling/cast_rays.hpp"
-#include "sampling/direction_raster.hpp"
+#include "sampling/beam_rays.hpp"
+#include "sampling/direction_candidates.hpp"
 #include "sampling/hit_rule.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr double golden = 0.61803398874989485;
 constexpr float reach = 3;          // footprints that surfels around a hole may be away
 constexpr float other_surface = 8;  // spacings in range between two surfaces
-
-struct Look {
-  std::uint32_t beam;
-  Direction direction;
-  Eigen::Vector3f along;
-};
-
-// One direction per equal interval of elevation, jittered in it, spread in azimuth by the golden ratio.
-std::vector<Look> looks_of(const std::vector<BeamShare>& shares, const SamplingOptions& options) {
-  const auto n = static_cast<std::size_t>(options.rays_per_beam);
-  std::vector<Look> looks(shares.size() * n);
-  parallel_for(shares.size(), options.threads, [&](std::size_t beam) {
-    const BeamShare& share = shares[beam];
-    const double shift = random_uniform(options.seed, RandomStage::ray_jitter, {beam, ~0ull, 0})[0];
-    for (std::size_t k = 0; k < n; ++k) {
-      const double jitter = random_uniform(options.seed, RandomStage::ray_jitter, {beam, k, 0})[0];
-      const double across = shift + static_cast<double>(k) * golden,
-                   up = (static_cast<double>(k) + jitter) / static_cast<double>(n);
-      Look& look = looks[beam * n + k];
-      look.beam = static_cast<std::uint32_t>(beam);
-      look.direction.azimuth = std::remainder(
-          share.min_azimuth + (share.max_azimuth - share.min_azimuth) * (across - std::floor(across)), 2 * pi);
-      look.direction.elevation = share.min_elevation + (share.max_elevation - share.min_elevation) * up;
-      look.along = unit_vector(look.direction).cast<float>();
-    }
-  });
-  return looks;
-}
 
 // Surfels as they are, and with the footprints that reach across a hole.
 struct TwoSizes {
@@ -59,38 +28,32 @@ struct TwoSizes {
 };
 
 // The hole that a ray looks into, if any; `candidates` may hold more than the surfels around it.
-std::optional<Hole> hole_at(const TwoSizes& surfels, const Look& look, std::vector<std::uint32_t> candidates) {
+std::optional<Hole> hole_at(const TwoSizes& surfels, std::uint32_t beam, const Ray& ray,
+                            std::vector<std::uint32_t>& candidates) {
   std::vector<std::uint32_t> around = candidates;
   RayHit hit;
-  const RayFate fate = hit_surface(surfels.own, look.along, true, candidates, hit);
+  const RayFate fate = hit_surface(surfels.own, ray.along, true, candidates, hit);
   if (fate == RayFate::blocked) return {};
   // Only what stands clearly before the surface that is met can be the rim of a hole.
   const float limit = fate == RayFate::missed ? std::numeric_limits<float>::infinity()
                                               : hit.range - other_surface * surfels.own[hit.surfel].spacing;
-  keep_footprints_of(look.along, surfels.wide, around);
+  keep_footprints_of(ray.along, surfels.wide, around);
   std::erase_if(around, [&](std::uint32_t s) { return !(surfels.own[s].range < limit); });
-  if (!is_surrounded(look.along, surfels.own, around)) return {};
+  if (!is_surrounded(ray.along, surfels.own, around)) return {};
   const auto nearer = [&](std::uint32_t a, std::uint32_t b) { return surfels.own[a].range < surfels.own[b].range; };
   const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end(), nearer);
-  return Hole{look.beam, look.direction.azimuth, look.direction.elevation, surfels.own[*nearest].range,
+  return Hole{beam, ray.direction.azimuth, ray.direction.elevation, surfels.own[*nearest].range,
               surfels.own[*farthest].range};
 }
 
-std::vector<std::optional<Hole>> look_along(const std::vector<Look>& looks, const TwoSizes& surfels, int threads) {
+std::vector<std::optional<Hole>> look_along(const std::vector<Ray>& rays, const TwoSizes& surfels,
+                                            const SamplingOptions& options) {
   std::vector<CubePoint> queries;
-  for (const Look& look : looks) queries.push_back(on_cube(look.along));
-  std::vector<std::optional<Hole>> found(looks.size());
-  const DirectionRaster raster(surfels.wide, queries, Footprint::cone, threads);
-  parallel_for(raster.tiles(), threads, [&](std::size_t t) {
-    const DirectionTile tile = raster.tile(t);
-    if (tile.queries.empty()) return;
-    CellLists<std::uint32_t> cells;
-    for (std::uint32_t k = 0; k < tile.queries.size(); ++k) cells.add(k, tile.cell_of(queries[tile.queries[k]]));
-    std::vector<std::vector<std::uint32_t>> candidates(tile.queries.size(), raster.wide());
-    for (const TileBox& box : tile.boxes)
-      cells.for_each(box, [&](std::uint32_t k) { candidates[k].push_back(box.surfel); });
-    for (std::size_t k = 0; k < tile.queries.size(); ++k)
-      found[tile.queries[k]] = hole_at(surfels, looks[tile.queries[k]], std::move(candidates[k]));
+  for (const Ray& ray : rays) queries.push_back(on_cube(ray.along));
+  std::vector<std::optional<Hole>> found(rays.size());
+  for_candidates(surfels.wide, queries, options.threads, [&](std::uint32_t q, std::vector<std::uint32_t>& candidates) {
+    const std::uint32_t beam = q / static_cast<std::uint32_t>(options.rays_per_beam);
+    found[q] = hole_at(surfels, beam, rays[q], candidates);
   });
   return found;
 }
@@ -118,11 +81,11 @@ Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, con
   const Sector sector = insonified_sector(fan, half_extent, options.azimuth_margin);
   const HeadFrame head(prepared.scene(), world_from_head);
   const TwoSizes surfels(gate_surfels(prepared, head, sector, gate, options.footprint, options.threads));
-  const std::vector<Look> looks = looks_of(beam_shares(fan, sector), options);
+  const std::vector<Ray> rays = beam_rays(beam_shares(fan, sector), options);
   Holes result;
-  result.directions = looks.size();
+  result.directions = rays.size();
   if (surfels.own.empty()) return result;
-  for (const std::optional<Hole>& hole : look_along(looks, surfels, options.threads))
+  for (const std::optional<Hole>& hole : look_along(rays, surfels, options))
     if (hole) result.holes.push_back(*hole);
   return result;
 }
