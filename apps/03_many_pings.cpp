@@ -1,0 +1,46 @@
+// Many pings of one scene: prepared once, pinged along a track, kept in one cube.
+#include <iostream>
+
+#include "core/units.hpp"
+#include "returns/insonification.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "simulate/simulate_ping.hpp"
+#include "store/cube.hpp"
+#include "store/sonar_file.hpp"
+
+int main(int argc, char** argv) {
+  using namespace insonify;
+
+  // The scene, checked and sorted into blocks once: a ping then looks only at what its fan reaches.
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 100000});
+  const PreparedScene prepared(scene);
+
+  const Environment environment{Water{.temperature_c = 8}};
+  SonarSpec spec = find_sonar("p900-45").spec;
+  spec.max_range = 15;
+  spec.beams = 64;
+  const SonarHead head = make_head(spec, sound_speed(environment.water));
+
+  // Eight pings along the quay, half a second apart; what was heard of each surfel adds up in a map.
+  Cube cube;
+  cube.sonar = head.name;
+  Insonification heard;
+  for (int k = 0; k < 8; ++k) {
+    SimulationOptions options;
+    options.ping = k;
+    options.time = 0.5 * k;
+    const Pose pose = pose_from_yaw_pitch_roll({1.5 * k, 2, -3}, radians(20), radians(15), 0);
+    const SimulatedPing result = simulate_ping(prepared, head, pose, environment, options);
+    add_ping(heard, scene, result.scatterers, head, result.medium);
+    std::cout << "ping " << k << ": " << result.soundings.size() << " soundings\n";
+    cube.pings.push_back(result.ping);
+    cube.sound_speed = result.medium.sound_speed;
+    cube.absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db;
+  }
+  std::size_t surfels = 0;
+  for (const auto hits : heard.hits) surfels += hits > 0;
+  std::cout << surfels << " of " << scene.size() << " surfels were heard\n";
+
+  // With a name, the cube is written: insonify image CUBE --view waterfall -o waterfall.png
+  if (argc > 1) write_cube(argv[1], cube);
+}
