@@ -201,7 +201,7 @@ void TileWriter::State::write_group(std::vector<TileRecord>& group, BinaryFile& 
 
 void TileWriter::State::write_tail(BinaryFile& file) {
   std::vector<char> tail(tiles.size() * sizeof(TileEntry));
-  std::memcpy(tail.data(), tiles.data(), tail.size());
+  if (!tiles.empty()) std::memcpy(tail.data(), tiles.data(), tail.size());
   const std::string materials = pack_materials(options.materials);
   tail.insert(tail.end(), materials.begin(), materials.end());
   file.write(end, tail);

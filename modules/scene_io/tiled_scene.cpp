@@ -84,7 +84,7 @@ void sort_by_id(SceneCloud& scene) {
 
 template <typename T>
 void copy_to(std::vector<T>& to, std::size_t first, const char* from, std::size_t count) {
-  std::memcpy(static_cast<void*>(to.data() + first), from, count * sizeof(T));
+  if (count > 0) std::memcpy(static_cast<void*>(to.data() + first), from, count * sizeof(T));
 }
 
 /// The surfels of one tile from `first` on; points relative to the origin of `scene`, which is `shift` from the file's.
@@ -132,7 +132,7 @@ struct TiledScene::State {
     if (checksum(tail) != header.tail_checksum) damaged("its checksum is wrong");
     tiles.resize(header.tiles);
     const std::size_t entry_bytes = tiles.size() * sizeof(TileEntry);
-    std::memcpy(static_cast<void*>(tiles.data()), tail.data(), entry_bytes);
+    if (entry_bytes > 0) std::memcpy(static_cast<void*>(tiles.data()), tail.data(), entry_bytes);
     info.materials = unpack_materials(std::span(tail).subspan(entry_bytes), header.materials, path);
     std::uint64_t surfels = 0;
     for (const TileEntry& tile : tiles) {
