@@ -41,7 +41,7 @@ cat >"$page" <<'PAGE'
 Every view, with the command that made it, on the built-in harbour. `docs/make_gallery.sh` makes this page and its pictures.
 PAGE
 
-chapter "One ping" "A quay with pilings to port, a wreck and a pipe ahead, seen by a 256-beam head of 900 kHz, three metres down and nose down by ten degrees."
+chapter "One ping" "The harbour has a quay to port, pilings to starboard, a wreck and a pipe ahead. A 256-beam head of 900 kHz, three metres down and nose down by ten degrees, looks at the sea bed before the wreck."
 steps "insonify make-scene harbour -o harbour.ply --points 200000" \
   "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --keep contributors,mask -o ping"
 picture fan "The fan in its true geometry, starboard on the right; the three loudest maxima named." \
@@ -55,7 +55,7 @@ picture viewer "The viewer (insonify view ping): a click on a pixel names the su
   "insonify view ping --beam 140 --size 1400x900 --screenshot viewer.png"
 
 chapter "Before the ping" "What a head would see of a scene, before anything is simulated."
-picture inspect "Seen, in shadow, turned away, outside of the fan, and holes of the scan. The outline is where the head hears half as much." \
+picture inspect "Seen, in shadow, turned away, outside of the fan, and holes of the scan. The outline is the fan's elevation width; beyond it the head still hears a little." \
   "insonify image harbour.ply --view scene --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --size 1000x750 -o inspect.png"
 picture normals "Materials and normals of the scene." "insonify image harbour.ply --view scene --colour material --normals --camera iso --size 1000x750 -o normals.png"
 
@@ -67,7 +67,7 @@ chapter "With the sea around it" "Echoes by way of surface and bottom, alone."
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --range 2:20 --multipath --layers --set surface.height_m=0 -o sea"
 picture multipath "The multipath layer." "insonify image sea --layer multipath --raw --size 900x700 -o multipath.png"
 
-chapter "Many pings" "A head that moves along the quay, ping by ping, and the pings in one run."
+chapter "Many pings" "A head that moves towards the quay, ping by ping, and the pings in one run."
 steps "printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,-4,-3,0,10,0\n24,12,4,-3,20,10,0\n' > track.csv" \
   "for t in \$(seq 0 1 23); do insonify ping harbour.ply --sonar p900-45 --set sonar.beams=64 --trajectory track.csv --time \$t --range 2:20 --no-picture -o track-\$(printf %02d \$t); done" \
   "insonify merge track-* -o track"

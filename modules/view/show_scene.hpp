@@ -52,7 +52,8 @@ struct SceneLook {
   std::vector<float> level_db;             ///< per surfel; NaN: none, drawn grey
   std::string level_unit = "dB re 1 µPa";  ///< of level_db and of the soundings
   std::vector<Sight> sight;                ///< per surfel, see find_sight
-  std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, footprint on the scene
+  std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, footprint on the
+                                           ///< scene: of the elevation width, narrower than what find_sight looks at
   Soundings soundings;                     ///< points in the colour of their level
   std::vector<std::uint32_t> highlighted;  ///< surfels marked, in front of everything
   std::vector<Eigen::Vector3d> holes;      ///< where the scan has holes [m, world], see find_holes: red points
