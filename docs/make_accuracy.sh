@@ -33,17 +33,17 @@ rows() {
 sweep=$work/run/sweep.csv
 field() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$work/run/manifest.json" | head -1; }
 
-# ratios SCATTERERS: stamped at 1e-6 against direct and windowed-direct, from the series over scatterers.
+# ratios SCATTERERS: gridded at 1e-6 against direct and windowed-direct, from the series over scatterers.
 ratios() {
   awk -F, -v n="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
     $(at["sweep"]) == "scatterers" && $(at["scatterers"]) == n {
       m = $(at["method"]); t = $(at["tolerance"]) + 0
       if (m == "direct" || t == 1e-6) { med[m] = $(at["seconds"]); low[m] = $(at["seconds_min"]); high[m] = $(at["seconds_max"])
         error[m] = $(at["error"]); part[m] = $(at["timed_scatterers"]) } }
-    END { if (!("stamped" in med)) exit
-      for (m in med) if (m != "stamped")
+    END { if (!("gridded" in med)) exit
+      for (m in med) if (m != "gridded")
         printf "| %d | %s (timed on %d) | %.3g s | %.1f ms, error %s | **%s x** | %s to %s |\n", n, m, part[m], med[m], \
-          1000 * med["stamped"], error["stamped"], r(med[m] / med["stamped"]), r(low[m] / high["stamped"]), r(high[m] / low["stamped"]) }
+          1000 * med["gridded"], error["gridded"], r(med[m] / med["gridded"]), r(low[m] / high["gridded"]), r(high[m] / low["gridded"]) }
     function r(x) { return x >= 100 ? sprintf("%.0f", x) : x >= 1 ? sprintf("%.3g", x) : sprintf("%.2f", x) }' "$sweep"
 }
 
@@ -72,7 +72,7 @@ $(field insonify_version), $(field threads) threads, seed $(field seed). Times h
 
 | method | what it is |
 |---|---|
-| stamped | the product's default: pulses stamped with a spreading kernel (E60), one FFT per bin; few echoes are summed directly instead, pulses cut and the pattern exact |
+| gridded | the product's default: pulses gridded with a spreading kernel (E60), one FFT per bin; few echoes are summed directly instead, pulses cut and the pattern exact |
 | direct | the plain sum over echoes, beams, elements and all bins: the referee, not made to be fast |
 | windowed-direct | the direct sum as a careful programmer would write it: pulses cut at the tolerance, the pattern from a table. The competitor that counts |
 | spectrum | sums of spectra, one FFT per beam (on 4 beams, scaled up) |
@@ -89,10 +89,10 @@ cat <<TEXT
 
 ## How much faster
 
-Stamped at a tolerance of 1e-6 against the direct sums; 512 beams, 2000 bins. Last column: slowest against fastest run and the other way round. Against
+Gridded at a tolerance of 1e-6 against the direct sums; 512 beams, 2000 bins. Last column: slowest against fastest run and the other way round. Against
 direct, 150 times is demanded at 50 000 echoes, and 400 times at 500 000 (\`--full\`).
 
-| echoes | against | its time | stamped | ratio | spread |
+| echoes | against | its time | gridded | ratio | spread |
 |---|---|---|---|---|---|
 TEXT
 for n in 1 10 100 1000 10000 50000 500000; do ratios "$n"; done
@@ -127,7 +127,7 @@ to 150 dB.
 |---|---|---|---|---|---|
 TEXT
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
-  $(at["method"]) == "stamped" { t = $(at["tolerance"]); ++n[t]; e = $(at["error"]); l = $(at["local_error"]); if (e > w[t]) w[t] = e; if (l > v[t]) v[t] = l }
+  $(at["method"]) == "gridded" { t = $(at["tolerance"]); ++n[t]; e = $(at["error"]); l = $(at["local_error"]); if (e > w[t]) w[t] = e; if (l > v[t]) v[t] = l }
   END { for (t in n) printf "%s| %s | %d | %s | %.2f | %s | %.2f |\n", t, t, n[t], w[t], w[t] / t, v[t], v[t] / t }' "$sweep" | sort -gr | sed 's/^[^|]*//'
 cat <<TEXT
 

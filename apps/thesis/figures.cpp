@@ -11,9 +11,9 @@
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
 #include "thesis/scene.hpp"
-#include "view/line_chart.hpp"
+#include "view/line_chart_internal.hpp"
 #include "view/show_rect.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify::thesis {
 namespace {
@@ -57,7 +57,7 @@ struct Simulated {
       : which{count},
         object(make_object(which)),
         head(make_sonar(count)),
-        echoes(hear_object(object)),
+        echoes(echoes_of_object(object)),
         beams(synthesize_direct(echoes, head, medium())) {}
 };
 
@@ -220,7 +220,7 @@ void draw_grating_lobes(Figures& figures) {
   one.range = {2.25}, one.azimuth = {target}, one.elevation = {0};
   const std::vector<double> sigma{1};
   const std::vector<std::complex<double>> xi{1};
-  const Echoes echo = hear_targets(one, sigma, xi, head.pulse, medium());
+  const Echoes echo = target_echoes(one, sigma, xi, head.pulse, medium());
   const auto slice = [&](const LineArray& array) {
     head.array = array;
     return slice_db(synthesize_direct(echo, head, medium()), head.gate, 2.25);
@@ -259,7 +259,7 @@ void draw_figures(const FigureOptions& options) {
       {"figure16", "figure17", "51"}, {"figure18", "figure19", "101"}, {"figure20", "figure21", "256"}};
   for (const auto& [image, slice, beams] : names) {
     const Simulated s(std::stoul(beams));
-    const ComplexGrid columns = hear_columns(s.echoes, s.which, s.head);
+    const ComplexGrid columns = column_series(s.echoes, s.which, s.head);
     const std::string title = std::string(beams) + " beams";
     if (s.which.beams == 51) draw_object(figures, s, "figure13"), draw_series(figures, s, columns);
     figures.image(std::string(image) + "_columns", title + ": columns alone", s.head, columns);

@@ -65,19 +65,19 @@ double thesis_seconds(std::size_t beams) { return beams == 51 ? 0.31 : beams == 
 
 void print_run_times(const std::vector<std::size_t>& beam_counts, int runs) {
   fmt::print(
-      "\n| beams x rays | thesis, MATLAB | spectrum | direct | plain loop | stamped | its error | thesis / stamped |\n"
+      "\n| beams x rays | thesis, MATLAB | spectrum | direct | plain loop | gridded | its error | thesis / gridded |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (const std::size_t beams : beam_counts) {
     const Case which{beams};
-    const Echoes echoes = hear_object(make_object(which));
+    const Echoes echoes = echoes_of_object(make_object(which));
     const SonarHead head = make_sonar(beams, 18, default_bin_size(table_2_pulse(), speed_of_sound));
     const Timing spectrum = time_runs(runs, [&] { return synthesize_spectrum(echoes, head, medium()); });
     const Timing direct = time_runs(runs, [&] { return synthesize_direct(echoes, head, medium()); });
     const Timing plain = time_runs(runs, [&] { return plain_loop(echoes, which, head); });
-    const Timing stamped = time_runs(runs, [&] { return synthesize_stamped(echoes, head, medium()); });
+    const Timing gridded = time_runs(runs, [&] { return synthesize_gridded(echoes, head, medium()); });
     fmt::print("| {} x {} | {:.0f} ms | {} | {} | {} | {} | {:.1g} | {:.0f} |\n", beams, which.rays,
-               1e3 * thesis_seconds(beams), spectrum.median, direct.median, plain.median, stamped.median,
-               compare_images(stamped.pressure, direct.pressure).relative_l2, thesis_seconds(beams) / stamped.seconds);
+               1e3 * thesis_seconds(beams), spectrum.median, direct.median, plain.median, gridded.median,
+               compare_images(gridded.pressure, direct.pressure).relative_l2, thesis_seconds(beams) / gridded.seconds);
   }
 }
 

@@ -39,11 +39,11 @@ Scatterers make_object(const Case& which) {
 
 double slice_range() { return make_object({}).range[25 * 21 + 10]; }
 
-Echoes hear_object(const Scatterers& object, std::uint64_t seed) {
+Echoes echoes_of_object(const Scatterers& object, std::uint64_t seed) {
   const std::vector<Material> materials{{"object", lambert_mu}};
-  HearingOptions options;
+  EchoOptions options;
   options.seed = seed;
-  return hear_scatterers(object, materials, table_2_pulse(), medium(), options);
+  return direct_echoes(object, materials, table_2_pulse(), medium(), options);
 }
 
 LineArray aperture(std::size_t elements) {
@@ -67,7 +67,7 @@ SonarHead make_sonar(std::size_t beams, std::size_t elements, double bin_size) {
   return head;
 }
 
-ComplexGrid hear_columns(const Echoes& echoes, const Case& which, const SonarHead& head) {
+ComplexGrid column_series(const Echoes& echoes, const Case& which, const SonarHead& head) {
   ComplexGrid series(which.beams, head.gate.bins());
   SonarHead alone = head;
   alone.array = {head.array.spacing, {1}};  // one element hears all directions alike

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
 #include "sampling/scatterers.hpp"
@@ -41,7 +41,7 @@ Scatterers make_object(const Case& which);
 double slice_range();
 
 /// Echoes of the object (E7) with complex-normal amplitudes from `seed`.
-Echoes hear_object(const Scatterers& object, std::uint64_t seed = 1);
+Echoes echoes_of_object(const Scatterers& object, std::uint64_t seed = 1);
 
 /// Echoes whose index passes `keep`.
 template <typename Keep>
@@ -64,7 +64,7 @@ LineArray aperture(std::size_t elements);
 SonarHead make_sonar(std::size_t beams, std::size_t elements = 144, double bin_size = 1e-3);
 
 /// Every column heard alone, before beams are formed: columns x bins [Pa]. In the thesis' way: spectrum, then FFT.
-ComplexGrid hear_columns(const Echoes& echoes, const Case& which, const SonarHead& head);
+ComplexGrid column_series(const Echoes& echoes, const Case& which, const SonarHead& head);
 
 /// The highest sample of a series near `range` [m], and the top of the parabola through it and the levels beside it.
 struct Peak {

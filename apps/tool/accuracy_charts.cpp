@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "tool/accuracy_files.hpp"
-#include "view/line_chart.hpp"
+#include "view/line_chart_internal.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -112,7 +112,7 @@ std::string setting_text(const AccuracyRow& r) {
   return r.tolerance > 0 ? tolerance_text(r.tolerance) : "";
 }
 
-std::string line_name(const AccuracyRow& r) { return r.method == "stamped" ? "stamped, " + r.precision : r.method; }
+std::string line_name(const AccuracyRow& r) { return r.method == "gridded" ? "gridded, " + r.precision : r.method; }
 
 bool draw_work_precision(const Rows& all, const std::string& path) {
   const Rows rows = of_sweep(all, "work-precision");
@@ -134,13 +134,13 @@ bool draw_crossover(const Rows& all, const std::string& path) {
   return plot.draw(path);
 }
 
-/// Every stamped error of the sweep over its tolerance.
+/// Every gridded error of the sweep over its tolerance.
 bool draw_promise(const Rows& rows, const std::string& path) {
   Plot plot(log_log("What is promised and what is kept: all sizes, bands and dynamic ranges", "Tolerance asked for",
                     "Relative L2 error"));
   std::map<double, double> worst, least, local;
   for (const AccuracyRow& r : rows) {
-    if (r.method != "stamped" || r.error == 0) continue;
+    if (r.method != "gridded" || r.error == 0) continue;
     worst[r.tolerance] = std::max(worst[r.tolerance], r.error);
     local[r.tolerance] = std::max(local[r.tolerance], r.local_error);
     const auto place = least.try_emplace(r.tolerance, r.error).first;
@@ -164,7 +164,7 @@ bool draw_local_error(const Rows& all, const std::string& path) {
   for (const AccuracyRow& r : of_sweep(all, "dynamic-range"))
     if (r.method == "spectrum" || r.method == "direct" || r.tolerance == 1e-2 || r.tolerance == 1e-4 ||
         r.tolerance == 1e-8 || r.tolerance == 1e-12)
-      plot.add(r.tolerance > 0 ? "stamped, " + tolerance_text(r.tolerance) : r.method, r.dynamic_range_db,
+      plot.add(r.tolerance > 0 ? "gridded, " + tolerance_text(r.tolerance) : r.method, r.dynamic_range_db,
                at_least(r.local_error, smallest_error));
   return plot.draw(path);
 }

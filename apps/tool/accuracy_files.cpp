@@ -36,13 +36,13 @@ ordered_json speed_json(const AccuracyRow& fast, const AccuracyRow& direct) {
           {"ratio_max", direct.seconds_max / fast.seconds_min}};
 }
 
-/// The smallest number of scatterers from which on stamped is faster, or null.
+/// The smallest number of scatterers from which on gridded is faster, or null.
 ordered_json crossover_json(const std::vector<AccuracyRow>& rows, const std::string& against, double tolerance,
                             double against_tolerance) {
   std::map<std::size_t, std::pair<double, double>> seconds;
   for (const AccuracyRow& r : rows) {
     if (r.sweep != "scatterers") continue;
-    if (r.method == "stamped" && r.tolerance == tolerance) seconds[r.scatterers].first = r.seconds;
+    if (r.method == "gridded" && r.tolerance == tolerance) seconds[r.scatterers].first = r.seconds;
     if (r.method == against && r.tolerance == against_tolerance) seconds[r.scatterers].second = r.seconds;
   }
   ordered_json from;
@@ -59,7 +59,7 @@ ordered_json crossover_json(const std::vector<AccuracyRow>& rows, const std::str
 ordered_json promise_json(const std::vector<AccuracyRow>& rows) {
   std::map<double, std::tuple<double, double, int>, std::greater<>> worst;
   for (const AccuracyRow& r : rows)
-    if (r.method == "stamped") {
+    if (r.method == "gridded") {
       auto& [image, local, count] = worst[r.tolerance];
       image = std::max(image, r.error);
       local = std::max(local, r.local_error);
@@ -128,11 +128,11 @@ ordered_json accuracy_summary(const std::vector<AccuracyRow>& rows) {
                           {"crossover", ordered_json::array()},
                           {"promise", promise_json(rows)}};
   for (const AccuracyRow& r : rows) {
-    if (r.method != "stamped") continue;
+    if (r.method != "gridded") continue;
     if (r.sweep == "scatterers")
       if (const AccuracyRow* direct = find(rows, r.sweep, "direct", 0, r.scatterers, 0))
         summary["speed"].push_back(speed_json(r, *direct));
-    const AccuracyRow* alone = find(rows, "threads", "stamped", r.tolerance, r.scatterers, 1);
+    const AccuracyRow* alone = find(rows, "threads", "gridded", r.tolerance, r.scatterers, 1);
     if (r.sweep == "threads" && alone && r.threads == 2)
       summary["second_core"].push_back({{"tolerance", r.tolerance}, {"gain", alone->seconds / r.seconds}});
   }

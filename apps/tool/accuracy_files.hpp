@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "simulate/measure_accuracy.hpp"
-#include "simulate/sampling_error.hpp"
+#include "accuracy/measure_accuracy.hpp"
+#include "accuracy/sampling_error.hpp"
 #include "store/run_directory.hpp"
 
 namespace insonify::tool {
@@ -22,7 +22,7 @@ std::vector<std::string> draw_accuracy(const std::vector<AccuracyRow>& rows,
 nlohmann::ordered_json machine_json();
 
 /// The sweep in a few numbers: `speed` against direct at 1e-6, `second_core`, `promise` (worst error / tolerance for
-/// each tolerance), `crossover` (scatterers from which stamped is faster). What was not measured is left out.
+/// each tolerance), `crossover` (scatterers from which gridded is faster). What was not measured is left out.
 nlohmann::ordered_json accuracy_summary(const std::vector<AccuracyRow>& rows);
 
 }  // namespace insonify::tool

@@ -29,7 +29,7 @@ SceneColour colour_of(const std::string& word) {
   if (word == "grazing") return SceneColour::grazing;
   if (word == "incidence") return SceneColour::incidence;
   if (word == "level") return SceneColour::level;
-  return SceneColour::sight;
+  return SceneColour::visibility;
 }
 
 ScenePreset preset_of(const std::string& word) {
@@ -83,7 +83,7 @@ Drawing drawing_of_run(const CommonOptions& common, const ImageOptions& o, Progr
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
   drawing.look.colour = o.colour.empty() ? SceneColour::level : colour_of(o.colour);
   const fs::path returns = fs::path(o.run) / "returns.ply";
-  const bool covered = drawing.look.colour == SceneColour::sight || drawing.look.colour == SceneColour::grazing ||
+  const bool covered = drawing.look.colour == SceneColour::visibility || drawing.look.colour == SceneColour::grazing ||
                        drawing.look.colour == SceneColour::incidence;
   if (!fs::exists(returns)) {
     progress.note(returns.string() + " is missing, so no returns are drawn");
@@ -103,7 +103,7 @@ void look_from_head(const SceneCloud& scene, int threads, SceneLook& look) {
   sampling.threads = threads;
   sampling.rays_per_beam = 16;
   const PreparedScene prepared(scene, threads);
-  look.sight = find_sight(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), sampling);
+  look.visibility = find_visibility(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), sampling);
   look.holes = places_of(find_holes(prepared, pose, fan, gate, sampling), pose);
 }
 
@@ -115,7 +115,7 @@ Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Pro
   SceneOptions options;
   options.path = o.run;
   drawing.title = fs::path(o.run).filename().string();
-  drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::sight;
+  drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::visibility;
   if (!o.sonar.empty()) {
     RunOptions run;
     run.sonar = o.sonar;
@@ -125,7 +125,7 @@ Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Pro
     drawing.title = head.name + " before " + drawing.title;
   }
   if (!o.colour.empty()) drawing.look.colour = colour_of(o.colour);
-  if (!drawing.look.head && (o.colour == "sight" || o.colour == "grazing" || o.colour == "incidence"))
+  if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
   drawing.scene = load(common, options, progress);
   return drawing;
@@ -141,7 +141,7 @@ void image_scene(const CommonOptions& common, const ImageOptions& o, const Pictu
   SceneLook& look = drawing.look;
   look.camera.preset = preset_of(o.camera);
   look.normals = o.normals;
-  if (look.colour == SceneColour::sight) look_from_head(drawing.scene, common.threads, look);
+  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, common.threads, look);
 
   progress.step("drawing " + o.output);
   PictureOptions picture = asked;

@@ -13,7 +13,7 @@
 #include "core/units.hpp"
 #include "tool/image_facts.hpp"
 #include "tool/run_files.hpp"
-#include "view/colour_maps.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/show_ascan.hpp"
 #include "view/show_fan.hpp"
 #include "view/show_grey.hpp"

@@ -60,7 +60,7 @@ struct RunOptions {
   std::string profile;      ///< CSV of sound speed against depth, or empty
   std::string output;
   double tolerance = 1e-4;
-  std::string method = "stamped";
+  std::string method = "gridded";
   bool force = false;
   bool no_picture = false;
 };

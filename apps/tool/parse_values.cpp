@@ -80,11 +80,11 @@ std::pair<double, double> parse_range(const std::string& text) {
 }
 
 SynthesisMethod parse_method(const std::string& text) {
-  if (text == "stamped") return SynthesisMethod::stamped;
+  if (text == "gridded") return SynthesisMethod::gridded;
   if (text == "direct") return SynthesisMethod::direct;
   if (text == "element-exact") return SynthesisMethod::element_exact;
   if (text == "incoherent") return SynthesisMethod::incoherent;
-  fail(ErrorKind::argument, "--method = '", text, "' must be stamped, direct, element-exact or incoherent");
+  fail(ErrorKind::argument, "--method = '", text, "' must be gridded, direct, element-exact or incoherent");
 }
 
 std::pair<int, int> parse_size(const std::string& text) {

@@ -18,7 +18,7 @@ nlohmann::ordered_json holes_json(const HoleReport& holes);
 nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
 nlohmann::ordered_json motion_json(const Motion& motion);
 
-/// Notes on what the simulation found: silence, refraction, multipath that nobody hears. `places` are those of `glance`.
+/// Notes on what the simulation found: silence, refraction, multipath that nobody hears. `places` are those of `sampled_places`.
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
                                     const std::vector<Eigen::Vector3d>& places);
 

@@ -39,7 +39,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.keep_paths = keeps(o, "paths") ? drawn_paths : 0;
   if (s.keep_elements && s.method == SynthesisMethod::incoherent)
     fail(ErrorKind::argument,
-         "--keep elements: elements hear pressures, and --method incoherent has none; use stamped");
+         "--keep elements: elements hear pressures, and --method incoherent has none; use gridded");
   s.level_error_db = o.level_error_db;
   if (!(s.level_error_db >= 0 && std::isfinite(s.level_error_db)))
     fail(ErrorKind::argument, "--level-error-db = ", s.level_error_db,
@@ -108,7 +108,7 @@ std::string run_toml_head(const PingOptions& o) {
       o.multipath, o.layers, o.absorption_order, o.threshold_db, toml_text(o.all_bins_above));
 }
 
-std::vector<Eigen::Vector3d> glance(const SceneCloud& scene, const Pose& pose) {
+std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {
   std::vector<Eigen::Vector3d> places;
   const std::size_t step = std::max<std::size_t>(1, scene.size() / 10000);
   for (std::size_t i = 0; i < scene.size(); i += step)

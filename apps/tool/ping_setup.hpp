@@ -25,7 +25,7 @@ PingSetup set_up_ping(const CommonOptions& common, const PingOptions& options);
 std::string run_toml_head(const PingOptions& options);
 
 /// Places of about 10 000 surfels, as seen from the head.
-std::vector<Eigen::Vector3d> glance(const SceneCloud& scene, const Pose& pose);
+std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);
 
 /// Catches clouds in other units and poses elsewhere: the middle one of `places` must be within reach of the range gate.
 void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);

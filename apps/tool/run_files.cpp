@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "store/cube_layout.hpp"
+#include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
 #include "view/show_fan.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "store/toml_tree.hpp"
+#include "store/toml_tree_internal.hpp"
 
 namespace insonify::tool {
 

@@ -36,9 +36,9 @@ void add_sonar(CLI::App& verb, CommonOptions& common, RunOptions& o) {
   verb.add_option("--range", o.range, "min:max [m]; default: the sonar's");
   verb.add_option("--tolerance", o.tolerance, "relative error of the synthesis");
   verb.add_option("--method", o.method,
-                  "stamped, direct: the slow referee, element-exact: true delays per element, or incoherent: the "
+                  "gridded, direct: the slow referee, element-exact: true delays per element, or incoherent: the "
                   "expected level, no speckle")
-      ->check(CLI::IsMember({"stamped", "direct", "element-exact", "incoherent"}))
+      ->check(CLI::IsMember({"gridded", "direct", "element-exact", "incoherent"}))
       ->option_text("WORD");
   verb.add_option("--environment", o.environment,
                   "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run");

@@ -9,7 +9,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/tiled_scene.hpp"
-#include "simulate/ping_reach.hpp"
+#include "simulate/ping_region.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/progress.hpp"
@@ -38,12 +38,12 @@ void require_no_loading_options(const SceneOptions& o) {
   refuse(o.mesh_spacing != none.mesh_spacing, "--mesh-spacing");
 }
 
-PingScene load_tiles_in_reach(const CommonOptions& common, const PingOptions& o, const PingSetup& setup) {
+PingScene load_tiles_of_region(const CommonOptions& common, const PingOptions& o, const PingSetup& setup) {
   require_no_loading_options(o.scene);
   const TiledScene tiled(o.scene.path);
   const TiledSceneInfo& info = tiled.info();
   const TileSelection near =
-      tiled.select(ping_reach(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation));
+      tiled.select(ping_region(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation));
   const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
   require_memory(near, bytes_to_ping, memory, o.scene.path);
 
@@ -76,9 +76,9 @@ void require_free(const std::string& output, bool force) {
 bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
 
 PingScene load_ping_scene(const CommonOptions& common, const PingOptions& o, const PingSetup& setup) {
-  if (is_tiles(o.scene.path)) return load_tiles_in_reach(common, o, setup);
+  if (is_tiles(o.scene.path)) return load_tiles_of_region(common, o, setup);
   PingScene result{load_scene(o.scene.path, load_options(common, o.scene)), {}, {}};
-  result.places = glance(result.loaded.scene, setup.pose);
+  result.places = sampled_places(result.loaded.scene, setup.pose);
   require_in_reach(result.places, setup.head.head.gate, o.scene.path);
   result.json = scene_json(result.loaded);
   return result;

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "accuracy/accuracy_sweep.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "simulate/accuracy_sweep.hpp"
 #include "store/run_directory.hpp"
 #include "tool/accuracy_files.hpp"
 #include "tool/head_setup.hpp"
@@ -118,7 +118,7 @@ void print_table(const std::string& output, const std::vector<AccuracyRow>& rows
                p["worst_error_over_tolerance"].get<double>());
   for (const auto& c : summary["crossover"])
     if (!c["faster_from"].is_null())
-      fmt::print("stamped at {:.0e} is faster than {} from {} scatterers on\n", c["tolerance"].get<double>(),
+      fmt::print("gridded at {:.0e} is faster than {} from {} scatterers on\n", c["tolerance"].get<double>(),
                  c["against"].get<std::string>(), c["faster_from"].get<std::size_t>());
   fmt::print("{}: {} measurements in sweep.csv\n", output, rows.size());
 }

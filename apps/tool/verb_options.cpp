@@ -100,8 +100,9 @@ void add_image(CLI::App& app, AllOptions& all) {
       ->option_text("WORD")
       ->group(group);
   verb->add_flag("--normals", o.normals, "of view scene: draw some 4000 normals as lines");
-  verb->add_option("--colour", o.colour, "height, material, sight, level, grazing or incidence; default: what suits")
-      ->check(CLI::IsMember({"height", "material", "sight", "level", "grazing", "incidence"}))
+  verb->add_option("--colour", o.colour,
+                   "height, material, visibility, level, grazing or incidence; default: what suits")
+      ->check(CLI::IsMember({"height", "material", "visibility", "level", "grazing", "incidence"}))
       ->option_text("WORD")
       ->group(group);
   add_common(*verb, all.common, false);
@@ -110,7 +111,7 @@ void add_image(CLI::App& app, AllOptions& all) {
       "beam.png\n"
       "  insonify image track --animate -o frames\n  insonify image track --view waterfall --beam max -o "
       "waterfall.png\n  insonify image out --view scene -o scene.png\n"
-      "  insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o sight.png");
+      "  insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o visibility.png");
 }
 
 void add_merge(CLI::App& app, AllOptions& all) {
@@ -163,8 +164,8 @@ void add_accuracy(CLI::App& app, AllOptions& all) {
       ->option_text("WORD");
   verb->add_option("--range", o.run.range, "min:max [m]; default: the sonar's");
   verb->add_option("--material", o.scene.material, "one material for everything, by name, e.g. sand");
-  verb->add_option("--methods", o.methods, "only these, e.g. stamped,direct")->delimiter(',');
-  verb->add_option("--tolerances", o.tolerances, "of stamped, e.g. 1e-3,1e-6")->delimiter(',');
+  verb->add_option("--methods", o.methods, "only these, e.g. gridded,direct")->delimiter(',');
+  verb->add_option("--tolerances", o.tolerances, "of gridded, e.g. 1e-3,1e-6")->delimiter(',');
   verb->add_option("--repeats", o.repeats, "timed runs of each, after one to warm up; fewer if they take long");
   verb->add_flag("--full", o.full, "larger tasks and all tolerances: some ten minutes");
   verb->add_flag("--quick", o.quick, "tiny tasks: seconds")->group("");

@@ -70,18 +70,18 @@ void ping(const CommonOptions& common, const PingOptions& o) {
                            {"seed", common.seed},
                            {"scene", in_reach.json},
                            {"notes", ordered_json::array()}};
-  const auto tell = [&](const std::string& note) {
+  const auto note_to_user = [&](const std::string& note) {
     progress.note(note);
     manifest["notes"].push_back(note);
   };
-  for (const std::string& note : setup.notes) tell(note);
-  for (const std::string& note : loading_notes(loaded.report)) tell(note);
+  for (const std::string& note : setup.notes) note_to_user(note);
+  for (const std::string& note : loading_notes(loaded.report)) note_to_user(note);
 
   manifest["plan"] = plan_json(plan_ping(loaded.scene, setup.head, pose, setup.environment, simulation));
 
   progress.step("pinging");
   const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.environment, simulation);
-  for (const std::string& note : ping_notes(result, ready, in_reach.places)) tell(note);
+  for (const std::string& note : ping_notes(result, ready, in_reach.places)) note_to_user(note);
 
   progress.step("writing " + o.run.output);
   start = Clock::now();

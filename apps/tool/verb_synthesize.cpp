@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
@@ -26,9 +26,9 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   progress.step("synthesizing");
   const auto start = Clock::now();
   const SonarHead& head = setup.head;
-  const HearingOptions hearing =
+  const EchoOptions echo_options =
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
-  const Echoes echoes = hear_targets(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, hearing);
+  const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
   const SynthesisMethod method = parse_method(o.run.method);
   const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};

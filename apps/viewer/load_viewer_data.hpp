@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "view/viewer_data.hpp"
 #include "viewer/viewer_command.hpp"
+#include "viewer/viewer_data.hpp"
 
 namespace insonify::viewer {
 

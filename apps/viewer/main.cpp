@@ -6,8 +6,8 @@
 #include "store/run_directory.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/parse_values.hpp"
-#include "view/show_viewer.hpp"
 #include "viewer/load_viewer_data.hpp"
+#include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"
 
 namespace insonify::viewer {

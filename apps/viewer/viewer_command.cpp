@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "view/viewer_state.hpp"
+#include "viewer/viewer_state.hpp"
 
 namespace insonify::viewer {
 namespace {

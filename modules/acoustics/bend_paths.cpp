@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "acoustics/refraction_table.hpp"
+#include "acoustics/refraction_table_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"

@@ -1,8 +1,7 @@
-#include "acoustics/boundary.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/boundary_internal.hpp"
 #include "acoustics/reflection.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"

@@ -1,12 +1,11 @@
-#include "acoustics/eigenrays.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "acoustics/ray_families.hpp"
+#include "acoustics/eigenrays_internal.hpp"
+#include "acoustics/ray_families_internal.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/refraction_table.hpp"
+#include "acoustics/refraction_table_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,8 +1,8 @@
-#include "acoustics/ray_families.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "acoustics/ray_families_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,9 +1,8 @@
-#include "acoustics/refraction_table.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/eigenrays.hpp"
+#include "acoustics/eigenrays_internal.hpp"
+#include "acoustics/refraction_table_internal.hpp"
 #include "core/parallel.hpp"
 
 namespace insonify {

@@ -1,8 +1,7 @@
-#include "acoustics/reverberation_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/reverberation_cells_internal.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -53,26 +52,30 @@ void require_few(double directions, const ReverberationCells& cells, const char*
          " cells, must be at most 2^27; lower cells_per_resolution or max_range");
 }
 
-double elevation_pattern_of(const HearingOptions& hearing, double elevation) {
-  return hearing.elevation_width > 0 ? elevation_response(hearing.elevation_shape, hearing.elevation_width,
-                                                          elevation - hearing.elevation_centre)
-                                     : 1;
+double elevation_pattern_of(const EchoOptions& echo_options, double elevation) {
+  return echo_options.elevation_width > 0
+             ? elevation_response(echo_options.elevation_shape, echo_options.elevation_width,
+                                  elevation - echo_options.elevation_centre)
+             : 1;
 }
 
-double transmit_pattern_of(const HearingOptions& hearing, double azimuth) {
-  return hearing.transmit_width > 0 ? transmit_response(hearing.transmit_width, std::remainder(azimuth, 2 * pi)) : 1;
+double transmit_pattern_of(const EchoOptions& echo_options, double azimuth) {
+  return echo_options.transmit_width > 0
+             ? transmit_response(echo_options.transmit_width, std::remainder(azimuth, 2 * pi))
+             : 1;
 }
 
-std::complex<double> cell_amplitude(const HearingOptions& hearing, RandomStage stage, const RandomCounter& counter) {
-  if (hearing.amplitude == SurfaceAmplitude::mean_power) return 1;
-  return random_complex_normal(hearing.seed, stage, counter);
+std::complex<double> cell_amplitude(const EchoOptions& echo_options, RandomStage stage, const RandomCounter& counter) {
+  if (echo_options.amplitude == SurfaceAmplitude::mean_power) return 1;
+  return random_complex_normal(echo_options.seed, stage, counter);
 }
 
-ElevationLaw::ElevationLaw(const BeamFan& fan, const HearingOptions& hearing) : low_(-pi / 2), high_(pi / 2) {
-  if (hearing.elevation_width > 0) {
-    const double half = elevation_half_extent(hearing.elevation_shape, hearing.elevation_width, pattern_floor_db);
-    low_ = std::max(low_, hearing.elevation_centre - half);
-    high_ = std::min(high_, hearing.elevation_centre + half);
+ElevationLaw::ElevationLaw(const BeamFan& fan, const EchoOptions& echo_options) : low_(-pi / 2), high_(pi / 2) {
+  if (echo_options.elevation_width > 0) {
+    const double half =
+        elevation_half_extent(echo_options.elevation_shape, echo_options.elevation_width, pattern_floor_db);
+    low_ = std::max(low_, echo_options.elevation_centre - half);
+    high_ = std::min(high_, echo_options.elevation_centre + half);
   } else {
     // The rows of the fan have their own patterns, to be applied later.
     const Sector sector = insonified_sector(fan, 3 * fan.elevation_width);
@@ -83,7 +86,7 @@ ElevationLaw::ElevationLaw(const BeamFan& fan, const HearingOptions& hearing) : 
   sum_.assign(steps + 1, 0);
   for (std::size_t i = 0; i < steps; ++i) {
     const double elevation = low_ + (static_cast<double>(i) + 0.5) * step;
-    const double pattern = elevation_pattern_of(hearing, elevation);
+    const double pattern = elevation_pattern_of(echo_options, elevation);
     sum_[i + 1] = sum_[i] + pattern * pattern * std::cos(elevation) * step;
   }
   integral_ = sum_.back();

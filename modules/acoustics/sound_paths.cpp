@@ -39,7 +39,7 @@ void add_path(SoundPaths& paths, std::vector<Vector3d> points, double amplitude,
   paths.bounces.push_back(bounces);
 }
 
-/// Where the way from `head` to the image of `place` in the plane z = height meets that plane.
+/// Where the leg from `head` to the image of `place` in the plane z = height meets that plane.
 Vector3d bounce_of(const Vector3d& head, const Vector3d& place, double height) {
   const Vector3d image(place.x(), place.y(), 2 * height - place.z());
   return head + (height - head.z()) / (image.z() - head.z()) * (image - head);
@@ -61,7 +61,7 @@ SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, cons
 
 SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
                          const View& view, const Medium& medium, std::size_t count) {
-  std::vector<double> heights;  // of the boundaries, as ways count them
+  std::vector<double> heights;  // of the boundaries, as legs count them
   if (environment.surface) heights.push_back(environment.surface->height);
   if (environment.bottom) heights.push_back(environment.bottom->height);
   const auto boundaries = static_cast<std::uint8_t>(heights.size());
@@ -70,8 +70,8 @@ SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, co
   const Vector3d head = view.world_from_head.translation();
   for (std::uint8_t out = 0; out <= boundaries; ++out)
     for (std::uint8_t back = 0; back <= boundaries; ++back) {
-      const WayPair ways{out, back};
-      const auto in_group = [&](std::size_t i) { return multipath.ways[i] == ways; };
+      const LegPair legs{out, back};
+      const auto in_group = [&](std::size_t i) { return multipath.legs[i] == legs; };
       for (const std::size_t i : loudest(multipath.echoes, medium, count, in_group)) {
         const Vector3d place = scene.origin + scene.point[multipath.surfel[i]].cast<double>();
         std::vector<Vector3d> points = {head};
@@ -79,7 +79,7 @@ SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, co
         points.push_back(place);
         if (back > 0) points.push_back(bounce_of(head, place, heights[back - 1]));
         points.push_back(head);
-        add_path(paths, std::move(points), amplitude_of(multipath.echoes, i, medium), ways.bounces());
+        add_path(paths, std::move(points), amplitude_of(multipath.echoes, i, medium), legs.bounces());
       }
     }
   return paths;

@@ -4,11 +4,11 @@
 
 #include <Eigen/Core>
 
-#include "acoustics/hear_multipath.hpp"
+#include "acoustics/multipath_echoes.hpp"
 
 namespace insonify {
 
-/// Ways that sound took from the head to a surface and back, structure of arrays, to be looked at.
+/// LegSet that sound took from the head to a surface and back, structure of arrays, to be looked at.
 struct SoundPaths {
   std::vector<std::vector<Eigen::Vector3d>> points;  ///< head, bounce, surface, bounce, head; world [m]
   std::vector<float> level_db;                       ///< of the echo at the head [dB re 1 uPa], absorption included
@@ -23,7 +23,7 @@ struct SoundPaths {
 SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, const Pose& world_from_head,
                         const Medium& medium, std::size_t count);
 
-/// The same of echoes by way of the boundaries, for each pair of ways out and back: they bounce where the line from the head
+/// The same of echoes by way of the boundaries, for each pair of legs out and back: they bounce where the line from the head
 /// to the surfel's image meets the boundary (E48).
 SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
                          const View& view, const Medium& medium, std::size_t count);

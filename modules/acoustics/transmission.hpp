@@ -1,5 +1,5 @@
 #pragma once
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 
 namespace insonify {
 
@@ -7,7 +7,7 @@ namespace insonify {
 struct Transmission {
   Pulse pulse;
   Medium medium;
-  HearingOptions hearing;
+  EchoOptions echo_options;
 };
 
 }  // namespace insonify

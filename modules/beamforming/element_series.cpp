@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "beamforming/gridding_kernel_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
-#include "beamforming/spreading_kernel_internal.hpp"
 #include "beamforming/time_axis_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -75,11 +75,11 @@ class Interpolator {
 
 }  // namespace
 
-ElementSeries hear_elements(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                            const ElementOptions& options) {
-  require_synthesis(echoes, head, medium, {options.tolerance, options.threads}, "hear_elements");
-  require_one_row(head, "hear_elements");
-  require_tolerance(options, "hear_elements");
+ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                             const ElementOptions& options) {
+  require_synthesis(echoes, head, medium, {options.tolerance, options.threads}, "element_series");
+  require_one_row(head, "element_series");
+  require_tolerance(options, "element_series");
   const double c = medium.sound_speed, f = head.pulse.centre_frequency;
   const std::size_t elements = head.array.elements();
 

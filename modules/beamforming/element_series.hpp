@@ -32,8 +32,8 @@ struct ElementSeries {
 /// Samples are fine enough to interpolate between them (about four times the pulse's band) and reach beyond the gate by
 /// the array's length. For a user's own beamformer; beam_from_elements is the built-in one.
 /// Cost: echoes x elements x pulse samples. Throws Error as synthesize_direct does, or for a tolerance out of range.
-ElementSeries hear_elements(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                            const ElementOptions& options = {});
+ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                             const ElementOptions& options = {});
 
 /// Delay-and-sum beams of `series`, beams x bins [Pa] (E62): every sample of a beam sums the elements at the times at
 /// which a wavefront from that direction (spherical: and range, focused dynamically) crosses them:

@@ -21,7 +21,7 @@ Extent elevations_of(const BeamFan& fan) {
 
 }  // namespace
 
-HearingOptions with_patterns(HearingOptions options, const SonarHead& head) {
+EchoOptions with_patterns(EchoOptions options, const SonarHead& head) {
   require_valid(head.fan, "with_patterns");
   const Extent rows = elevations_of(head.fan);
   const bool own_pattern = !head.column && rows.low != rows.high;  // each row its own, in synthesize

@@ -1,12 +1,12 @@
 #pragma once
 #include <vector>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/sonar_head.hpp"
 
 namespace insonify {
 
-/// `options` with the patterns of `head` that hear_scatterers must apply; synthesize applies the rest (E14, E56, E57).
+/// `options` with the patterns of `head` that direct_echoes must apply; synthesize applies the rest (E14, E56, E57).
 ///
 ///   one row, no column        the two-way elevation pattern about the fan's elevation
 ///   a column                  the transmitter's elevation pattern, as wide as fan.elevation_width, about the middle
@@ -14,7 +14,7 @@ namespace insonify {
 ///   several rows, no column   no elevation pattern (elevation_width = 0): each row has its own
 ///
 /// The transmitter's pattern in azimuth goes with all of them. Throws Error for a fan that is not valid.
-HearingOptions with_patterns(HearingOptions options, const SonarHead& head);
+EchoOptions with_patterns(EchoOptions options, const SonarHead& head);
 
 /// How far above the highest and below the lowest beam [rad, > 0] scatterers may lie before all patterns of `head` are
 /// below `floor_db` there: SamplingOptions::elevation_half_extent.

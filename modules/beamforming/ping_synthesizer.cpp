@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "beamforming/gridded_synthesis_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
-#include "beamforming/spread_synthesis_internal.hpp"
 #include "beamforming/windowed_sum_internal.hpp"
 #include "core/error.hpp"
 
@@ -14,14 +14,14 @@ namespace {
 
 constexpr double finest = 1e-13;
 /// Errors of the kernel and of rounding go into all beams alike, so what a kernel may do is the tolerance times the share
-/// of the stamped energy that beams hear. From here on single precision is good enough for that.
+/// of the gridded energy that beams hear. From here on single precision is good enough for that.
 constexpr double single_precision_from = 2e-6;
 /// The finest kernel there is.
 constexpr double finest_kernel = 1e-15;
 /// What is lost of a cut pulse may weigh so much more by cancellation.
 constexpr double least_kept = 0.25;
 
-/// Share that an echo in the fan has in the image (see SpreadImage): the pattern's mean square over the fan's span.
+/// Share that an echo in the fan has in the image (see GriddedImage): the pattern's mean square over the fan's span.
 double expected_share(const SonarHead& head, double wavelength) {
   const std::vector<double> u = beam_cosines(head.fan);
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
@@ -41,8 +41,8 @@ struct PingSynthesizer::Plan {
   SynthesisOptions options;
   double share;
   WindowedSum windowed;
-  std::unique_ptr<SpreadSynthesis<float>> in_single;
-  std::unique_ptr<SpreadSynthesis<double>> in_double;
+  std::unique_ptr<GriddedSynthesis<float>> in_single;
+  std::unique_ptr<GriddedSynthesis<double>> in_double;
 
   Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in, double share_in)
       : head(head_in),
@@ -52,14 +52,14 @@ struct PingSynthesizer::Plan {
         windowed(head, medium, pulse_cut(options.tolerance), options.threads) {
     const double kernel_tolerance = options.tolerance * share;
     if (kernel_tolerance >= single_precision_from)
-      in_single = std::make_unique<SpreadSynthesis<float>>(head, medium, options, kernel_tolerance);
+      in_single = std::make_unique<GriddedSynthesis<float>>(head, medium, options, kernel_tolerance);
     else
-      in_double = std::make_unique<SpreadSynthesis<double>>(head, medium, options, kernel_tolerance);
+      in_double = std::make_unique<GriddedSynthesis<double>>(head, medium, options, kernel_tolerance);
   }
   bool sums_directly(const Echoes& echoes) const {
     return in_single ? in_single->direct_is_cheaper(echoes) : in_double->direct_is_cheaper(echoes);
   }
-  SpreadImage stamped(const Echoes& echoes) const {
+  GriddedImage gridded(const Echoes& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
   }
   /// The direct sum over what the pulses reach, and farther if the echoes cancel.
@@ -98,18 +98,18 @@ ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
   const Plan& plan = *plan_;
   require_synthesis(echoes, plan.head, plan.medium, plan.options, "PingSynthesizer");
   if (plan.sums_directly(echoes)) return plan.summed(echoes);
-  SpreadImage image = plan.stamped(echoes);
+  GriddedImage image = plan.gridded(echoes);
   if (image.share >= 0.5 * plan.share) return std::move(image.pressure);
   // So little is heard of so much that the errors weigh: once more with as many digits as it takes.
   if (plan.options.tolerance * image.share < finest_kernel)
     return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
-  return Plan(plan.head, plan.medium, plan.options, image.share).stamped(echoes).pressure;
+  return Plan(plan.head, plan.medium, plan.options, image.share).gridded(echoes).pressure;
 }
 
-ComplexGrid synthesize_stamped(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                const SynthesisOptions& options) {
-  require_synthesis(echoes, head, medium, options, "synthesize_stamped");
-  require_one_row(head, "synthesize_stamped");
+  require_synthesis(echoes, head, medium, options, "synthesize_gridded");
+  require_one_row(head, "synthesize_gridded");
   return PingSynthesizer(head, medium, options).pressure(echoes);
 }
 

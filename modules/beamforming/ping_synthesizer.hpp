@@ -8,19 +8,19 @@
 
 namespace insonify {
 
-/// What a PingSynthesizer chose for its tolerance: of stamping, but for direct_echoes.
+/// What a PingSynthesizer chose for its tolerance: of gridding, but for direct_echoes.
 struct SynthesisChoice {
   bool single_precision = false;  ///< of tiles and transforms; delays and phases are always double
   std::size_t kernel_width = 0;   ///< grid steps over which an echo is spread along the array's dual axis
   std::size_t grid = 0;           ///< grid steps over that axis
-  std::size_t pulse_samples = 0;  ///< bins over which a pulse is stamped
+  std::size_t pulse_samples = 0;  ///< bins over which a pulse is gridded
   double pulse_half_length = 0;   ///< where it is cut [s]
-  std::size_t direct_echoes = 0;  ///< so many echoes, spread over the gate, are summed directly: stamping costs more
-  double share = 0;               ///< of what is stamped, expected in a beam: root of a ratio of energies
+  std::size_t direct_echoes = 0;  ///< so many echoes, spread over the gate, are summed directly: gridding costs more
+  double share = 0;               ///< of what is gridded, expected in a beam: root of a ratio of energies
   double bytes_per_thread = 0;    ///< working memory beside the image
 };
 
-/// Complex baseband pressure of many pings of one head, to a promised relative L2 error (E13): each echo stamps its pulse,
+/// Complex baseband pressure of many pings of one head, to a promised relative L2 error (E13): each echo grids its pulse,
 /// cut at the tolerance, times a spreading kernel (E60) on a grid over direction; per bin an FFT turns the grid into
 /// element series, deconvolved and shaded, and back into beams by the same kernel. No transform along range: nothing
 /// wraps round, and the error is local, relative to the level at each range.

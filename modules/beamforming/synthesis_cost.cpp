@@ -19,7 +19,7 @@ SynthesisCost::SynthesisCost(const SonarHead& head, const SynthesisChoice& choic
   // Transforms; beams out of the grid; and what it takes to write them, less what silence takes.
   tile = static_cast<double>(tile_bins) *
          (grid * (0.3 * std::log2(grid) + 1.7 * precision + out_of_cache) + beams * (0.31 * width + 4.4));
-  stamped_echo = 70 + samples * (precision * lanes + (one_shape ? 0 : 20));
+  gridded_echo = 70 + samples * (precision * lanes + (one_shape ? 0 : 20));
   direct_fixed = beams * (0.32 * elements + 0.3 * bins);
   direct_echo = 0.46 * elements + 20 * samples + beams * (0.39 * samples + 0.9);
   direct_block = 0.37 * static_cast<double>(WindowedSum::block) * beams * elements;
@@ -28,11 +28,11 @@ SynthesisCost::SynthesisCost(const SonarHead& head, const SynthesisChoice& choic
 bool SynthesisCost::direct_is_cheaper(std::size_t echoes, std::size_t tiles) const {
   const auto n = static_cast<double>(echoes);
   const auto blocks = static_cast<double>((echoes + WindowedSum::block - 1) / WindowedSum::block);
-  return direct_fixed + blocks * direct_block + n * direct_echo <= static_cast<double>(tiles) * tile + n * stamped_echo;
+  return direct_fixed + blocks * direct_block + n * direct_echo <= static_cast<double>(tiles) * tile + n * gridded_echo;
 }
 
 double SynthesisCost::break_even(std::size_t tiles) const {
-  const double dearer = direct_echo + direct_block / static_cast<double>(WindowedSum::block) - stamped_echo;
+  const double dearer = direct_echo + direct_block / static_cast<double>(WindowedSum::block) - gridded_echo;
   if (dearer <= 0) return std::numeric_limits<double>::infinity();
   return std::max(0.0, (static_cast<double>(tiles) * tile - direct_fixed) / dearer);
 }

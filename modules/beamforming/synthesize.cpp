@@ -17,14 +17,14 @@ ComplexGrid synthesize_line(const Echoes& echoes, const SonarHead& head, const M
       return synthesize_spectrum(echoes, head, medium, options);
     case SynthesisMethod::element_exact: {
       const ElementOptions exact{options.tolerance, Wavefront::spherical, options.threads};
-      return beam_from_elements(hear_elements(echoes, head, medium, exact), head, medium, exact);
+      return beam_from_elements(element_series(echoes, head, medium, exact), head, medium, exact);
     }
     case SynthesisMethod::incoherent:
       return synthesize_intensity(echoes, head, medium, options).sqrt().cast<std::complex<double>>();
-    case SynthesisMethod::stamped:
+    case SynthesisMethod::gridded:
       break;
   }
-  return synthesize_stamped(echoes, head, medium, options);
+  return synthesize_gridded(echoes, head, medium, options);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace insonify {
 
 /// Which of the synthesizers below forms the beams.
 /// `incoherent` gives the expected level instead, without speckle (synthesize_intensity).
-enum class SynthesisMethod { stamped, direct, spectrum, element_exact, incoherent };
+enum class SynthesisMethod { gridded, direct, spectrum, element_exact, incoherent };
 
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< of the image; a pulse is cut where its envelope falls below half this part of its peak
@@ -18,15 +18,15 @@ struct SynthesisOptions {
 /// Complex baseband pressure per beam and range bin, beams x bins [Pa], of any head. Beams of one elevation are a row,
 /// and each row is synthesized by `method` from echoes weighted by what the row makes of their elevation:
 ///
-///   one row, no column     not at all: hear_scatterers applied the elevation pattern
+///   one row, no column     not at all: direct_echoes applied the elevation pattern
 ///   a column (E56)         its response B_z(v - v_b), v_b = sin(elevation_b), so that a beam of the planar array is
 ///                          B(u, v) = B_y(u - u_b) B_z(v - v_b), u_b = cos(elevation_b) sin(azimuth_b)
 ///   several rows, no column    the elevation pattern (E14) about the row's own elevation
 ///
-/// See with_patterns for what hear_scatterers must have applied. `stamped`, `spectrum` and `element_exact` leave an echo out of a row
+/// See with_patterns for what direct_echoes must have applied. `gridded`, `spectrum` and `element_exact` leave an echo out of a row
 /// whose response to it is below tolerance / (10 sqrt(rows)) of that of the row nearest to it: over all rows it loses at
 /// most a tenth of the tolerance (relative L2 norm) of what a row hears of it; `direct` leaves none out.
-/// `element_exact` leaves the narrow-band far field: true delays per element, focused beams (hear_elements,
+/// `element_exact` leaves the narrow-band far field: true delays per element, focused beams (element_series,
 /// beam_from_elements, E61, E62); its tolerance is within [1e-12, 0.1].
 /// `incoherent` gives the root of the expected intensity (E65) as a real pressure: levels and detections read it as any
 /// other, but such images add up by their squares, and phases mean nothing.
@@ -47,9 +47,9 @@ ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium
 ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                               const SynthesisOptions& options = {});
 
-/// The same by stamping (E13, E60), to a relative L2 error below `tolerance`, within [1e-13, 1): a PingSynthesizer made for
+/// The same by gridding (E13, E60), to a relative L2 error below `tolerance`, within [1e-13, 1): a PingSynthesizer made for
 /// this one image. No wrap-around in range; bits do not depend on the thread count.
-ComplexGrid synthesize_stamped(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                const SynthesisOptions& options = {});
 
 /// The thesis' way (E12 in the frequency domain, its eq. 21 and 27 corrected): the spectrum of each beam, summed

@@ -16,7 +16,7 @@
 namespace insonify {
 namespace {
 
-constexpr double finest = 1e-13;  // tolerance of stamping
+constexpr double finest = 1e-13;  // tolerance of gridding
 constexpr std::size_t echoes_at_once = 256;
 
 /// An image still to be made: what is heard by what.
@@ -105,7 +105,7 @@ Grid<double> sum_of_powers(const Echoes& echoes, const SonarHead& head, const Me
   LineImage image{echoes, head, medium};
   if (head.pulse.shape == PulseShape::linear_fm) return sum_directly(image, power, options.threads);
   for (int k = 0; k < power; ++k) image = squared(std::move(image));
-  return synthesize_stamped(image.echoes, image.head, image.medium, options).real().max(0);
+  return synthesize_gridded(image.echoes, image.head, image.medium, options).real().max(0);
 }
 
 }  // namespace

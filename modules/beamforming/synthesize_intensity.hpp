@@ -9,7 +9,7 @@ namespace insonify {
 ///   I(b, n) = sum_i |A_i|^2 |B_b(u_i)|^2 |G_i(2 r_n / c - delay_i)|^2
 ///
 /// |A_i|^2 is taken as it stands: give amplitudes of their mean power (SurfaceAmplitude::mean_power), not random ones.
-/// Gaussian pulses: the stamped synthesis of a virtual head, for squares are such images themselves: |B|^2 is the pattern
+/// Gaussian pulses: the gridded synthesis of a virtual head, for squares are such images themselves: |B|^2 is the pattern
 /// of an array of 2N - 1 elements, weighted by the autocorrelation of the shading; |G|^2 is a Gaussian of sqrt(2) times
 /// the bandwidth under twice the absorption, times sqrt(a_0 / a) exp(b^2 / 2a) for slope and curvature (a, b of E8).
 /// Doppler shifts turn phases alone and change nothing. The error is below tolerance^2 (at least 1e-13) of the image's L2

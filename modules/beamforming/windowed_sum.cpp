@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include "beamforming/flush_denormals_internal.hpp"
+#include "beamforming/gridding_loops_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
-#include "beamforming/spread_kernels_internal.hpp"
 #include "beamforming/windowed_sum_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"

@@ -39,7 +39,7 @@ std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const
 }
 
 /// How far around a beam contributors are looked for: in direction cosine, and in elevation [rad].
-struct Reach {
+struct AngularExtent {
   double u = 0, elevation = std::numeric_limits<double>::infinity();
 };
 
@@ -68,7 +68,7 @@ class ContributorTable {
   }
 
   /// The strongest echo of bins bin-1 .. bin+1 within `reach` of direction u and elevation, or `none`.
-  std::uint32_t strongest(std::uint32_t bin, double u, double elevation, Reach reach) const {
+  std::uint32_t strongest(std::uint32_t bin, double u, double elevation, AngularExtent reach) const {
     std::uint32_t best = none;
     double best_power = 0;
     const std::size_t first = bin > 0 ? bin - 1 : 0, last = std::min<std::size_t>(bin + 2, begin_.size() - 1);
@@ -99,7 +99,7 @@ class ContributorTable {
 /// elevations alike.
 struct Look {
   double u = 0, elevation = 0;
-  Reach share, width;
+  AngularExtent share, width;
 };
 
 /// Cuts the half widths of places back to half the way to their neighbours.
@@ -116,7 +116,7 @@ std::vector<Look> looks_of(const BeamFan& fan) {
   std::vector<Look> looks(fan.beams());
   const std::vector<FanRow> rows = fan_rows(fan);
   const double row_width = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
-  const bool hears_elevation = rows.size() > 1 || fan.row_width > 0;
+  const bool within_elevation = rows.size() > 1 || fan.row_width > 0;
   std::vector<double> row_share(rows.size(), row_width / 2);
   std::vector<std::pair<double, double*>> row_places;
   for (std::size_t r = 0; r < rows.size(); ++r) row_places.emplace_back(rows[r].elevation, &row_share[r]);
@@ -129,7 +129,7 @@ std::vector<Look> looks_of(const BeamFan& fan) {
       look.u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
       look.elevation = fan.elevation[b];
       look.share.u = look.width.u = std::sin(std::min(fan.beam_width / 2, pi / 2));
-      if (hears_elevation) look.share.elevation = row_share[r], look.width.elevation = row_width / 2;
+      if (within_elevation) look.share.elevation = row_share[r], look.width.elevation = row_width / 2;
       beam_places.emplace_back(look.u, &look.share.u);
     }
     share_out(beam_places);

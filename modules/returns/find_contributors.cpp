@@ -10,8 +10,8 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "returns/chebyshev.hpp"
-#include "returns/surfel_arrivals.hpp"
+#include "returns/chebyshev_internal.hpp"
+#include "returns/surfel_arrivals_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -76,7 +76,7 @@ struct StrongestGroups {
 
 class Search {
  public:
-  Search(const SonarHead& head, const Medium& medium, std::vector<Arrival> arrivals, const TimeAxis& axis,
+  Search(const SonarHead& head, const Medium& medium, std::vector<Arrival> arrivals, const DelayBins& axis,
          const ContributorOptions& options)
       : head_(head),
         wavelength_(medium.sound_speed / head.pulse.centre_frequency),
@@ -206,7 +206,7 @@ class Search {
   const SonarHead& head_;
   double wavelength_;
   ContributorOptions options_;
-  TimeAxis axis_;
+  DelayBins axis_;
   EchoShapes shapes_;
   ResponseTable table_;
   double floor_, reach_, lobe_;
@@ -235,7 +235,7 @@ Contributors Search::contributors(const SceneCloud& scene) const {
       c.share[i] = static_cast<float>(found_.energy[i] / found_.total[i / found_.per_pixel]);  // (E63)
       c.elevation[i] = group.elevation;
       c.material[i] = scene.material[group.surfel];
-      c.path[i] = static_cast<PathKind>(group.ways.bounces());
+      c.path[i] = static_cast<PathKind>(group.legs.bounces());
     }
   });
   return c;
@@ -263,10 +263,10 @@ Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEc
   require_options(head, options);
   double doppler = 0;
   for (const SurfelEchoes& part : heard) {
-    require_heard(scene, part, me);
+    require_arrivals(scene, part, me);
     for (const double shift : part.echoes.doppler) doppler = std::max(doppler, std::abs(shift));
   }
-  const TimeAxis axis(head, medium, options.floor_db, doppler);
+  const DelayBins axis(head, medium, options.floor_db, doppler);
   Search search(head, medium, sorted_arrivals(heard, axis), axis, options);
   search.run();
   return search.contributors(scene);

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "acoustics/echoes.hpp"
-#include "acoustics/hear_multipath.hpp"
+#include "acoustics/multipath_echoes.hpp"
 #include "acoustics/water.hpp"
 #include "beamforming/sonar_head.hpp"
 #include "returns/contributors.hpp"
@@ -15,7 +15,7 @@ namespace insonify {
 struct SurfelEchoes {
   const Echoes& echoes;                   ///< with their directions upwards v
   std::span<const std::uint32_t> surfel;  ///< of every echo, index in the scene
-  std::span<const WayPair> ways{};        ///< of every echo; empty: all direct
+  std::span<const LegPair> legs{};        ///< of every echo; empty: all direct
 };
 
 struct ContributorOptions {
@@ -29,15 +29,15 @@ struct ContributorOptions {
 ///
 ///   E(b, n) = sum_p |A_p|^2 |B_b(u_p, v_p)|^2 |G_p(2 r_n / c - delay_p)|^2
 ///
-/// over the echoes p of one surfel (all its parts) by one pair of ways out and back: a surfel that is also heard by way of
+/// over the echoes p of one surfel (all its parts) by one pair of legs out and back: a surfel that is also heard by way of
 /// a boundary is another contributor there. A, B and G are those of the synthesis (E7, E10, E12, E14, E48, E56): spreading,
 /// scattering with the speckle amplitude of the patch, patterns, and absorption frequency by frequency. Phases between
 /// echoes do not count: shares are those of expected energies, as of echoes whose phases are independent, and add up to 1
 /// over all contributors. Noise and reverberation come from no surfel and are not among them.
 ///
 /// scene     gives id and material; `heard` are the echoes of its surfels, direct ones and others
-/// returns   beams x bins x per_pixel entries, strongest first, of equal ones that of the lower surfel and way first;
-///           elevation is that of the surfel's strongest echo by this way
+/// returns   beams x bins x per_pixel entries, strongest first, of equal ones that of the lower surfel and leg first;
+///           elevation is that of the surfel's strongest echo by this leg
 ///
 /// Exact to 2e-5 of a contributor's own peak, but that those parts of a contributor may be missing for which the beam (or
 /// the row of beams) or the pulse is below floor_db of its peak: their energy counts neither for the list nor for the total.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/response_table.hpp"
 #include "core/error.hpp"
@@ -79,8 +79,8 @@ struct Heard {
   float cosine = 0, range = 0;  ///< largest and least of the parts that count as heard
 };
 
-std::vector<Heard> hear_surfels(std::size_t surfels, const Scatterers& scatterers, const Echoes& echoes,
-                                const SonarHead& head, const Medium& medium, double least) {
+std::vector<Heard> strongest_beams(std::size_t surfels, const Scatterers& scatterers, const Echoes& echoes,
+                                   const SonarHead& head, const Medium& medium, double least) {
   Beams beams(head, medium);
   std::vector<std::uint32_t> place(surfels, none);
   std::vector<Heard> heard;
@@ -124,12 +124,13 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
       fail(ErrorKind::argument, me, ": a scatterer is of surfel ", surfel, ", but the scene has ", scene.size());
 
   // A coherent amplitude of 1 is the root mean square of every law of speckle.
-  HearingOptions hearing;
-  hearing.amplitude = SurfaceAmplitude::coherent;
-  hearing.threads = options.threads;
-  const Echoes echoes = hear_scatterers(scatterers, scene.materials, head.pulse, medium, with_patterns(hearing, head));
+  EchoOptions echo_options;
+  echo_options.amplitude = SurfaceAmplitude::coherent;
+  echo_options.threads = options.threads;
+  const Echoes echoes =
+      direct_echoes(scatterers, scene.materials, head.pulse, medium, with_patterns(echo_options, head));
   const double least = power_from_db(options.least_response_db);
-  const std::vector<Heard> heard = hear_surfels(scene.size(), scatterers, echoes, head, medium, least);
+  const std::vector<Heard> heard = strongest_beams(scene.size(), scatterers, echoes, head, medium, least);
 
   // The best of all pings.
   if (map.hits.empty()) {

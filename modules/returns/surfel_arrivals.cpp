@@ -1,15 +1,14 @@
-#include "returns/surfel_arrivals.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "acoustics/pulse.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "returns/surfel_arrivals_internal.hpp"
 
 namespace insonify {
 
-TimeAxis::TimeAxis(const SonarHead& head, const Medium& medium, double floor_db, double doppler)
+DelayBins::DelayBins(const SonarHead& head, const Medium& medium, double floor_db, double doppler)
     : start(2 * head.gate.centre(0) / medium.sound_speed),
       step(2 * head.gate.bin_size / medium.sound_speed),
       half(pulse_half_length(head.pulse, amplitude_from_db(floor_db))),
@@ -19,11 +18,11 @@ TimeAxis::TimeAxis(const SonarHead& head, const Medium& medium, double floor_db,
   length = static_cast<std::size_t>(std::min(2 * half / step + 1, static_cast<double>(bins)));
 }
 
-void require_heard(const SceneCloud& scene, const SurfelEchoes& heard, const char* who) {
+void require_arrivals(const SceneCloud& scene, const SurfelEchoes& heard, const char* who) {
   const std::size_t n = heard.echoes.size();
-  if (heard.surfel.size() != n || heard.echoes.v.size() != n || !(heard.ways.empty() || heard.ways.size() == n))
+  if (heard.surfel.size() != n || heard.echoes.v.size() != n || !(heard.legs.empty() || heard.legs.size() == n))
     fail(ErrorKind::argument, who, ": ", n, " echoes, but ", heard.surfel.size(), " surfels, ", heard.echoes.v.size(),
-         " directions upwards and ", heard.ways.size(), " pairs of ways; give one of each (no ways: all direct)");
+         " directions upwards and ", heard.legs.size(), " pairs of legs; give one of each (no legs: all direct)");
   for (std::size_t i = 0; i < n; ++i) {
     if (heard.surfel[i] >= scene.size())
       fail(ErrorKind::argument, who, ": surfel[", i, "] = ", heard.surfel[i], ", but the scene has ", scene.size());
@@ -34,7 +33,7 @@ void require_heard(const SceneCloud& scene, const SurfelEchoes& heard, const cha
   }
 }
 
-std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> heard, const TimeAxis& axis) {
+std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> heard, const DelayBins& axis) {
   std::vector<Arrival> arrivals;
   std::size_t total = 0;
   for (const SurfelEchoes& h : heard) total += h.echoes.size();
@@ -44,7 +43,7 @@ std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> heard, const 
       const Echoes& e = h.echoes;
       if (!axis.reaches(e.delay[i])) continue;
       arrivals.push_back({e.delay[i], e.u[i], e.v[i], std::norm(e.amplitude[i]), e.doppler_of(i), h.surfel[i],
-                          h.ways.empty() ? WayPair{} : h.ways[i]});
+                          h.legs.empty() ? LegPair{} : h.legs[i]});
     }
   const auto before = [](const Arrival& a, const Arrival& b) { return a.key() < b.key(); };
   if (!std::is_sorted(arrivals.begin(), arrivals.end(), before))
@@ -58,7 +57,7 @@ std::vector<Group> groups_of(const std::vector<Arrival>& arrivals) {
   for (std::size_t i = 0; i < arrivals.size(); ++i) {
     const Arrival& a = arrivals[i];
     const bool opens = i == 0 || arrivals[i - 1].key() != a.key();
-    if (opens) groups.push_back({a.surfel, a.ways, 0, i, i, a.u, a.u}), strongest = -1;
+    if (opens) groups.push_back({a.surfel, a.legs, 0, i, i, a.u, a.u}), strongest = -1;
     Group& group = groups.back();
     group.last = i + 1;
     group.u_low = std::min(group.u_low, a.u);

@@ -1,5 +1,3 @@
-#include "sampling/beam_rays.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sampling/beam_rays_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,13 +1,12 @@
-#include "sampling/cast_rays.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
 
 #include "core/parallel.hpp"
-#include "sampling/direction_candidates.hpp"
-#include "sampling/direction_index.hpp"
-#include "sampling/hit_rule.hpp"
+#include "sampling/cast_rays_internal.hpp"
+#include "sampling/direction_candidates_internal.hpp"
+#include "sampling/direction_index_internal.hpp"
+#include "sampling/hit_rule_internal.hpp"
 
 namespace insonify {
 namespace {

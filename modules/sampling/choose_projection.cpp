@@ -1,9 +1,8 @@
-#include "sampling/choose_projection.hpp"
-
 #include <cmath>
 
-#include "sampling/direction_raster.hpp"
-#include "sampling/list_where.hpp"
+#include "sampling/choose_projection_internal.hpp"
+#include "sampling/direction_raster_internal.hpp"
+#include "sampling/list_where_internal.hpp"
 
 namespace insonify {
 

@@ -1,12 +1,11 @@
-#include "sampling/direction_index.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "core/parallel.hpp"
-#include "sampling/hit_rule.hpp"
+#include "sampling/direction_index_internal.hpp"
+#include "sampling/hit_rule_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,11 +1,10 @@
-#include "sampling/direction_raster.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "sampling/list_where.hpp"
+#include "sampling/direction_raster_internal.hpp"
+#include "sampling/list_where_internal.hpp"
 
 namespace insonify {
 namespace {

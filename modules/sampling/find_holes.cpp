@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "sampling/beam_rays.hpp"
-#include "sampling/direction_candidates.hpp"
-#include "sampling/hit_rule.hpp"
+#include "sampling/beam_rays_internal.hpp"
+#include "sampling/direction_candidates_internal.hpp"
+#include "sampling/hit_rule_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "sampling/cast_rays.hpp"
-#include "sampling/choose_projection.hpp"
-#include "sampling/gate_surfels.hpp"
-#include "sampling/list_where.hpp"
-#include "sampling/split_surfels.hpp"
-#include "sampling/surfel_visibility.hpp"
-#include "sampling/tilt_by_relief.hpp"
+#include "sampling/cast_rays_internal.hpp"
+#include "sampling/choose_projection_internal.hpp"
+#include "sampling/gate_surfels_internal.hpp"
+#include "sampling/list_where_internal.hpp"
+#include "sampling/split_surfels_internal.hpp"
+#include "sampling/surfel_visibility_internal.hpp"
+#include "sampling/tilt_by_relief_internal.hpp"
 
 namespace insonify {
 namespace {

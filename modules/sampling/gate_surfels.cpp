@@ -1,12 +1,11 @@
-#include "sampling/gate_surfels.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "sampling/reach.hpp"
+#include "sampling/gate_surfels_internal.hpp"
+#include "sampling/insonified_region.hpp"
 
 namespace insonify {
 namespace {
@@ -119,19 +118,19 @@ constexpr std::size_t gate_block = 1 << 15;
 
 }  // namespace
 
-Reach reach_around(const Vector3d& centre, double radius) {
-  Reach all;
+InsonifiedRegion region_around(const Vector3d& centre, double radius) {
+  InsonifiedRegion all;
   all.world_from_head.translation() = centre;
   all.sector = {-pi, pi, -pi / 2, pi / 2};
   all.gate.max_range = radius;
   return all;
 }
 
-bool may_hold(const Reach& reach, const Vector3d& ball_centre, double ball_radius, double largest_area) {
-  const Pose& pose = reach.world_from_head;
+bool may_hold(const InsonifiedRegion& region, const Vector3d& ball_centre, double ball_radius, double largest_area) {
+  const Pose& pose = region.world_from_head;
   const Vector3d in_head_axes = pose.linear().transpose() * (ball_centre - pose.translation());
-  return reaches(in_head_axes, ball_radius, largest_area, SectorTest(reach.sector), reach.gate.max_range,
-                 reach.footprint);
+  return reaches(in_head_axes, ball_radius, largest_area, SectorTest(region.sector), region.gate.max_range,
+                 region.footprint);
 }
 
 std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,

@@ -1,5 +1,3 @@
-#include "sampling/hit_rule.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.hpp"
+#include "sampling/hit_rule_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,11 +1,11 @@
 #include "sampling/seen_surfels.hpp"
 
 #include "core/error.hpp"
-#include "sampling/choose_projection.hpp"
-#include "sampling/gate_surfels.hpp"
-#include "sampling/list_where.hpp"
-#include "sampling/split_surfels.hpp"
-#include "sampling/surfel_visibility.hpp"
+#include "sampling/choose_projection_internal.hpp"
+#include "sampling/gate_surfels_internal.hpp"
+#include "sampling/list_where_internal.hpp"
+#include "sampling/split_surfels_internal.hpp"
+#include "sampling/surfel_visibility_internal.hpp"
 
 namespace insonify {
 
@@ -13,16 +13,16 @@ namespace {
 
 void require_valid(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate,
                    const std::vector<std::uint8_t>& asked) {
-  require_valid(fan, "find_sight");
-  require_valid(gate, "find_sight");
+  require_valid(fan, "find_visibility");
+  require_valid(gate, "find_visibility");
   if (asked.size() != scene.size())
-    fail(ErrorKind::argument, "find_sight: asked has ", asked.size(), " entries, must have one per surfel (",
+    fail(ErrorKind::argument, "find_visibility: asked has ", asked.size(), " entries, must have one per surfel (",
          scene.size(), ")");
 }
 
 // What became of those gated surfels that were asked about; all others are outside.
-std::vector<Sight> sight_of(std::vector<GatedSurfel> surfels, const std::vector<std::uint8_t>& asked,
-                            const SamplingOptions& options) {
+std::vector<Visibility> visibility_of(std::vector<GatedSurfel> surfels, const std::vector<std::uint8_t>& asked,
+                                      const SamplingOptions& options) {
   // find_hidden looks at what is in the gate: the rest only blocks.
   for (GatedSurfel& s : surfels) s.in_gate = s.in_gate && asked[s.surfel];
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
@@ -33,12 +33,15 @@ std::vector<Sight> sight_of(std::vector<GatedSurfel> surfels, const std::vector<
         find_hidden(surfels, choose_projection(surfels, options.projection, queries, options.threads), options.threads);
   }
 
-  std::vector<Sight> sight(asked.size());
-  for (std::size_t i = 0; i < sight.size(); ++i) sight[i] = asked[i] ? Sight::outside : Sight::not_asked;
+  std::vector<Visibility> visibility(asked.size());
+  for (std::size_t i = 0; i < visibility.size(); ++i)
+    visibility[i] = asked[i] ? Visibility::outside : Visibility::not_asked;
   for (std::size_t s = 0; s < surfels.size(); ++s)
     if (surfels[s].in_gate)
-      sight[surfels[s].surfel] = !surfels[s].facing ? Sight::turned_away : hidden[s] ? Sight::hidden : Sight::seen;
-  return sight;
+      visibility[surfels[s].surfel] = !surfels[s].facing ? Visibility::turned_away
+                                      : hidden[s]        ? Visibility::hidden
+                                                         : Visibility::seen;
+  return visibility;
 }
 
 Sector sector_of(const BeamFan& fan, const SamplingOptions& options) {
@@ -48,23 +51,23 @@ Sector sector_of(const BeamFan& fan, const SamplingOptions& options) {
 
 }  // namespace
 
-std::vector<Sight> find_sight(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
-                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
-                              const SamplingOptions& options) {
+std::vector<Visibility> find_visibility(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
+                                        const RangeGate& gate, const std::vector<std::uint8_t>& asked,
+                                        const SamplingOptions& options) {
   require_valid(scene, fan, gate, asked);
-  return sight_of(gate_surfels(scene, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
-                               options.footprint, options.threads),
-                  asked, options);
+  return visibility_of(gate_surfels(scene, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
+                                    options.footprint, options.threads),
+                       asked, options);
 }
 
-std::vector<Sight> find_sight(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
-                              const RangeGate& gate, const std::vector<std::uint8_t>& asked,
-                              const SamplingOptions& options) {
+std::vector<Visibility> find_visibility(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                                        const RangeGate& gate, const std::vector<std::uint8_t>& asked,
+                                        const SamplingOptions& options) {
   const SceneCloud& scene = prepared.scene();
   require_valid(scene, fan, gate, asked);
-  return sight_of(gate_surfels(prepared, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
-                               options.footprint, options.threads),
-                  asked, options);
+  return visibility_of(gate_surfels(prepared, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
+                                    options.footprint, options.threads),
+                       asked, options);
 }
 
 Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,

@@ -1,5 +1,3 @@
-#include "sampling/split_surfels.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sampling/split_surfels_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,13 +1,12 @@
-#include "sampling/surfel_visibility.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include "core/parallel.hpp"
-#include "sampling/direction_index.hpp"
-#include "sampling/direction_raster.hpp"
-#include "sampling/hit_rule.hpp"
-#include "sampling/list_where.hpp"
+#include "sampling/direction_index_internal.hpp"
+#include "sampling/direction_raster_internal.hpp"
+#include "sampling/hit_rule_internal.hpp"
+#include "sampling/list_where_internal.hpp"
+#include "sampling/surfel_visibility_internal.hpp"
 
 namespace insonify {
 namespace {

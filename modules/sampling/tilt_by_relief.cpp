@@ -1,10 +1,9 @@
-#include "sampling/tilt_by_relief.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/parallel.hpp"
 #include "sampling/beam_fan.hpp"
+#include "sampling/tilt_by_relief_internal.hpp"
 
 namespace insonify {
 namespace {

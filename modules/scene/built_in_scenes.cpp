@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "scene/harbour_scene.hpp"
-#include "scene/sample_patches.hpp"
+#include "scene/harbour_scene_internal.hpp"
+#include "scene/sample_patches_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,3 @@
-#include "scene/harbour_scene.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "scene/harbour_scene_internal.hpp"
 
 namespace insonify {
 namespace {

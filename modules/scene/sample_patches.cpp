@@ -1,5 +1,3 @@
-#include "scene/sample_patches.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "scene/sample_patches_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "scene/scene_index.hpp"
-#include "scene_io/complete_scene.hpp"
+#include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
 namespace {

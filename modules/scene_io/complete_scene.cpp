@@ -1,5 +1,3 @@
-#include "scene_io/complete_scene.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "scene/surfel_area.hpp"
+#include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
 namespace {

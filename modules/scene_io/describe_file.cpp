@@ -5,8 +5,8 @@
 
 #include "core/parallel.hpp"
 #include "scene/scene_index.hpp"
-#include "scene_io/complete_scene.hpp"
-#include "scene_io/raw_cloud.hpp"
+#include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "scene_io/complete_scene.hpp"
+#include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -3,7 +3,7 @@
 #include <pcl/search/kdtree.h>
 
 #include "core/parallel.hpp"
-#include "scene_io/complete_scene.hpp"
+#include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
 
 namespace insonify {

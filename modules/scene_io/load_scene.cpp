@@ -1,8 +1,8 @@
 #include "scene_io/load_scene.hpp"
 
-#include "scene_io/complete_scene.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/raw_cloud.hpp"
+#include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/tiled_scene.hpp"
 
 namespace insonify {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/ply_header.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/ply_header_internal.hpp"
 
 namespace insonify {
 namespace {

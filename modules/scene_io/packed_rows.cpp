@@ -1,10 +1,9 @@
-#include "scene_io/packed_rows.hpp"
-
 #include <limits>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "scene_io/raw_cloud.hpp"
+#include "scene_io/packed_rows_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -94,13 +93,13 @@ PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudForm
     rows.columns.push_back({prefix + name, NumberType::float32});
   for (const char* name : {"hits", "material", "id"}) rows.columns.push_back({prefix + name, NumberType::uint32});
   rows.write_row = [&scene, &map, wide](std::size_t i, char* out) {
-    constexpr float unheard = std::numeric_limits<float>::quiet_NaN();
+    constexpr float never_insonified = std::numeric_limits<float>::quiet_NaN();
     const bool heard = map.hits[i] > 0;
     put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
     for (const float n : scene.normal[i]) put(out, n);
-    put(out, heard ? map.level_db[i] : unheard);
-    put(out, heard ? static_cast<float>(degrees(map.grazing_angle[i])) : unheard);
-    put(out, heard ? map.range[i] : unheard);
+    put(out, heard ? map.level_db[i] : never_insonified);
+    put(out, heard ? static_cast<float>(degrees(map.grazing_angle[i])) : never_insonified);
+    put(out, heard ? map.range[i] : never_insonified);
     put(out, map.hits[i]);
     put(out, std::uint32_t{scene.material[i]});
     put(out, scene.id[i]);

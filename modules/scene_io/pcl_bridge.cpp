@@ -4,9 +4,9 @@
 #include <pcl/io/pcd_io.h>
 
 #include "core/error.hpp"
-#include "scene_io/complete_scene.hpp"
-#include "scene_io/packed_rows.hpp"
-#include "scene_io/pcd_header.hpp"
+#include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/packed_rows_internal.hpp"
+#include "scene_io/pcd_header_internal.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
 
 namespace insonify {

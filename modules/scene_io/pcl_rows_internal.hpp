@@ -2,7 +2,7 @@
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/console/print.h>
 
-#include "scene_io/raw_cloud.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 
 namespace insonify {
 

@@ -1,11 +1,10 @@
-#include "scene_io/ply_header.hpp"
-
 #include <fstream>
 #include <map>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/text_lines.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/ply_header_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "scene_io/complete_scene.hpp"
-#include "scene_io/raw_cloud.hpp"
-#include "scene_io/row_file.hpp"
+#include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -46,7 +46,7 @@ Batch read_batch(const Survey& survey, std::size_t first) {
 
 bool bad_area(float area) { return !(std::isfinite(area) && area >= 0); }
 
-void tell(const PrepareTilesOptions& options, double part) {
+void report_progress(const PrepareTilesOptions& options, double part) {
   if (options.progress) options.progress(part);
 }
 
@@ -71,7 +71,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
       survey.ids_ascend = survey.ids_ascend && id > last_id;
       last_id = id;
     }
-    tell(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
+    report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
   if (whole.not_finite == survey.file.rows)
     fail(ErrorKind::content, whole.path, ": holds no usable point (", survey.file.rows,
@@ -164,15 +164,15 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   writing.estimate_areas = report.areas_estimated;
   writing.memory = options.memory;
   writing.threads = options.load.threads;
-  writing.progress = [&](double part) { tell(options, both_passes + (1 - both_passes) * part); };
+  writing.progress = [&](double part) { report_progress(options, both_passes + (1 - both_passes) * part); };
   TileWriter writer(output, writing);
   std::vector<Vector3d> places;
   for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
     Batch batch = read_batch(survey, first);
     const SceneCloud scene = surfels_of(batch, first, survey, material, places, result);
     writer.add(scene, places);
-    tell(options,
-         first_pass + (both_passes - first_pass) * static_cast<double>(first) / static_cast<double>(survey.file.rows));
+    report_progress(options, first_pass + (both_passes - first_pass) * static_cast<double>(first) /
+                                              static_cast<double>(survey.file.rows));
   }
   PreparedTiles prepared{{}, writer.finish(), writing.normals_oriented, true};
   report.dropped_duplicates = prepared.tiles.dropped_duplicates;

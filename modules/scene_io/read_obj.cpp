@@ -2,9 +2,9 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/raw_cloud.hpp"
-#include "scene_io/text_lines.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
 // An own reader, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
 namespace insonify {

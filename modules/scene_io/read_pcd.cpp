@@ -5,11 +5,11 @@
 #include <pcl/io/pcd_io.h>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
+#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
-#include "scene_io/raw_cloud.hpp"
-#include "scene_io/row_file.hpp"
-#include "scene_io/text_lines.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 namespace {

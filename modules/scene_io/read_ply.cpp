@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
-#include "scene_io/ply_header.hpp"
-#include "scene_io/raw_cloud.hpp"
+#include "scene_io/ply_header_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 
 // PCL's parser, and not pcl::PLYReader on top of it, since PLYReader 1.13 does these things without a word: it shifts
 // coordinates that stand between or behind colours other than a run of red green blue, gives faces with 8 or 16-bit

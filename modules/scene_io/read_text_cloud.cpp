@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/raw_cloud.hpp"
-#include "scene_io/text_lines.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,11 +1,10 @@
-#include "scene_io/row_file.hpp"
-
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/ply_header.hpp"
-#include "scene_io/tile_file.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/ply_header_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
+#include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "scene_io/raw_cloud.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
-#include "scene_io/complete_scene.hpp"
+#include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/packed_rows.hpp"
-#include "scene_io/pcd_header.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/packed_rows_internal.hpp"
+#include "scene_io/pcd_header_internal.hpp"
 
 static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers as they lie in memory");
 

@@ -2,8 +2,8 @@
 #include <charconv>
 
 #include "core/error.hpp"
-#include "scene_io/raw_cloud.hpp"
-#include "scene_io/text_lines.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 namespace {

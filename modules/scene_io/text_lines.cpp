@@ -1,8 +1,7 @@
-#include "scene_io/text_lines.hpp"
-
 #include <cctype>
 
 #include "core/error.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 

@@ -1,5 +1,3 @@
-#include "scene_io/tile_areas.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,6 +7,7 @@
 
 #include "core/units.hpp"
 #include "scene/surfel_area.hpp"
+#include "scene_io/tile_areas_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,3 @@
-#include "scene_io/tile_file.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -11,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {

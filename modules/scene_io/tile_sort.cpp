@@ -1,9 +1,9 @@
-#include "scene_io/tile_sort.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include <Eigen/Core>
+
+#include "scene_io/tile_sort_internal.hpp"
 
 namespace insonify {
 namespace {

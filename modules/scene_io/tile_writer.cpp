@@ -10,10 +10,10 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "scene_io/complete_scene.hpp"
-#include "scene_io/tile_areas.hpp"
-#include "scene_io/tile_file.hpp"
-#include "scene_io/tile_sort.hpp"
+#include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/tile_areas_internal.hpp"
+#include "scene_io/tile_file_internal.hpp"
+#include "scene_io/tile_sort_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -127,7 +127,7 @@ struct TileWriter::State {
   std::uint64_t end = sizeof(TileHeader);
   bool wide = false;
 
-  void tell(double part) const {
+  void report_progress(double part) const {
     if (options.progress) options.progress(std::clamp(part, 0.0, 1.0));
   }
   /// Group of neighbours -> tiles in the file.
@@ -240,14 +240,17 @@ TileReport TileWriter::finish() {
   PlaceSort sort;
   sort.most = std::max(s.options.memory, least_memory) / bytes_per_record;
   sort.take = [&](std::vector<TileRecord>& group) { s.write_group(group, pending.file); };
-  sort.moved = [&](std::uint64_t records) { s.tell(sorting * (s.moved += static_cast<double>(records)) / s.wanted); };
+  sort.moved = [&](std::uint64_t records) {
+    s.report_progress(sorting * (s.moved += static_cast<double>(records)) / s.wanted);
+  };
   sort_by_place(std::move(s.waiting), sort);
   if (s.options.estimate_areas)
-    s.total_area = fill_areas(pending.file, s.tiles, s.options, [&](double part) { s.tell(sorting + 0.8 * part); });
+    s.total_area =
+        fill_areas(pending.file, s.tiles, s.options, [&](double part) { s.report_progress(sorting + 0.8 * part); });
   else if (s.report.dropped_duplicates > 0)
     s.total_area = sum_of_areas(pending.file, s.tiles);
   s.write_tail(pending.file);
-  s.tell(1);
+  s.report_progress(1);
   pending.commit();
   return s.report;
 }

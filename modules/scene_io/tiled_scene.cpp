@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "scene_io/file_probe.hpp"
-#include "scene_io/tile_file.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -169,12 +169,12 @@ TiledScene::TiledScene(TiledScene&&) noexcept = default;
 
 const TiledSceneInfo& TiledScene::info() const { return state_->info; }
 
-TileSelection TiledScene::select(const Reach& reach) const {
+TileSelection TiledScene::select(const InsonifiedRegion& region) const {
   TileSelection selection;
-  selection.origin = state_->origin_near(reach.world_from_head.translation());
+  selection.origin = state_->origin_near(region.world_from_head.translation());
   for (std::uint32_t t = 0; t < state_->tiles.size(); ++t) {
     const TileEntry& tile = state_->tiles[t];
-    if (!may_hold(reach, state_->info.origin + vector_of(tile.centre), tile.radius, tile.largest_area)) continue;
+    if (!may_hold(region, state_->info.origin + vector_of(tile.centre), tile.radius, tile.largest_area)) continue;
     selection.tiles.push_back(t);
     selection.surfels += tile.count;
   }

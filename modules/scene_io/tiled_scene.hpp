@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "sampling/reach.hpp"
+#include "sampling/insonified_region.hpp"
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {
@@ -37,8 +37,8 @@ struct TileSelection {
 /// TileWriter makes one. Opening reads the directory, 80 bytes per tile of at most 4096 surfels.
 ///
 ///   const TiledScene tiled("bay.tiles");
-///   const Reach reach = ping_reach(tiled.info().whole, head, pose, environment, options);
-///   const SceneCloud part = tiled.load(tiled.select(reach));
+///   const InsonifiedRegion region = ping_region(tiled.info().whole, head, pose, environment, options);
+///   const SceneCloud part = tiled.load(tiled.select(region));
 ///   simulate_ping(part, head, pose, environment, options);  // the same bytes as of the whole scene
 class TiledScene {
  public:
@@ -51,7 +51,7 @@ class TiledScene {
   const TiledSceneInfo& info() const;
 
   /// The tiles that can hold a surfel within reach.
-  TileSelection select(const Reach& reach) const;
+  TileSelection select(const InsonifiedRegion& region) const;
   TileSelection select_all() const;
 
   /// Their surfels by ascending id, ids and order those of the whole scene, part_of set. Scenes that reach less than

@@ -51,12 +51,12 @@ Sampling converge_sampling(const PreparedScene& prepared, const SonarHead& head,
   if (!(wanted_db > 0 && std::isfinite(wanted_db)))
     fail(ErrorKind::argument, "converge_sampling: wanted_db = ", wanted_db, " dB, must be finite and > 0");
   report.wanted_db = wanted_db;
-  HearingOptions mean_power = sent.hearing;
+  EchoOptions mean_power = sent.echo_options;
   mean_power.amplitude = SurfaceAmplitude::mean_power;
   while (true) {
     Sampling sampling = find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
     const Echoes echoes =
-        hear_scatterers(sampling.scatterers, prepared.scene().materials, sent.pulse, sent.medium, mean_power);
+        direct_echoes(sampling.scatterers, prepared.scene().materials, sent.pulse, sent.medium, mean_power);
     report.level_error_db =
         predict_level_error_db(echoes, head, sent.medium, {.threads = view.sampling.threads});  // (E66)
     report.scatterers = sampling.scatterers.size();

@@ -16,7 +16,7 @@ namespace insonify {
 ///
 /// Leaves what was used in view.sampling, and how it went in `report`. Returns what find_scatterers gives for that.
 /// Other samplings are other draws of the speckle. Throws Error unless wanted_db is finite and > 0, and as
-/// find_scatterers, hear_scatterers and predict_level_error_db do.
+/// find_scatterers, direct_echoes and predict_level_error_db do.
 Sampling converge_sampling(const PreparedScene& prepared, const SonarHead& head, const Transmission& sent,
                            double wanted_db, View& view, ConvergenceReport& report);
 

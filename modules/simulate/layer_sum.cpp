@@ -1,5 +1,3 @@
-#include "simulate/layer_sum.hpp"
-
 #include <complex>
 #include <numbers>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "beamforming/synthesize_noise.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "simulate/layer_sum_internal.hpp"
 
 namespace insonify {
 
@@ -15,7 +14,7 @@ LayerSum::LayerSum(const SonarHead& head, const Medium& medium, const Simulation
   if (incoherent_ && options.keep_elements)
     fail(ErrorKind::argument,
          "simulate_ping: keep_elements = true, must be false with method incoherent: elements hear pressures, and an ",
-         "expected intensity has none; use method stamped");
+         "expected intensity has none; use method gridded");
 }
 
 void LayerSum::add(const std::string& name, const Echoes& echoes) {
@@ -23,7 +22,7 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
                synthesize(echoes, head_, medium_, options_.method, {options_.tolerance, options_.threads}));
   if (!options_.keep_elements) return;
   ElementSeries series =
-      hear_elements(echoes, head_, medium_, {options_.tolerance, Wavefront::spherical, options_.threads});
+      element_series(echoes, head_, medium_, {options_.tolerance, Wavefront::spherical, options_.threads});
   if (elements_.pressure.size() > 0) series.pressure += elements_.pressure;
   elements_ = std::move(series);
 }
@@ -51,7 +50,7 @@ void LayerSum::add_pressure(const std::string& name, std::size_t echoes, const C
   if (options_.keep_layers) layers_.push_back({name, stored_pressure(pressure, "simulate_ping")});
 }
 
-void LayerSum::hand_over(const Pose& world_from_head, SimulatedPing& result) {
+void LayerSum::finish(const Pose& world_from_head, SimulatedPing& result) {
   result.ping = {options_.ping,     options_.time, world_from_head,
                  head_.fan,         head_.gate,    stored_pressure(sum_, "simulate_ping"),
                  std::move(layers_)};

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "acoustics/hear_multipath.hpp"
+#include "acoustics/multipath_echoes.hpp"
 #include "beamforming/beam_pattern.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "simulate/scene_glance.hpp"
-#include "simulate/stage_options.hpp"
+#include "simulate/scene_sample_internal.hpp"
+#include "simulate/stage_options_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -27,7 +27,7 @@ class Planner {
         environment_(environment),
         options_(options),
         medium_(medium_of(environment, head.pulse.centre_frequency, options.absorption_order)),
-        glance_(glance_at(scene, head, pose, medium_, options)),
+        sample_(sample_scene(scene, head, pose, medium_, options)),
         view_(view_of(largest_area(scene), head, pose, medium_, options)) {
     SonarHead row = head;
     row.column.reset();
@@ -55,22 +55,22 @@ class Planner {
   /// Amplitude of what `power` adds to the image, relative to what is in view.
   double relative(double power) const {
     if (power == 0) return 0;
-    return glance_.in_view > 0 ? margin * std::sqrt(power / glance_.in_view) : std::numeric_limits<double>::infinity();
+    return sample_.in_view > 0 ? margin * std::sqrt(power / sample_.in_view) : std::numeric_limits<double>::infinity();
   }
 
   void geometry() {
     if (scene_.normals_oriented)
       add("back-faces", false,
-          std::to_string(glance_.back_facing) + " surfels in view turn away: Lambert's law gives nothing", 0);
+          std::to_string(sample_.back_facing) + " surfels in view turn away: Lambert's law gives nothing", 0);
     else
       add("back-faces", true, "normals have no side: both sides reflect", 0);
     add("other-ranges", false, "pulses from there have ended before the gate begins, or begin after it",
-        relative(glance_.beyond_gate));
+        relative(sample_.beyond_gate));
     add("outer-elevations", false,
         "the elevation pattern is below " + std::to_string(static_cast<int>(options_.elevation_floor_db)) + " dB there",
-        relative(glance_.off_elevation));
+        relative(sample_.off_elevation));
     add("outer-azimuths", false, "beams hear only side lobes from there",
-        side_lobe() / plan_.synthesis.share * relative(glance_.off_azimuth));
+        side_lobe() / plan_.synthesis.share * relative(sample_.off_azimuth));
     add("occlusion", options_.occlusion, options_.occlusion ? "surfels hide others" : "left out on request",
         std::numeric_limits<double>::infinity());
   }
@@ -92,7 +92,7 @@ class Planner {
   void propagation() {
     const Absorption full =
         absorption_about(environment_.water, head_.pulse.centre_frequency, 2, environment_.absorption_formula);
-    const double half_band = 0.5 * head_.pulse.bandwidth, way = 2 * glance_.in_view_farthest;
+    const double half_band = 0.5 * head_.pulse.bandwidth, way = 2 * sample_.in_view_farthest;
     add("absorption-slope", options_.absorption_order > 0,
         options_.absorption_order > 0 ? "asked for: each frequency of the pulse has its own absorption"
                                       : "a peak stays SL - 2 TL + TS: one absorption for the whole pulse",
@@ -103,7 +103,7 @@ class Planner {
 
   void refraction() {
     if (!environment_.profile) return add("refraction", false, "one sound speed everywhere", 0);
-    Scatterers places = glance_.places;
+    Scatterers places = sample_.places;
     const RefractionReport report = refract(environment_, view_, options_.refraction, head_.gate.bin_size, places);
     const double turn = 4 * pi * head_.pulse.centre_frequency / medium_.sound_speed * report.bound.range;
     add("refraction", report.bent,
@@ -114,13 +114,13 @@ class Planner {
 
   void boundaries() {
     const bool boundary = environment_.surface || environment_.bottom;
-    const Transmission sent{head_.pulse, medium_, hearing_options(head_, options_)};
+    const Transmission sent{head_.pulse, medium_, echo_options_of(head_, options_)};
     const double bounce = boundary ? strongest_bounce(environment_, view_, sent) : 0;
     add("multipath", options_.multipath && boundary,
         !boundary            ? "no surface and no bottom"
         : options_.multipath ? "asked for"
                              : "not asked for",
-        bounce == 0 ? 0 : (2 * bounce + bounce * bounce) * relative(glance_.anywhere));
+        bounce == 0 ? 0 : (2 * bounce + bounce * bounce) * relative(sample_.anywhere));
     const auto strength = [&](const char* name, bool present) {
       add(name, present, present ? "the environment gives its scattering strength" : "no scattering strength given", 0);
     };
@@ -152,7 +152,7 @@ class Planner {
 
   void synthesis() {
     const bool direct = options_.method == SynthesisMethod::direct;
-    add("direct-sum", direct, direct ? "asked for" : "stamping keeps the tolerance", options_.tolerance);
+    add("direct-sum", direct, direct ? "asked for" : "gridding keeps the tolerance", options_.tolerance);
     const bool exact = options_.method == SynthesisMethod::element_exact;
     add("true-delays", exact,
         exact ? "asked for" : "one beam pattern at all frequencies and ranges, focused: narrow band, far field",
@@ -185,15 +185,15 @@ class Planner {
     }
     const double band = 2.668 * head_.pulse.bandwidth / (2 * pi * head_.pulse.centre_frequency);
     const double steepest = std::max(std::abs(*low), std::abs(*high));
-    const double curvature = glance_.in_view_nearest > 0 ? steepest / (k * glance_.in_view_nearest) : 0;
+    const double curvature = sample_.in_view_nearest > 0 ? steepest / (k * sample_.in_view_nearest) : 0;
     return std::min(2.0, margin * (band * std::sqrt(first / pattern) + curvature * std::sqrt(second / pattern)));
   }
 
-  /// Rough costs: 0.6 us per scatterer for sampling and hearing, 0.1 us per scatterer and row for stamping, and the
+  /// Rough costs: 0.6 us per scatterer for sampling and echo_options, 0.1 us per scatterer and row for gridding, and the
   /// transforms of all bins.
   void estimate() {
-    plan_.surfels_in_view = glance_.surfels;
-    plan_.scatterers = glance_.scatterers;
+    plan_.surfels_in_view = sample_.surfels;
+    plan_.scatterers = sample_.scatterers;
     const double rows = static_cast<double>(fan_rows(head_.fan).size()), bins = static_cast<double>(head_.gate.bins());
     const double beams = static_cast<double>(head_.fan.beams());
     plan_.seconds = 2e-8 * static_cast<double>(scene_.size()) + 6e-7 * plan_.scatterers +
@@ -206,7 +206,7 @@ class Planner {
   const Environment& environment_;
   const SimulationOptions& options_;
   Medium medium_;
-  SceneGlance glance_;
+  SceneSample sample_;
   View view_;
   PingPlan plan_;
 };
@@ -256,9 +256,9 @@ void force_stage(const std::string& name, bool included, Environment& environmen
       absent("bottom.lambert_mu_db is not given");
     if (!included && environment.bottom) environment.bottom->lambert_mu.reset();
   } else if (name == "true-delays") {
-    options.method = included ? SynthesisMethod::element_exact : SynthesisMethod::stamped;
+    options.method = included ? SynthesisMethod::element_exact : SynthesisMethod::gridded;
   } else if (name == "direct-sum") {
-    options.method = included ? SynthesisMethod::direct : SynthesisMethod::stamped;
+    options.method = included ? SynthesisMethod::direct : SynthesisMethod::gridded;
   } else {
     fail(ErrorKind::argument, "force_stage: '", name, "' cannot be forced; these can: outer-elevations, ",
          "outer-azimuths, occlusion, absorption-slope, refraction, motion, multipath, noise, volume, surface, bottom, ",

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "acoustics/hear_reverberation.hpp"
+#include "acoustics/reverberation_echoes.hpp"
+#include "simulate/attach_outputs_internal.hpp"
 #include "simulate/converge_sampling.hpp"
-#include "simulate/keep_more.hpp"
-#include "simulate/layer_sum.hpp"
-#include "simulate/stage_options.hpp"
-#include "simulate/stop_watch.hpp"
+#include "simulate/layer_sum_internal.hpp"
+#include "simulate/stage_options_internal.hpp"
+#include "simulate/stop_watch_internal.hpp"
 
 namespace insonify {
 
@@ -20,7 +20,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
 
   // The water: how fast sound travels and how much of it is lost on the way.
   result.medium = medium_of(environment, head.pulse.centre_frequency, options.absorption_order);
-  const Transmission sent{head.pulse, result.medium, hearing_options(head, options)};
+  const Transmission sent{head.pulse, result.medium, echo_options_of(head, options)};
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
   View view = view_of(prepared.largest_area(), head, world_from_head, result.medium, options);
@@ -33,7 +33,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase.
   const Scatterers& seen = sampling.scatterers;
-  Echoes echoes = hear_scatterers(seen, prepared.scene().materials, sent.pulse, sent.medium, sent.hearing);
+  Echoes echoes = direct_echoes(seen, prepared.scene().materials, sent.pulse, sent.medium, sent.echo_options);
   if (!options.motion.none())
     move_echoes(options.motion, world_from_head, seen, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
   result.seconds.acoustics = watch.lap();
@@ -42,12 +42,12 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   LayerSum layers(head, result.medium, options);
   layers.add("direct", echoes);
   Multipath bounced;
-  if (options.multipath) bounced = hear_multipath(prepared.scene(), seen, environment, view, sent);
+  if (options.multipath) bounced = multipath_echoes(prepared.scene(), seen, environment, view, sent);
   if (options.multipath) layers.add("multipath", bounced.echoes);
-  for (const Reverberation& part : hear_reverberation(environment, view, sent, options.ping))
+  for (const Reverberation& part : reverberation_echoes(environment, view, sent, options.ping))
     layers.add(part.name, part.echoes);
   if (options.noise) layers.add_noise(environment);
-  layers.hand_over(world_from_head, result);
+  layers.finish(world_from_head, result);
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.
@@ -59,7 +59,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   // What else was asked for, and what to know about it.
   result.sampling = sampling.report;
   result.scatterers = std::move(sampling.scatterers);
-  keep_more(prepared, head, {view, environment, echoes, bounced}, options, result);
+  attach_outputs(prepared, head, {view, environment, echoes, bounced}, options, result);
   return result;
 }
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "acoustics/bend_paths.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "acoustics/environment.hpp"
-#include "acoustics/hear_multipath.hpp"
-#include "acoustics/hear_scatterers.hpp"
 #include "acoustics/motion.hpp"
+#include "acoustics/multipath_echoes.hpp"
 #include "acoustics/sound_paths.hpp"
 #include "beamforming/element_series.hpp"
 #include "beamforming/synthesize.hpp"
@@ -31,7 +31,7 @@ struct SimulationOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   /// `incoherent` gives the expected level without speckle (E65): all amplitudes are of mean power, and layers and noise
   /// add up by their squares. There is nothing for elements to hear then.
-  SynthesisMethod method = SynthesisMethod::stamped;
+  SynthesisMethod method = SynthesisMethod::gridded;
   double tolerance = 1e-4;
   /// Sampling is refined until 99 % of the cells have a smaller error (E66); 0: taken as it is.
   double level_error_db = 0;

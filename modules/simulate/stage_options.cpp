@@ -1,11 +1,10 @@
-#include "simulate/stage_options.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/hear_reverberation.hpp"
+#include "acoustics/reverberation_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "core/units.hpp"
+#include "simulate/stage_options_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -32,8 +31,8 @@ SamplingOptions sampling_options(const SonarHead& head, const Medium& medium, co
   return s;
 }
 
-HearingOptions hearing_options(const SonarHead& head, const SimulationOptions& o) {
-  HearingOptions h;
+EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
+  EchoOptions h;
   h.amplitude = o.method == SynthesisMethod::incoherent ? SurfaceAmplitude::mean_power : o.amplitude;
   h.seed = o.seed;
   h.threads = o.threads;
@@ -84,16 +83,16 @@ RefractionReport refract(const Environment& environment, const View& view, Choic
   return report;
 }
 
-std::vector<Reverberation> hear_reverberation(const Environment& e, const View& view, const Transmission& sent,
-                                              std::int64_t ping) {
+std::vector<Reverberation> reverberation_echoes(const Environment& e, const View& view, const Transmission& sent,
+                                                std::int64_t ping) {
   ReverberationOptions options;
   options.ping = ping;
   std::vector<Reverberation> heard;
-  if (e.volume_scattering_db) heard.push_back({"volume", hear_volume(e, view.fan, view.gate, sent, options)});
+  if (e.volume_scattering_db) heard.push_back({"volume", volume_echoes(e, view.fan, view.gate, sent, options)});
   if (e.surface && e.surface->scattering_strength_db)
-    heard.push_back({"surface", hear_surface(e, view.world_from_head, view.fan, view.gate, sent, options)});
+    heard.push_back({"surface", surface_echoes(e, view.world_from_head, view.fan, view.gate, sent, options)});
   if (e.bottom && e.bottom->lambert_mu)
-    heard.push_back({"bottom", hear_bottom(e, view.world_from_head, view.fan, view.gate, sent, options)});
+    heard.push_back({"bottom", bottom_echoes(e, view.world_from_head, view.fan, view.gate, sent, options)});
   return heard;
 }
 

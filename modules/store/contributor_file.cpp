@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "store/hdf5_internal.hpp"
-#include "store/pending_file.hpp"
+#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t contributor_schema = 1;
 const std::string content = "contributors";
 constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name{"/share", ""},
-    heard_from_name{"/elevation", "rad"}, material_name{"/material", ""}, path_name{"/path", ""},
+    surface_of_name{"/elevation", "rad"}, material_name{"/material", ""}, path_name{"/path", ""},
     material_image_name{"/material_image", ""}, instance_image_name{"/instance_image", ""},
     names_name{"/material_names", ""};
 
@@ -112,7 +112,7 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
   write_numbers(place, file, surfel_name, lists, c.surfel.data());
   write_numbers(place, file, id_name, lists, c.id.data());
   write_numbers(place, file, share_name, lists, c.share.data());
-  write_numbers(place, file, heard_from_name, lists, c.elevation.data());
+  write_numbers(place, file, surface_of_name, lists, c.elevation.data());
   write_numbers(place, file, material_name, lists, c.material.data());
   static_assert(sizeof(PathKind) == 1);
   write_numbers(place, file, path_name, lists, reinterpret_cast<const std::uint8_t*>(c.path.data()));
@@ -135,7 +135,7 @@ NamedContributors read_contributor_file(const std::string& path) {
   read_numbers(place, file, surfel_name, extent, c.surfel);
   read_numbers(place, file, id_name, extent, c.id);
   read_numbers(place, file, share_name, extent, c.share);
-  read_numbers(place, file, heard_from_name, extent, c.elevation);
+  read_numbers(place, file, surface_of_name, extent, c.elevation);
   read_numbers(place, file, material_name, extent, c.material);
   std::vector<std::uint8_t> kinds;
   read_numbers(place, file, path_name, extent, kinds);

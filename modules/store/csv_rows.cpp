@@ -1,10 +1,9 @@
-#include "store/csv_rows.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "store/csv_rows_internal.hpp"
 #include "store/nearest_word.hpp"
 #include "store/run_directory.hpp"
 

@@ -24,7 +24,7 @@ struct Cube {
 /// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth
 /// and /elevation [rad], /pose (pings x 4 x 4, world_from_head, row by row), /time [s], /ping (numbers) and,
 /// as root attributes, schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad], min_range, max_range,
-/// bin_size [m]. Byte-identical for identical input (no time stamps). Written to a temporary name, then
+/// bin_size [m]. Byte-identical for identical input (no timestamps). Written to a temporary name, then
 /// renamed. Layers of the pings stand beside as /layers/NAME, laid out like /pressure; so do, where the pings have them,
 /// /level_error_db (float32) and /unknown (uint8). Of expected levels the attribute expected_level says so. Throws
 /// Error(argument) if there is no ping or they differ in fan, gate, extent, layers, maps or expected_level; Error(file)

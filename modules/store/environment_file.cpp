@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "store/nearest_word.hpp"
-#include "store/sonar_keys.hpp"
-#include "store/toml_tree.hpp"
+#include "store/sonar_keys_internal.hpp"
+#include "store/toml_tree_internal.hpp"
 
 namespace insonify {
 namespace {

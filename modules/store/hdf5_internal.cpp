@@ -151,7 +151,7 @@ Handle open_file(const Place& place) {
   return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
 }
 
-// A dataset without time stamps; with `chunk` if not empty.
+// A dataset without timestamps; with `chunk` if not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk) {
   const Handle space(

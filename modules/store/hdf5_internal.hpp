@@ -7,7 +7,7 @@
 #include <hdf5.h>
 
 #include "core/error.hpp"
-#include "store/cube_layout.hpp"
+#include "store/cube_layout_internal.hpp"
 
 namespace insonify::hdf5 {
 
@@ -61,13 +61,13 @@ class Handle {
 
 using Extent = std::vector<hsize_t>;
 
-/// A new file without time stamps: same input, same bytes.
+/// A new file without timestamps: same input, same bytes.
 Handle create_file(const Place& place, const std::string& name);
 
 /// An existing file, to be read. Throws Error(file) if it is missing or a folder, Error(content) if it is no HDF5.
 Handle open_file(const Place& place);
 
-/// A dataset without time stamps, with its unit as attribute "units"; with `chunk` if not empty.
+/// A dataset without timestamps, with its unit as attribute "units"; with `chunk` if not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {});
 

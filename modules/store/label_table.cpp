@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "store/csv_rows.hpp"
+#include "store/csv_rows_internal.hpp"
 #include "store/run_directory.hpp"
 
 namespace insonify {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/units.hpp"
-#include "store/toml_tree.hpp"
+#include "store/toml_tree_internal.hpp"
 
 namespace insonify {
 namespace {

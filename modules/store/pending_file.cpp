@@ -1,11 +1,10 @@
-#include "store/pending_file.hpp"
-
 #include <filesystem>
 #include <system_error>
 
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 

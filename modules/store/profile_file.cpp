@@ -3,7 +3,7 @@
 #include <array>
 
 #include "acoustics/water.hpp"
-#include "store/csv_rows.hpp"
+#include "store/csv_rows_internal.hpp"
 
 namespace insonify {
 namespace {

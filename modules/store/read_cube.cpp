@@ -1,6 +1,6 @@
 #include "core/error.hpp"
 #include "store/cube.hpp"
-#include "store/cube_layout.hpp"
+#include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
 namespace insonify {

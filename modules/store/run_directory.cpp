@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "store/pending_file.hpp"
+#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 

@@ -1,5 +1,3 @@
-#include "store/sonar_keys.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "store/sonar_keys_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,11 +1,10 @@
-#include "store/toml_tree.hpp"
-
 #include <algorithm>
 
 #include <toml++/toml.h>
 
 #include "store/nearest_word.hpp"
 #include "store/run_directory.hpp"
+#include "store/toml_tree_internal.hpp"
 
 namespace insonify {
 namespace {

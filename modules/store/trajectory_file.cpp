@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "store/csv_rows.hpp"
+#include "store/csv_rows_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "core/error.hpp"
 #include "store/cube.hpp"
-#include "store/cube_layout.hpp"
+#include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
-#include "store/pending_file.hpp"
+#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 

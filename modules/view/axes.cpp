@@ -1,10 +1,9 @@
-#include "view/axes.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "view/axes_internal.hpp"
 #include "view/text.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

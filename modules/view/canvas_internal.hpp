@@ -8,8 +8,8 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include "view/colour_bar.hpp"
-#include "view/drawn_cells.hpp"
+#include "view/colour_bar_internal.hpp"
+#include "view/drawn_cells_internal.hpp"
 #include "view/egl_window_internal.hpp"
 #include "view/vtk_messages_internal.hpp"
 

@@ -1,5 +1,5 @@
 #include "view/cell_frame_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 
 namespace insonify {
 

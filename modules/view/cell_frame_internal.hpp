@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "view/axes.hpp"
+#include "view/axes_internal.hpp"
 #include "view/canvas_internal.hpp"
-#include "view/colour_bar.hpp"
+#include "view/colour_bar_internal.hpp"
 
 namespace insonify {
 

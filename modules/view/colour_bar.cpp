@@ -1,9 +1,8 @@
-#include "view/colour_bar.hpp"
-
 #include <algorithm>
 
+#include "view/colour_bar_internal.hpp"
 #include "view/text.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

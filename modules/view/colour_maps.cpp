@@ -1,10 +1,9 @@
-#include "view/colour_maps.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
+#include "view/colour_maps_internal.hpp"
 
 namespace insonify {
 namespace {

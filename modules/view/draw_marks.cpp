@@ -4,7 +4,7 @@
 
 #include "core/units.hpp"
 #include "view/draw_marks_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 
 namespace insonify {
 namespace {

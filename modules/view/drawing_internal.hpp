@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "view/canvas_internal.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/fan_layout.hpp"
-#include "view/line_chart.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/fan_layout_internal.hpp"
+#include "view/line_chart_internal.hpp"
 #include "view/picture.hpp"
 #include "view/show_panels.hpp"
 #include "view/show_spectrum.hpp"

@@ -1,5 +1,3 @@
-#include "view/drawn_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "view/drawn_cells_internal.hpp"
 
 namespace insonify {
 namespace {

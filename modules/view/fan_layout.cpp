@@ -1,11 +1,10 @@
-#include "view/fan_layout.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/units.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/text.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,3 @@
-#include "view/line_chart.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +13,8 @@
 #include <vtkTable.h>
 
 #include "view/drawing_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
+#include "view/line_chart_internal.hpp"
 #include "view/text.hpp"
 #include "view/vtk_messages_internal.hpp"
 

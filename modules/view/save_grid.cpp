@@ -16,7 +16,7 @@
 #include <vtkXMLStructuredGridWriter.h>
 
 #include "core/error.hpp"
-#include "view/drawn_cells.hpp"
+#include "view/drawn_cells_internal.hpp"
 #include "view/save_xml_internal.hpp"
 
 namespace insonify {

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "view/vtk_messages_internal.hpp"
-#include "view/write_file.hpp"
+#include "view/write_file_internal.hpp"
 
 namespace insonify {
 

@@ -8,9 +8,9 @@
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/scene_actors_internal.hpp"
-#include "view/scene_camera.hpp"
+#include "view/scene_camera_internal.hpp"
 #include "view/scene_points_internal.hpp"
 
 namespace insonify {

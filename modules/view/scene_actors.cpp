@@ -7,10 +7,10 @@
 
 #include "view/canvas_internal.hpp"
 #include "view/scene_actor_parts_internal.hpp"
-#include "view/scene_camera.hpp"
-#include "view/scene_head.hpp"
+#include "view/scene_camera_internal.hpp"
+#include "view/scene_head_internal.hpp"
 #include "view/scene_lines_internal.hpp"
-#include "view/scene_surfels.hpp"
+#include "view/scene_surfels_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -73,7 +73,8 @@ void SceneActors::Parts::make_lines() {
 void SceneActors::Parts::colour() {
   SceneColours colours = colour_surfels(scene, look, options, who);
   key = std::move(colours.key);
-  if (look.colour == SceneColour::sight && !look.holes.empty()) key.legend.push_back({"hole of the scan", hole_rgb});
+  if (look.colour == SceneColour::visibility && !look.holes.empty())
+    key.legend.push_back({"hole of the scan", hole_rgb});
   set_colours(surfels.colours, colours.colour);
 }
 
@@ -133,10 +134,10 @@ void SceneActors::set_levels(std::vector<float> level_db, const std::string& uni
   if (parts_->look.colour == SceneColour::level) parts_->colour();
 }
 
-void SceneActors::set_sight(std::vector<Sight> sight) {
-  require_length(sight.size(), parts_->scene, "sight", parts_->who);
-  parts_->look.sight = std::move(sight);
-  if (parts_->look.colour == SceneColour::sight && !parts_->look.sight.empty()) parts_->colour();
+void SceneActors::set_visibility(std::vector<Visibility> visibility) {
+  require_length(visibility.size(), parts_->scene, "visibility", parts_->who);
+  parts_->look.visibility = std::move(visibility);
+  if (parts_->look.colour == SceneColour::visibility && !parts_->look.visibility.empty()) parts_->colour();
 }
 
 void SceneActors::set_level_range(double min_db, double max_db) {

@@ -8,8 +8,8 @@
 
 #include <vtkRenderer.h>
 
-#include "view/scene_axes.hpp"
-#include "view/scene_colours.hpp"
+#include "view/scene_axes_internal.hpp"
+#include "view/scene_colours_internal.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify {
@@ -38,7 +38,7 @@ class SceneActors {
   /// Colours the surfels anew. Throws as show_scene if what the colour shows is not known.
   void set_colour(SceneColour colour);
   void set_levels(std::vector<float> level_db, const std::string& unit);  ///< per surfel; also colours if shown
-  void set_sight(std::vector<Sight> sight);                               ///< per surfel; also colours if shown
+  void set_visibility(std::vector<Visibility> visibility);                ///< per surfel; also colours if shown
   void set_level_range(double min_db, double max_db);                     ///< of the level colours; NaN: automatic
   void set_colour_map(const std::string& name);                           ///< of the level colours
 

@@ -11,9 +11,9 @@
 #include "view/canvas_internal.hpp"
 #include "view/fonts_internal.hpp"
 #include "view/scene_actor_parts_internal.hpp"
-#include "view/scene_camera.hpp"
+#include "view/scene_camera_internal.hpp"
 #include "view/scene_lines_internal.hpp"
-#include "view/scene_surfels.hpp"
+#include "view/scene_surfels_internal.hpp"
 #include "view/text.hpp"
 
 namespace insonify {

@@ -1,9 +1,8 @@
-#include "view/scene_axes.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "view/ticks.hpp"
+#include "view/scene_axes_internal.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,3 @@
-#include "view/scene_camera.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "view/scene_camera_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,11 +1,10 @@
-#include "view/scene_colours.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "view/scene_colours_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -17,16 +16,16 @@ constexpr Rgb material_colours[] = {{203, 180, 135}, {86, 140, 185}, {214, 104, 
                                     {222, 170, 50},  {60, 165, 160}, {206, 122, 160}, {128, 128, 128}, {140, 96, 66}};
 constexpr std::size_t most_entries = 10;  // of a legend
 
-struct SightColour {
-  Sight sight;
+struct VisibilityColour {
+  Visibility visibility;
   const char* text;
   Rgb colour;
 };
-constexpr SightColour sight_colours[] = {{Sight::seen, "seen", {255, 200, 70}},
-                                         {Sight::hidden, "hidden: in shadow", {42, 66, 138}},
-                                         {Sight::turned_away, "turned away", {140, 92, 58}},
-                                         {Sight::outside, "outside the fan or gate", {172, 174, 178}},
-                                         {Sight::not_asked, "not asked", {205, 207, 210}}};
+constexpr VisibilityColour visibility_colours[] = {{Visibility::seen, "seen", {255, 200, 70}},
+                                                   {Visibility::hidden, "hidden: in shadow", {42, 66, 138}},
+                                                   {Visibility::turned_away, "turned away", {140, 92, 58}},
+                                                   {Visibility::outside, "outside the fan or gate", {172, 174, 178}},
+                                                   {Visibility::not_asked, "not asked", {205, 207, 210}}};
 
 // Light from behind, starboard and above, for a head that looks along x: faces differ in brightness, and ripples show.
 const Eigen::Vector3f to_light = Eigen::Vector3f(-0.45F, -0.42F, 0.79F).normalized();
@@ -99,20 +98,21 @@ SceneColours by_material(const SceneCloud& scene) {
 }
 
 // Shaded less than the others: the shadow is dark enough.
-SceneColours by_sight(const SceneCloud& scene, const SceneLook& look, const char* who) {
-  if (look.sight.empty())
-    fail(ErrorKind::argument, who, ": look.sight is empty, but colour is sight; fill it by find_sight");
+SceneColours by_visibility(const SceneCloud& scene, const SceneLook& look, const char* who) {
+  if (look.visibility.empty())
+    fail(ErrorKind::argument, who, ": look.visibility is empty, but colour is visibility; fill it by find_visibility");
   SceneColours result;
-  std::array<std::size_t, std::size(sight_colours)> count{};
-  for (const Sight sight : look.sight) ++count[std::min<std::size_t>(static_cast<std::size_t>(sight), 4)];
-  std::array<Rgb, std::size(sight_colours)> table{};
-  for (const SightColour& entry : sight_colours) {
-    table[static_cast<std::size_t>(entry.sight)] = entry.colour;
-    if (count[static_cast<std::size_t>(entry.sight)] > 0) result.key.legend.push_back({entry.text, entry.colour});
+  std::array<std::size_t, std::size(visibility_colours)> count{};
+  for (const Visibility visibility : look.visibility)
+    ++count[std::min<std::size_t>(static_cast<std::size_t>(visibility), 4)];
+  std::array<Rgb, std::size(visibility_colours)> table{};
+  for (const VisibilityColour& entry : visibility_colours) {
+    table[static_cast<std::size_t>(entry.visibility)] = entry.colour;
+    if (count[static_cast<std::size_t>(entry.visibility)] > 0) result.key.legend.push_back({entry.text, entry.colour});
   }
   result.colour = per_surfel(scene, [&](std::size_t i) {
-    const auto sight = std::min<std::size_t>(static_cast<std::size_t>(look.sight[i]), 4);
-    return shaded(table[sight], 0.4F + 0.6F * light_on(scene, i));
+    const auto visibility = std::min<std::size_t>(static_cast<std::size_t>(look.visibility[i]), 4);
+    return shaded(table[visibility], 0.4F + 0.6F * light_on(scene, i));
   });
   return result;
 }
@@ -161,8 +161,8 @@ SceneColours colour_surfels(const SceneCloud& scene, const SceneLook& look, cons
       return by_height(scene);
     case SceneColour::material:
       return by_material(scene);
-    case SceneColour::sight:
-      return by_sight(scene, look, who);
+    case SceneColour::visibility:
+      return by_visibility(scene, look, who);
     case SceneColour::grazing:
     case SceneColour::incidence:
       return by_angle(scene, look, look.colour == SceneColour::grazing, who);

@@ -1,12 +1,11 @@
-#include "view/scene_head.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/ticks.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/scene_head_internal.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

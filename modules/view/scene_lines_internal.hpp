@@ -6,7 +6,7 @@
 #include <vtkSmartPointer.h>
 
 #include "view/canvas_internal.hpp"
-#include "view/scene_head.hpp"
+#include "view/scene_head_internal.hpp"
 
 namespace insonify {
 

@@ -7,7 +7,7 @@
 
 #include "view/scene_actor_parts_internal.hpp"
 #include "view/scene_lines_internal.hpp"
-#include "view/scene_surfels.hpp"
+#include "view/scene_surfels_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -42,7 +42,7 @@ void SceneActors::show_holes(const std::vector<Eigen::Vector3d>& places) {
   std::vector<std::uint32_t> all(places.size());
   std::iota(all.begin(), all.end(), 0U);
   set_points(p.holes, p.hole_arrays, all);
-  if (p.look.colour == SceneColour::sight) p.colour();  // the legend names them
+  if (p.look.colour == SceneColour::visibility) p.colour();  // the legend names them
 }
 
 void SceneActors::show_normals(bool on) {

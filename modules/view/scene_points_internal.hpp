@@ -12,7 +12,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "view/colour_maps.hpp"
+#include "view/colour_maps_internal.hpp"
 
 namespace insonify {
 

@@ -1,5 +1,3 @@
-#include "view/scene_surfels.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "view/scene_surfels_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -97,7 +96,7 @@ void require_drawable(const SceneCloud& scene, const SceneLook& look, const char
       scene.material.size() != scene.size())
     fail(ErrorKind::argument, who, ": scene has arrays of different lengths; each needs one entry per surfel");
   require_length(look.level_db.size(), scene, "level_db", who);
-  require_length(look.sight.size(), scene, "sight", who);
+  require_length(look.visibility.size(), scene, "visibility", who);
   require_surfels(look.highlighted, scene, who);
   require_valid(look.soundings, who);
   require_point_size(look.point_size, who);

@@ -6,9 +6,9 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "view/colour_maps.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

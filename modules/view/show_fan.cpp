@@ -5,7 +5,7 @@
 
 #include "view/draw_marks_internal.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 
 namespace insonify {
 namespace {

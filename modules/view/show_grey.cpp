@@ -6,15 +6,14 @@
 #include <numeric>
 #include <vector>
 
-#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
 
 #include "core/error.hpp"
 #include "view/vtk_messages_internal.hpp"
-#include "view/write_file.hpp"
+#include "view/window_picture_internal.hpp"
+#include "view/write_file_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -44,14 +43,7 @@ void write_png(const Grid<Grey>& grey, const std::vector<Eigen::Index>& columns,
 
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* png = writer->GetResult();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
-    fail(ErrorKind::file, who, ": cannot make the PNG for ", path, ": ",
-         vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
-  messages.throw_first_error(who);
-  write_file_atomically(path, png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfTuples()), who);
+  write_png(writer, path, messages, who);
 }
 
 // Rows from the farthest bin down; sixteen bits with the high byte first.

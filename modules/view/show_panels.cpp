@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/fan_layout.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/fan_layout_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -7,9 +7,9 @@
 #include "view/cell_frame_internal.hpp"
 #include "view/draw_marks_internal.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/text.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -8,7 +8,7 @@
 #include <vtkRenderer.h>
 
 #include "view/canvas_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/scene_actors_internal.hpp"
 #include "view/vtk_messages_internal.hpp"
 

@@ -18,12 +18,12 @@ namespace insonify {
 
 /// What the colour of a surfel says.
 enum class SceneColour {
-  height,    ///< world z [m]
-  material,  ///< one colour per material, with their names
-  sight,     ///< what the head sees of it
-  level,     ///< [dB]
-  grazing,   ///< angle between the surface and the ray from the head [deg]
-  incidence  ///< angle between the normal and the ray from the head [deg]
+  height,      ///< world z [m]
+  material,    ///< one colour per material, with their names
+  visibility,  ///< what the head sees of it
+  level,       ///< [dB]
+  grazing,     ///< angle between the surface and the ray from the head [deg]
+  incidence    ///< angle between the normal and the ray from the head [deg]
 };
 
 /// A sonar head in the scene.
@@ -51,9 +51,9 @@ struct SceneLook {
   SceneColour colour = SceneColour::height;
   std::vector<float> level_db;             ///< per surfel; NaN: none, drawn grey
   std::string level_unit = "dB re 1 µPa";  ///< of level_db and of the soundings
-  std::vector<Sight> sight;                ///< per surfel, see find_sight
+  std::vector<Visibility> visibility;      ///< per surfel, see find_visibility
   std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, footprint on the
-                                           ///< scene: of the elevation width, narrower than what find_sight looks at
+      ///< scene: of the elevation width, narrower than what find_visibility looks at
   Soundings soundings;                     ///< points in the colour of their level
   std::vector<std::uint32_t> highlighted;  ///< surfels marked, in front of everything
   std::vector<Eigen::Vector3d> holes;      ///< where the scan has holes [m, world], see find_holes: red points
@@ -65,7 +65,7 @@ struct SceneLook {
 };
 
 /// Draws a scene in perspective into a PNG, without an X server: surfels as squares of their own size, shaded by their
-/// normals where the colour leaves room for it (height, material, sight), with colour bar or legend, axes and title.
+/// normals where the colour leaves room for it (height, material, visibility), with colour bar or legend, axes and title.
 /// Levels and angles are in exactly the colours of their bar. Up is world z, up in the picture (`top`: world y).
 ///
 /// options.colour_map, min_db, max_db and window_db are those of levels; heights and angles are in viridis.
@@ -74,8 +74,8 @@ struct SceneLook {
 /// have the same bytes.
 ///
 /// Written to a temporary name, then renamed. Throws Error(content) for a scene without surfels; Error(argument) if
-/// level_db or sight have another length than the scene, a highlighted surfel is not in it, grazing or incidence is
-/// asked for without a head, sight without `sight`, half a camera is given, point_size is not positive, or as show_fan
+/// level_db or visibility have another length than the scene, a highlighted surfel is not in it, grazing or incidence is
+/// asked for without a head, visibility without `visibility`, half a camera is given, point_size is not positive, or as show_fan
 /// does for picture options; Error(runtime) and Error(file) as show_fan.
 void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                 const std::string& png_path);

@@ -6,8 +6,8 @@
 #include "core/error.hpp"
 #include "view/cell_frame_internal.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/fan_layout.hpp"
-#include "view/ticks.hpp"
+#include "view/fan_layout_internal.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/ticks.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,8 +1,8 @@
-#include "view/ticks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "view/ticks_internal.hpp"
 
 namespace insonify {
 

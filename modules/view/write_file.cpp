@@ -1,10 +1,9 @@
-#include "view/write_file.hpp"
-
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "view/write_file_internal.hpp"
 
 namespace insonify {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -35,7 +35,7 @@ Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
 Echoes heard(const Scatterers& s) {
   const std::vector<double> sigma(s.size(), 1);
   const std::vector<std::complex<double>> xi(s.size(), 1);
-  Echoes echoes = hear_targets(s, sigma, xi, pulse, medium);
+  Echoes echoes = target_echoes(s, sigma, xi, pulse, medium);
   echoes.v.assign(s.size(), 0);
   return echoes;
 }
@@ -60,7 +60,7 @@ std::string refusal(Call&& call) {
   return "";
 }
 
-Trajectory bent_way() {
+Trajectory bent_track() {
   return {{0, 2, 3},
           {pose_from_yaw_pitch_roll({0, 0, 0}, 0, 0, 0), pose_from_yaw_pitch_roll({4, 0, -1}, 0.5, 0, 0),
            pose_from_yaw_pitch_roll({4, 3, -1}, 0.5, 0.2, 0)}};
@@ -182,13 +182,13 @@ TEST(MoveEchoes, refuses_large_and_bad_values) {
 }
 
 TEST(Trajectory, gives_its_poses_and_lines_between_them) {
-  const Trajectory way = bent_way();
+  const Trajectory way = bent_track();
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(pose_at(way, way.time[i]).isApprox(way.pose[i], 1e-14)) << i;
   EXPECT_TRUE(pose_at(way, 0.5).isApprox(pose_from_yaw_pitch_roll({1, 0, -0.25}, 0.125, 0, 0), 1e-14));
 }
 
 TEST(Trajectory, moves_as_its_poses_do) {
-  const Trajectory way = bent_way();
+  const Trajectory way = bent_track();
   for (const double time : {0.3, 1.999, 2.0, 2.7, 3.0}) {
     const Motion motion = motion_at(way, time);
     const double from = time < 2 ? 0.1 : 2.2, h = 0.3;
@@ -209,13 +209,13 @@ TEST(Trajectory, takes_the_shortest_turn) {
 
 TEST(Trajectory, is_refused_with_entry_value_and_rule) {
   const auto text = [](const Trajectory& t) { return refusal([&] { require_valid(t, "test"); }); };
-  Trajectory t = bent_way();
+  Trajectory t = bent_track();
   EXPECT_EQ(text(t), "");
   EXPECT_EQ(refusal([&] { pose_at(t, 3.5); }), "pose_at: time = 3.5 s, must be within the trajectory's 0 and 3 s");
   EXPECT_NE(refusal([&] { motion_at(t, NAN); }), "");
   t.time[1] = 0;
   EXPECT_EQ(text(t), "test: trajectory: time[1] = 0 s, must be later than the entry before it, 0 s");
-  t = bent_way();
+  t = bent_track();
   t.pose[2].linear() *= 1.01;
   EXPECT_EQ(text(t), "test: trajectory: pose[2] must be finite, its rotation orthonormal");
   t.pose.pop_back();

@@ -69,7 +69,7 @@ double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
 }
 
 ComplexGrid beams_of(const Echoes& e, const SonarHead& head, const ElementOptions& options) {
-  return beam_from_elements(hear_elements(e, head, water(), options), head, water(), options);
+  return beam_from_elements(element_series(e, head, water(), options), head, water(), options);
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ TEST(ElementSeries, focus_keeps_the_level_of_a_point_in_the_near_field) {
   point.amplitude = {{1, 0}};
   const double alone = std::exp(-2 * 0.02 * head.gate.centre(17));
   EXPECT_NEAR(std::abs(beams_of(point, head, {1e-8, Wavefront::spherical})(0, 17)), alone, 1e-7);
-  const ElementSeries series = hear_elements(point, head, water(), {1e-8, Wavefront::spherical});
+  const ElementSeries series = element_series(point, head, water(), {1e-8, Wavefront::spherical});
   EXPECT_LT(std::abs(beam_from_elements(series, head, water(), {1e-8, Wavefront::plane})(0, 17)), 0.8 * alone);
 }
 
@@ -126,7 +126,7 @@ TEST(ElementSeries, port_elements_hear_port_first) {
   point.delay = {2 * 5.2 / c};
   point.u = {0.5};
   point.amplitude = {{1, 0}};
-  const ElementSeries series = hear_elements(point, head, water(), {1e-4, Wavefront::plane});
+  const ElementSeries series = element_series(point, head, water(), {1e-4, Wavefront::plane});
   Eigen::Index starboard = 0, port = 0;
   series.pressure.row(0).abs().maxCoeff(&starboard);
   series.pressure.row(39).abs().maxCoeff(&port);
@@ -142,8 +142,8 @@ TEST(ElementSeries, same_bits_for_any_number_of_threads) {
 
 TEST(ElementSeries, refuses_a_tolerance_it_cannot_keep_and_a_series_of_another_head) {
   const SonarHead head = head_of(400e3, 50e3, 16, 2, 3);
-  EXPECT_NE(error_of([&] { hear_elements({}, head, water(), {1e-14}); }).find("tolerance = 1e-14"), std::string::npos);
-  ElementSeries other = hear_elements({}, head, water(), {});
+  EXPECT_NE(error_of([&] { element_series({}, head, water(), {1e-14}); }).find("tolerance = 1e-14"), std::string::npos);
+  ElementSeries other = element_series({}, head, water(), {});
   other.pressure.conservativeResize(15, other.pressure.cols());
   EXPECT_NE(error_of([&] { beam_from_elements(other, head, water()); }).find("15 elements"), std::string::npos);
 }

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
@@ -59,7 +59,7 @@ std::vector<Complex> series_of_beam(const std::vector<std::vector<double>>& scat
   }
   const SonarHead head = golden_head(samples);
   const Medium medium{c, {db_per_m * nepers_per_db, 0, 0}};
-  const ComplexGrid p = synthesize_direct(hear_targets(s, sigma, xi, head.pulse, medium), head, medium);
+  const ComplexGrid p = synthesize_direct(target_echoes(s, sigma, xi, head.pulse, medium), head, medium);
   std::vector<Complex> series(static_cast<std::size_t>(p.cols()));
   for (std::size_t n = 0; n < series.size(); ++n)
     series[n] = p(0, static_cast<Eigen::Index>(n)) / std::numbers::sqrt2 *

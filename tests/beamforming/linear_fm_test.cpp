@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize.hpp"
@@ -66,9 +66,9 @@ TEST(LinearFmSynthesis, peak_of_one_scatterer_is_the_sonar_equation) {
     s.range = {r}, s.azimuth = {0}, s.elevation = {0};
     const std::vector<double> sigma{power_from_db(ts)};
     const std::vector<std::complex<double>> xi{1};
-    const Echoes echoes = hear_targets(s, sigma, xi, head.pulse, medium());
+    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, medium());
     const double loss = 20 * std::log10(r) + medium().absorption.a0 / nepers_per_db * r;
-    for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum}) {
+    for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
       Eigen::Index beam, bin;
       const double peak = synthesize(echoes, head, medium(), {}).abs().maxCoeff(&beam, &bin);
       EXPECT_EQ(bin, 200);
@@ -77,7 +77,7 @@ TEST(LinearFmSynthesis, peak_of_one_scatterer_is_the_sonar_equation) {
   }
 }
 
-TEST(LinearFmSynthesis, stamped_keeps_its_tolerance_against_the_referee) {
+TEST(LinearFmSynthesis, gridded_keeps_its_tolerance_against_the_referee) {
   for (const ReplicaWindow window : windows)
     for (const double doppler : {0.0, 900.0})
       for (const int order : {0, 1, 2}) {
@@ -85,7 +85,7 @@ TEST(LinearFmSynthesis, stamped_keeps_its_tolerance_against_the_referee) {
         const Echoes echoes = random_echoes(60, doppler);
         const ComplexGrid reference = synthesize_direct(echoes, head, medium(order));
         for (const double tolerance : {0.5, 0.1, 1e-2, 1e-4, 1e-10})
-          EXPECT_LT(relative_error(synthesize_stamped(echoes, head, medium(order), {tolerance, 0}), reference),
+          EXPECT_LT(relative_error(synthesize_gridded(echoes, head, medium(order), {tolerance, 0}), reference),
                     tolerance)
               << "order " << order << ", doppler " << doppler;
       }
@@ -131,7 +131,7 @@ TEST(LinearFmSynthesis, doppler_of_a_gaussian_agrees_with_a_moved_spectrum) {
   for (const int order : {0, 1, 2}) {
     const ComplexGrid direct = synthesize_direct(echoes, head, medium(order));
     EXPECT_LT(relative_error(synthesize_spectrum(echoes, head, medium(order)), direct), 1e-11);
-    EXPECT_LT(relative_error(synthesize_stamped(echoes, head, medium(order), {1e-8, 0}), direct), 1e-8);
+    EXPECT_LT(relative_error(synthesize_gridded(echoes, head, medium(order), {1e-8, 0}), direct), 1e-8);
   }
 }
 
@@ -144,7 +144,7 @@ TEST(LinearFmSynthesis, doppler_turns_a_long_burst_with_the_carrier) {
   echoes.delay = {2 * 45 / c}, echoes.u = {0}, echoes.amplitude = {1};
   const ComplexGrid still = synthesize_direct(echoes, head, medium());
   echoes.doppler = {500};
-  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped}) {
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded}) {
     const ComplexGrid moving = synthesize(echoes, head, medium(), {1e-12, 0});
     for (Eigen::Index n = 0; n < still.cols(); n += 97) {
       const double t = 2 * head.gate.centre(static_cast<std::size_t>(n)) / c - echoes.delay[0];
@@ -159,17 +159,17 @@ TEST(LinearFmSynthesis, no_doppler_and_doppler_of_nought_are_one) {
     head.pulse.shape = shape;
     Echoes echoes = random_echoes(30);
     const ComplexGrid none = synthesize_direct(echoes, head, medium(2));
-    const ComplexGrid stamped = synthesize_stamped(echoes, head, medium(2));
+    const ComplexGrid gridded = synthesize_gridded(echoes, head, medium(2));
     echoes.doppler.assign(echoes.size(), 0);
     EXPECT_TRUE((synthesize_direct(echoes, head, medium(2)) == none).all());
-    EXPECT_TRUE((synthesize_stamped(echoes, head, medium(2)) == stamped).all());
+    EXPECT_TRUE((synthesize_gridded(echoes, head, medium(2)) == gridded).all());
   }
 }
 
 TEST(LinearFmSynthesis, gives_the_same_bits_for_any_number_of_threads) {
   const SonarHead head = head_of(ReplicaWindow::hann, 9, 12);
   const Echoes echoes = random_echoes(80, 300);
-  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped}) {
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded}) {
     const ComplexGrid one = synthesize(echoes, head, medium(2), {1e-6, 1});
     for (const int threads : {2, 7}) EXPECT_TRUE((synthesize(echoes, head, medium(2), {1e-6, threads}) == one).all());
   }
@@ -212,8 +212,8 @@ TEST(LinearFmSynthesis, names_wrong_doppler_and_v) {
   EXPECT_EQ(error_of([&] { synthesize_direct(e, head, medium()); }),
             "synthesize_direct: 4 echoes have 0 values of v and 2 of doppler; must be none, or one of each per echo");
   e.doppler = {1, 2, std::nan(""), 4};
-  EXPECT_EQ(error_of([&] { synthesize_stamped(e, head, medium()); }),
-            "synthesize_stamped: echo 2 has v 0, doppler nan Hz; all must be finite");
+  EXPECT_EQ(error_of([&] { synthesize_gridded(e, head, medium()); }),
+            "synthesize_gridded: echo 2 has v 0, doppler nan Hz; all must be finite");
   e.doppler.clear();
   e.v = {0, 0, 0, INFINITY};
   EXPECT_EQ(error_of([&] { synthesize_spectrum(e, head, medium()); }),

@@ -163,7 +163,7 @@ TEST(PingSynthesizer, all_echoes_in_one_bin_and_direction_add_coherently) {
   EXPECT_LE(relative_l2(PingSynthesizer(head, m, {1e-4, 0}).pressure(hot), synthesize_direct(one, head, m)), 1e-4);
 }
 
-// Echoes of which no beam hears more than side lobes, and echoes that cancel: the image is weak against what was stamped.
+// Echoes of which no beam hears more than side lobes, and echoes that cancel: the image is weak against what was gridded.
 TEST(PingSynthesizer, keeps_its_promise_where_no_beam_looks) {
   Case c{.echoes = 300, .beams = 8, .field_of_view = radians(8)};
   const SonarHead head = head_of(c);
@@ -203,7 +203,7 @@ TEST(PingSynthesizer, says_what_it_chose) {
 }
 
 // By what either way costs: transforms of every bin against echoes x beams x elements.
-TEST(PingSynthesizer, sums_few_echoes_directly_and_stamps_many) {
+TEST(PingSynthesizer, sums_few_echoes_directly_and_grids_many) {
   for (const double tolerance : {1e-3, 1e-6, 1e-10}) {
     const Case wide{.echoes = 10, .beams = 256, .bins = 1000};
     const SonarHead head = head_of(wide);
@@ -220,8 +220,8 @@ TEST(PingSynthesizer, sums_few_echoes_directly_and_stamps_many) {
   }
 }
 
-// Where echoes touch a few bins, stamping transforms no others: then it wins sooner.
-TEST(PingSynthesizer, stamps_a_crowd_that_it_would_sum_if_it_were_spread_out) {
+// Where echoes touch a few bins, gridding transforms no others: then it wins sooner.
+TEST(PingSynthesizer, grids_a_crowd_that_it_would_sum_if_it_were_spread_out) {
   Case c{.beams = 256, .bins = 1000};
   const SonarHead head = head_of(c);
   const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});

@@ -76,7 +76,7 @@ std::string error_of(Call&& call) {
   return "";
 }
 
-const SynthesisMethod methods[] = {SynthesisMethod::stamped, SynthesisMethod::direct, SynthesisMethod::spectrum};
+const SynthesisMethod methods[] = {SynthesisMethod::gridded, SynthesisMethod::direct, SynthesisMethod::spectrum};
 
 }  // namespace
 
@@ -122,7 +122,7 @@ TEST(PlanarArray, finds_a_target_in_its_beam_with_the_level_of_the_sonar_equatio
   s.range = {r}, s.azimuth = {head.fan.azimuth[beam]}, s.elevation = {head.fan.elevation[beam]};
   const std::vector<double> sigma{power_from_db(ts)};
   const std::vector<std::complex<double>> xi{1};
-  const Echoes echoes = hear_targets(s, sigma, xi, head.pulse, medium, with_patterns({}, head));
+  const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, medium, with_patterns({}, head));
   const double loss = 20 * std::log10(r) + medium.absorption.a0 / nepers_per_db * r;
   for (const SynthesisMethod method : methods) {
     const ComplexGrid p = synthesize(echoes, head, medium, method, {.tolerance = 1e-9});
@@ -140,7 +140,7 @@ TEST(Rows, of_a_head_with_one_are_the_line_array_bit_for_bit) {
   for (const bool upwards : {true, false}) {
     if (!upwards) echoes.v.clear();
     EXPECT_TRUE(
-        (synthesize(echoes, head, medium, SynthesisMethod::stamped) == synthesize_stamped(echoes, head, medium)).all());
+        (synthesize(echoes, head, medium, SynthesisMethod::gridded) == synthesize_gridded(echoes, head, medium)).all());
     EXPECT_TRUE(
         (synthesize(echoes, head, medium, SynthesisMethod::direct) == synthesize_direct(echoes, head, medium)).all());
     EXPECT_TRUE(
@@ -153,7 +153,7 @@ TEST(Rows, of_a_head_with_one_are_the_line_array_bit_for_bit) {
 TEST(Rows, of_a_head_without_column_are_tilted_heads_bit_for_bit) {
   const SonarHead head = stacked_head(6, 4);
   const Echoes echoes = random_echoes(80);
-  const ComplexGrid p = synthesize(echoes, head, medium, SynthesisMethod::stamped);
+  const ComplexGrid p = synthesize(echoes, head, medium, SynthesisMethod::gridded);
   for (const FanRow& row : fan_rows(head.fan)) {
     SonarHead tilted = head;
     tilted.fan = make_fan(6, radians(40), head.fan.beam_width, head.fan.elevation_width, row.elevation);
@@ -161,7 +161,7 @@ TEST(Rows, of_a_head_without_column_are_tilted_heads_bit_for_bit) {
     for (std::size_t i = 0; i < heard.size(); ++i)
       heard.amplitude[i] *=
           elevation_response(head.elevation_shape, head.fan.elevation_width, std::asin(echoes.v[i]) - row.elevation);
-    const ComplexGrid line = synthesize_stamped(heard, tilted, medium);
+    const ComplexGrid line = synthesize_gridded(heard, tilted, medium);
     for (std::size_t k = 0; k < 6; ++k) EXPECT_TRUE((p.row(row.beams[k]) == line.row(k)).all());
   }
 }
@@ -176,15 +176,15 @@ TEST(Rows, hear_what_a_tilted_head_hears_of_the_same_scatterers) {
     s.range.push_back(1.1 + x[0]), s.azimuth.push_back(x[1] - 0.5), s.elevation.push_back(x[2] - 0.5);
     sigma.push_back(x[3]), xi.emplace_back(1);
   }
-  const auto heard_by = [&](const SonarHead& some) {
-    return synthesize(hear_targets(s, sigma, xi, some.pulse, medium, with_patterns({}, some)), some, medium,
+  const auto received_by = [&](const SonarHead& some) {
+    return synthesize(target_echoes(s, sigma, xi, some.pulse, medium, with_patterns({}, some)), some, medium,
                       SynthesisMethod::direct);
   };
-  const ComplexGrid all = heard_by(head);
+  const ComplexGrid all = received_by(head);
   for (const FanRow& row : fan_rows(head.fan)) {
     SonarHead tilted = head;
     tilted.fan = make_fan(6, radians(40), head.fan.beam_width, head.fan.elevation_width, row.elevation);
-    EXPECT_LT(relative_error(all.middleRows(row.beams[0], 6), heard_by(tilted)), 1e-12);
+    EXPECT_LT(relative_error(all.middleRows(row.beams[0], 6), received_by(tilted)), 1e-12);
   }
 }
 
@@ -231,7 +231,7 @@ TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
       const ComplexGrid exact = synthesize(echoes, head, medium, SynthesisMethod::direct);
       for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12})
         EXPECT_LT(
-            relative_error(synthesize(echoes, head, medium, SynthesisMethod::stamped, {.tolerance = tolerance}), exact),
+            relative_error(synthesize(echoes, head, medium, SynthesisMethod::gridded, {.tolerance = tolerance}), exact),
             tolerance)
             << "above: " << above << ", width " << degrees(head.fan.elevation_width);
     }
@@ -240,18 +240,18 @@ TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
 TEST(Synthesize, of_rows_does_not_depend_on_threads) {
   const SonarHead head = planar_head(5, 6);
   const Echoes echoes = random_echoes(6000);
-  for (const SynthesisMethod method : {SynthesisMethod::stamped, SynthesisMethod::direct}) {
+  for (const SynthesisMethod method : {SynthesisMethod::gridded, SynthesisMethod::direct}) {
     const ComplexGrid p = synthesize(echoes, head, medium, method, {.threads = 1});
     for (const int threads : {2, 7})
       EXPECT_TRUE((synthesize(echoes, head, medium, method, {.threads = threads}) == p).all());
   }
 }
 
-TEST(WithPatterns, gives_hear_scatterers_its_part_and_no_more) {
+TEST(WithPatterns, gives_direct_echoes_its_part_and_no_more) {
   SonarHead line = stacked_head(4, 1);
   line.fan.elevation.assign(4, -0.2);
   line.transmit_width = 0.9;
-  const HearingOptions of_line = with_patterns({.seed = 7}, line);
+  const EchoOptions of_line = with_patterns({.seed = 7}, line);
   EXPECT_EQ(of_line.elevation_width, line.fan.elevation_width);
   EXPECT_EQ(of_line.elevation_centre, -0.2);
   EXPECT_EQ(of_line.transmit_width, 0.9);
@@ -259,7 +259,7 @@ TEST(WithPatterns, gives_hear_scatterers_its_part_and_no_more) {
   EXPECT_EQ(with_patterns({}, stacked_head(4, 3)).elevation_width, 0);
   SonarHead planar = planar_head(4, 3);
   for (double& elevation : planar.fan.elevation) elevation += 0.1;
-  const HearingOptions of_planar = with_patterns({}, planar);
+  const EchoOptions of_planar = with_patterns({}, planar);
   EXPECT_EQ(of_planar.elevation_width, planar.fan.elevation_width);
   EXPECT_EQ(of_planar.elevation_shape, ElevationShape::sector);
   EXPECT_NEAR(of_planar.elevation_centre, 0.1, 1e-12);
@@ -350,13 +350,13 @@ TEST(Synthesize, of_rows_names_what_is_wrong) {
   SonarHead head = planar_head(3, 2);
   Echoes echoes = random_echoes(5);
   head.name = "flat";
-  EXPECT_EQ(error_of([&] { synthesize_stamped(echoes, head, medium); }),
-            "synthesize_stamped: head 'flat' has 2 rows of beams and a column, must be one row of a line array; use "
+  EXPECT_EQ(error_of([&] { synthesize_gridded(echoes, head, medium); }),
+            "synthesize_gridded: head 'flat' has 2 rows of beams and a column, must be one row of a line array; use "
             "synthesize");
   EXPECT_THAT(error_of([&] { synthesize_direct(echoes, stacked_head(3, 2), medium); }),
               testing::HasSubstr("has 2 rows of beams, must be one row of a line array; use synthesize"));
   echoes.v[3] = std::nan("");
-  EXPECT_THAT(error_of([&] { synthesize(echoes, head, medium, SynthesisMethod::stamped); }),
+  EXPECT_THAT(error_of([&] { synthesize(echoes, head, medium, SynthesisMethod::gridded); }),
               testing::HasSubstr("synthesize: echo 3 has v nan"));
   echoes.v.clear();
   EXPECT_EQ(

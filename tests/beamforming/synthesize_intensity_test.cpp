@@ -150,7 +150,7 @@ TEST(SynthesizeIntensity, is_the_mean_over_random_phases_within_its_statistical_
       const auto xi = random_complex_normal(draw, RandomStage::surface_amplitude, {i, 0, 0});
       echoes.amplitude[i] = xi / std::abs(xi);
     }
-    mean += synthesize_stamped(echoes, head, medium).abs2() / draws;
+    mean += synthesize_gridded(echoes, head, medium).abs2() / draws;
   }
   double squares = 0, cells = 0, worst = 0;
   for (Eigen::Index k = 0; k < mean.size(); ++k) {

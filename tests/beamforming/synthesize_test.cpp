@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
@@ -58,9 +58,9 @@ TEST(Synthesize, peak_of_one_scatterer_is_the_sonar_equation) {
   s.range = {r}, s.azimuth = {0}, s.elevation = {0};
   const std::vector<double> sigma{power_from_db(ts)};
   const std::vector<std::complex<double>> xi{1};
-  const Echoes echoes = hear_targets(s, sigma, xi, head.pulse, medium());
+  const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, medium());
   const double loss = 20 * std::log10(r) + medium().absorption.a0 / nepers_per_db * r;
-  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum}) {
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
     const ComplexGrid p = synthesize(echoes, head, medium(), {});
     Eigen::Index beam, bin;
     const double peak = p.abs().maxCoeff(&beam, &bin);
@@ -80,12 +80,12 @@ TEST(Synthesize, worked_example_of_the_sonar_equation) {
   const std::vector<double> sigma{0.01};
   const std::vector<std::complex<double>> xi{1};
   const Medium m{c, {0.2994626 * nepers_per_db, 0, 0}};
-  const double peak = synthesize_direct(hear_targets(s, sigma, xi, head.pulse, m), head, m).abs().maxCoeff();
+  const double peak = synthesize_direct(target_echoes(s, sigma, xi, head.pulse, m), head, m).abs().maxCoeff();
   EXPECT_NEAR(pressure_level_db(peak), 154.0107, 5e-5);
   EXPECT_NEAR(peak, 70.97, 0.005);
 }
 
-TEST(Synthesize, stamped_keeps_its_tolerance_against_the_referee) {
+TEST(Synthesize, gridded_keeps_its_tolerance_against_the_referee) {
   for (const std::size_t beams : {1, 17, 64})
     for (const std::size_t n : {1, 10, 1000}) {
       const SonarHead head = head_of(beams, 37);
@@ -93,7 +93,7 @@ TEST(Synthesize, stamped_keeps_its_tolerance_against_the_referee) {
       for (const int order : {0, 2}) {
         const ComplexGrid reference = synthesize_direct(echoes, head, medium(order));
         for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
-          EXPECT_LT(relative_error(synthesize_stamped(echoes, head, medium(order), {tolerance, 0}), reference),
+          EXPECT_LT(relative_error(synthesize_gridded(echoes, head, medium(order), {tolerance, 0}), reference),
                     tolerance)
               << beams << " beams, " << n << " echoes, order " << order;
       }
@@ -118,14 +118,14 @@ TEST(Synthesize, is_linear_in_the_echoes) {
   both.delay.insert(both.delay.end(), b.delay.begin(), b.delay.end());
   both.u.insert(both.u.end(), b.u.begin(), b.u.end());
   for (const auto& z : b.amplitude) both.amplitude.push_back(2.0 * z);
-  const auto stamped = [&](const Echoes& echoes) { return synthesize_stamped(echoes, head, medium(), {1e-12, 0}); };
-  EXPECT_LT(relative_error(stamped(both), stamped(a) + 2 * stamped(b)), 1e-12);
+  const auto gridded = [&](const Echoes& echoes) { return synthesize_gridded(echoes, head, medium(), {1e-12, 0}); };
+  EXPECT_LT(relative_error(gridded(both), gridded(a) + 2 * gridded(b)), 1e-12);
 }
 
 TEST(Synthesize, gives_the_same_bits_for_any_number_of_threads) {
   const SonarHead head = head_of(33, 20);
   const Echoes echoes = random_echoes(500, 1, 3);
-  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped}) {
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded}) {
     const ComplexGrid one = synthesize(echoes, head, medium(), {1e-6, 1});
     for (const int threads : {2, 7}) EXPECT_TRUE((synthesize(echoes, head, medium(), {1e-6, threads}) == one).all());
   }
@@ -136,14 +136,14 @@ TEST(Synthesize, does_not_wrap_echoes_from_outside_the_gate) {
   for (const double r : {0.5, 2.5, 3.0, 100.0}) {
     Echoes e;
     e.delay = {2 * r / c}, e.u = {0}, e.amplitude = {1e6};
-    EXPECT_EQ(synthesize_stamped(e, head, medium()).abs().maxCoeff(), 0) << r << " m";
+    EXPECT_EQ(synthesize_gridded(e, head, medium()).abs().maxCoeff(), 0) << r << " m";
     EXPECT_LT(synthesize_direct(e, head, medium()).abs().maxCoeff(), 1e-300) << r << " m";
   }
 }
 
 TEST(Synthesize, of_nothing_is_silence) {
   const SonarHead head = head_of(3, 8);
-  const ComplexGrid p = synthesize_stamped({}, head, medium());
+  const ComplexGrid p = synthesize_gridded({}, head, medium());
   EXPECT_EQ(p.rows(), 3);
   EXPECT_EQ(p.cols(), static_cast<Eigen::Index>(head.gate.bins()));
   EXPECT_EQ(p.abs().maxCoeff(), 0);
@@ -156,7 +156,7 @@ TEST(Synthesize, slice_across_beams_is_the_array_response) {
   Echoes e;
   e.delay = {2 * head.gate.centre(100) / c}, e.u = {0.2}, e.amplitude = {1};
   const Medium lossless{c, {}};
-  const ComplexGrid p = synthesize_stamped(e, head, lossless, {1e-12, 0});
+  const ComplexGrid p = synthesize_gridded(e, head, lossless, {1e-12, 0});
   for (std::size_t b = 0; b < 101; ++b) {
     const double expected = array_response(head.array, c / 750e3, 0.2, std::sin(head.fan.azimuth[b]));
     EXPECT_LT(std::abs(p(static_cast<Eigen::Index>(b), 100) - expected), 1e-12);
@@ -167,12 +167,12 @@ TEST(Synthesize, names_the_echo_that_is_not_finite) {
   const SonarHead head = head_of(3, 8);
   Echoes e = random_echoes(5, 1, 3);
   e.amplitude[3] = {std::nan(""), 0};
-  for (const Synthesis synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum}) try {
+  for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) try {
       synthesize(e, head, medium(), {});
       FAIL() << "accepted a NaN";
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("echo 3"));
     }
-  EXPECT_THROW(synthesize_stamped({}, head, medium(), {0, 0}), Error);
-  EXPECT_THROW(synthesize_stamped({}, head, Medium{-1, {}}, {}), Error);
+  EXPECT_THROW(synthesize_gridded({}, head, medium(), {0, 0}), Error);
+  EXPECT_THROW(synthesize_gridded({}, head, Medium{-1, {}}, {}), Error);
 }

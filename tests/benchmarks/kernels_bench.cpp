@@ -4,8 +4,8 @@
 #include <benchmark/benchmark.h>
 
 #include "beamforming/fft_along_rows_internal.hpp"
-#include "beamforming/spread_kernels_internal.hpp"
-#include "beamforming/spreading_kernel_internal.hpp"
+#include "beamforming/gridding_kernel_internal.hpp"
+#include "beamforming/gridding_loops_internal.hpp"
 #include "core/random.hpp"
 
 using namespace insonify;
@@ -30,16 +30,16 @@ struct Places {
       re.push_back(static_cast<Real>(at[0])), im.push_back(static_cast<Real>(at[1]));
     }
   }
-  kernels::Stamps<Real> stamps() const {
+  kernels::GridPlaces<Real> grids() const {
     return {row.data(), column.data(), row_offset.data(), column_offset.data(), re.data(), im.data()};
   }
 };
 
 /// One echo after another onto one tile: argument 0 is the number of digits of the kernel.
 template <typename Real>
-void stamp(benchmark::State& state) {
+void grid(benchmark::State& state) {
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
-  const SpreadingKernel kernel(tolerance);
+  const GriddingKernel kernel(tolerance);
   const std::size_t rows = 10 + 2 * static_cast<std::size_t>(state.range(0));
   const auto fit = [&](std::size_t pieces) {
     const double width = static_cast<double>(pieces);
@@ -51,17 +51,17 @@ void stamp(benchmark::State& state) {
   AlignedArray<Real, Real> re(tile_rows * stride), im(tile_rows * stride);
   std::vector<Real> scratch(std::max<std::size_t>(along.lanes, 8));
   for (auto _ : state) {
-    kernels::stamp(places.stamps(), echoes, {along.coefficient.data(), along.degree, along.lanes}, rows,
-                   {across.coefficient.data(), across.degree, across.lanes}, scratch.data(), re.data(), im.data(),
-                   stride);
+    kernels::grid(places.grids(), echoes, {along.coefficient.data(), along.degree, along.lanes}, rows,
+                  {across.coefficient.data(), across.degree, across.lanes}, scratch.data(), re.data(), im.data(),
+                  stride);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * echoes));
   state.counters["width"] = static_cast<double>(kernel.width());
   state.counters["rows"] = static_cast<double>(rows);
 }
-BENCHMARK(stamp<float>)->Arg(2)->Arg(4)->Arg(6);
-BENCHMARK(stamp<double>)->Arg(4)->Arg(8)->Arg(12);
+BENCHMARK(grid<float>)->Arg(2)->Arg(4)->Arg(6);
+BENCHMARK(grid<double>)->Arg(4)->Arg(8)->Arg(12);
 
 /// 512 beams out of one tile of 64 bins: argument 0 is the width of the kernel.
 template <typename Real>

@@ -1,7 +1,7 @@
 // From a scene to echoes: the built-in harbour of 200 000 surfels, 512 beams. Argument 0: scatterers per cell.
 #include <benchmark/benchmark.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/pose.hpp"
 #include "core/units.hpp"
@@ -50,13 +50,13 @@ void find_scatterers_of_harbour(benchmark::State& state) {
 }
 BENCHMARK(find_scatterers_of_harbour)->Arg(0)->Arg(10)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void hear_scatterers_of_harbour(benchmark::State& state) {
+void direct_echoes_of_harbour(benchmark::State& state) {
   const Scatterers scatterers = harbour().find(state);
   for (auto _ : state)
-    benchmark::DoNotOptimize(hear_scatterers(scatterers, harbour().scene.materials, harbour().head.pulse, Medium{},
-                                             {.elevation_width = 0.35}));
+    benchmark::DoNotOptimize(direct_echoes(scatterers, harbour().scene.materials, harbour().head.pulse, Medium{},
+                                           {.elevation_width = 0.35}));
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * scatterers.size()));
 }
-BENCHMARK(hear_scatterers_of_harbour)->Arg(0)->Arg(10)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(direct_echoes_of_harbour)->Arg(0)->Arg(10)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

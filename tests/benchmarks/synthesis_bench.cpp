@@ -3,11 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include "accuracy/accuracy_task.hpp"
+#include "accuracy/synthesize_windowed.hpp"
+#include "beamforming/gridded_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/spread_synthesis_internal.hpp"
 #include "beamforming/windowed_sum_internal.hpp"
-#include "simulate/accuracy_task.hpp"
-#include "simulate/synthesize_windowed.hpp"
 
 using namespace insonify;
 
@@ -31,7 +31,7 @@ BENCHMARK(ping_synthesizer)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Argument 0: echoes; 1: as PingSynthesizer chooses (0), by the direct sum over pulses (1), stamped (2), or by the plain sum
+/// Argument 0: echoes; 1: as PingSynthesizer chooses (0), by the direct sum over pulses (1), gridded (2), or by the plain sum
 /// (3). The choice should never be much dearer than the best of the others.
 void few_echoes(benchmark::State& state) {
   const AccuracyTask task =
@@ -39,17 +39,17 @@ void few_echoes(benchmark::State& state) {
   const SynthesisOptions options{1e-6, 1};
   const PingSynthesizer plan(task.head, task.medium, options);
   const WindowedSum sum(task.head, task.medium, pulse_cut(options.tolerance), options.threads);
-  const SpreadSynthesis<double> stamped(task.head, task.medium, options, options.tolerance * plan.choice().share);
+  const GriddedSynthesis<double> gridded(task.head, task.medium, options, options.tolerance * plan.choice().share);
   for (auto _ : state) {
     if (state.range(1) == 0) benchmark::DoNotOptimize(plan.pressure(task.echoes));
     if (state.range(1) == 1) benchmark::DoNotOptimize(sum.image(task.echoes));
-    if (state.range(1) == 2) benchmark::DoNotOptimize(stamped.image(task.echoes));
+    if (state.range(1) == 2) benchmark::DoNotOptimize(gridded.image(task.echoes));
     if (state.range(1) == 3) benchmark::DoNotOptimize(synthesize_direct(task.echoes, task.head, task.medium, options));
   }
   state.counters["direct"] = plan.sums_directly(task.echoes) ? 1 : 0;
 }
 BENCHMARK(few_echoes)
-    ->ArgsProduct({{1, 10, 100, 1000}, {0, 1, 2}})
+    ->ArgsProduct({{1, 10, 100, 300, 1000}, {0, 1, 2}})
     ->ArgsProduct({{1, 10, 100}, {3}})
     ->Unit(benchmark::kMillisecond);
 

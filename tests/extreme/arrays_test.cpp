@@ -123,10 +123,10 @@ TEST(ExtremeCase, n40_everything_in_one_place_adds_up) {
   const SonarHead head = single_beam({900e3, 29.5e3, 220}, 4, 6);
   const Scatterers targets = targets_at(std::vector<double>(4096, 5.0));
   const Echoes echoes = echoes_of(targets, head.pulse, clear_water());
-  const ComplexGrid one = synthesize_stamped(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = 1});
+  const ComplexGrid one = synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = 1});
   EXPECT_NEAR(one.abs().maxCoeff(), 4096 * std::abs(echoes.amplitude[0]), 1e-11 * one.abs().maxCoeff());
   for (const int threads : {2, 5})
-    EXPECT_TRUE(same(synthesize_stamped(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = threads}), one));
+    EXPECT_TRUE(same(synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = threads}), one));
 }
 
 TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_heard) {
@@ -146,7 +146,7 @@ TEST(ExtremeCase, n41_thousands_of_beams_are_what_each_is_alone) {
   head.gate = {4, 5, 0.0157};
   head.fan = make_fan(4096, radians(90), radians(0.5), radians(20));
   const Echoes echoes = spread_echoes(300);
-  const ComplexGrid all = synthesize_stamped(echoes, head, clear_water());
+  const ComplexGrid all = synthesize_gridded(echoes, head, clear_water());
   EXPECT_TRUE(all.isFinite().all());
   for (const Eigen::Index b : {0, 1000, 4095}) {
     SonarHead lone = head;
@@ -188,7 +188,7 @@ TEST(ExtremeCase, n42_prime_numbers_of_bins_beams_and_elements_keep_the_toleranc
     head.gate = {4, 4 + 0.0075 * bins, 0.0075};
     ASSERT_EQ(head.gate.bins(), static_cast<std::size_t>(bins));
     const ComplexGrid slow = synthesize_direct(echoes, head, clear_water());
-    EXPECT_LT(relative_l2(synthesize_stamped(echoes, head, clear_water(), {.tolerance = 1e-6}), slow), 1e-6) << bins;
+    EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-6}), slow), 1e-6) << bins;
     EXPECT_LT(relative_l2(synthesize_spectrum(echoes, head, clear_water()), slow), 1e-9) << bins;
   }
 }
@@ -200,8 +200,8 @@ TEST(ExtremeCase, n43_beams_even_in_angle_and_in_direction_cosine_agree_where_th
   angle.fan.elevation.assign(5, 0);
   cosine.fan.elevation.assign(5, 0);
   const Echoes echoes = spread_echoes(200);
-  const ComplexGrid a = synthesize_stamped(echoes, angle, clear_water()),
-                    b = synthesize_stamped(echoes, cosine, clear_water());
+  const ComplexGrid a = synthesize_gridded(echoes, angle, clear_water()),
+                    b = synthesize_gridded(echoes, cosine, clear_water());
   for (const Eigen::Index beam : {0, 2, 4}) EXPECT_TRUE(same(a.row(beam), b.row(beam))) << beam;
   for (const Eigen::Index beam : {1, 3}) EXPECT_FALSE(same(a.row(beam), b.row(beam))) << beam;
 }

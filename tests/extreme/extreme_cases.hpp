@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize.hpp"
@@ -67,7 +67,7 @@ inline Scatterers targets_at(const std::vector<double>& range, double azimuth = 
 inline Echoes echoes_of(const Scatterers& targets, const Pulse& pulse, const Medium& medium, double sigma = 1) {
   const std::vector<double> sigmas(targets.size(), sigma);
   const std::vector<Complex> xi(targets.size(), 1);
-  return hear_targets(targets, sigmas, xi, pulse, medium);
+  return target_echoes(targets, sigmas, xi, pulse, medium);
 }
 
 /// A flat square plate of n x n surfels that faces the head from x, centred on the x axis.

@@ -113,7 +113,7 @@ TEST(ExtremeCase, n13_one_point_has_the_level_of_the_sonar_equation) {
   const Medium medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
   const SonarHead head = single_beam(pulse, 9, 11);
   const Echoes echoes = echoes_of(targets_at({10}), pulse, medium, 0.01);
-  for (const ComplexGrid& p : {synthesize_direct(echoes, head, medium), synthesize_stamped(echoes, head, medium)}) {
+  for (const ComplexGrid& p : {synthesize_direct(echoes, head, medium), synthesize_gridded(echoes, head, medium)}) {
     Eigen::Index beam, bin;
     EXPECT_NEAR(pressure_level_db(p.abs().maxCoeff(&beam, &bin)), 154.010748, 1e-10);
     EXPECT_NEAR(head.gate.centre(static_cast<std::size_t>(bin)), 10, 1e-12);
@@ -150,20 +150,20 @@ TEST(ExtremeCase, n30_abeam_is_heard_and_astern_is_behind_the_baffle) {
   SonarSpec s = small_sonar();
   s.beams = 5;
   s.azimuths = {-pi / 2, -pi / 4, 0, pi / 4, pi / 2};
-  const auto heard_at = [&](double azimuth) {
+  const auto level_at = [&](double azimuth) {
     const Eigen::Vector3d u = unit_vector({azimuth, 0});
     return ping_of(one_surfel(5 * u, -u), coherent, s);
   };
   for (const double side : {-1.0, 1.0}) {
-    const SimulatedPing abeam = heard_at(side * pi / 2);
+    const SimulatedPing abeam = level_at(side * pi / 2);
     EXPECT_TRUE(all_finite(abeam));
     Eigen::Index beam, bin;
     image(abeam).abs().maxCoeff(&beam, &bin);
     EXPECT_EQ(beam, side > 0 ? 4 : 0);
-    EXPECT_NEAR(peak(abeam), peak(heard_at(0)), 1e-3 * peak(abeam));
-    EXPECT_EQ(peak(heard_at(side * 0.75 * pi)), 0);  // its mirror image at 45 degrees would be heard
+    EXPECT_NEAR(peak(abeam), peak(level_at(0)), 1e-3 * peak(abeam));
+    EXPECT_EQ(peak(level_at(side * 0.75 * pi)), 0);  // its mirror image at 45 degrees would be heard
   }
-  EXPECT_EQ(peak(heard_at(pi)), 0);
+  EXPECT_EQ(peak(level_at(pi)), 0);
   s.azimuths[0] = -3.2;
   expect_refused(ErrorKind::argument, {"azimuth[0] = -3.2 rad", "within +-pi"}, [&] { make_head(s, 1500); });
 }

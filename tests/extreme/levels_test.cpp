@@ -22,7 +22,7 @@ TEST(ExtremeCase, n17_absorption_beyond_all_numbers_is_silence) {
   for (const double alpha : {4.0, 10.0, 45.0, 1e300}) {
     const Medium medium{1500, {alpha, 0, 0}};
     const Echoes echoes = echoes_of(targets_at({10}), pulse, medium);
-    for (const ComplexGrid& p : {synthesize_direct(echoes, head, medium), synthesize_stamped(echoes, head, medium)}) {
+    for (const ComplexGrid& p : {synthesize_direct(echoes, head, medium), synthesize_gridded(echoes, head, medium)}) {
       EXPECT_TRUE(p.isFinite().all()) << alpha;
       const double expected = std::abs(echoes.amplitude[0]) * std::exp(-2 * alpha * 10);
       EXPECT_NEAR(p.abs().maxCoeff(), expected, 1e-9 * expected) << alpha;
@@ -54,7 +54,7 @@ TEST(ExtremeCase, n17_absorption_that_varies_over_the_band_stays_finite_however_
 TEST(ExtremeCase, n19_absorption_that_would_amplify_is_refused) {
   const SonarHead head = single_beam(pulse, 9, 11);
   const Echoes echoes = echoes_of(targets_at({10}), pulse, clear_water());
-  for (const auto synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum})
+  for (const auto synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum})
     expect_refused(ErrorKind::argument, {"absorption = -1 dB/m", "must be >= 0"}, [&] {
       synthesize(echoes, head, {1500, {-nepers_per_db, 0, 0}}, {});
     });
@@ -77,7 +77,7 @@ TEST(ExtremeCase, n19_materials_that_would_amplify_or_are_no_number_are_refused)
   for (const double mu : {-0.1, not_a_number, infinity}) {
     const std::vector<Material> materials{{"odd", mu}};
     expect_refused(ErrorKind::argument, {"lambert_mu", "'odd'", ">= 0"},
-                   [&] { hear_scatterers(s, materials, pulse, clear_water()); });
+                   [&] { direct_echoes(s, materials, pulse, clear_water()); });
     SceneCloud scene = plate(5, 1, 3);
     scene.materials = materials;
     expect_refused(ErrorKind::content, {"lambert_mu", "'odd'", ">= 0"}, [&] { ping_of(scene); });
@@ -91,7 +91,7 @@ TEST(ExtremeCase, n32_echoes_below_the_smallest_numbers_change_nothing) {
   const SonarHead head = small_head();
   Echoes echoes = echoes_of(targets_at({5}, 0.1), head.pulse, clear_water());
   const SynthesisOptions fine{.tolerance = 1e-12};
-  const ComplexGrid alone = synthesize_stamped(echoes, head, clear_water(), fine);
+  const ComplexGrid alone = synthesize_gridded(echoes, head, clear_water(), fine);
   const ComplexGrid exact = synthesize_direct(echoes, head, clear_water());
   for (int i = 0; i < 300; ++i) {  // amplitudes from 1e-290 Pa down to 0 through the denormals
     echoes.delay.push_back(2 * (2 + 0.03 * i) / 1500);
@@ -99,7 +99,7 @@ TEST(ExtremeCase, n32_echoes_below_the_smallest_numbers_change_nothing) {
     echoes.v.push_back(0);
     echoes.amplitude.push_back(std::pow(10.0, -290 - 0.12 * i));
   }
-  const ComplexGrid together = synthesize_stamped(echoes, head, clear_water(), fine);
+  const ComplexGrid together = synthesize_gridded(echoes, head, clear_water(), fine);
   EXPECT_TRUE(together.isFinite().all());
   EXPECT_LT(relative_l2(together, alone), 1e-12);
   EXPECT_LT(relative_l2(synthesize_direct(echoes, head, clear_water()), exact), 1e-30);
@@ -111,8 +111,8 @@ TEST(ExtremeCase, n33_weak_echo_keeps_its_accuracy_beside_one_300_db_louder) {
   const Scatterers targets = targets_at({3, 9}, 0.1);
   const std::vector<double> sigma{1e30, 81};  // over r^2: 1e15 / 9 and 1 / 9
   const std::vector<Complex> xi{1, 1};
-  const Echoes echoes = hear_targets(targets, sigma, xi, head.pulse, clear_water());
-  const ComplexGrid fast = synthesize_stamped(echoes, head, clear_water(), {.tolerance = 1e-6});
+  const Echoes echoes = target_echoes(targets, sigma, xi, head.pulse, clear_water());
+  const ComplexGrid fast = synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-6});
   const ComplexGrid slow = synthesize_direct(echoes, head, clear_water());
   const Eigen::Index far = slow.cols() / 2;  // from 6.5 m on
   EXPECT_LT(relative_l2(fast.rightCols(far), slow.rightCols(far)), 1e-6);

@@ -1,8 +1,8 @@
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
+#include "accuracy/peak_memory_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/parallel.hpp"
 #include "extreme_cases.hpp"
-#include "simulate/peak_memory.hpp"
 
 using namespace insonify;
 using namespace insonify::extreme;

@@ -83,7 +83,7 @@ SimulationOptions any_options(Draw& draw) {
   o.amplitude = static_cast<SurfaceAmplitude>(draw.count(1, 3.999) - 1);
   const bool split = draw.one_in(5);  // up to 4096 parts per surfel: for the fast method
   o.scatterers_per_cell = split ? draw.log_uniform(1e-3, 3) : 0;
-  o.method = !split && draw.one_in(4) ? SynthesisMethod::direct : SynthesisMethod::stamped;
+  o.method = !split && draw.one_in(4) ? SynthesisMethod::direct : SynthesisMethod::gridded;
   o.tolerance = draw.log_uniform(1e-12, 0.5);
   o.absorption_order = static_cast<int>(draw.count(1, 3.999)) - 1;
   o.threads = static_cast<int>(draw.count(1, 3.999));
@@ -141,7 +141,7 @@ TEST(RandomParameters, every_ping_is_finite_or_refused) {
   EXPECT_GT(heard, 200);
 }
 
-TEST(RandomParameters, stamped_synthesis_keeps_its_tolerance_against_the_referee_or_is_refused) {
+TEST(RandomParameters, gridded_synthesis_keeps_its_tolerance_against_the_referee_or_is_refused) {
   Tally tally;
   for (std::uint64_t c = 0; c < 600; ++c)
     tally.add(outcome_of(c, [&] {
@@ -159,7 +159,7 @@ TEST(RandomParameters, stamped_synthesis_keeps_its_tolerance_against_the_referee
       }
       const double tolerance = draw.log_uniform(1e-9, 1e-2);
       const ComplexGrid slow = synthesize_direct(echoes, head, medium);
-      const ComplexGrid fast = synthesize_stamped(echoes, head, medium, {.tolerance = tolerance});
+      const ComplexGrid fast = synthesize_gridded(echoes, head, medium, {.tolerance = tolerance});
       const double size = std::sqrt(slow.abs2().sum());
       // Beams that look past all echoes hold little but cancelled terms: the error is measured against the echoes.
       // Delays are rounded to 1e-16 of themselves, which counts against the pulse's length.

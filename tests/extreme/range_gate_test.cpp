@@ -9,7 +9,7 @@ namespace {
 const Pulse pulse{900e3, 29.5e3, 220};
 
 using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&, const SynthesisOptions&);
-const std::vector<Synthesis> methods = {synthesize_direct, synthesize_stamped, synthesize_spectrum};
+const std::vector<Synthesis> methods = {synthesize_direct, synthesize_gridded, synthesize_spectrum};
 
 }  // namespace
 
@@ -86,7 +86,7 @@ TEST(ExtremeCase, n20_pulse_longer_than_the_gate_is_refused) {
 TEST(ExtremeCase, n20_pulse_longer_than_the_window_of_a_head_made_by_hand_is_flat_across_it) {
   const Pulse tone{900e3, 1, 220};
   const SonarHead head = single_beam(tone, 4, 6);
-  const ComplexGrid p = synthesize_stamped(echoes_of(targets_at({5}), tone, clear_water()), head, clear_water());
+  const ComplexGrid p = synthesize_gridded(echoes_of(targets_at({5}), tone, clear_water()), head, clear_water());
   EXPECT_TRUE(p.isFinite().all());
   EXPECT_NEAR(p.abs().minCoeff() / p.abs().maxCoeff(), 1, 1e-4);
 }

@@ -22,7 +22,7 @@ TEST(ExtremeCase, n49_one_to_seven_threads_give_the_same_bits) {
 TEST(ExtremeCase, n49_every_synthesis_gives_the_same_bits_for_any_number_of_threads) {
   const SonarHead head = small_head();
   const Echoes echoes = echoes_of(targets_at({2, 3, 5, 5.001, 7, 11.9}, 0.1), head.pulse, clear_water());
-  for (const auto synthesize : {synthesize_direct, synthesize_stamped, synthesize_spectrum}) {
+  for (const auto synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
     const ComplexGrid one = synthesize(echoes, head, clear_water(), {.threads = 1});
     for (const int threads : {2, 3, 4, 5, 6, 7})
       EXPECT_TRUE(same(synthesize(echoes, head, clear_water(), {.threads = threads}), one)) << threads;

@@ -11,7 +11,7 @@ TEST(ExtremeCase, n45_sound_speed_of_zero_or_no_number_is_refused) {
     const SonarHead head = small_head();
     const Echoes echoes = echoes_of(targets_at({5}), head.pulse, clear_water());
     expect_refused(ErrorKind::argument, {"sound_speed = ", "m/s", "> 0"}, [&] {
-      synthesize_stamped(echoes, head, {c, {}});
+      synthesize_gridded(echoes, head, {c, {}});
     });
     expect_refused(ErrorKind::argument, {"sound_speed = ", "m/s", "> 0"}, [&] {
       echoes_of(targets_at({5}), head.pulse, {c, {}});

@@ -52,7 +52,7 @@ double incoherent_level_db(double r) {
   head.fan.beam_width = radians(80);  // the margin that is sampled beside the beam
   const SceneCloud scene = strip(r);
   const Scatterers s = visible(scene, head, Pose::Identity());
-  const Echoes echoes = hear_scatterers(s, scene.materials, head.pulse, sea, {.amplitude = SurfaceAmplitude::coherent});
+  const Echoes echoes = direct_echoes(s, scene.materials, head.pulse, sea, {.amplitude = SurfaceAmplitude::coherent});
   double power = 0;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const EchoEnvelope envelope = echo_envelope(head.pulse, sea.absorption, s.range[i]);

@@ -125,8 +125,8 @@ TEST(DetectionLaws, rayleigh_target_is_found_with_pfa_to_the_one_over_one_plus_s
     s.surfel.assign(s.range.size(), 0);
     for (const double sigma : power) s.projected_area.push_back(static_cast<float>(sigma));
     const std::vector<Material> materials{{"target", 1.0}};
-    const Echoes echoes = hear_scatterers(s, materials, head.pulse, clear_water(), {.seed = 9});
-    const Ping ping = noise_ping(head, synthesize_stamped(echoes, head, clear_water()), 77);
+    const Echoes echoes = direct_echoes(s, materials, head.pulse, clear_water(), {.seed = 9});
+    const Ping ping = noise_ping(head, synthesize_gridded(echoes, head, clear_water()), 77);
     const Soundings found = detect_soundings(
         ping, silent().scatterers, silent().echoes,
         {.noise_floor_db = noise_floor_db(), .threshold_db = threshold_db(rate), .side_lobe_margin_db = 1000});

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
@@ -79,11 +79,11 @@ inline Groups make_groups(const std::vector<int>& number, std::uint64_t first_id
 }
 
 /// Complex pressure of every group in units of one patch's rms.
-inline std::vector<Complex> hear_groups(const Groups& groups, const HearingOptions& options,
-                                        double coherent_fraction = 0) {
+inline std::vector<Complex> trace_groups(const Groups& groups, const EchoOptions& options,
+                                         double coherent_fraction = 0) {
   const std::vector<Material> materials{{"patch", 1.0, coherent_fraction, 0}};
-  const Echoes echoes = hear_scatterers(groups.scatterers, materials, groups.head.pulse, clear_water(), options);
-  const ComplexGrid pressure = synthesize_stamped(echoes, groups.head, clear_water());
+  const Echoes echoes = direct_echoes(groups.scatterers, materials, groups.head.pulse, clear_water(), options);
+  const ComplexGrid pressure = synthesize_gridded(echoes, groups.head, clear_water());
   std::vector<Complex> heard;
   for (std::size_t g = 0; g < groups.bin.size(); ++g) {
     // The carrier's phase is known: taken off, a coherent patch is real and positive.

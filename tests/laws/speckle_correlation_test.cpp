@@ -39,13 +39,13 @@ SonarHead forward_head() {
 
 /// Pressure of a flat bottom at a head that stands at `world_from_head`, the same patches for every pose: one image per
 /// seed.
-std::vector<ComplexGrid> hear_bottom_at(const Pose& world_from_head) {
+std::vector<ComplexGrid> bottom_echoes_at(const Pose& world_from_head) {
   const SceneCloud scene = flat_bottom();
   const SonarHead head = forward_head();
   const Scatterers s = visible(scene, head, world_from_head);
   std::vector<ComplexGrid> heard;
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
-    heard.push_back(synthesize_stamped(hear_scatterers(s, scene.materials, head.pulse, clear_water(), {.seed = seed}),
+    heard.push_back(synthesize_gridded(direct_echoes(s, scene.materials, head.pulse, clear_water(), {.seed = seed}),
                                        head, clear_water()));
   return heard;
 }
@@ -54,8 +54,8 @@ std::vector<ComplexGrid> hear_bottom_at(const Pose& world_from_head) {
 /// bins and 10 seeds are 1700 looks. The phase 2 k d u_b by which a beam's patches turn together is taken off; that of
 /// the longer way, - k d^2 / r, and that of the beam's footprint, which moves along by d, cancel.
 Complex correlation_with(const Pose& world_from_head, double sideways) {
-  static const std::vector<ComplexGrid> at_rest = hear_bottom_at(Pose::Identity());
-  const std::vector<ComplexGrid> elsewhere = hear_bottom_at(world_from_head);
+  static const std::vector<ComplexGrid> at_rest = bottom_echoes_at(Pose::Identity());
+  const std::vector<ComplexGrid> elsewhere = bottom_echoes_at(world_from_head);
   const SonarHead head = forward_head();
   const double k = 2 * pi / wavelength;
   Correlation correlation;
@@ -88,8 +88,8 @@ TEST(SpeckleLaws, beams_are_correlated_by_the_sinc_of_their_distance) {
   const std::vector<Material> materials{{"patch", 1.0}};
   Correlation with_first[4];
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ComplexGrid p = synthesize_stamped(hear_scatterers(s, materials, head.pulse, clear_water(), {.seed = seed}),
-                                             head, clear_water());
+    const ComplexGrid p =
+        synthesize_gridded(direct_echoes(s, materials, head.pulse, clear_water(), {.seed = seed}), head, clear_water());
     for (std::size_t ring = 0; ring < count; ++ring)
       for (Eigen::Index b = 0; b < 4; ++b) {
         const auto n = static_cast<Eigen::Index>(ring * bins_apart);

@@ -44,9 +44,9 @@ const std::vector<double>& bottom_intensities() {
     const SceneCloud scene = flat_bottom();
     const SonarHead head = bottom_head();
     const Scatterers s = visible(scene, head, Pose::Identity());
-    HearingOptions options;
+    EchoOptions options;
     options.amplitude = SurfaceAmplitude::coherent;
-    const Echoes steady = hear_scatterers(s, scene.materials, head.pulse, clear_water(), options);
+    const Echoes steady = direct_echoes(s, scene.materials, head.pulse, clear_water(), options);
     const auto beams = static_cast<Eigen::Index>(head.fan.beams()), bins = static_cast<Eigen::Index>(head.gate.bins());
     Grid<double> mean(beams, bins);
     for (Eigen::Index b = 0; b < beams; ++b)
@@ -55,7 +55,7 @@ const std::vector<double>& bottom_intensities() {
     std::vector<double> result;
     options.amplitude = SurfaceAmplitude::complex_normal;
     for (options.seed = 1; options.seed <= 45; ++options.seed) {
-      const ComplexGrid p = synthesize_stamped(hear_scatterers(s, scene.materials, head.pulse, clear_water(), options),
+      const ComplexGrid p = synthesize_gridded(direct_echoes(s, scene.materials, head.pulse, clear_water(), options),
                                                head, clear_water());
       for (Eigen::Index b = 0; b < beams; ++b)
         for (Eigen::Index n = 0; n < bins; n += bins_apart) result.push_back(std::norm(p(b, n)) / mean(b, n));
@@ -123,11 +123,11 @@ TEST(SpeckleLaws, moments_of_a_flat_lambert_bottom_are_those_of_fully_developed_
 TEST(SpeckleLaws, fixed_numbers_of_equal_patches_with_random_phases_have_2_less_1_over_n) {
   for (const int n : {1, 2, 5, 20}) {
     Moments m;
-    HearingOptions options;
+    EchoOptions options;
     options.amplitude = SurfaceAmplitude::random_phase;
     const Groups groups = make_groups(std::vector<int>(5000, n));
     for (options.seed = 1; options.seed <= 4; ++options.seed)
-      for (const Complex p : hear_groups(groups, options)) m.add(p);
+      for (const Complex p : trace_groups(groups, options)) m.add(p);
     // The square's standard deviation is at most sqrt(20), that of the exponential law: 20 000 groups, three errors.
     EXPECT_NEAR(m.intensity / m.n, n, 3 * n / std::sqrt(m.n));
     EXPECT_NEAR(m.square_ratio(), 2 - 1.0 / n, n == 1 ? 1e-3 : 0.1) << n << " patches";
@@ -136,9 +136,9 @@ TEST(SpeckleLaws, fixed_numbers_of_equal_patches_with_random_phases_have_2_less_
 
 TEST(SpeckleLaws, complex_normal_amplitudes_are_rayleigh_even_from_a_single_patch) {
   std::vector<double> sample;
-  HearingOptions options;
+  EchoOptions options;
   const Groups groups = make_groups(std::vector<int>(5000, 1));
-  for (const Complex p : hear_groups(groups, options)) sample.push_back(std::norm(p));
+  for (const Complex p : trace_groups(groups, options)) sample.push_back(std::norm(p));
   EXPECT_LT(distance_from_exponential(sample), 1.358 / std::sqrt(static_cast<double>(sample.size())));
 }
 
@@ -151,7 +151,7 @@ TEST(SpeckleLaws, poisson_numbers_of_patches_have_2_times_1_plus_1_over_their_me
     Moments m;
     for (unsigned look = 0; look < 5; ++look) {
       const Groups groups = make_groups(poisson_numbers(mean, 8000, 40 + look));
-      for (const Complex p : hear_groups(groups, {.seed = 1 + look})) m.add(p);
+      for (const Complex p : trace_groups(groups, {.seed = 1 + look})) m.add(p);
     }
     const double fourth = 24 * (mean + 7 * std::pow(mean, 2) + 6 * std::pow(mean, 3) + std::pow(mean, 4));
     const double square = 2 * (mean + mean * mean), error = std::sqrt((fourth - square * square) / m.n) / square;
@@ -166,10 +166,10 @@ TEST(SpeckleLaws, poisson_numbers_of_patches_have_2_times_1_plus_1_over_their_me
 TEST(SpeckleLaws, rician_fraction_sets_mean_field_and_square_at_constant_power) {
   for (const double g : {0.0, 0.2, 0.5, 0.9, 1.0}) {
     Moments m;
-    HearingOptions options;
+    EchoOptions options;
     const Groups groups = make_groups(std::vector<int>(5000, 1));
     for (options.seed = 1; options.seed <= 4; ++options.seed)
-      for (const Complex p : hear_groups(groups, options, g)) m.add(p);
+      for (const Complex p : trace_groups(groups, options, g)) m.add(p);
     EXPECT_LT(std::abs(m.field / m.n - std::sqrt(g)), 3 * std::sqrt((1 - g) / m.n) + 1e-3) << g;
     EXPECT_NEAR(m.intensity / m.n, 1, 3 * std::sqrt((1 - g * g) / m.n) + 1e-3) << g;
     EXPECT_NEAR(m.square / m.n, 2 - g * g, 3 * std::sqrt(20 * (1 - g * g) / m.n) + 1e-3) << g;

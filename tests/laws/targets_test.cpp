@@ -22,7 +22,7 @@ double sphere_strength_db(double a, double mu, std::size_t points) {
   const SonarHead head = head_with({wavelength / 2, {1.0}}, {0}, 30e3, {50, 60, 0.01});
   const Scatterers s = visible(sphere, head, pose_from_yaw_pitch_roll({-50, 0, 0}, 0, 0, 0));
   const Echoes echoes =
-      hear_scatterers(s, sphere.materials, head.pulse, clear_water(), {.amplitude = SurfaceAmplitude::coherent});
+      direct_echoes(s, sphere.materials, head.pulse, clear_water(), {.amplitude = SurfaceAmplitude::coherent});
   double sigma = 0;
   for (std::size_t i = 0; i < echoes.size(); ++i)
     sigma += std::norm(echoes.amplitude[i] * std::pow(s.range[i], 2) / source_pressure(head.pulse));
@@ -120,7 +120,7 @@ TEST(TargetLaws, flat_plate_of_calibrated_facets_is_kirchhoffs_integral_from_nea
     for (std::size_t i = 0; i < s.size(); ++i)
       sigma.push_back(std::pow(s.cos_incidence[i] * plate.area[i] / wavelength, 2));
     const std::vector<Complex> xi(s.size(), 1);
-    const Echoes echoes = hear_targets(s, sigma, xi, head.pulse, clear_water());
+    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, clear_water());
     EXPECT_NEAR(strength_db(synthesize_direct(echoes, head, clear_water()), head.pulse, c.range), c.strength_db, 0.03)
         << c.range << " m";
   }
@@ -155,7 +155,7 @@ TEST(TargetLaws, flat_plate_of_random_amplitudes_has_the_level_of_its_area_at_ev
     sample.gate = {range - 0.001, range + 0.001, 0.002};
     double intensity = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed)
-      intensity += synthesize_direct(hear_scatterers(s, plate.materials, head.pulse, clear_water(), {.seed = seed}),
+      intensity += synthesize_direct(direct_echoes(s, plate.materials, head.pulse, clear_water(), {.seed = seed}),
                                      sample, clear_water())
                        .abs2()(0, 0) /
                    400;
@@ -168,13 +168,13 @@ TEST(TargetLaws, flat_plate_of_random_amplitudes_has_the_level_of_its_area_at_ev
 // wherever it lies between bins. The pulse is not cut off in frequency, so the parabola is exact but for the tolerance.
 TEST(TargetLaws, parabola_through_levels_finds_a_target_between_bins_to_a_millimetre) {
   SonarHead head = head_with({wavelength / 2, {1.0}}, {0}, 29.5e3, {9, 11, 0.0127});
-  double worst_direct = 0, worst_stamped = 0;
+  double worst_direct = 0, worst_gridded = 0;
   for (int i = 0; i < 50; ++i) {
     Scatterers s;
     s.range = {10 + 0.0127 * i / 50}, s.azimuth = {0}, s.elevation = {0};
     const std::vector<double> sigma{0.01};
     const std::vector<Complex> xi{1};
-    const Echoes echoes = hear_targets(s, sigma, xi, head.pulse, clear_water());
+    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, clear_water());
     const auto error = [&](const ComplexGrid& p) {
       Eigen::Index beam, n;
       p.abs().maxCoeff(&beam, &n);
@@ -184,11 +184,11 @@ TEST(TargetLaws, parabola_through_levels_finds_a_target_between_bins_to_a_millim
       return std::abs(peak - s.range[0]);
     };
     worst_direct = std::max(worst_direct, error(synthesize_direct(echoes, head, clear_water())));
-    worst_stamped = std::max(worst_stamped, error(synthesize_stamped(echoes, head, clear_water())));
+    worst_gridded = std::max(worst_gridded, error(synthesize_gridded(echoes, head, clear_water())));
   }
   EXPECT_LT(worst_direct, 1e-9);
-  EXPECT_LT(worst_stamped, 1.03e-3);
-  EXPECT_LT(worst_stamped, 1e-4);
+  EXPECT_LT(worst_gridded, 1.03e-3);
+  EXPECT_LT(worst_gridded, 1e-4);
 }
 
 // Woodward's bound of the delay's error, 1 / (2 pi beta sqrt(2 E / N0)), rests on the rms bandwidth beta:

@@ -28,7 +28,7 @@ Echoes targets(const std::vector<double>& range, std::vector<double> azimuth = {
   s.elevation.assign(range.size(), 0);
   const std::vector<double> sigma(range.size(), 1);
   const std::vector<std::complex<double>> xi(range.size(), 1);
-  return hear_targets(s, sigma, xi, table_2_pulse(), medium());
+  return target_echoes(s, sigma, xi, table_2_pulse(), medium());
 }
 
 Eigen::Index bin_of(const RangeGate& gate, double range) {
@@ -85,7 +85,7 @@ TEST(Thesis, a_target_at_5_m_appears_at_5_m) {
   SonarHead head = make_sonar(51);
   head.gate = {1, 13, 2e-3};
   head.fan.azimuth = {0}, head.fan.elevation = {0};
-  for (const auto synthesize : {synthesize_spectrum, synthesize_direct, synthesize_stamped}) {
+  for (const auto synthesize : {synthesize_spectrum, synthesize_direct, synthesize_gridded}) {
     const ComplexGrid pressure = synthesize(targets({5}), head, medium(), {});
     EXPECT_NEAR(find_peak(pressure, 0, head.gate, 7, 5.9).range, 5, 1e-6);
     const double peak = std::abs(pressure(0, bin_of(head.gate, 5)));
@@ -138,8 +138,8 @@ TEST(Thesis, travel_times_of_figure_14_are_right_to_a_millimetre) {
   const Case which;
   const Scatterers object = make_object(which);
   const SonarHead head = make_sonar(which.beams);
-  const Echoes echoes = hear_object(object);
-  const ComplexGrid columns = hear_columns(echoes, which, head);
+  const Echoes echoes = echoes_of_object(object);
+  const ComplexGrid columns = column_series(echoes, which, head);
   for (std::size_t i = 0; i < object.size(); ++i) {
     const Peak peak = find_peak(columns, i / which.rays, head.gate, object.range[i], 0.02);
     ASSERT_NEAR(peak.sample_range, object.range[i], 0.5001 * head.gate.bin_size);
@@ -216,12 +216,12 @@ TEST(Thesis, true_grating_lobes_stand_at_the_closed_form) {
 // Table 4: the three methods give one image.
 TEST(Thesis, three_methods_give_one_image) {
   const Case which;
-  const Echoes echoes = hear_object(make_object(which));
+  const Echoes echoes = echoes_of_object(make_object(which));
   const SonarHead head = make_sonar(which.beams, 18, default_bin_size(table_2_pulse(), speed_of_sound));
   const ComplexGrid direct = synthesize_direct(echoes, head, medium());
   const auto error = [&](const ComplexGrid& other) {
     return std::sqrt((other - direct).abs2().sum() / direct.abs2().sum());
   };
-  EXPECT_LT(error(synthesize_stamped(echoes, head, medium())), 1e-4);
+  EXPECT_LT(error(synthesize_gridded(echoes, head, medium())), 1e-4);
   EXPECT_LT(error(synthesize_spectrum(echoes, head, medium())), 1e-12);
 }

@@ -33,7 +33,7 @@ struct Heard {
   SceneCloud scene;
   Echoes echoes;
   std::vector<std::uint32_t> surfel;
-  std::vector<WayPair> ways;
+  std::vector<LegPair> legs;
 
   /// A surfel named 100, 101 ..., of material 0, 1, 2, 0 ...
   std::uint32_t add_surfel() {
@@ -43,20 +43,20 @@ struct Heard {
     return i;
   }
   void add(std::uint32_t of, double range, double azimuth, double elevation, std::complex<double> amplitude,
-           WayPair by = {}) {
+           LegPair by = {}) {
     echoes.delay.push_back(2 * range / medium.sound_speed);
     echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)), echoes.v.push_back(std::sin(elevation));
     echoes.amplitude.push_back(amplitude);
-    surfel.push_back(of), ways.push_back(by);
+    surfel.push_back(of), legs.push_back(by);
   }
-  std::vector<SurfelEchoes> parts() const { return {{echoes, surfel, ways}}; }
+  std::vector<SurfelEchoes> parts() const { return {{echoes, surfel, legs}}; }
   Contributors find(const SonarHead& head, const ContributorOptions& options = {}) const {
     return find_contributors(scene, parts(), head, medium, options);
   }
 };
 
 /// Surfels of some parts all over the fan and a little beyond, some heard by a bounce too, in no order; `size` in radians.
-Heard random_heard(unsigned seed, bool doppler = false, int surfels = 60, int parts = 5, double size = 0.02) {
+Heard random_echoes(unsigned seed, bool doppler = false, int surfels = 60, int parts = 5, double size = 0.02) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> even(-1, 1);
   std::normal_distribution<double> normal;
@@ -92,7 +92,7 @@ std::map<Key, double> energies_at(const Heard& h, const SonarHead& head, std::si
     const double t = 2 * head.gate.centre(bin) / medium.sound_speed - h.echoes.delay[i];
     const double energy =
         std::norm(h.echoes.amplitude[i] * response * shapes.of(h.echoes.delay[i], h.echoes.doppler_of(i)).at(t));
-    energies[{h.surfel[i], h.ways[i].out, h.ways[i].back}] += energy;
+    energies[{h.surfel[i], h.legs[i].out, h.legs[i].back}] += energy;
   }
   return energies;
 }
@@ -141,23 +141,23 @@ std::string error_of(const std::function<void()>& run) {
 }  // namespace
 
 TEST(FindContributors, agrees_with_every_echo_against_every_pixel) {
-  for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_heard(seed), small_head());
+  for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_echoes(seed), small_head());
 }
 
 // So many parts so close together that a few directions stand for all of them.
 TEST(FindContributors, agrees_with_the_referee_for_surfels_of_many_parts) {
-  expect_as_referee(random_heard(10, false, 25, 50, 0.003), small_head());
+  expect_as_referee(random_echoes(10, false, 25, 50, 0.003), small_head());
   SonarHead head = small_head();
   head.fan.elevation_width = radians(10);
   for (std::size_t b = 0; b < 6; ++b) head.fan.elevation[b] = radians(-8);
-  expect_as_referee(random_heard(11, false, 25, 50, 0.003), head);
+  expect_as_referee(random_echoes(11, false, 25, 50, 0.003), head);
 }
 
 TEST(FindContributors, agrees_with_the_referee_for_a_sweep_with_doppler) {
   SonarHead head = small_head();
   head.pulse.shape = PulseShape::linear_fm;
   head.pulse.duration = 1e-3;
-  expect_as_referee(random_heard(4, true), head);
+  expect_as_referee(random_echoes(4, true), head);
 }
 
 TEST(FindContributors, agrees_with_the_referee_for_rows_and_for_a_planar_array) {
@@ -166,10 +166,10 @@ TEST(FindContributors, agrees_with_the_referee_for_rows_and_for_a_planar_array) 
   head.fan.elevation_width = radians(10);
   head.fan.azimuth.insert(head.fan.azimuth.end(), below.azimuth.begin(), below.azimuth.end());
   head.fan.elevation.insert(head.fan.elevation.end(), below.elevation.begin(), below.elevation.end());
-  expect_as_referee(random_heard(5), head);
+  expect_as_referee(random_echoes(5), head);
   head.column = array_for_beam_width(radians(6), 1500 / 600e3, Shading::uniform, 0);
   head.fan.row_width = radians(6);
-  expect_as_referee(random_heard(6), head);
+  expect_as_referee(random_echoes(6), head);
 }
 
 // Elements two wavelengths apart hear a grating lobe at u = 0.5, as loud as the main lobe.
@@ -185,7 +185,7 @@ TEST(FindContributors, hears_through_a_grating_lobe) {
 }
 
 TEST(FindContributors, shares_of_a_pixel_add_up_to_one_when_all_are_listed) {
-  const Contributors c = random_heard(7).find(small_head(), {.per_pixel = 90});
+  const Contributors c = random_echoes(7).find(small_head(), {.per_pixel = 90});
   for (std::size_t pixel = 0; pixel < c.beams * c.bins; ++pixel) {
     double sum = 0;
     for (std::size_t k = 0; k < 90; ++k) {
@@ -288,7 +288,7 @@ TEST(FindContributors, label_images_put_materials_at_their_bearing) {
 }
 
 TEST(FindContributors, does_not_depend_on_threads) {
-  const Heard heard = random_heard(8);
+  const Heard heard = random_echoes(8);
   const Contributors one = heard.find(small_head(), {.threads = 1});
   for (const int threads : {2, 7}) {
     const Contributors many = heard.find(small_head(), {.threads = threads});
@@ -306,7 +306,7 @@ TEST(FindContributors, of_silence_are_none) {
 }
 
 TEST(FindContributors, refuses_what_does_not_fit) {
-  Heard heard = random_heard(9);
+  Heard heard = random_echoes(9);
   const SonarHead head = small_head();
   EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 0}); }),
             "find_contributors: per_pixel = 0, must be within 1 and 255");

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sampling/cast_rays.hpp"
+#include "sampling/cast_rays_internal.hpp"
 #include "sampling_scenes.hpp"
 
 using namespace insonify;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sampling/hit_rule.hpp"
+#include "sampling/hit_rule_internal.hpp"
 #include "sampling_scenes.hpp"
 
 using namespace insonify;

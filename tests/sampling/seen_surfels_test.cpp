@@ -9,16 +9,16 @@ using namespace insonify;
 
 namespace {
 
-std::vector<std::uint32_t> seen_of(const std::vector<Sight>& sight) {
+std::vector<std::uint32_t> seen_of(const std::vector<Visibility>& visibility) {
   std::vector<std::uint32_t> list;
-  for (std::uint32_t i = 0; i < sight.size(); ++i)
-    if (sight[i] == Sight::seen) list.push_back(i);
+  for (std::uint32_t i = 0; i < visibility.size(); ++i)
+    if (visibility[i] == Visibility::seen) list.push_back(i);
   return list;
 }
 
 }  // namespace
 
-TEST(FindSight, sees_what_find_scatterers_sees) {
+TEST(FindVisibility, sees_what_find_scatterers_sees) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
   const Pose pose = at(0, 0, -3, 0, 10);
   const BeamFan fan = make_fan(91, radians(90), radians(1), radians(20));
@@ -27,36 +27,40 @@ TEST(FindSight, sees_what_find_scatterers_sees) {
     SamplingOptions options = unsplit();
     options.occlusion = occlusion;
     const Sampling expected = find_scatterers(scene, pose, fan, gate, options);
-    const auto sight = find_sight(scene, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options);
-    EXPECT_EQ(find_sight(PreparedScene(scene), pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options),
-              sight);
-    EXPECT_EQ(seen_of(sight), expected.scatterers.surfel);
-    EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::hidden), expected.report.hidden);
-    EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::turned_away), expected.report.back_facing);
-    EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::outside), scene.size() - expected.report.in_gate);
+    const auto visibility =
+        find_visibility(scene, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options);
+    EXPECT_EQ(
+        find_visibility(PreparedScene(scene), pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), options),
+        visibility);
+    EXPECT_EQ(seen_of(visibility), expected.scatterers.surfel);
+    EXPECT_EQ(std::count(visibility.begin(), visibility.end(), Visibility::hidden), expected.report.hidden);
+    EXPECT_EQ(std::count(visibility.begin(), visibility.end(), Visibility::turned_away), expected.report.back_facing);
+    EXPECT_EQ(std::count(visibility.begin(), visibility.end(), Visibility::outside),
+              scene.size() - expected.report.in_gate);
   }
 }
 
-TEST(FindSight, surfels_not_asked_about_still_block) {
+TEST(FindVisibility, surfels_not_asked_about_still_block) {
   SceneCloud scene;
   add_surfel(scene, {10, 0, 0}, {-1, 0, 0}, 1e-4);
   add_wall(scene, 5, 1, 1, 0.1);
   std::vector<std::uint8_t> asked(scene.size(), 0);
   asked[0] = 1;
-  const auto sight = find_sight(scene, Pose::Identity(), wide_fan(), long_gate(), asked, unsplit());
-  EXPECT_EQ(find_sight(PreparedScene(scene), Pose::Identity(), wide_fan(), long_gate(), asked, unsplit()), sight);
-  EXPECT_EQ(sight[0], Sight::hidden);
-  EXPECT_EQ(std::count(sight.begin(), sight.end(), Sight::not_asked), scene.size() - 1);
+  const auto visibility = find_visibility(scene, Pose::Identity(), wide_fan(), long_gate(), asked, unsplit());
+  EXPECT_EQ(find_visibility(PreparedScene(scene), Pose::Identity(), wide_fan(), long_gate(), asked, unsplit()),
+            visibility);
+  EXPECT_EQ(visibility[0], Visibility::hidden);
+  EXPECT_EQ(std::count(visibility.begin(), visibility.end(), Visibility::not_asked), scene.size() - 1);
 }
 
-TEST(FindSight, refuses_a_list_of_another_length) {
+TEST(FindVisibility, refuses_a_list_of_another_length) {
   SceneCloud scene;
   add_wall(scene, 5, 1, 1, 1);
-  EXPECT_EQ(message_of([&] { find_sight(scene, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
-            "find_sight: asked has 0 entries, must have one per surfel (4)");
+  EXPECT_EQ(message_of([&] { find_visibility(scene, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
+            "find_visibility: asked has 0 entries, must have one per surfel (4)");
   const PreparedScene prepared(scene);
-  EXPECT_EQ(message_of([&] { find_sight(prepared, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
-            "find_sight: asked has 0 entries, must have one per surfel (4)");
+  EXPECT_EQ(message_of([&] { find_visibility(prepared, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
+            "find_visibility: asked has 0 entries, must have one per surfel (4)");
 }
 
 TEST(SplitListed, splits_as_find_scatterers_does) {

@@ -1,10 +1,9 @@
-#include "sampling/split_surfels.hpp"
-
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "sampling/split_surfels_internal.hpp"
 #include "sampling_scenes.hpp"
 
 using namespace insonify;

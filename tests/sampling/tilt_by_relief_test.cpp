@@ -1,9 +1,8 @@
-#include "sampling/tilt_by_relief.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "sampling/tilt_by_relief_internal.hpp"
 #include "sampling_scenes.hpp"
 
 using namespace insonify;

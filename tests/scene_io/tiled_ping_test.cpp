@@ -5,7 +5,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "scene_io/tiled_scene.hpp"
-#include "simulate/ping_reach.hpp"
+#include "simulate/ping_region.hpp"
 #include "test_files.hpp"
 
 using namespace insonify;
@@ -44,7 +44,7 @@ void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environme
   save_tiles(path, whole, small_tiles());
   const TiledScene tiled(path);
   const SonarHead head = small_head();
-  const TileSelection selection = tiled.select(ping_reach(tiled.info().whole, head, pose, environment, options));
+  const TileSelection selection = tiled.select(ping_region(tiled.info().whole, head, pose, environment, options));
   EXPECT_LT(static_cast<double>(selection.surfels), most_of_the_scene * static_cast<double>(whole.size()));
   const SimulatedPing all = simulate_ping(whole, head, pose, environment, options);
   const SimulatedPing part = simulate_ping(tiled.load(selection), head, pose, environment, options);

@@ -105,7 +105,7 @@ TEST(TiledScene, tiles_near_a_place_hold_every_surfel_near_it) {
   save_tiles(temporary("a.tiles"), scene, small_tiles());
   const TiledScene tiled(temporary("a.tiles"));
   const Eigen::Vector3d centre(20, 3, -7);
-  const TileSelection selection = tiled.select(reach_around(centre, 5));
+  const TileSelection selection = tiled.select(region_around(centre, 5));
   EXPECT_LT(selection.surfels, scene.size() / 4);
   const SceneCloud part = tiled.load(selection);
   EXPECT_TRUE(std::is_sorted(part.id.begin(), part.id.end()));
@@ -134,7 +134,7 @@ TEST(TiledScene, a_scene_100_km_wide_keeps_its_millimetres) {
   writer.finish();
   const TiledScene tiled(temporary("a.tiles"));
   const Eigen::Vector3d near = options.origin + Eigen::Vector3d(50e3, 0, 0);
-  const SceneCloud part = tiled.load(tiled.select(reach_around(near, 100)));
+  const SceneCloud part = tiled.load(tiled.select(region_around(near, 100)));
   ASSERT_EQ(part.size(), 10000U);
   for (std::size_t i = 0; i < part.size(); ++i) {
     const Eigen::Vector3d world = part.origin + part.point[i].cast<double>();
@@ -149,7 +149,7 @@ TEST(TiledScene, tiles_of_two_clouds_100_km_apart_are_small_in_both) {
     add_surfel(scene, scene.point[i].cast<double>() + Eigen::Vector3d(1e5, 0, 0), Eigen::Vector3d::UnitZ(), 0.02);
   save_tiles(temporary("a.tiles"), scene, small_tiles());
   const TiledScene tiled(temporary("a.tiles"));
-  for (const double x : {10.0, 1e5 + 10}) EXPECT_LT(tiled.select(reach_around({x, 0, 0}, 1)).surfels, one / 10);
+  for (const double x : {10.0, 1e5 + 10}) EXPECT_LT(tiled.select(region_around({x, 0, 0}, 1)).surfels, one / 10);
 }
 
 TEST(TiledScene, strays_far_away_do_not_make_tiles_large) {
@@ -160,19 +160,19 @@ TEST(TiledScene, strays_far_away_do_not_make_tiles_large) {
   options.memory = 0;
   save_tiles(temporary("a.tiles"), scene, options);
   const TiledScene tiled(temporary("a.tiles"));
-  EXPECT_LT(tiled.select(reach_around({20, 3, -7}, 5)).surfels, scene.size() / 4);
+  EXPECT_LT(tiled.select(region_around({20, 3, -7}, 5)).surfels, scene.size() / 4);
 }
 
 TEST(TiledScene, scenes_without_extent_are_scenes) {
   EXPECT_EQ(save_tiles(temporary("none.tiles"), SceneCloud{}).surfels, 0U);
   const TiledScene none(temporary("none.tiles"));
   EXPECT_EQ(none.load(none.select_all()).size(), 0U);
-  EXPECT_EQ(none.select(reach_around({0, 0, 0}, 1e9)).surfels, 0U);
+  EXPECT_EQ(none.select(region_around({0, 0, 0}, 1e9)).surfels, 0U);
 
   save_tiles(temporary("one.tiles"), one_point());
   const TiledScene one(temporary("one.tiles"));
-  expect_same_surfels(one.load(one.select(reach_around({0, 0, 0}, 10))), one_point());
-  EXPECT_EQ(one.select(reach_around({50, 0, 0}, 10)).surfels, 0U);
+  expect_same_surfels(one.load(one.select(region_around({0, 0, 0}, 10))), one_point());
+  EXPECT_EQ(one.select(region_around({50, 0, 0}, 10)).surfels, 0U);
 
   // More at one place than sorting has memory for.
   TileWriterOptions little;
@@ -221,7 +221,7 @@ TEST(TiledScene, what_does_not_fit_into_memory_is_refused_before_it_is_read) {
   const TiledScene tiled(temporary("a.tiles"));
   expect_error(ErrorKind::runtime, {"a.tiles", "surfels within reach need about", "GiB", "raise the limit"},
                [&] { tiled.load(tiled.select_all(), 1e6); });
-  EXPECT_GT(tiled.load(tiled.select(reach_around({20, 3, -7}, 1)), 1e6).size(), 0U);
+  EXPECT_GT(tiled.load(tiled.select(region_around({20, 3, -7}, 1)), 1e6).size(), 0U);
 }
 
 TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {

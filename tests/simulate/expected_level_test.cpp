@@ -11,7 +11,7 @@
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
-#include "simulate/stage_options.hpp"
+#include "simulate/stage_options_internal.hpp"
 
 using namespace insonify;
 
@@ -80,7 +80,7 @@ struct Spread {
       options.seed = seed;
       const SimulatedPing p = ping(options);
       const Echoes echoes =
-          hear_scatterers(p.scatterers, plane().materials, head.pulse, medium, hearing_options(head, options));
+          direct_echoes(p.scatterers, plane().materials, head.pulse, medium, echo_options_of(head, options));
       const Grid<double> error = predict_level_error_db(echoes, head, medium).cast<double>();
       judged = judged && error < 1.5;
       const Grid<double> level = 10 * power(p.ping.pressure).log10();
@@ -105,7 +105,7 @@ TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
   EXPECT_TRUE((expected.ping.pressure.imag() == 0).all());
 
   // Amplitudes by the seed; it also moves the parts of surfels, so means over many cells are compared.
-  options.method = SynthesisMethod::stamped;
+  options.method = SynthesisMethod::gridded;
   std::map<std::string, double> mean;
   constexpr int pings = 30;
   for (std::uint64_t seed = 1; seed <= pings; ++seed) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/hear_scatterers.hpp"
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"

@@ -92,7 +92,7 @@ TEST(SimulatePing, does_not_change_when_world_and_head_move_together) {
   EXPECT_LT(compare_images(image(far), image(here)).relative_l2, 1e-9);
 }
 
-TEST(SimulatePing, stamped_and_direct_agree_on_a_scene) {
+TEST(SimulatePing, gridded_and_direct_agree_on_a_scene) {
   const SimulatedPing fast = ping_harbour({.scatterers_per_cell = 0, .tolerance = 1e-6});
   const SimulatedPing slow = ping_harbour({.scatterers_per_cell = 0, .method = SynthesisMethod::direct});
   EXPECT_LT(compare_images(image(fast), image(slow)).relative_l2, 1e-6);

@@ -9,7 +9,7 @@ namespace {
 const std::string angles = "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n";
 const std::string quaternions = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
 
-std::string error_of_way(const std::string& text) {
+std::string error_of_trajectory(const std::string& text) {
   const std::string path = own_file("way.csv", text);
   return replaced(error_of([&] { load_trajectory(path); }), path, "way.csv");
 }
@@ -32,15 +32,17 @@ TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
 }
 
 TEST(TrajectoryFile, names_line_column_value_and_rule) {
-  EXPECT_EQ(error_of_way(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
+  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
             "content: way.csv:3: time_s = 0 s, must be later than the line before it, 0 s");
-  EXPECT_EQ(error_of_way(angles + "0,0,0,0,0,1000,0\n"),
+  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,1000,0\n"),
             "content: way.csv:2: pitch_deg = 1000 degrees, must be within -360 and 360");
-  EXPECT_EQ(error_of_way(quaternions + "0,0,0,0,0,0,0,2\n"),
+  EXPECT_EQ(error_of_trajectory(quaternions + "0,0,0,0,0,0,0,2\n"),
             "content: way.csv:2: length of (qx, qy, qz, qw) = 2, must be 1 within 0.001");
-  EXPECT_EQ(error_of_way(angles + "0,0,nan,0,0,0,0\n"), "content: way.csv:2: y_m = 'nan', must be a finite number");
-  EXPECT_EQ(error_of_way("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n"), "content: way.csv:1: missing column 'roll_deg'");
-  EXPECT_EQ(error_of_way("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"),
+  EXPECT_EQ(error_of_trajectory(angles + "0,0,nan,0,0,0,0\n"),
+            "content: way.csv:2: y_m = 'nan', must be a finite number");
+  EXPECT_EQ(error_of_trajectory("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n"),
+            "content: way.csv:1: missing column 'roll_deg'");
+  EXPECT_EQ(error_of_trajectory("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"),
             "content: way.csv:1: unknown column 'time'; did you mean 'time_s'?");
-  EXPECT_EQ(error_of_way(angles + "0,0,0,0,0,0,0\n"), "content: way.csv: has 1 entries, must have two at least");
+  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n"), "content: way.csv: has 1 entries, must have two at least");
 }

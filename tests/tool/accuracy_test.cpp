@@ -71,7 +71,7 @@ TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
     EXPECT_GE(number(row["seconds_max"]), number(row["seconds"]));
     EXPECT_GT(number(row["peak_mib"]), 1);
     EXPECT_GT(number(row["elements"]), 0);
-    if (row["method"] == "stamped") {
+    if (row["method"] == "gridded") {
       EXPECT_LE(number(row["error"]), number(row["tolerance"])) << row["sweep"];
       EXPECT_GT(number(row["kernel_width"]), 1);
     }
@@ -84,13 +84,13 @@ TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
       EXPECT_GT(number(row["error"]), 0.05);
     }
   }
-  for (const char* method : {"stamped", "direct", "spectrum", "windowed-direct", "nearest-bin", "pattern-cut"})
+  for (const char* method : {"gridded", "direct", "spectrum", "windowed-direct", "nearest-bin", "pattern-cut"})
     EXPECT_GE(methods[method], 1) << method;
 }
 
 TEST_F(AccuracyVerb, errors_do_not_depend_on_threads) {
   for (const char* threads : {"1", "2"})
-    succeed(std::string("accuracy --quick -q --no-picture --methods stamped --repeats 1 -j ") + threads + " -o j" +
+    succeed(std::string("accuracy --quick -q --no-picture --methods gridded --repeats 1 -j ") + threads + " -o j" +
             threads);
   std::vector<std::string> errors[2];
   for (int i = 0; i < 2; ++i)
@@ -100,11 +100,11 @@ TEST_F(AccuracyVerb, errors_do_not_depend_on_threads) {
 }
 
 TEST_F(AccuracyVerb, methods_and_tolerances_can_be_chosen) {
-  const std::string out = succeed("accuracy --quick -q --no-picture --methods stamped,direct --tolerances 1e-3 -o run");
+  const std::string out = succeed("accuracy --quick -q --no-picture --methods gridded,direct --tolerances 1e-3 -o run");
   EXPECT_THAT(out, HasSubstr("tolerance 1e-03"));
   for (auto& row : rows_of("run/sweep.csv")) {
-    EXPECT_TRUE(row["method"] == "stamped" || row["method"] == "direct") << row["method"];
-    if (row["method"] == "stamped") {
+    EXPECT_TRUE(row["method"] == "gridded" || row["method"] == "direct") << row["method"];
+    if (row["method"] == "gridded") {
       EXPECT_EQ(row["tolerance"], "0.001");
     }
   }
@@ -114,7 +114,7 @@ TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
   succeed("make-scene sphere -q --points 500 -o sphere.ply");
   const json manifest = json::parse(succeed(
       "accuracy --quick -q --no-picture --json --scene sphere.ply --sonar p900-45 --pose=0,0,0,0,0,0 --range 2:8 "
-      "--methods stamped -o run"));
+      "--methods gridded -o run"));
   EXPECT_EQ(manifest["scene"], "sphere.ply");
   for (auto& row : rows_of("run/sweep.csv")) {
     EXPECT_LE(number(row["error"]), number(row["tolerance"]));
@@ -123,7 +123,7 @@ TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
 }
 
 TEST_F(AccuracyVerb, refuses_what_it_cannot_do_before_it_works) {
-  expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "stamped, direct"});
+  expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "gridded, direct"});
   expect_refused("accuracy --quick --tolerances 2 -o run", 2, {"--tolerances", "2", "[1e-13, 1)"});
   expect_refused("accuracy --quick --tolerances fine -o run", 2, {"--tolerances", "'fine' is not a number"});
   expect_refused("accuracy --quick --repeats 0 -o run", 2, {"--repeats = 0"});

@@ -84,17 +84,18 @@ TEST_F(BadEnvironment, way_of_the_head) {
 
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,3,0,15,0\n10,1,0,3,0,15,0\n");
   refuse("--trajectory way.csv", {"--pose or --trajectory must be given, one of them"});
-  const auto refuse_way = [&](const std::string& more, int code, const std::vector<std::string>& parts) {
+  const auto refuse_trajectory = [&](const std::string& more, int code, const std::vector<std::string>& parts) {
     expect_refused("ping plane.ply" + nowhere + " " + more, code, parts);
   };
-  refuse_way("--trajectory way.csv --time 11", 2, {"time = 11 s", "0", "10"});
-  refuse_way("--trajectory way.csv --velocity 1,0,0", 2, {"--velocity and --turn-rate follow from --trajectory"});
-  refuse_way("--trajectory way.csv --world ned", 2, {"--world ned", "z-up"});
-  refuse_way("--trajectory nowhere.csv", 4, {"nowhere.csv"});
+  refuse_trajectory("--trajectory way.csv --time 11", 2, {"time = 11 s", "0", "10"});
+  refuse_trajectory("--trajectory way.csv --velocity 1,0,0", 2,
+                    {"--velocity and --turn-rate follow from --trajectory"});
+  refuse_trajectory("--trajectory way.csv --world ned", 2, {"--world ned", "z-up"});
+  refuse_trajectory("--trajectory nowhere.csv", 4, {"nowhere.csv"});
   write("back.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n5,0,0,3,0,15,0\n1,1,0,3,0,15,0\n");
-  refuse_way("--trajectory back.csv", 3, {"back.csv:3", "time_s = 1 s", "must be later"});
+  refuse_trajectory("--trajectory back.csv", 3, {"back.csv:3", "time_s = 1 s", "must be later"});
   write("one.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n5,0,0,3,0,15,0\n");
-  refuse_way("--trajectory one.csv", 3, {"one.csv", "1 entries", "two at least"});
+  refuse_trajectory("--trajectory one.csv", 3, {"one.csv", "1 entries", "two at least"});
 }
 
 TEST_F(BadEnvironment, pulse_and_array) {

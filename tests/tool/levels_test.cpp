@@ -26,7 +26,7 @@ TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
   succeed("synthesize first.csv -o first" + sonar);
   const Ping axes = cube("first").pings[0];
   for (const std::size_t beam : {0, 100, 255})
-    for (const std::string method : {"stamped", "stamped --tolerance 1e-8", "direct"}) {
+    for (const std::string method : {"gridded", "gridded --tolerance 1e-8", "direct"}) {
       const double r = axes.gate.centre(400);
       write_scatterer("one.csv", r, axes.fan.azimuth[beam]);
       succeed("synthesize one.csv --force -o one --method " + method + sonar);
@@ -34,7 +34,7 @@ TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
       const double expected = c.source_level_db - 2 * (20 * std::log10(r) + c.absorption_db_per_m * r) - 20;
       const auto& p = c.pings[0].pressure;
       EXPECT_NEAR(pressure_level_db(std::abs(std::complex<double>(p(static_cast<int>(beam), 400)))), expected,
-                  method == "stamped" ? 20 * std::log10(1 + 1e-4) : 1e-6)
+                  method == "gridded" ? 20 * std::log10(1 + 1e-4) : 1e-6)
           << method;
       Eigen::Index peak_beam = 0, peak_bin = 0;
       p.abs().maxCoeff(&peak_beam, &peak_bin);

@@ -11,8 +11,8 @@
 #include "returns/quantise.hpp"
 #include "store/cube.hpp"
 #include "tool/tool_runner.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/fan_layout.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/fan_layout_internal.hpp"
 
 using namespace insonify;
 namespace fs = std::filesystem;

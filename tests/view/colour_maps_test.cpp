@@ -1,5 +1,3 @@
-#include "view/colour_maps.hpp"
-
 #include <cmath>
 #include <limits>
 
@@ -9,6 +7,7 @@
 #include <vtkNew.h>
 
 #include "core/error.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;

@@ -1,5 +1,3 @@
-#include "view/drawn_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,8 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "view/drawn_cells_internal.hpp"
 #include "view/test_pictures.hpp"
-#include "view/ticks.hpp"
+#include "view/ticks_internal.hpp"
 
 using namespace insonify;
 using insonify::test::flat_image;

@@ -1,5 +1,3 @@
-#include "view/fan_layout.hpp"
-
 #include <cmath>
 #include <string>
 #include <utility>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/text.hpp"
 
 using namespace insonify;

@@ -8,7 +8,7 @@
 #include "core/units.hpp"
 #include "view/draw_marks_internal.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/fan_layout.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/show_fan.hpp"
 #include "view/strongest_maxima.hpp"
 #include "view/test_pictures.hpp"

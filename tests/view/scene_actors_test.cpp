@@ -80,10 +80,10 @@ TEST_F(ActorsInWindow, nothing_is_picked_beside_the_scene) {
 TEST_F(ActorsInWindow, colours_change_in_place_and_a_colour_that_is_not_known_leaves_them) {
   window->Render();
   const Rgb before = pixel(200, 150);
-  EXPECT_THROW(actors->set_colour(SceneColour::sight), Error);
+  EXPECT_THROW(actors->set_colour(SceneColour::visibility), Error);
   EXPECT_EQ(actors->look().colour, SceneColour::level);
-  actors->set_sight(std::vector<Sight>(scene.size(), Sight::hidden));
-  actors->set_colour(SceneColour::sight);
+  actors->set_visibility(std::vector<Visibility>(scene.size(), Visibility::hidden));
+  actors->set_colour(SceneColour::visibility);
   window->Render();
   const Rgb after = pixel(200, 150);
   EXPECT_NE(before, after);

@@ -19,8 +19,8 @@ class SceneMarks : public testing::Test {
     unsetenv("DISPLAY");
     scene.origin = {5e5, 4e6, 0};
     add_floor(scene, scene.origin + Eigen::Vector3d(-3, -3, 0), 60, 0.1);
-    look.colour = SceneColour::sight;
-    look.sight.assign(scene.size(), Sight::outside);
+    look.colour = SceneColour::visibility;
+    look.visibility.assign(scene.size(), Visibility::outside);
     look.camera.preset = ScenePreset::top;
     look.axes = false;
     options.width = 500;

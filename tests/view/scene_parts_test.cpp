@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "view/scene_axes.hpp"
-#include "view/scene_camera.hpp"
-#include "view/scene_colours.hpp"
-#include "view/scene_head.hpp"
+#include "view/scene_axes_internal.hpp"
+#include "view/scene_camera_internal.hpp"
+#include "view/scene_colours_internal.hpp"
+#include "view/scene_head_internal.hpp"
 #include "view/scene_samples.hpp"
-#include "view/scene_surfels.hpp"
+#include "view/scene_surfels_internal.hpp"
 
 using namespace insonify;
 using namespace insonify::test;
@@ -76,13 +76,13 @@ TEST(SceneColours, legends_name_what_is_there_and_nothing_else) {
   ASSERT_EQ(materials.legend.size(), 2u);
   EXPECT_EQ(materials.legend[1].text, "steel");
 
-  look.colour = SceneColour::sight;
-  look.sight.assign(16, Sight::outside);
-  look.sight[2] = Sight::hidden;
-  const SceneColours sights = colour_surfels(scene, look, {}, "test");
-  ASSERT_EQ(sights.key.legend.size(), 2u);
-  EXPECT_GT(sights.colour[2][2], 1.5 * sights.colour[2][0]) << "the shadow is blue";
-  EXPECT_LT(sights.colour[2][0], 80) << "and dark";
+  look.colour = SceneColour::visibility;
+  look.visibility.assign(16, Visibility::outside);
+  look.visibility[2] = Visibility::hidden;
+  const SceneColours colours_by_visibility = colour_surfels(scene, look, {}, "test");
+  ASSERT_EQ(colours_by_visibility.key.legend.size(), 2u);
+  EXPECT_GT(colours_by_visibility.colour[2][2], 1.5 * colours_by_visibility.colour[2][0]) << "the shadow is blue";
+  EXPECT_LT(colours_by_visibility.colour[2][0], 80) << "and dark";
 }
 
 TEST(SceneColours, of_heights_are_world_heights) {

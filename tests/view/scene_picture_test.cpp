@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "view/scene_colours.hpp"
+#include "view/scene_colours_internal.hpp"
 #include "view/scene_samples.hpp"
 #include "view/show_scene.hpp"
 #include "view/test_pictures.hpp"
@@ -264,8 +264,8 @@ TEST_F(ShowScene, refuses_what_it_cannot_draw) {
   EXPECT_THAT(message_of(scene, {}, ErrorKind::content, path), testing::HasSubstr("scene has no surfels"));
   add_sphere(scene, {0, 0, 0}, 1, 10);
   SceneLook look;
-  look.colour = SceneColour::sight;
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("look.sight is empty"));
+  look.colour = SceneColour::visibility;
+  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("look.visibility is empty"));
   look.colour = SceneColour::grazing;
   EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("look.head is absent"));
   look = {};

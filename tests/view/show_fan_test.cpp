@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/fan_layout.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/fan_layout_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;

@@ -10,9 +10,9 @@
 #include "store/cube.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/test_pictures.hpp"
-#include "view/viewer_window_internal.hpp"
 #include "viewer/desktop.hpp"
 #include "viewer/viewer_data.hpp"
+#include "viewer/viewer_window_internal.hpp"
 
 using namespace insonify;
 using testing::HasSubstr;

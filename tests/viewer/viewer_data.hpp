@@ -1,5 +1,5 @@
 #pragma once
-#include "view/viewer_data.hpp"
+#include "viewer/viewer_data.hpp"
 
 namespace insonify::test {
 

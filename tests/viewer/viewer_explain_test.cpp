@@ -1,5 +1,5 @@
 // What is said about a sample, and what is highlighted for it.
-#include "view/viewer_explain.hpp"
+#include "viewer/viewer_explain.hpp"
 
 #include <cmath>
 
@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "view/viewer_inspect.hpp"
 #include "viewer/viewer_data.hpp"
+#include "viewer/viewer_inspect.hpp"
 
 using namespace insonify;
 using insonify::test::three_targets;
@@ -41,7 +41,7 @@ TEST(ExplainPixel, names_the_material_that_stands_there) {
   for (const auto* target : {&made.port, &made.starboard, &made.far}) {
     const PixelFacts facts = find_pixel_facts(made.data, 0, target->place);
     EXPECT_EQ(facts.seen_material, target->name);
-    EXPECT_EQ(facts.sight->seen.size(), 25U);
+    EXPECT_EQ(facts.visibility->seen.size(), 25U);
     EXPECT_THAT(explain_pixel(facts), HasSubstr(std::string("25 seen (") + target->name));
   }
 }
@@ -83,11 +83,11 @@ TEST(ExplainPixel, says_what_casts_the_shadow_and_how_near_it_stands) {
       add_surfel(made.data.scene, pose * Eigen::Vector3d(range, 0.02 * i + 0.01, 0.02 * j + 0.01),
                  pose.linear() * Eigen::Vector3d(-1, 0, 0), 4e-4, 1);
   const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.place);
-  EXPECT_EQ(facts.sight->hidden.size(), 25U);
-  EXPECT_TRUE(facts.sight->seen.empty());
-  ASSERT_TRUE(facts.sight->occluder_range);
-  EXPECT_NEAR(*facts.sight->occluder_range, range, 0.01);
-  EXPECT_EQ(made.data.scene.material[*facts.sight->occluder_surfel], 1);
+  EXPECT_EQ(facts.visibility->hidden.size(), 25U);
+  EXPECT_TRUE(facts.visibility->seen.empty());
+  ASSERT_TRUE(facts.visibility->occluder_range);
+  EXPECT_NEAR(*facts.visibility->occluder_range, range, 0.01);
+  EXPECT_EQ(made.data.scene.material[*facts.visibility->occluder_surfel], 1);
   EXPECT_THAT(explain_pixel(facts), HasSubstr("hidden by what stands at 6.0"));
 }
 

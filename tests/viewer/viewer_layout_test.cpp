@@ -1,14 +1,14 @@
 // Where panels are, what is under a place, and what events mean.
-#include "view/viewer_layout.hpp"
+#include "viewer/viewer_layout.hpp"
 
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "view/drawn_cells.hpp"
-#include "view/viewer_pick.hpp"
-#include "view/viewer_script.hpp"
+#include "view/drawn_cells_internal.hpp"
 #include "viewer/viewer_data.hpp"
+#include "viewer/viewer_pick_internal.hpp"
+#include "viewer/viewer_script.hpp"
 
 using namespace insonify;
 using testing::HasSubstr;

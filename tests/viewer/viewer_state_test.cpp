@@ -1,5 +1,5 @@
 // Keys and clicks as a model: state in, state out.
-#include "view/viewer_state.hpp"
+#include "viewer/viewer_state.hpp"
 
 #include <cmath>
 #include <set>
@@ -135,7 +135,7 @@ TEST(ViewerKeys, help_names_keys_that_work) {
   ViewerState busy;
   busy.ping = 2;
   busy.selected = PixelPlace{5, 5};
-  busy.scene_colour = SceneColour::sight;
+  busy.scene_colour = SceneColour::visibility;
   const auto print = [](const KeyAnswer& a) {
     const ViewerState& s = a.state;
     return testing::PrintToString(std::make_tuple(s.ping, s.selected ? s.selected->beam : 999,

@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "view/test_pictures.hpp"
-#include "view/viewer_window_internal.hpp"
 #include "viewer/viewer_data.hpp"
+#include "viewer/viewer_window_internal.hpp"
 
 using namespace insonify;
 using insonify::test::three_targets;
@@ -224,7 +224,7 @@ TEST_F(Window, inspects_a_scene_and_says_its_pose) {
   ViewerOptions options;
   options.start.mode = ViewerMode::inspect;
   options.start.head = head_place(ping.world_from_head);
-  options.start.scene_colour = SceneColour::sight;
+  options.start.scene_colour = SceneColour::visibility;
   open(options);
   EXPECT_THAT(window_->explanation(), HasSubstr("75 seen"));
   window_->press_key("p");

@@ -157,16 +157,17 @@ void compare_surfels(const World& world, const PreparedScene& scene, double spac
       open[k] = world.truth(view.pose.translation(), along).value_or(none) > all.range[i] - on_surface;
     }
   });
-  double in_sight = 0, hidden = 0, shown = 0;
+  double visible_energy = 0, hidden = 0, shown = 0;
   for (std::size_t k = 0; k < looked_at; ++k) {
     const std::size_t i = k * stride;
     const double energy = all.projected_area[i] * all.cos_incidence[i];
-    in_sight += open[k] ? energy : 0;
+    visible_energy += open[k] ? energy : 0;
     hidden += open[k] && !is_seen[all.surfel[i]] ? energy : 0;
     shown += !open[k] && is_seen[all.surfel[i]] ? energy : 0;
   }
   add_row(tables.surfels, "| %s | %.0f | %zu | %.2f | %.2f | %.2f |\n", view.name.c_str(), 1e3 * spacing, seen.size(),
-          100 * hidden / in_sight, 100 * shown / in_sight, 10 * std::log10((in_sight - hidden + shown) / in_sight));
+          100 * hidden / visible_energy, 100 * shown / visible_energy,
+          10 * std::log10((visible_energy - hidden + shown) / visible_energy));
 }
 
 }  // namespace

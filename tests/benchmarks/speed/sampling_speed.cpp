@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "acoustics/direct_echoes.hpp"
 #include "acoustics/elevation_pattern.hpp"
-#include "acoustics/hear_scatterers.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/sonar_spec.hpp"
@@ -102,7 +102,7 @@ struct Times {
 void print_row(const char* name, const PreparedScene& scene, double max_range, double per_cell, int repeats) {
   const SonarHead head = head_to(max_range);
   const PingSynthesizer synthesizer(head, water, {1e-4, 0});
-  const HearingOptions hearing = with_patterns({}, head);
+  const EchoOptions echo_options = with_patterns({}, head);
   Times one_core, sampling, sound, ping;
   SamplingReport report;
   for (int r = -1; r < repeats; ++r) {  // the first, cold, is forgotten
@@ -115,7 +115,7 @@ void print_row(const char* name, const PreparedScene& scene, double max_range, d
       report = seen.report;
       return sound.measure([&] {
         return synthesizer.pressure(
-            hear_scatterers(seen.scatterers, scene.scene().materials, head.pulse, water, hearing));
+            direct_echoes(seen.scatterers, scene.scene().materials, head.pulse, water, echo_options));
       });
     });
   }

@@ -1,0 +1,206 @@
+#include "accuracy/accuracy_sweep.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace insonify {
+namespace {
+
+using Runs = std::vector<AccuracyRun>;
+
+AccuracyRun direct_run() {
+  return {"direct", [](const AccuracyBench& b) { return b.direct(); }};
+}
+AccuracyRun spectrum_run() {
+  return {"spectrum", [](const AccuracyBench& b) { return b.spectrum(); }};
+}
+
+Runs gridded_runs(const std::vector<double>& tolerances, int threads = 0) {
+  Runs runs;
+  for (const double t : tolerances)
+    runs.push_back({"gridded", [t, threads](const AccuracyBench& b) { return b.gridded(t, threads); }});
+  return runs;
+}
+
+Runs windowed_runs(const std::vector<double>& tolerances) {
+  Runs runs;
+  for (const double t : tolerances)
+    runs.push_back({"windowed-direct", [t](const AccuracyBench& b) { return b.windowed(t); }});
+  return runs;
+}
+
+Runs short_cuts(const std::vector<double>& nulls) {
+  Runs runs{{"nearest-bin", [](const AccuracyBench& b) { return b.nearest_bin(); }}};
+  for (const double k : nulls)
+    runs.push_back({"pattern-cut", [k](const AccuracyBench& b) { return b.pattern_cut(k); }});
+  return runs;
+}
+
+Runs joined(std::vector<Runs> parts) {
+  Runs all;
+  for (Runs& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+std::vector<double> tolerances(const SweepOptions& o) {
+  const SweepSize size = o.size;
+  if (!o.tolerances.empty()) return o.tolerances;
+  if (size == SweepSize::quick) return {1e-2, 1e-6, 1e-12};
+  if (size == SweepSize::full) return {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+  return {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+}
+
+/// Every method over its setting.
+Runs work_precision(const SweepOptions& o) {
+  const SweepSize size = o.size;
+  const std::vector<double> windows =
+      size == SweepSize::quick ? std::vector<double>{1e-4} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-8};
+  const std::vector<double> nulls =
+      size == SweepSize::quick ? std::vector<double>{4} : std::vector<double>{1, 4, 16, 64};
+  return joined(
+      {gridded_runs(tolerances(o)), {direct_run(), spectrum_run()}, windowed_runs(windows), short_cuts(nulls)});
+}
+
+/// Those that compete for the crossover.
+std::vector<double> usual_tolerances(const SweepOptions& o) {
+  return o.tolerances.empty() ? std::vector<double>{1e-4, 1e-6} : o.tolerances;
+}
+
+Runs crossover(const SweepOptions& o) {
+  return joined({gridded_runs(usual_tolerances(o)), {direct_run()}, windowed_runs({1e-4, 1e-6})});
+}
+
+Runs thread_runs(const SweepOptions& o) {
+  Runs runs;
+  for (int n = 1; n <= thread_count(o.threads); n = n < 8 ? n + 1 : 2 * n)
+    for (const AccuracyRun& run : gridded_runs(usual_tolerances(o), n)) runs.push_back(run);
+  return runs;
+}
+
+void require_sweep(const SweepOptions& o) {
+  const std::vector<std::string> known = accuracy_methods();
+  for (const std::string& method : o.methods)
+    if (std::find(known.begin(), known.end(), method) == known.end()) {
+      std::string names;
+      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+      fail(ErrorKind::argument, "accuracy_sweep: method '", method, "' is unknown; known are ", names);
+    }
+  for (const double tolerance : o.tolerances)
+    if (!(tolerance >= 1e-13 && tolerance < 1))
+      fail(ErrorKind::argument, "accuracy_sweep: tolerance = ", tolerance, ", must be within [1e-13, 1)");
+}
+
+/// Leaves only the methods asked for, and no step without any.
+std::vector<AccuracyStep> chosen(std::vector<AccuracyStep> steps, const std::vector<std::string>& methods) {
+  if (methods.empty()) return steps;
+  for (AccuracyStep& step : steps)
+    std::erase_if(step.runs, [&](const AccuracyRun& run) {
+      return std::find(methods.begin(), methods.end(), run.method) == methods.end();
+    });
+  std::erase_if(steps, [](const AccuracyStep& step) { return step.runs.empty(); });
+  return steps;
+}
+
+std::string title(const std::string& sweep, const TaskSpec& t) {
+  std::ostringstream text;
+  text << sweep << ": " << t.scatterers << " scatterers, " << t.beams << " beams, " << t.bins << " bins, "
+       << t.bandwidth / 1e3 << " kHz, " << t.dynamic_range_db << " dB";
+  return text.str();
+}
+
+class Sweep {
+ public:
+  explicit Sweep(const SweepOptions& options) : options_(options), size_(options.size) {}
+
+  void add(const std::string& sweep, TaskSpec spec, const Runs& runs) {
+    spec.seed = options_.seed;
+    steps_.push_back({sweep, title(sweep, spec), [spec] { return make_task(spec); }, runs});
+  }
+
+  /// Large images: the methods against each other.
+  void add_large() {
+    const bool quick = size_ == SweepSize::quick, full = size_ == SweepSize::full;
+    const TaskSpec large{
+        .scatterers = quick ? 300u : 50000u, .beams = quick ? 32u : 512u, .bins = quick ? 200u : 2000u};
+    add("work-precision", large, work_precision(options_));
+    if (full) add_scaling(large);
+    std::vector<std::size_t> counts{1, 10, 100};
+    if (!quick) counts.insert(counts.end(), {1000, 10000, 50000});
+    if (full) counts.push_back(500000);
+    for (const std::size_t n : counts) {
+      TaskSpec spec = large;
+      spec.scatterers = n;
+      add("scatterers", spec, crossover(options_));
+    }
+    add("threads", large, thread_runs(options_));
+  }
+
+  /// Is the direct sum's time as the number of echoes? 5000 of them timed whole, and scaled up from a part.
+  void add_scaling(TaskSpec spec) {
+    spec.scatterers = 5000;
+    add("scaling", spec, {direct_run(), {"direct", [](const AccuracyBench& b) { return b.direct_whole(); }}});
+  }
+
+  /// Small images of all kinds: the promise. The spectrum joins where it is in doubt.
+  void add_small() {
+    const Runs all = joined({gridded_runs(tolerances(options_)), {direct_run()}});
+    const Runs with_spectrum = joined({all, {spectrum_run()}});
+    const bool quick = size_ == SweepSize::quick;
+    const std::size_t n = quick ? 100 : 5000;
+    std::vector<std::size_t> beams{1, 17};
+    if (!quick) beams.insert(beams.end(), {256, 512});
+    if (size_ == SweepSize::full) beams.push_back(4096);
+    for (const std::size_t b : beams) add("beams", {.scatterers = n, .beams = b}, all);
+    if (quick) return;
+    for (const std::size_t b : {251, 256, 1999, 2048}) add("bins", {.scatterers = n, .bins = b}, with_spectrum);
+    for (const double band : {3e3, 30e3, 300e3}) add("band", {.scatterers = n, .bandwidth = band}, all);
+    for (const double db : {0.0, 50.0, 100.0, 150.0})
+      add("dynamic-range", {.scatterers = n, .dynamic_range_db = db}, with_spectrum);
+    for (const int order : {1, 2}) {
+      Runs runs = joined({all, {{"absorption-order", [](const AccuracyBench& b) { return b.absorption_order(0); }}}});
+      if (order == 2)
+        runs.push_back({"absorption-order", [](const AccuracyBench& b) { return b.absorption_order(1); }});
+      add("absorption", {.scatterers = n, .bandwidth = 100e3, .dynamic_range_db = 60, .absorption_order = order}, runs);
+    }
+  }
+
+  std::vector<AccuracyStep> steps() && { return std::move(steps_); }
+
+ private:
+  const SweepOptions& options_;
+  SweepSize size_;
+  std::vector<AccuracyStep> steps_;
+};
+
+}  // namespace
+
+std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options) {
+  require_sweep(options);
+  Sweep sweep(options);
+  sweep.add_large();
+  sweep.add_small();
+  return chosen(std::move(sweep).steps(), options.methods);
+}
+
+std::vector<AccuracyStep> accuracy_sweep_of(const AccuracyTask& task, const SweepOptions& options) {
+  require_sweep(options);
+  const std::size_t all = task.echoes.size();
+  std::vector<AccuracyStep> steps{
+      {"work-precision", "work-precision", [task] { return task; }, work_precision(options)}};
+  for (std::size_t n = 1; n < 10 * all; n *= 10) {
+    const std::size_t count = std::min(n, all);
+    const auto some = [task, count] { return AccuracyTask{task.head, task.medium, some_echoes(task.echoes, count)}; };
+    steps.push_back({"scatterers", "scatterers: " + std::to_string(count), some, crossover(options)});
+  }
+  steps.push_back({"threads", "threads", [task] { return task; }, thread_runs(options)});
+  return chosen(std::move(steps), options.methods);
+}
+
+std::vector<std::string> accuracy_methods() {
+  return {"gridded", "direct", "spectrum", "windowed-direct", "nearest-bin", "pattern-cut", "absorption-order"};
+}
+
+}  // namespace insonify

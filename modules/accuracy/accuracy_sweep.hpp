@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "accuracy/measure_accuracy.hpp"
+
+namespace insonify {
+
+/// quick: seconds, to see that all works; standard: a minute or two; full: some ten minutes.
+enum class SweepSize { quick, standard, full };
+
+struct SweepOptions {
+  SweepSize size = SweepSize::standard;
+  std::uint64_t seed = 1;
+  int threads = 0;                     ///< 0: all cores
+  std::vector<double> tolerances{};    ///< of gridded, in [1e-13, 1); empty: those of the sweep
+  std::vector<std::string> methods{};  ///< of accuracy_methods; empty: all
+};
+
+struct AccuracyRun {
+  std::string method;
+  std::function<AccuracyRow(const AccuracyBench&)> measure;
+};
+
+/// One task and what is measured on it.
+struct AccuracyStep {
+  std::string sweep, what;
+  std::function<AccuracyTask()> make;
+  std::vector<AccuracyRun> runs;
+};
+
+/// The sweeps over made-up tasks, each changing one thing:
+///   work-precision   every method over its setting, 512 beams x 2000 bins x 50 000 scatterers
+///   scatterers       from 1 on
+///   beams, bins      prime numbers and powers of two among them
+///   band, absorption, dynamic-range
+///   scaling          direct, whole and scaled up from a part (full size only)
+///   threads          gridded on one, two ... all cores
+/// Gridded runs at tolerances from 1e-2 to 1e-12 in all of them.
+/// Throws Error for an unknown method, naming the known ones, or a tolerance out of reach.
+std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options = {});
+
+/// work-precision, scatterers (evenly picked) and threads on a user's own echoes. The seed does not count.
+std::vector<AccuracyStep> accuracy_sweep_of(const AccuracyTask& task, const SweepOptions& options = {});
+
+/// Names of all methods, in the order in which they are measured.
+std::vector<std::string> accuracy_methods();
+
+}  // namespace insonify

@@ -1,0 +1,103 @@
+#include "accuracy/accuracy_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "beamforming/sonar_spec.hpp"
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "simulate/stage_options_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double speed = 1500;
+
+SonarHead head_of(const TaskSpec& task, double field_of_view) {
+  SonarSpec s;
+  s.name = "accuracy";
+  s.centre_frequency = 600e3;
+  s.bandwidth = task.bandwidth;
+  s.beams = task.beams;
+  s.field_of_view = field_of_view;
+  s.beam_width = task.beam_width;
+  s.elevation_width = radians(20);
+  s.min_range = 1;
+  s.bin_size = 0.44 * speed / (2 * task.bandwidth);
+  s.max_range = 1 + (static_cast<double>(task.bins) - 0.5) * *s.bin_size;
+  return make_head(s, speed);
+}
+
+Medium medium_of(const TaskSpec& task, const SonarHead& head) {
+  const double fc = head.pulse.centre_frequency, length = head.gate.max_range - head.gate.min_range;
+  Medium m;
+  m.sound_speed = speed;
+  m.absorption.a0 = task.dynamic_range_db * nepers_per_db / (2 * length);
+  if (task.absorption_order >= 1) m.absorption.a1 = m.absorption.a0 / fc;
+  if (task.absorption_order >= 2) m.absorption.a2 = m.absorption.a0 / (fc * fc);
+  return m;
+}
+
+}  // namespace
+
+AccuracyTask make_task(const TaskSpec& spec) {
+  const double field = std::min(radians(120), 2 * spec.beam_width * static_cast<double>(spec.beams));
+  AccuracyTask task;
+  task.head = head_of(spec, field);
+  task.medium = medium_of(spec, task.head);
+  const double length = task.head.gate.max_range - task.head.gate.min_range;
+  for (std::size_t i = 0; i < spec.scatterers; ++i) {
+    const auto at = random_uniform(spec.seed, RandomStage::scene_points, {i, 0, 0});
+    task.echoes.delay.push_back(2 * (task.head.gate.min_range + length * (1.02 * at[0] - 0.01)) / speed);
+    task.echoes.u.push_back(std::sin((at[1] - 0.5) * (field + spec.beam_width)));
+    task.echoes.amplitude.push_back(random_complex_normal(spec.seed, RandomStage::surface_amplitude, {i, 0, 0}));
+  }
+  return task;
+}
+
+AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
+                     const Environment& environment, const SimulationOptions& options) {
+  if (head.column || fan_rows(head.fan).size() != 1)
+    fail(ErrorKind::argument, "task_of: ", head.name, " has several rows of beams; the sweep takes sonars with one");
+  AccuracyTask task{head, medium_of(environment, head.pulse.centre_frequency, options.absorption_order), {}};
+  const Sampling sampling =
+      find_scatterers(scene, world_from_head, head.fan, head.gate, sampling_options(head, task.medium, options));
+  task.echoes =
+      direct_echoes(sampling.scatterers, scene.materials, head.pulse, task.medium, echo_options_of(head, options));
+  if (task.echoes.size() == 0) fail(ErrorKind::content, "task_of: nothing of the scene is in fan and range gate");
+  return task;
+}
+
+std::vector<std::size_t> picked(std::size_t of, std::size_t count) {
+  count = std::min(of, count);
+  if (count == 1) return {of / 2};
+  std::vector<std::size_t> which;
+  for (std::size_t k = 0; k < count; ++k) which.push_back((k * (of - 1) + (count - 1) / 2) / (count - 1));
+  return which;
+}
+
+Echoes some_echoes(const Echoes& echoes, std::size_t count) {
+  if (count >= echoes.size()) return echoes;
+  Echoes some;
+  for (const std::size_t i : picked(echoes.size(), count)) {
+    some.delay.push_back(echoes.delay[i]);
+    some.u.push_back(echoes.u[i]);
+    some.amplitude.push_back(echoes.amplitude[i]);
+    if (!echoes.v.empty()) some.v.push_back(echoes.v[i]);
+    if (!echoes.doppler.empty()) some.doppler.push_back(echoes.doppler[i]);
+  }
+  return some;
+}
+
+SonarHead some_beams(const SonarHead& head, std::size_t count) {
+  SonarHead some = head;
+  some.fan.azimuth.clear();
+  some.fan.elevation.clear();
+  for (const std::size_t b : picked(head.fan.beams(), count)) {
+    some.fan.azimuth.push_back(head.fan.azimuth[b]);
+    some.fan.elevation.push_back(head.fan.elevation[b]);
+  }
+  return some;
+}
+
+}  // namespace insonify

@@ -1,0 +1,235 @@
+#include "accuracy/measure_accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/peak_memory_internal.hpp"
+#include "accuracy/synthesize_extended.hpp"
+#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/synthesize.hpp"
+#include "core/parallel.hpp"
+#include "returns/compare.hpp"
+#include "simulate/stop_watch_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t least_beams = 4, most_beams = 64, least_timed = 128;
+
+double work(std::size_t echoes, std::size_t beams, std::size_t bins) {
+  return std::max(1.0, static_cast<double>(echoes)) * static_cast<double>(beams) * static_cast<double>(bins);
+}
+
+/// Which eighths of the range axis hold an echo.
+std::vector<bool> eighths_with_echo(const Echoes& echoes, const AccuracyTask& task) {
+  std::vector<bool> counts(8, false);
+  const RangeGate& gate = task.head.gate;
+  const double length = gate.bin_size * static_cast<double>(gate.bins());
+  for (const double delay : echoes.delay) {
+    const double at = (0.5 * task.medium.sound_speed * delay - gate.min_range) / length;
+    if (at >= 0 && at < 1) counts[static_cast<std::size_t>(8 * at)] = true;
+  }
+  return counts;
+}
+
+Absorption of_order(Absorption a, int order) {
+  if (order < 2) a.a2 = 0;
+  if (order < 1) a.a1 = 0;
+  return a;
+}
+
+}  // namespace
+
+ImageError image_error(const ComplexGrid& pressure, const ComplexGrid& referee,
+                       const std::vector<bool>& eighth_counts) {
+  ImageError error;
+  const auto relative = [&](Eigen::Index first, Eigen::Index last) {
+    const auto part = referee.middleCols(first, last - first);
+    const double power = part.abs2().sum();
+    return power > 0 ? std::sqrt((pressure.middleCols(first, last - first) - part).abs2().sum() / power) : 0.0;
+  };
+  error.whole = relative(0, referee.cols());
+  for (Eigen::Index k = 0; k < 8; ++k) {
+    const Eigen::Index first = k * referee.cols() / 8, last = (k + 1) * referee.cols() / 8;
+    if (eighth_counts[static_cast<std::size_t>(k)] && last > first)
+      error.worst_eighth = std::max(error.worst_eighth, relative(first, last));
+  }
+  return error;
+}
+
+AccuracyBench::AccuracyBench(std::string sweep, AccuracyTask task, const MeasureOptions& options)
+    : sweep_(std::move(sweep)), task_(std::move(task)), options_(options) {
+  const std::size_t beams = task_.head.fan.beams();
+  const double affordable = options.referee_work / work(task_.echoes.size(), 1, task_.head.gate.bins());
+  const std::size_t count = std::clamp<std::size_t>(static_cast<std::size_t>(std::min(affordable, 1e9)),
+                                                    std::min(least_beams, beams), std::min(most_beams, beams));
+  beams_ = picked(beams, count);
+  checked_head_ = some_beams(task_.head, count);
+  referee_ = synthesize_direct(task_.echoes, checked_head_, task_.medium, {1e-4, options.threads});
+}
+
+AccuracyRow AccuracyBench::row(const std::string& method) const {
+  AccuracyRow r;
+  r.sweep = sweep_;
+  r.method = method;
+  r.precision = "double";
+  r.scatterers = r.timed_scatterers = task_.echoes.size();
+  r.beams = r.timed_beams = task_.head.fan.beams();
+  r.elements = task_.head.array.elements();
+  r.bins = task_.head.gate.bins();
+  r.bandwidth = task_.head.pulse.bandwidth;
+  const Absorption& a = task_.medium.absorption;
+  r.dynamic_range_db = 2 * a.a0 * (task_.head.gate.max_range - task_.head.gate.min_range) / nepers_per_db;
+  r.absorption_order = a.a2 != 0 ? 2 : a.a1 != 0 ? 1 : 0;
+  r.threads = thread_count(options_.threads);
+  r.checked_beams = beams_.size();
+  return r;
+}
+
+ComplexGrid AccuracyBench::checked(const ComplexGrid& pressure) const {
+  ComplexGrid some(beams_.size(), pressure.cols());
+  for (std::size_t k = 0; k < beams_.size(); ++k)
+    some.row(static_cast<Eigen::Index>(k)) = pressure.row(static_cast<Eigen::Index>(beams_[k]));
+  return some;
+}
+
+std::size_t AccuracyBench::timed(double affordable) const {
+  const auto most = static_cast<std::size_t>(std::min(affordable, 1e12));
+  return std::min(task_.echoes.size(), std::max(least_timed, most));
+}
+
+void AccuracyBench::compare(const ComplexGrid& pressure, AccuracyRow& row) const {
+  const ImageError error = image_error(pressure, referee_, eighths_with_echo(task_.echoes, task_));
+  row.error = error.whole;
+  row.local_error = error.worst_eighth;
+  if (referee_.abs2().sum() > 0) row.max_level_db = compare_images(pressure, referee_, 60).max_level_db;
+}
+
+void AccuracyBench::time_all(const Synthesis& run, AccuracyRow& row) const {
+  const Echoes echoes = some_echoes(task_.echoes, row.timed_scatterers);
+  PeakMemory memory;
+  memory.mark();
+  run(echoes);  // warms caches
+  std::vector<double> seconds;
+  StopWatch whole;
+  double spent = 0;
+  while (static_cast<int>(seconds.size()) < options_.repeats && (spent < options_.most_seconds || seconds.size() < 2)) {
+    StopWatch watch;
+    run(echoes);
+    seconds.push_back(watch.lap());
+    spent += whole.lap();
+  }
+  row.peak_mib = memory.mib();
+  std::sort(seconds.begin(), seconds.end());
+  const auto part = static_cast<double>(std::max<std::size_t>(1, echoes.size()) * row.timed_beams);
+  const double scale = static_cast<double>(std::max<std::size_t>(1, row.scatterers) * row.beams) / part;
+  row.repeats = static_cast<int>(seconds.size());
+  row.seconds = scale * seconds[seconds.size() / 2];
+  row.seconds_min = scale * seconds.front();
+  row.seconds_max = scale * seconds.back();
+}
+
+AccuracyRow AccuracyBench::direct() const {
+  AccuracyRow r = row("direct");
+  const SynthesisOptions options{1e-4, options_.threads};
+  r.timed_scatterers = timed(options_.direct_work / work(1, r.beams, r.bins));
+  time_all([&](const Echoes& e) { return synthesize_direct(e, task_.head, task_.medium, options); }, r);
+
+  // Its own error: a part of it in extended precision.
+  const Echoes some = some_echoes(task_.echoes, options_.twice_checked);
+  const SonarHead head = some_beams(task_.head, std::min<std::size_t>(4, r.beams));
+  const std::vector<std::size_t> bins = picked(r.bins, 64);
+  const ComplexGrid in_double = synthesize_direct(some, head, task_.medium, options);
+  ComplexGrid part(in_double.rows(), bins.size());
+  for (std::size_t k = 0; k < bins.size(); ++k)
+    part.col(static_cast<Eigen::Index>(k)) = in_double.col(static_cast<Eigen::Index>(bins[k]));
+  const ComplexGrid exact = synthesize_extended(some, head, task_.medium, bins, options_.threads);
+  const ImageError error = image_error(part, exact, eighths_with_echo(some, task_));
+  r.error = error.whole;
+  r.local_error = error.worst_eighth;
+  r.checked_beams = head.fan.beams();
+  return r;
+}
+
+AccuracyRow AccuracyBench::direct_whole() const {
+  AccuracyRow r = row("direct");
+  PeakMemory memory;
+  memory.mark();
+  StopWatch watch;
+  const ComplexGrid pressure = synthesize_direct(task_.echoes, task_.head, task_.medium, {1e-4, options_.threads});
+  r.seconds = r.seconds_min = r.seconds_max = watch.lap();
+  r.peak_mib = memory.mib();
+  r.repeats = 1;
+  compare(checked(pressure), r);
+  return r;
+}
+
+AccuracyRow AccuracyBench::gridded(double tolerance, int threads) const {
+  AccuracyRow r = row("gridded");
+  if (threads > 0) r.threads = threads;
+  StopWatch watch;
+  const PingSynthesizer plan(task_.head, task_.medium, {tolerance, r.threads});
+  r.plan_seconds = watch.lap();
+  r.tolerance = tolerance;
+  if (!plan.sums_directly(task_.echoes) && plan.choice().single_precision) r.precision = "single";
+  r.kernel_width = plan.choice().kernel_width;
+  compare(checked(plan.pressure(task_.echoes)), r);
+  time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
+  return r;
+}
+
+AccuracyRow AccuracyBench::spectrum() const {
+  AccuracyRow r = row("spectrum");
+  const SonarHead head = some_beams(task_.head, least_beams);
+  r.checked_beams = r.timed_beams = head.fan.beams();
+  r.timed_scatterers = timed(options_.spectrum_work / work(1, r.timed_beams, r.bins));
+  const SynthesisOptions options{1e-12, options_.threads};
+  const Echoes some = some_echoes(task_.echoes, r.timed_scatterers);
+  const ImageError error =
+      image_error(synthesize_spectrum(some, head, task_.medium, options),
+                  synthesize_direct(some, head, task_.medium, options), eighths_with_echo(some, task_));
+  r.error = error.whole;
+  r.local_error = error.worst_eighth;
+  time_all([&](const Echoes& e) { return synthesize_spectrum(e, head, task_.medium, options); }, r);
+  return r;
+}
+
+AccuracyRow AccuracyBench::windowed_row(AccuracyRow r, const WindowedOptions& options) const {
+  r.timed_scatterers = timed(options_.windowed_work / work(1, r.beams, 1));
+  compare(synthesize_windowed(task_.echoes, checked_head_, task_.medium, options), r);
+  StopWatch watch;
+  const WindowedSynthesizer plan(task_.head, task_.medium, options);
+  r.plan_seconds = watch.lap();
+  time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
+  return r;
+}
+
+AccuracyRow AccuracyBench::windowed(double tolerance) const {
+  AccuracyRow r = row("windowed-direct");
+  r.tolerance = tolerance;
+  return windowed_row(r, {tolerance, 0, false, options_.threads});
+}
+
+AccuracyRow AccuracyBench::nearest_bin() const {
+  return windowed_row(row("nearest-bin"), {1e-6, 0, true, options_.threads});
+}
+
+AccuracyRow AccuracyBench::pattern_cut(double nulls) const {
+  AccuracyRow r = row("pattern-cut");
+  r.parameter = nulls;
+  return windowed_row(r, {1e-6, nulls, false, options_.threads});
+}
+
+AccuracyRow AccuracyBench::absorption_order(int order) const {
+  AccuracyRow r = row("absorption-order");
+  r.parameter = order;
+  r.tolerance = 1e-8;
+  const Medium medium{task_.medium.sound_speed, of_order(task_.medium.absorption, order)};
+  const PingSynthesizer plan(task_.head, medium, {r.tolerance, options_.threads});
+  r.kernel_width = plan.choice().kernel_width;
+  compare(checked(plan.pressure(task_.echoes)), r);
+  time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
+  return r;
+}
+
+}  // namespace insonify

@@ -1,0 +1,59 @@
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <span>
+
+#include "acoustics/echoes.hpp"
+#include "acoustics/elevation_pattern.hpp"
+#include "acoustics/pulse.hpp"
+#include "acoustics/water.hpp"
+#include "sampling/scatterers.hpp"
+#include "scene/material.hpp"
+
+namespace insonify {
+
+enum class SurfaceAmplitude {
+  complex_normal,  ///< Rayleigh speckle, bound to the scatterer id (E9)
+  random_phase,    ///< unit amplitude, random phase
+  coherent,        ///< 1: calibrated targets and closed forms
+  mean_power       ///< 1 in water and boundaries too: for expected intensities, where phases do not count
+};
+
+struct EchoOptions {
+  SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
+  ElevationShape elevation_shape = ElevationShape::gaussian;
+  double elevation_width = 0;   ///< [rad]; 0: no elevation pattern
+  double elevation_centre = 0;  ///< [rad]
+  std::uint64_t seed = 1;
+  int threads = 0;            ///< 0: all cores
+  double transmit_width = 0;  ///< -3 dB width of the transmitter's one-way intensity in azimuth [rad]; 0: no pattern
+};
+
+/// One-way pressure response of the transmitter in azimuth, a Gaussian main lobe about azimuth 0 (E57): 1 ahead,
+/// 2^(-2 (azimuth / width)^2), so -3 dB at width / 2 and -12 dB at width.
+double transmit_response(double width, double azimuth);
+
+/// Backscattering cross-section of a Lambert patch [m^2] (E4): mu cos_incidence projected_area. Because the
+/// projected area already holds one cosine this is mu cos^2 dS for surfels and mu cos r^2 dOmega for rays.
+double lambert_cross_section(double lambert_mu, double cos_incidence, double projected_area);
+
+/// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2, with the
+/// elevation pattern b_E (E14) and the transmitter's in azimuth b_T (E57).
+///
+/// materials   looked up by scatterers.material
+/// returns     one echo per scatterer, in order; delay = 2 r / c. The phase is reduced to one cycle in double.
+///
+/// Unless all amplitudes are coherent, a material's coherent_fraction g makes them Rician about 1 (E53):
+/// xi = sqrt(g) + sqrt(1 - g) z, z the law's random amplitude; mean power 1.
+///
+/// Throws Error if an invalid pulse, medium, material or material index is met, or a range is not > 0.
+Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
+                     const Medium& medium, const EchoOptions& options = {});
+
+/// The same for targets with known cross-sections sigma [m^2] and amplitudes xi (calibrated targets, other
+/// simulators' scatterers): only range, azimuth and elevation of `scatterers` are used.
+Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma,
+                     std::span<const std::complex<double>> xi, const Pulse& pulse, const Medium& medium,
+                     const EchoOptions& options = {});
+
+}  // namespace insonify

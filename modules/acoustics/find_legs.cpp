@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/elevation_pattern.hpp"
+#include "acoustics/find_legs_internal.hpp"
+#include "core/units.hpp"
+#include "sampling/seen_surfels.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double pattern_floor_db = -80;  // of one way
+
+/// The surfels that a leg by a boundary can meet: the scene on the water's side, and behind it its image.
+struct MirroredScene {
+  SceneCloud cloud;                   // real surfels, then images
+  std::vector<std::uint32_t> surfel;  // of each image, its index in the scene
+  std::vector<std::uint8_t> asked;    // 1 for the images
+};
+
+void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
+  to.point.push_back(from.point[i]);
+  to.normal.push_back(from.normal[i]);
+  to.area.push_back(from.area[i]);
+  to.material.push_back(from.material[i]);
+  to.id.push_back(from.id[i]);
+}
+
+bool above_surface(const std::vector<Boundary>& boundaries, double z) {
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [&](const Boundary& b) { return !b.bottom && z > b.height + b.thickness; });
+}
+
+// Whether neither a surfel nor its image can come within the gate: both stand as far from the head across.
+bool out_of_reach(const SceneCloud& scene, std::size_t i, const View& view) {
+  const Eigen::Vector3d from_head = scene.origin - view.world_from_head.translation() + scene.point[i].cast<double>();
+  const double disc = view.sampling.footprint * std::sqrt(static_cast<double>(scene.area[i]));
+  return from_head.head<2>().norm() > (view.gate.max_range + disc) * (1 + 1e-6);
+}
+
+MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Boundary& boundary,
+                             const std::vector<Boundary>& boundaries) {
+  MirroredScene all;
+  SceneCloud& cloud = all.cloud;
+  cloud.origin = scene.origin;
+  cloud.materials = scene.materials;
+  cloud.normals_oriented = scene.normals_oriented;
+  const double plane = boundary.height - scene.origin.z();
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const double z = scene.point[i].z(), into_water = boundary.water_side * (z - plane);
+    if (into_water <= 0 || boundary.holds(into_water, scene.normal[i].z())) continue;
+    if (above_surface(boundaries, z + scene.origin.z()) || out_of_reach(scene, i, view)) continue;
+    append(scene, i, cloud);
+    all.surfel.push_back(static_cast<std::uint32_t>(i));
+  }
+  const std::size_t real = cloud.size();
+  for (std::size_t k = 0; k < real; ++k) {
+    append(cloud, k, cloud);
+    cloud.point.back().z() = static_cast<float>(2 * plane - cloud.point[k].z());
+    cloud.normal.back().z() = -cloud.normal[k].z();
+  }
+  all.asked.assign(real, 0);
+  all.asked.resize(2 * real, 1);
+  return all;
+}
+
+void find_bounces(const SceneCloud& scene, const View& view, const std::vector<Boundary>& boundaries, std::size_t b,
+                  FoundLegs& found) {
+  if (boundaries[b].strongest_bounce(view.gate.max_range) < amplitude_from_db(pattern_floor_db)) return;
+  const MirroredScene all = mirrored_scene(scene, view, boundaries[b], boundaries);
+  const auto visibility =
+      find_visibility(all.cloud, view.world_from_head, view.fan, view.gate, all.asked, view.sampling);
+  const std::size_t real = all.surfel.size();
+  for (std::size_t k = 0; k < real; ++k) {
+    if (visibility[real + k] == Visibility::seen) found.legs[all.surfel[k]] |= leg_by(b);
+    found.hidden += visibility[real + k] == Visibility::hidden;
+  }
+}
+
+}  // namespace
+
+RangeGate gate_of_images(const View& view, const std::vector<Boundary>& boundaries, double pulse_margin) {
+  // By the triangle inequality two ways to one patch differ by no more than twice the head's distance from the farther
+  // boundary, so neither is longer than their mean by more than that distance.
+  double farthest = 0;
+  for (const Boundary& b : boundaries) farthest = std::max(farthest, std::abs(b.head_height));
+  const double max_range = view.gate.max_range + pulse_margin + farthest, min_range = 1e-3 * view.gate.min_range;
+  return {min_range, max_range, view.gate.bin_size * max_range / view.gate.max_range};
+}
+
+double extent_of_legs(const EchoOptions& echo_options) {
+  if (!(echo_options.elevation_width > 0)) return pi / 2;
+  return elevation_half_extent(echo_options.elevation_shape, echo_options.elevation_width, 2 * pattern_floor_db);
+}
+
+FoundLegs find_legs(const SceneCloud& scene, const View& view, const std::vector<Boundary>& boundaries,
+                    const std::vector<std::uint8_t>& seen_directly) {
+  FoundLegs found;
+  found.legs.assign(scene.size(), 0);
+  for (std::size_t b = 0; b < boundaries.size(); ++b) find_bounces(scene, view, boundaries, b, found);
+
+  // Directly the head may have looked at fewer elevations than count here.
+  std::vector<std::uint8_t> asked(scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) asked[i] = found.legs[i] && !seen_directly[i];
+  if (std::any_of(asked.begin(), asked.end(), [](std::uint8_t a) { return a; })) {
+    const auto visibility = find_visibility(scene, view.world_from_head, view.fan, view.gate, asked, view.sampling);
+    for (std::size_t i = 0; i < scene.size(); ++i)
+      if (visibility[i] == Visibility::seen) found.legs[i] |= direct_leg;
+  }
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    if (seen_directly[i]) found.legs[i] |= direct_leg;
+  return found;
+}
+
+}  // namespace insonify

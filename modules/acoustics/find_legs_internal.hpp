@@ -1,0 +1,31 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "acoustics/boundary_internal.hpp"
+
+namespace insonify {
+
+/// Which legs lead from the head to a surfel: bit 0 direct, bit 1 + b by boundary b.
+using LegSet = std::uint8_t;
+constexpr LegSet direct_leg = 1;
+constexpr LegSet leg_by(std::size_t boundary) { return static_cast<LegSet>(2u << boundary); }
+
+struct FoundLegs {
+  std::vector<LegSet> legs;  ///< one entry per surfel of the scene
+  std::size_t hidden = 0;    ///< legs by a boundary that the scene hides
+};
+
+/// How far a boundary's images, or direct places that belong to them, may stand for an echo inside the gate.
+RangeGate gate_of_images(const View& view, const std::vector<Boundary>& boundaries, double pulse_margin);
+
+/// Elevations on either side of the fan's in which legs are looked for [rad].
+double extent_of_legs(const EchoOptions& echo_options);
+
+/// Finds the legs by the boundaries; and the direct legs to the surfels found, besides those marked in
+/// `seen_directly`.
+FoundLegs find_legs(const SceneCloud& scene, const View& view, const std::vector<Boundary>& boundaries,
+                    const std::vector<std::uint8_t>& seen_directly);
+
+}  // namespace insonify

@@ -1,0 +1,250 @@
+#include "acoustics/multipath_echoes.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "acoustics/boundary_internal.hpp"
+#include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/find_legs_internal.hpp"
+#include "acoustics/surface_amplitude_internal.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "sampling/seen_surfels.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+using complex = std::complex<double>;
+
+constexpr const char* me = "multipath_echoes";
+constexpr double echo_floor = 1e-4;   // -80 dB: what pattern and reflection may leave of an echo
+constexpr double pulse_floor = 1e-4;  // of its envelope's peak: where a pulse ends
+constexpr std::size_t patches_per_block = 4096;
+
+/// One leg between head and patch, in the axes of the head.
+struct Leg {
+  double range;     ///< [m]
+  double u, v;      ///< direction cosines
+  double azimuth;   ///< [rad]
+  double cosine;    ///< at the patch
+  complex gain;     ///< one-way pattern times reflection
+  std::uint8_t by;  ///< 0: direct; k: by the k-th boundary
+};
+
+/// Up to three legs to one patch, the direct one first.
+struct LegsToPatch {
+  Leg leg[3];
+  std::size_t count = 0;
+};
+
+/// Where the echoes of one block came from, echo by echo.
+struct Origins {
+  std::vector<std::uint32_t> surfel;
+  std::vector<LegPair> legs;
+};
+
+/// Hears the patches of one list by all their paths.
+class PathListener {
+ public:
+  PathListener(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const FoundLegs& found,
+               const View& view, const Transmission& sent)
+      : scene_(scene),
+        boundaries_(boundaries),
+        found_(found),
+        echo_options_(sent.echo_options),
+        to_head_(view.world_from_head.linear().transpose()),
+        source_(source_pressure(sent.pulse)),
+        sound_speed_(sent.medium.sound_speed),
+        cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed) {
+    const double margin = 0.5 * sound_speed_ * pulse_half_length(sent.pulse, pulse_floor);
+    least_leg_ = 2 * (view.gate.min_range - margin);
+    longest_leg_ = 2 * (view.gate.max_range + margin);
+  }
+
+  /// parts        of each surfel, how many patches it was split into
+  /// cosines      true if those of `patches` hold for the direct leg
+  void hear(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& heard) const {
+    std::atomic<std::size_t> two_bounces{0};
+    std::vector<Echoes> echoes(1);
+    std::vector<Origins> origins((patches.size() + patches_per_block - 1) / patches_per_block);
+    echoes[0] = collect_echoes(patches.size(), patches_per_block, echo_options_.threads,
+                               [&](std::size_t begin, std::size_t end, Echoes& out) {
+                                 Origins& from = origins[begin / patches_per_block];
+                                 std::size_t twice = 0;
+                                 for (std::size_t i = begin; i < end; ++i) {
+                                   const std::uint32_t surfel = patches.surfel[i];
+                                   if (!(found_.legs[surfel] & ~direct_leg)) continue;
+                                   const LegsToPatch legs = legs_to(patches, i, cosines);
+                                   if (legs.count == 0) continue;
+                                   const double area = static_cast<double>(scene_.area[surfel]) / parts[surfel];
+                                   add_paths(legs, amplitude_of(patches, i, area), out, from);
+                                   from.surfel.resize(out.size(), surfel);
+                                 }
+                                 for (const LegPair pair : from.legs) twice += pair.bounces() == 2;
+                                 two_bounces += twice;
+                               });
+    heard.two_bounces += two_bounces;
+    heard.one_bounce += echoes[0].size() - two_bounces;
+    join_echoes(std::move(echoes), heard.echoes);
+    for (const Origins& from : origins) {
+      heard.surfel.insert(heard.surfel.end(), from.surfel.begin(), from.surfel.end());
+      heard.legs.insert(heard.legs.end(), from.legs.begin(), from.legs.end());
+    }
+  }
+
+ private:
+  LegsToPatch legs_to(const Scatterers& patches, std::size_t i, bool cosines) const {
+    const std::uint32_t surfel = patches.surfel[i];
+    const LegSet open = found_.legs[surfel];
+    const Vector3d place = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
+    const Vector3d normal = to_head_ * scene_.normal[surfel].cast<double>();
+    LegsToPatch legs;
+    if (open & direct_leg) {
+      Leg& leg = legs.leg[legs.count];
+      leg = leg_to(place, normal, 1);
+      leg.by = 0;
+      if (cosines) leg.cosine = patches.cos_incidence[i];
+      legs.count += leg.cosine > 0;
+    }
+    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+      const Boundary& boundary = boundaries_[b];
+      if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
+      const Vector3d image = boundary.mirrored(place);
+      const double sine = std::min(1.0, std::abs(boundary.up.dot(image)) / image.norm());
+      Leg& leg = legs.leg[legs.count];
+      leg = leg_to(image, boundary.mirrored_direction(normal), boundary.reflection(std::asin(sine)));
+      leg.by = static_cast<std::uint8_t>(b + 1);
+      legs.count += leg.cosine > 0;
+    }
+    return legs;
+  }
+
+  Leg leg_to(const Vector3d& place, const Vector3d& normal, complex reflection) const {
+    Leg leg{};
+    leg.range = place.norm();
+    leg.u = place.y() / leg.range;
+    leg.v = place.z() / leg.range;
+    leg.azimuth = echo_options_.transmit_width > 0 ? std::atan2(place.y(), place.x()) : 0;
+    const double cosine = -normal.dot(place) / leg.range;
+    leg.cosine = std::min(1.0, scene_.normals_oriented ? cosine : std::abs(cosine));
+    leg.gain = reflection * one_way_pattern(leg.v);
+    return leg;
+  }
+
+  /// Square root of the two-way pattern; imaginary where that is negative, so that its square is the two-way pattern.
+  complex one_way_pattern(double v) const {
+    if (!(echo_options_.elevation_width > 0)) return 1;
+    const double elevation = std::asin(std::clamp(v, -1.0, 1.0)) - echo_options_.elevation_centre;
+    const double two_way = elevation_response(echo_options_.elevation_shape, echo_options_.elevation_width, elevation);
+    return two_way < 0 ? complex(0, std::sqrt(-two_way)) : complex(std::sqrt(two_way), 0);
+  }
+
+  /// The transmitter's own pattern counts on the leg out alone.
+  complex gain_out(const Leg& out) const {
+    return echo_options_.transmit_width > 0 ? out.gain * transmit_response(echo_options_.transmit_width, out.azimuth)
+                                            : out.gain;
+  }
+
+  complex amplitude_of(const Scatterers& patches, std::size_t i, double area) const {
+    const Material& material = scene_.materials[patches.material[i]];
+    const complex xi = surface_amplitude(echo_options_, material.coherent_fraction, patches.id[i]);
+    return source_ * std::sqrt(material.lambert_mu * area) * xi;
+  }
+
+  void add_paths(const LegsToPatch& legs, complex amplitude, Echoes& out, Origins& from) const {
+    for (std::size_t o = 0; o < legs.count; ++o)
+      for (std::size_t i = 0; i < legs.count; ++i) {
+        const Leg &there = legs.leg[o], &back = legs.leg[i];
+        const double length = there.range + back.range;
+        if (!(there.by || back.by) || length < least_leg_ || length > longest_leg_) continue;
+        const complex gain = gain_out(there) * back.gain;
+        if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
+        from.legs.push_back({there.by, back.by});
+        const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * length);
+        const double size = std::sqrt(there.cosine * back.cosine) / (there.range * back.range);
+        add_echo(out, length / sound_speed_, back.u, back.v, amplitude * gain * std::polar(size, phase));  // (E48)
+      }
+  }
+
+  const SceneCloud& scene_;
+  const std::vector<Boundary>& boundaries_;
+  const FoundLegs& found_;
+  const EchoOptions& echo_options_;
+  Eigen::Matrix3d to_head_;
+  double source_, sound_speed_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
+};
+
+/// The view as far as legs may lead out of it and still belong to an echo inside the gate.
+View widened(const View& view, const std::vector<Boundary>& boundaries, const Transmission& sent) {
+  View wide = view;
+  const double margin = 0.5 * sent.medium.sound_speed * pulse_half_length(sent.pulse, pulse_floor);
+  wide.gate = gate_of_images(view, boundaries, margin);
+  wide.sampling.elevation_half_extent = extent_of_legs(sent.echo_options);
+  return wide;
+}
+
+std::vector<std::uint32_t> parts_per_surfel(const Scatterers& patches, std::size_t surfels) {
+  std::vector<std::uint32_t> parts(surfels, 0);
+  for (const std::uint32_t surfel : patches.surfel) {
+    if (surfel >= surfels)
+      fail(ErrorKind::argument, me, ": direct.surfel = ", surfel, ", but the scene has ", surfels, " surfels");
+    ++parts[surfel];
+  }
+  return parts;
+}
+
+/// Surfels that only a boundary shows, or all that one shows if `direct` holds rays, which are not patches.
+std::vector<std::uint32_t> surfels_beside(const FoundLegs& found, const std::vector<std::uint8_t>& seen_directly) {
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t i = 0; i < seen_directly.size(); ++i)
+    if (!seen_directly[i] && (found.legs[i] & ~direct_leg)) list.push_back(i);
+  return list;
+}
+
+}  // namespace
+
+Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
+                           const View& view, const Transmission& transmission, const MultipathOptions& options) {
+  require_valid(scene, me);
+  require_valid(environment, me);
+  require_valid(view.gate, me);
+  require_valid(transmission.pulse, me);
+  require_valid(transmission.medium, me);
+  if (!(options.boundary_tolerance >= 0 && std::isfinite(options.boundary_tolerance)))
+    fail(ErrorKind::argument, me, ": options.boundary_tolerance = ", options.boundary_tolerance,
+         " m, must be finite and >= 0");
+  const auto boundaries =
+      boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
+
+  // LegSet, surfel by surfel.
+  const bool rays = view.sampling.kind == SamplingKind::rays;
+  const auto parts = parts_per_surfel(direct, scene.size());
+  std::vector<std::uint8_t> seen_directly(scene.size(), 0);
+  for (std::size_t i = 0; i < scene.size() && !rays; ++i) seen_directly[i] = parts[i] > 0;
+  const FoundLegs found = find_legs(scene, widened(view, boundaries, transmission), boundaries, seen_directly);
+  Multipath heard;
+  heard.blocked = found.hidden;
+
+  // Paths, patch by patch: first those seen directly, then those that only a boundary shows.
+  const PathListener listener(scene, boundaries, found, view, transmission);
+  if (!rays) listener.hear(direct, parts, true, heard);
+  const Scatterers beside = split_listed(scene, view.world_from_head, view.fan, view.gate,
+                                         surfels_beside(found, seen_directly), view.sampling);
+  listener.hear(beside, parts_per_surfel(beside, scene.size()), false, heard);
+  return heard;
+}
+
+double strongest_bounce(const Environment& environment, const View& view, const Transmission& transmission) {
+  require_valid(environment, "strongest_bounce");
+  if (!environment.surface && !environment.bottom) return 0;
+  const auto boundaries = boundaries_of(environment, view.world_from_head, transmission, 0, "strongest_bounce");
+  const RangeGate gate = widened(view, boundaries, transmission).gate;
+  double most = 0;
+  for (const Boundary& b : boundaries) most = std::max(most, b.strongest_bounce(gate.max_range));
+  return most;
+}
+
+}  // namespace insonify

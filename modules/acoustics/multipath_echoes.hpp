@@ -1,0 +1,77 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "acoustics/direct_echoes.hpp"
+#include "acoustics/echoes.hpp"
+#include "acoustics/environment.hpp"
+#include "acoustics/transmission.hpp"
+#include "sampling/find_scatterers.hpp"
+
+namespace insonify {
+
+/// By which legs sound went out to a patch and came back: 0 direct, k by the k-th boundary (the surface before the bottom).
+struct LegPair {
+  std::uint8_t out = 0, back = 0;
+
+  int bounces() const { return (out != 0) + (back != 0); }
+  bool operator==(const LegPair&) const = default;
+};
+
+/// Echoes by way of the boundaries, and how many of each kind.
+struct Multipath {
+  Echoes echoes;
+  std::vector<std::uint32_t> surfel{};  ///< of every echo, index in the scene
+  std::vector<LegPair> legs{};          ///< of every echo
+  std::size_t one_bounce = 0;           ///< out direct and back by a boundary, or the other way round
+  std::size_t two_bounces = 0;          ///< out and back by a boundary
+  std::size_t blocked = 0;              ///< legs from surfels by a boundary that the scene hides
+};
+
+/// Where a head looks, for stages that look again.
+struct View {
+  Pose world_from_head = Pose::Identity();
+  BeamFan fan;
+  RangeGate gate;
+  SamplingOptions sampling;
+};
+
+struct MultipathOptions {
+  /// Captured surfels that lie (within 60 degrees) along a boundary and are nearer to it than this [m], and three times
+  /// its rms relief, are taken for the boundary itself: they neither block a bounce off it nor are heard by one.
+  double boundary_tolerance = 0.3;
+};
+
+/// Echoes whose leg out, leg back or both touch the surface or the bottom of `environment` once (E48), by images: the
+/// head sees the scene mirrored in each boundary.
+///
+///   amplitude = sqrt2 p0 xi sqrt(mu cos_o cos_i dS) b_o b_i R_o R_i exp(i k (r_o + r_i)) / (r_o r_i)
+///   delay     = (r_o + r_i) / c
+///
+/// o is the leg out, i the leg back; r, cos, b and R are a leg's length, cosine at the patch, one-way elevation
+/// pattern (the square root of the two-way pattern E14; times E57 on the leg out) and reflection: bottom_reflection,
+/// or -1 at the surface, times coherent_reflection_loss; 1 without a bounce. u and v are those of the leg back. So a
+/// mixed path is two echoes of one delay and size, one for each sense, which add coherently where the beam holds both
+/// directions. The direct echo is not among them.
+///
+/// Every leg is tested for occlusion: before the bounce against the scene itself, behind it against its image. Surfels
+/// beyond a boundary have no leg by it, and those above the surface none at all. Sector in azimuth and gate are the
+/// view's; in elevation the sector goes on to where the one-way pattern is -80 dB, and everywhere without a pattern.
+/// Echoes are left out whose pattern and reflection take off more than 80 dB, or whose apparent range (r_o + r_i) / 2
+/// is farther outside the gate than the pulse reaches.
+///
+/// direct   what the head sees directly, of the same view. Its patches keep places and amplitude xi on all their paths;
+///          those seen only by a boundary are found and split here. With rays it is not used: patches are surfels then,
+///          whose xi is not that of the rays.
+/// LegSet by a boundary are straight also where direct ones were bent, and take the smooth surfel for the facet.
+/// Does not depend on the thread count. Throws Error if there is no boundary, the head is not in the water, or an
+/// invalid environment, pulse or medium is met.
+Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
+                           const View& view, const Transmission& transmission, const MultipathOptions& options = {});
+
+/// The most, as a pressure factor, that roughness leaves of a bounce off any boundary within the view's gate: leaving
+/// multipath out costs no more than this, relative to a direct echo of the same length and pattern, per mixed path. 1
+/// for a smooth boundary, 0 if there is none.
+double strongest_bounce(const Environment& environment, const View& view, const Transmission& transmission);
+
+}  // namespace insonify

@@ -1,0 +1,232 @@
+#include "acoustics/reverberation_echoes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/reverberation_cells_internal.hpp"
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t slices_per_block = 64;
+constexpr double pattern_floor = 1e-4;  // -80 dB: cells below it are silent
+constexpr double metres_per_second_per_knot = 1852.0 / 3600.0;
+
+/// A plane that scatters, as seen from the head.
+struct ScatteringPlane {
+  double distance;              ///< from the head, > 0 [m]
+  double side;                  ///< 1: above the head, -1: below
+  double strength, lambert_mu;  ///< cross-section per area: strength + lambert_mu sin^2(grazing)
+  RandomStage stage;
+  std::uint64_t first;  ///< of the random counter
+};
+
+class PlaneListener {
+ public:
+  PlaneListener(const ScatteringPlane& plane, const ReverberationCells& cells, const Pose& world_from_head,
+                const Transmission& sent, const char* who)
+      : plane_(plane),
+        cells_(cells),
+        echo_options_(sent.echo_options),
+        source_(source_pressure(sent.pulse)),
+        two_over_c_(2 / sent.medium.sound_speed) {
+    const Eigen::Matrix3d to_head = world_from_head.linear().transpose();
+    forward_ = to_head.col(0);
+    left_ = to_head.col(1);
+    to_plane_ = plane.side * plane.distance * to_head.col(2);
+    directions_ = static_cast<std::size_t>(std::ceil(cells.azimuths));
+    step_ = 2 * pi / static_cast<double>(directions_);
+    require_few(std::ceil(cells.azimuths * std::min(1.0, cells.sector / (2 * pi))), cells, who);
+    centre_.reserve(directions_);
+    for (std::size_t j = 0; j < directions_; ++j) centre_.push_back(direction((static_cast<double>(j) + 0.5) * step_));
+  }
+
+  Echoes hear() const {
+    return collect_echoes(cells_.slices, slices_per_block, echo_options_.threads,
+                          [&](std::size_t begin, std::size_t end, Echoes& out) {
+                            for (std::size_t k = begin; k < end; ++k) slice_echo(k, out);
+                          });
+  }
+
+ private:
+  Vector3d direction(double angle) const { return std::cos(angle) * forward_ + std::sin(angle) * left_; }
+
+  void slice_echo(std::size_t k, Echoes& out) const {
+    const double r1 = std::max(cells_.begin(k), plane_.distance), r2 = cells_.end(k);
+    if (!(r2 > r1)) return;
+    const double area = 0.5 * (r2 * r2 - r1 * r1) * step_;  // rho drho = r dr
+    const double middle = std::sqrt(0.5 * (r1 * r1 + r2 * r2) - plane_.distance * plane_.distance);
+    for (std::size_t j = 0; j < directions_; ++j)
+      if (in_sector(to_plane_ + middle * centre_[j])) cell_echo(k, j, r1, r2, area, out);
+  }
+
+  /// With one cell to spare on either side.
+  bool in_sector(const Vector3d& place) const {
+    const double half = 0.5 * cells_.sector + step_;
+    return half >= pi ||
+           std::abs(std::remainder(std::atan2(place.y(), place.x()) - cells_.min_azimuth - 0.5 * cells_.sector,
+                                   2 * pi)) <= half;
+  }
+
+  void cell_echo(std::size_t k, std::size_t j, double r1, double r2, double area, Echoes& out) const {
+    const RandomCounter counter{plane_.first, cells_.first + k, j};
+    const auto jitter = random_uniform(echo_options_.seed, plane_.stage, counter);
+    const double r = std::sqrt(r1 * r1 + jitter[2] * (r2 * r2 - r1 * r1));
+    const double rho = std::sqrt(std::max(0.0, (r - plane_.distance) * (r + plane_.distance)));
+    const Vector3d place = to_plane_ + rho * direction((static_cast<double>(j) + jitter[3]) * step_);
+    const double v = std::clamp(place.z() / r, -1.0, 1.0);
+    const double pattern = elevation_pattern_of(echo_options_, std::asin(v));
+    if (!(std::abs(pattern) >= pattern_floor)) return;
+    const double sine = plane_.distance / r;                                          // of the grazing angle
+    const double sigma = (plane_.strength + plane_.lambert_mu * sine * sine) * area;  // (E50, E51)
+    const double transmitted = transmit_pattern_of(echo_options_, std::atan2(place.y(), place.x()));
+    add_echo(out, two_over_c_ * r, place.y() / r, v,
+             source_ * std::sqrt(sigma) * pattern * transmitted / (r * r) *
+                 cell_amplitude(echo_options_, plane_.stage, counter));
+  }
+
+  const ScatteringPlane& plane_;
+  const ReverberationCells& cells_;
+  const EchoOptions& echo_options_;
+  double source_, two_over_c_, step_ = 0;
+  Vector3d forward_, left_, to_plane_;  // in head axes; to_plane_: to the foot of the head's perpendicular
+  std::size_t directions_ = 0;
+  std::vector<Vector3d> centre_;
+};
+
+/// Which bottom is under a head: its place, rounded to `step`.
+std::uint64_t place_counter(const Vector3d& place, double step) {
+  std::uint64_t counter = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double rounded = std::nearbyint(place[axis] / step);
+    counter = counter << 21 | (static_cast<std::uint64_t>(std::fmod(rounded, 0x1p20) + 0x1p20) & 0x1fffff);
+  }
+  return counter;
+}
+
+/// The water's own scatterers. Beams that tell elevations apart need several echoes per cell, one for each equal part of
+/// the elevation pattern: layers.
+class VolumeListener {
+ public:
+  VolumeListener(double scattering_db, const ReverberationCells& cells, const BeamFan& fan, const Transmission& sent,
+                 const ReverberationOptions& options, const char* who)
+      : cells_(cells),
+        echo_options_(sent.echo_options),
+        law_(fan, sent.echo_options),
+        ping_(static_cast<std::uint64_t>(options.ping)),
+        two_over_c_(2 / sent.medium.sound_speed) {
+    const double row = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
+    const bool tells = fan.row_width > 0 || !(echo_options_.elevation_width > 0);
+    const double layers = tells ? std::ceil(options.cells_per_resolution * law_.extent() / row) : 1;
+    const double azimuths = std::ceil(cells.azimuths * cells.sector / (2 * pi));
+    require_few(azimuths * layers, cells, who);
+    azimuths_ = static_cast<std::size_t>(azimuths);
+    layers_ = static_cast<std::size_t>(layers);
+    step_ = cells.sector / azimuths;
+    source_ = source_pressure(sent.pulse) *
+              std::sqrt(power_from_db(scattering_db) * step_ * law_.integral() / layers);  // (E49)
+  }
+
+  Echoes hear() const {
+    return collect_echoes(cells_.slices, slices_per_block, echo_options_.threads,
+                          [&](std::size_t begin, std::size_t end, Echoes& out) {
+                            for (std::size_t k = begin; k < end; ++k)
+                              for (std::size_t a = 0; a < azimuths_; ++a)
+                                for (std::size_t e = 0; e < layers_; ++e) cell_echo(k, a, e, out);
+                          });
+  }
+
+ private:
+  void cell_echo(std::size_t k, std::size_t a, std::size_t e, Echoes& out) const {
+    const RandomCounter counter{ping_, cells_.first + k, a * layers_ + e};
+    const auto jitter = random_uniform(echo_options_.seed, RandomStage::volume, counter);
+    const TwoUniform upwards_and_out = split_uniform(jitter[2]);
+    const double cube1 = std::pow(cells_.begin(k), 3), cube2 = std::pow(cells_.end(k), 3);
+    const double r = std::cbrt(cube1 + upwards_and_out.rest * (cube2 - cube1));
+    const double azimuth = cells_.min_azimuth + (static_cast<double>(a) + jitter[3]) * step_;
+    const double part = (static_cast<double>(e) + upwards_and_out.leading) / static_cast<double>(layers_);
+    const double elevation = law_.elevation_at(part);
+    const double size =
+        source_ * std::sqrt((cube2 - cube1) / 3) * transmit_pattern_of(echo_options_, azimuth) / (r * r);
+    add_echo(out, two_over_c_ * r, std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+             size * cell_amplitude(echo_options_, RandomStage::volume, counter));
+  }
+
+  const ReverberationCells& cells_;
+  const EchoOptions& echo_options_;
+  ElevationLaw law_;
+  std::uint64_t ping_;
+  std::size_t azimuths_ = 0, layers_ = 0;
+  double two_over_c_, step_ = 0, source_ = 0;
+};
+
+}  // namespace
+
+Echoes volume_echoes(const Environment& environment, const BeamFan& fan, const RangeGate& gate,
+                     const Transmission& transmission, const ReverberationOptions& options) {
+  constexpr const char* me = "volume_echoes";
+  require_valid(environment, me);
+  if (!environment.volume_scattering_db) fail(ErrorKind::argument, me, ": environment has no volume_scattering_db");
+  const ReverberationCells cells = reverberation_cells(fan, gate, transmission, options, me);
+  return VolumeListener(*environment.volume_scattering_db, cells, fan, transmission, options, me).hear();
+}
+
+Echoes surface_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
+                      const RangeGate& gate, const Transmission& transmission, const ReverberationOptions& options) {
+  constexpr const char* me = "surface_echoes";
+  require_valid(environment, me);
+  if (!environment.surface || !environment.surface->scattering_strength_db)
+    fail(ErrorKind::argument, me, ": environment has no surface.scattering_strength_db");
+  const double head = world_from_head.translation().z(), height = environment.surface->height;
+  if (!(head < height))
+    fail(ErrorKind::argument, me, ": the head stands at height ", head, " m, must be below surface.height = ", height,
+         " m");
+  const ReverberationCells cells = reverberation_cells(fan, gate, transmission, options, me);
+  const ScatteringPlane plane{height - head,
+                              1,
+                              power_from_db(*environment.surface->scattering_strength_db),
+                              0,
+                              RandomStage::sea_surface,
+                              static_cast<std::uint64_t>(options.ping)};
+  return PlaneListener(plane, cells, world_from_head, transmission, me).hear();
+}
+
+Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
+                     const RangeGate& gate, const Transmission& transmission, const ReverberationOptions& options) {
+  constexpr const char* me = "bottom_echoes";
+  require_valid(environment, me);
+  if (!environment.bottom || !environment.bottom->lambert_mu)
+    fail(ErrorKind::argument, me, ": environment has no bottom.lambert_mu");
+  const double head = world_from_head.translation().z(), height = environment.bottom->height;
+  if (!(head > height))
+    fail(ErrorKind::argument, me, ": the head stands at height ", head, " m, must be above bottom.height = ", height,
+         " m");
+  const ReverberationCells cells = reverberation_cells(fan, gate, transmission, options, me);
+  const ScatteringPlane plane{head - height,
+                              -1,
+                              0,
+                              *environment.bottom->lambert_mu,
+                              RandomStage::flat_bottom,
+                              place_counter(world_from_head.translation(), cells.length)};
+  return PlaneListener(plane, cells, world_from_head, transmission, me).hear();
+}
+
+double chapman_harris_strength_db(double frequency, double wind_speed, double grazing) {
+  constexpr const char* me = "chapman_harris_strength_db";
+  if (!(frequency > 0 && std::isfinite(frequency)))
+    fail(ErrorKind::argument, me, ": frequency = ", frequency, " Hz, must be finite and > 0");
+  if (!(wind_speed > 0 && std::isfinite(wind_speed)))
+    fail(ErrorKind::argument, me, ": wind_speed = ", wind_speed, " m/s, must be finite and > 0");
+  if (!(grazing > 0 && grazing <= pi / 2))
+    fail(ErrorKind::argument, me, ": grazing = ", grazing, " rad, must be > 0 and at most pi/2");
+  const double beta = 158 * std::pow(wind_speed / metres_per_second_per_knot * std::cbrt(frequency), -0.58);
+  return 3.3 * beta * std::log10(degrees(grazing) / 30) - 42.4 * std::log10(beta) + 2.6;  // (E50)
+}
+
+}  // namespace insonify

@@ -1,0 +1,56 @@
+#pragma once
+#include "acoustics/echoes.hpp"
+#include "acoustics/environment.hpp"
+#include "acoustics/transmission.hpp"
+#include "core/pose.hpp"
+#include "sampling/beam_fan.hpp"
+#include "sampling/range_gate.hpp"
+
+namespace insonify {
+
+/// Cells into which water and boundaries are cut. Each is one echo of complex-normal amplitude at a random place within
+/// the cell: mean level and correlation do not depend on the cells' size, and the sum in a beam is Rayleigh the more
+/// exactly the smaller they are.
+struct ReverberationOptions {
+  double cells_per_resolution = 2;  ///< along range and along the fan, per resolution cell
+  std::int64_t ping = 0;            ///< water and waves are new in every ping
+};
+
+// All of these fill the gate, and a pulse's reach on either side of it, over the fan's sector in azimuth; the
+// transmitter's pattern (E57) counts where there is one. They take no heed of the scene: it casts no shadow on them.
+// The result does not depend on the thread count. They throw Error if what they hear is absent from the environment,
+// for invalid arguments, and if there would be more than 2^27 cells.
+
+/// Echoes of the water's own scatterers (E49): the variance of a cell's amplitude is Sv dV 2 p0^2 / r^4, with
+///
+///   dV = r^2 dr dtheta integral b_E^2(e) cos(e) de
+///
+/// b_E the two-way elevation pattern. It is used up by that: the echo stands at an elevation drawn from b_E^2 cos(e),
+/// which gives u and v the spread they have, and is not weighted again. A fan of several rows, or of a planar array, has
+/// as many such echoes per cell as it can tell apart. The water goes on beyond surface and bottom.
+Echoes volume_echoes(const Environment& environment, const BeamFan& fan, const RangeGate& gate,
+                     const Transmission& transmission, const ReverberationOptions& options = {});
+
+/// Echoes of the sea surface, seen from below (E50): scattering strength, the same at all angles, times the area of each
+/// cell of the plane, weighted by the elevation pattern. Throws Error if the head is not below the surface.
+Echoes surface_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
+                      const RangeGate& gate, const Transmission& transmission,
+                      const ReverberationOptions& options = {});
+
+/// Echoes of the flat bottom by Lambert's law, mu sin^2(grazing) dA (E51). Cells are bound to the world's directions
+/// and to the place of the head, rounded to a range cell: a head at rest or turning where it stands hears the same
+/// bottom in every ping, one that has moved on hears another. Throws Error if the head is not above the bottom.
+Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
+                     const RangeGate& gate, const Transmission& transmission, const ReverberationOptions& options = {});
+
+/// Scattering strength of the sea surface at `frequency` [Hz] for `wind_speed` [m/s] and `grazing` [rad], in dB re 1 m^2
+/// per m^2 (Chapman and Harris 1962, E50):
+///
+///   3.3 beta log10(grazing / 1 deg / 30) - 42.4 log10(beta) + 2.6,  beta = 158 (wind / 1 kn (f / 1 Hz)^(1/3))^-0.58
+///
+/// Fitted to explosive charges of 400 Hz to 6.4 kHz in winds up to 30 kn, below 40 degrees. Not for imaging
+/// sonars: at 900 kHz it is far outside of what was measured, and nothing here uses it by default. Throws Error unless
+/// frequency and wind speed are > 0 and grazing is within 0 and pi / 2, 0 excluded.
+double chapman_harris_strength_db(double frequency, double wind_speed, double grazing);
+
+}  // namespace insonify

@@ -1,0 +1,51 @@
+#pragma once
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "returns/insonification.hpp"
+#include "returns/soundings.hpp"
+#include "scene/scene_cloud.hpp"
+#include "scene_io/number_type_internal.hpp"
+
+// Private to scene_io: a cloud as rows of packed little-endian numbers, the body of binary PLY and PCD alike.
+namespace insonify {
+
+struct PackedRows {
+  struct Column {
+    std::string name;
+    NumberType type;
+  };
+  std::vector<Column> columns;
+  std::size_t rows = 0;
+  std::vector<std::string> comments;
+  std::function<void(std::size_t row, char* out)> write_row;
+
+  std::size_t stride() const {
+    std::size_t bytes = 0;
+    for (const Column& c : columns) bytes += size_of(c.type);
+    return bytes;
+  }
+};
+
+/// Copies a number to `out` and moves it on.
+template <typename T>
+void put(char*& out, T value) {
+  std::memcpy(out, &value, sizeof(T));
+  out += sizeof(T);
+}
+
+/// x y z (double if `wide`) level_db range azimuth elevation (float32) ping beam bin material (uint32); all
+/// but the coordinates named `prefix` + name. Throws Error(argument) unless all columns have one length.
+PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who);
+
+/// x y z (double if `wide`), normal, area (float32), material (uint16 in PLY, uint32 in PCD), id (uint32).
+enum class CloudFormat { ply, pcd };
+PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
+
+/// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where nothing was
+/// heard), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
+PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
+
+}  // namespace insonify

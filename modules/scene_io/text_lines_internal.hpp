@@ -1,0 +1,80 @@
+#pragma once
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene_io/number_type_internal.hpp"
+
+namespace insonify {
+
+/// Walks through a text line by line; line ends \n and \r\n.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text, std::size_t lines_before = 0) : rest_(text), number_(lines_before) {}
+
+  /// False at the end of the text.
+  bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    ++number_;
+    return true;
+  }
+  /// Next line that is not blank.
+  bool next_filled(std::string_view& line) {
+    while (next(line)) {
+      if (line.find_first_not_of(" \t") != std::string_view::npos) return true;
+    }
+    return false;
+  }
+  std::size_t number() const { return number_; }  ///< of the line last given, from 1
+
+ private:
+  std::string_view rest_;
+  std::size_t number_;
+};
+
+/// Takes the next word off the front of `rest`; empty at the end.
+inline std::string_view take_word(std::string_view& rest) {
+  const std::size_t begin = std::min(rest.find_first_not_of(" \t"), rest.size());
+  rest.remove_prefix(begin);
+  const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+  const std::string_view word = rest.substr(0, end);
+  rest.remove_prefix(end);
+  return word;
+}
+
+inline std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) words.emplace_back(word);
+  return words;
+}
+
+/// True if the whole word is one number (nan and inf are numbers; a leading + is allowed).
+template <typename T>
+bool to_number(std::string_view word, T& value) {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+/// Part of a line fit for a message: at most 60 characters, control characters as '?'.
+std::string shown(std::string_view line);
+
+/// A column of a row of text: one number, or a list of them behind their count.
+struct TextColumn {
+  NumberType type = NumberType::float64;
+  bool is_list = false;
+};
+
+/// Refuses what PCL 1.13 reads without a word as NaN, 0 or another number: words that are no number or do not fit
+/// their type, short, long and blank rows. Throws Error(content) naming `path`, the line and, as `what`, the rows.
+void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<TextColumn>& columns,
+                       const std::string& what, const std::string& path);
+
+}  // namespace insonify

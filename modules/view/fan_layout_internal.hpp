@@ -1,0 +1,50 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/colour_bar_internal.hpp"
+#include "view/picture.hpp"
+
+namespace insonify {
+
+/// The part of the plane that a fan fills: bearings [rad] positive to starboard, ranges [m].
+struct FanOutline {
+  double low = 0, high = 0;  ///< bearings
+  double min_range = 0, max_range = 0;
+};
+
+/// Where everything of a fan picture goes. Forward is up and starboard right: this is the flip of the head
+/// axes (y to port) and the only place of it.
+struct FanLayout {
+  Point2 apex;  ///< the head
+  double pixels_per_metre = 1;
+  double low = 0, high = 0, min_range = 0, max_range = 0;
+  std::vector<double> rings;   ///< [m]
+  std::vector<double> spokes;  ///< bearings [rad]
+  std::vector<PlacedText> texts;
+  std::optional<PlacedText> title;
+  ColourBar colour_bar;
+  int font_size = 0;
+
+  Point2 at(double bearing, double range) const;
+};
+
+/// Size of ordinary text for a picture of so many pixels.
+int font_size_for(int width, int height);
+
+/// The one asked for, or that for the size of the picture.
+int font_size_for(const PictureOptions& options);
+
+/// Width of thin lines beside text of that size [pixels].
+double line_width_for(int font_size);
+
+/// The title, centred at the top of the picture and made to fit; none if it is empty.
+std::optional<PlacedText> place_title(const PictureOptions& options);
+
+/// Fits the fan and its labels into the picture, as large as it goes, with the colour bar where it costs
+/// less: at the right or below. No two texts overlap, and none leaves the picture.
+FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
+                      const std::string& unit);
+
+}  // namespace insonify

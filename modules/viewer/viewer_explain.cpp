@@ -1,0 +1,246 @@
+#include "viewer/viewer_explain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "sampling/gate_surfels_internal.hpp"
+#include "sampling/hit_rule_internal.hpp"
+#include "sampling/seen_surfels.hpp"
+
+namespace insonify {
+namespace {
+
+template <typename... Numbers>
+std::string text_of(const char* format, Numbers... numbers) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+// Angle between two azimuths, without sign.
+double azimuth_gap(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
+
+// A beam's share of the fan: halfway to its neighbours in azimuth, in elevation the width that it hears.
+struct BeamReach {
+  double left, right;  // of its azimuth, positive [rad]
+  double up;           // [rad]
+};
+BeamReach reach_of(const BeamFan& fan, std::size_t beam) {
+  double left = std::numeric_limits<double>::infinity(), right = left;
+  for (const double azimuth : fan.azimuth) {
+    const double gap = std::remainder(azimuth - fan.azimuth[beam], 2 * pi);
+    if (gap > 1e-9) left = std::min(left, gap);
+    if (gap < -1e-9) right = std::min(right, -gap);
+  }
+  // The outermost beams reach outwards as far as inwards; a lone one as far as it hears.
+  if (std::isinf(left)) left = right;
+  if (std::isinf(right)) right = left;
+  if (std::isinf(left)) left = right = fan.beam_width;
+  return {left / 2, right / 2, fan.row_width > 0 ? fan.row_width / 2 : fan.elevation_width};
+}
+
+// Surfels whose centre lies in the beam's share and the bin.
+std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
+  const HeadFrame head(scene, ping.world_from_head);
+  const double azimuth = ping.fan.azimuth[place.beam], elevation = ping.fan.elevation[place.beam];
+  const BeamReach reach = reach_of(ping.fan, place.beam);
+  const double range = ping.gate.centre(place.bin), half_bin = ping.gate.bin_size / 2;
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Eigen::Vector3d p = head.position(scene.point[i]);
+    const double half_surfel = std::sqrt(static_cast<double>(scene.area[i])) / 2;
+    const double near = range - std::max(half_bin, half_surfel), far = range + std::max(half_bin, half_surfel);
+    const double squared = p.squaredNorm();
+    if (near > 0 && squared < near * near) continue;
+    if (squared > far * far || squared == 0) continue;
+    const Direction direction = direction_of(p);
+    const double off = std::remainder(direction.azimuth - azimuth, 2 * pi);
+    if (off > reach.left || -off > reach.right || std::abs(direction.elevation - elevation) > reach.up) continue;
+    found.push_back(static_cast<std::uint32_t>(i));
+  }
+  return found;
+}
+
+// The nearest surfel of the scene that hides one of `hidden`, by the hit rule.
+void find_occluder(const SceneCloud& scene, const Ping& ping, PixelVisibility& visibility) {
+  const BeamFan& fan = ping.fan;
+  const std::vector<GatedSurfel> gated = gate_surfels(scene, HeadFrame(scene, ping.world_from_head),
+                                                      insonified_sector(fan, fan.elevation_width), ping.gate, 1.2, 0);
+  std::vector<const GatedSurfel*> behind;
+  for (const GatedSurfel& s : gated)
+    if (std::binary_search(visibility.hidden.begin(), visibility.hidden.end(), s.surfel)) behind.push_back(&s);
+  constexpr std::size_t enough = 64;  // they stand side by side: what hides one hides most
+  if (behind.size() > enough) behind.resize(enough);
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const GatedSurfel& front : gated)
+    for (const GatedSurfel* s : behind)
+      if (front.range < nearest && front.range < s->range && hides(front, *s)) {
+        nearest = front.range;
+        visibility.occluder_range = static_cast<double>(front.range);
+        visibility.occluder_surfel = front.surfel;
+      }
+}
+
+std::string material_name(const ViewerData& data, std::uint16_t material) {
+  if (data.scene.size() > 0 && material < data.scene.materials.size()) return data.scene.materials[material].name;
+  if (material < data.material_names.size()) return data.material_names[material];
+  return "material " + std::to_string(material);
+}
+
+std::string most_common_material(const ViewerData& data, const std::vector<std::uint32_t>& surfels) {
+  if (surfels.empty()) return {};
+  std::vector<std::size_t> count(data.scene.materials.size(), 0);
+  for (const std::uint32_t i : surfels) ++count[data.scene.material[i]];
+  const auto most = std::max_element(count.begin(), count.end()) - count.begin();
+  return material_name(data, static_cast<std::uint16_t>(most));
+}
+
+std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace place, const ViewerData& data) {
+  std::vector<Contribution> found;
+  for (std::size_t k = 0; k < list.per_pixel; ++k) {
+    const std::size_t at = list.at(place.beam, place.bin, k);
+    if (list.surfel[at] == Contributors::none) break;
+    found.push_back({list.surfel[at], list.id[at], material_name(data, list.material[at]),
+                     static_cast<double>(list.share[at]), static_cast<double>(list.elevation[at]), list.path[at]});
+  }
+  return found;
+}
+
+const char* path_text(PathKind path) {
+  switch (path) {
+    case PathKind::direct:
+      return "direct";
+    case PathKind::one_bounce:
+      return "by one bounce";
+    case PathKind::two_bounces:
+      return "by two bounces";
+  }
+  return "by an unknown path";
+}
+
+std::string bearing_words(double azimuth) {
+  const double bearing_deg = -degrees(azimuth);
+  if (std::abs(bearing_deg) < 0.005) return "0.00° (ahead)";
+  return text_of("%+.2f° (%s)", bearing_deg, bearing_deg > 0 ? "starboard" : "port");
+}
+
+std::string contributor_lines(const PixelFacts& facts) {
+  if (!facts.contributions_known) return {};
+  if (facts.contributions.empty()) return "No surfel contributes: side lobes or noise\n";
+  std::string text = "Strongest contributor:\n";
+  for (const Contribution& c : facts.contributions)
+    text += "  " + c.material + text_of(", surfel %u (id %u)\n", c.surfel, c.id) +
+            text_of("  %.0f %% of the energy, %s, elevation %+.2f°\n", 100 * c.share, path_text(c.path),
+                    degrees(c.elevation));
+  return text;
+}
+
+std::string visibility_lines(const PixelVisibility& visibility, const std::string& seen_material) {
+  if (visibility.seen.empty() && visibility.hidden.empty() && visibility.turned_away == 0) return {};
+  std::string text = text_of("Surfels here: %zu seen", visibility.seen.size());
+  if (!seen_material.empty()) text += " (" + seen_material + ")";
+  text += text_of(",\n  %zu hidden, %zu turned away\n", visibility.hidden.size(), visibility.turned_away);
+  if (visibility.occluder_range)
+    text += text_of("Shadow: hidden by what stands at %.3f m\n", *visibility.occluder_range);
+  return text;
+}
+
+}  // namespace
+
+PixelVisibility look_at_pixel(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
+  PixelVisibility visibility;
+  const std::vector<std::uint32_t> here = surfels_at(scene, ping, place);
+  if (here.empty()) return visibility;
+  std::vector<std::uint8_t> asked(scene.size(), 0);
+  for (const std::uint32_t i : here) asked[i] = 1;
+  const std::vector<Visibility> answer = find_visibility(scene, ping.world_from_head, ping.fan, ping.gate, asked, {});
+  for (const std::uint32_t i : here) {
+    if (answer[i] == Visibility::seen) visibility.seen.push_back(i);
+    if (answer[i] == Visibility::hidden) visibility.hidden.push_back(i);
+    if (answer[i] == Visibility::turned_away) ++visibility.turned_away;
+  }
+  if (!visibility.hidden.empty()) find_occluder(scene, ping, visibility);
+  return visibility;
+}
+
+PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, PixelPlace place) {
+  const ViewerExtent extent = extent_of(data);
+  if (ping_index >= extent.pings || place.beam >= extent.beams || place.bin >= extent.bins)
+    fail(ErrorKind::argument, "find_pixel_facts: ping ", ping_index, ", beam ", place.beam, ", bin ", place.bin,
+         ", must be below ", extent.pings, ", ", extent.beams, ", ", extent.bins);
+  const Ping& ping = data.pings[ping_index];
+  PixelFacts facts;
+  facts.place = place;
+  facts.ping_number = ping.number;
+  facts.range = ping.gate.centre(place.bin);
+  facts.azimuth = ping.fan.azimuth[place.beam];
+  facts.elevation = ping.fan.elevation[place.beam];
+  const auto row = static_cast<Eigen::Index>(place.beam), column = static_cast<Eigen::Index>(place.bin);
+  facts.level_db = pressure_level_db(static_cast<double>(std::abs(ping.pressure(row, column))));  // (E6)
+  facts.compensated_level_db =
+      facts.level_db + 40 * std::log10(facts.range) + 2 * data.absorption_db_per_m * facts.range;  // (E20)
+  if (!data.contributors.empty() && !data.contributors[ping_index].empty()) {
+    facts.contributions_known = true;
+    facts.contributions = contributions_of(data.contributors[ping_index], place, data);
+  }
+  if (ping.unknown.size() > 0) facts.unknown = ping.unknown(row, column) != 0;
+  if (ping.level_error_db.size() > 0) facts.level_error_db = static_cast<double>(ping.level_error_db(row, column));
+  if (data.scene.size() > 0) {
+    facts.visibility = look_at_pixel(data.scene, ping, place);
+    facts.seen_material = most_common_material(data, facts.visibility->seen);
+  }
+  return facts;
+}
+
+std::string explain_pixel(const PixelFacts& facts) {
+  std::string text = text_of("Ping %lld, beam %zu, bin %zu\n", static_cast<long long>(facts.ping_number),
+                             facts.place.beam, facts.place.bin);
+  text += text_of("Range %.3f m\n", facts.range);
+  text += "Bearing " + bearing_words(facts.azimuth) + "\n";
+  text += text_of("Elevation %+.2f° of the beam\n", degrees(facts.elevation));
+  if (std::isfinite(facts.level_db)) {
+    text += text_of("Level %.1f dB re 1 µPa\n", facts.level_db);
+    text += text_of("  %.1f dB range compensated\n", facts.compensated_level_db);
+    if (std::isfinite(facts.level_error_db)) text += text_of("  sampling error %.2f dB\n", facts.level_error_db);
+  } else {
+    text += "Level: no sound at all\n";
+  }
+  text += contributor_lines(facts);
+  if (facts.visibility) text += visibility_lines(*facts.visibility, facts.seen_material);
+  if (facts.unknown) text += "Hole: surface may be missing here,\n  unknown, not empty\n";
+  return text;
+}
+
+std::vector<std::uint32_t> surfels_behind(const PixelFacts& facts) {
+  std::vector<std::uint32_t> surfels;
+  for (const Contribution& c : facts.contributions) surfels.push_back(c.surfel);
+  if (!facts.contributions_known && facts.visibility) surfels = facts.visibility->seen;
+  return surfels;
+}
+
+std::optional<PixelPlace> place_of(const Ping& ping, const Eigen::Vector3d& world_position) {
+  const Eigen::Vector3d p = ping.world_from_head.inverse() * world_position;
+  const double range = p.norm(), bin = std::floor((range - ping.gate.min_range) / ping.gate.bin_size);
+  if (!(bin >= 0 && bin < static_cast<double>(ping.gate.bins()))) return {};
+  const Direction direction = direction_of(p);
+  const BeamFan& fan = ping.fan;
+  const auto distance = [&](std::size_t b) {
+    return std::pair(azimuth_gap(fan.azimuth[b], direction.azimuth), std::abs(fan.elevation[b] - direction.elevation));
+  };
+  std::size_t nearest = 0;
+  for (std::size_t b = 1; b < fan.beams(); ++b) {
+    const auto [here, up_here] = distance(b);
+    const auto [best, up_best] = distance(nearest);
+    if (here < best - 1e-9 || (here < best + 1e-9 && up_here < up_best)) nearest = b;
+  }
+  const BeamReach reach = reach_of(fan, nearest);
+  const double off = std::remainder(direction.azimuth - fan.azimuth[nearest], 2 * pi);
+  if (off > reach.left || -off > reach.right) return {};
+  return PixelPlace{nearest, static_cast<std::size_t>(bin)};
+}
+
+}  // namespace insonify

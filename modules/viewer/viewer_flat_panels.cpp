@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/units.hpp"
+#include "returns/quantise.hpp"
+#include "view/drawing_internal.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/ticks_internal.hpp"
+#include "viewer/viewer_flat_panels_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
+constexpr std::size_t pings_looked_at = 16;   // for the common scale
+constexpr std::size_t longest_history = 600;  // pings of the waterfall
+
+// The levels of one beam, ping after ping, ending with the current one if there are many.
+PingHistory history_of(const ViewerData& data, std::size_t beam, bool tvg, const std::string& unit) {
+  const std::size_t count = std::min(data.pings.size(), longest_history);
+  PingHistory history;
+  history.gate = data.pings[0].gate;
+  history.unit = unit;
+  history.level_db.resize(static_cast<Eigen::Index>(count), data.pings[0].pressure.cols());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Ping& ping = data.pings[data.pings.size() - count + i];
+    history.number.push_back(ping.number);
+    history.time.push_back(ping.time);
+    for (Eigen::Index bin = 0; bin < ping.pressure.cols(); ++bin) {
+      const double magnitude = std::abs(ping.pressure(static_cast<Eigen::Index>(beam), bin));
+      history.level_db(static_cast<Eigen::Index>(i), bin) =
+          static_cast<float>(std::max(-200.0, pressure_level_db(magnitude)));
+    }
+  }
+  if (tvg) history.level_db = apply_tvg(std::move(history.level_db), history.gate, {40, data.absorption_db_per_m});
+  return history;
+}
+
+// Levels of all beams at one range, by bearing.
+LineChart bearing_chart(const LevelImage& image, std::size_t bin, const PictureOptions& options) {
+  std::vector<std::size_t> order(image.fan.beams());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return image.fan.azimuth[a] > image.fan.azimuth[b]; });
+  LineChart chart;
+  double highest = -200;
+  for (const std::size_t b : order) {
+    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(bin));
+    chart.x.push_back(-degrees(image.fan.azimuth[b]));
+    chart.y.push_back(std::isfinite(level) ? level : -200);
+    highest = std::max(highest, chart.y.back());
+  }
+  chart.low_x = chart.x.front();
+  chart.high_x = std::max(chart.x.back(), chart.low_x + 1e-3);
+  chart.high_y = 5 * std::floor(highest / 5) + 5;
+  chart.low_y = chart.high_y - options.window_db;
+  for (double& y : chart.y) y = std::max(y, chart.low_y - options.window_db);
+  chart.title = "Across the beams at " + number_text(image.gate.centre(bin), 0.01) + " m";
+  chart.x_title = "Bearing [°], positive to starboard";
+  chart.y_title = "Level, " + image.unit;
+  return chart;
+}
+
+Path ring(Point2 centre, double radius) {
+  Path path;
+  for (int i = 0; i <= 24; ++i)
+    path.push_back({centre.x + radius * std::cos(2 * pi * i / 24), centre.y + radius * std::sin(2 * pi * i / 24)});
+  path.back() = path.front();
+  return path;
+}
+
+Path arc_of(const FanLayout& layout, double range) {
+  constexpr int steps = 256;
+  Path path;
+  for (int i = 0; i <= steps; ++i)
+    path.push_back(layout.at(layout.low + (layout.high - layout.low) * i / steps, range));
+  return path;
+}
+
+void mark_measure(Canvas& canvas, const FanLayout& layout, const Measure& measure, int font_size) {
+  std::vector<Point2> at;
+  for (const Eigen::Vector2d& p : measure.points)
+    at.push_back({layout.apex.x + p.x() * layout.pixels_per_metre, layout.apex.y + p.y() * layout.pixels_per_metre});
+  for (const Point2& p : at) canvas.add_lines({ring(p, 4)}, 2, measure_colour, 1);
+  if (at.size() < 2) return;
+  canvas.add_lines({{at[0], at[1]}}, 2, measure_colour, 1);
+  PlacedText length(number_text(measure.length(), 0.001) + " m",
+                    {(at[0].x + at[1].x) / 2, (at[0].y + at[1].y) / 2 + 1.2 * font_size}, font_size);
+  length.on_plate = true;
+  canvas.add_text(length);
+}
+
+}  // namespace
+
+LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
+  const Ping& ping = data.pings[ping_index];
+  if (!tvg) return {ping.fan, ping.gate, level_db(ping), "dB re 1 µPa"};
+  return {ping.fan, ping.gate, apply_tvg(level_db(ping), ping.gate, {40, data.absorption_db_per_m}),
+          "dB re 1 µPa at 1 m, range compensated"};
+}
+
+double common_max_db(const ViewerData& data, bool tvg) {
+  const std::size_t step = std::max<std::size_t>(1, data.pings.size() / pings_looked_at);
+  double highest = -1e300;
+  for (std::size_t i = 0; i < data.pings.size(); i += step)
+    highest = std::max(highest, colour_scale(levels_of(data, i, tvg).level_db, {}, "show_viewer").max_db);
+  return highest;
+}
+
+FanLayout draw_fan_panel(ViewerPanel& panel, const LevelImage& image, const PictureOptions& options, bool keep_camera) {
+  Canvas canvas = fresh_canvas(panel.content, options, keep_camera);
+  return draw_fan(canvas, image, options);
+}
+
+Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t beam, const PictureOptions& options) {
+  PictureOptions own = options;
+  own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // the beam's own
+  Canvas canvas = fresh_canvas(panel.content, own, false);
+  return draw_ascan(canvas, image, beam, own);
+}
+
+void draw_history_panel(ViewerPanel& panel, const ViewerData& data, const LevelImage& image, PixelPlace place, bool tvg,
+                        const PictureOptions& options) {
+  Canvas canvas = fresh_canvas(panel.content, options, false);
+  if (data.pings.size() < 2) {
+    draw_line_chart(canvas, bearing_chart(image, place.bin, options), options);
+    return;
+  }
+  PictureOptions titled = options;
+  titled.title = "Beam " + std::to_string(place.beam) + ", ping after ping";
+  draw_waterfall(canvas, history_of(data, place.beam, tvg, image.unit), titled);
+}
+
+void mark_fan(ViewerPanel& panel, const LevelImage& image, const FanLayout& layout, const ViewerState& state,
+              const PictureOptions& options) {
+  Canvas canvas = fresh_canvas(panel.marks, options, true);
+  if (state.selected) {
+    const double bearing = -image.fan.azimuth[state.selected->beam], range = image.gate.centre(state.selected->bin);
+    const Point2 at = layout.at(bearing, range);
+    canvas.add_lines(
+        {arc_of(layout, range), {layout.at(bearing, layout.min_range), layout.at(bearing, layout.max_range)}}, 1,
+        mark_colour, 0.45);
+    canvas.add_lines({ring(at, 0.55 * options.font_size)}, 2, mark_colour, 1);
+  }
+  mark_measure(canvas, layout, state.measure, options.font_size);
+}
+
+void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
+                const PictureOptions& options) {
+  Canvas canvas = fresh_canvas(panel.marks, options, false);
+  if (!selected) return;
+  const double x = axes.at(image.gate.centre(selected->bin), 0).x;
+  canvas.add_lines({{{x, axes.frame.bottom}, {x, axes.frame.top}}}, 1.5, mark_colour, 0.8);
+}
+
+}  // namespace insonify

@@ -1,0 +1,107 @@
+#include "viewer/viewer_inspect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "sampling/find_holes.hpp"
+#include "sampling/find_scatterers.hpp"
+#include "sampling/gate_surfels_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr int rays_per_beam = 16;
+
+template <typename... Numbers>
+std::string text_of(const char* format, Numbers... numbers) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+const char* visibility_text(Visibility visibility) {
+  switch (visibility) {
+    case Visibility::seen:
+      return "seen";
+    case Visibility::hidden:
+      return "hidden by what stands before it";
+    case Visibility::turned_away:
+      return "turned away";
+    case Visibility::outside:
+      return "outside fan or gate";
+    case Visibility::not_asked:
+      break;
+  }
+  return "not known";
+}
+
+}  // namespace
+
+HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate, const HeadPlace& place) {
+  const Pose pose = pose_of(place);
+  HeadView view;
+  const PreparedScene prepared(scene);
+  view.visibility = find_visibility(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), {});
+  const HeadFrame head(scene, pose);
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    view.seen += view.visibility[i] == Visibility::seen;
+    view.hidden += view.visibility[i] == Visibility::hidden;
+    view.turned_away += view.visibility[i] == Visibility::turned_away;
+    view.outside += view.visibility[i] == Visibility::outside;
+    if (view.visibility[i] != Visibility::seen) continue;
+    const double range = head.position(scene.point[i]).norm();
+    view.nearest = view.seen == 1 ? range : std::min(view.nearest, range);
+    view.farthest = std::max(view.farthest, range);
+  }
+  SamplingOptions rays;
+  rays.kind = SamplingKind::rays;
+  rays.rays_per_beam = rays_per_beam;
+  const SamplingReport report = find_scatterers(prepared, pose, fan, gate, rays).report;
+  view.rays = fan.beams() * static_cast<std::size_t>(rays_per_beam);
+  view.rays_open = report.rays_missed - report.rays_unknown;
+  view.holes = places_of(find_holes(prepared, pose, fan, gate, rays), pose);
+  return view;
+}
+
+std::string explain_view(const HeadView& view, const ViewerState& state) {
+  const HeadPlace& head = state.head;
+  std::string text = text_of("Head at %.2f, %.2f, %.2f m\n", head.position.x(), head.position.y(), head.position.z());
+  text += text_of("Yaw %.1f°, pitch %.1f°, roll %.1f°\n", degrees(head.yaw), degrees(head.pitch), degrees(head.roll));
+  text += text_of("A key moves it %g m,\nor turns it %g°\n\n", state.stride, 10 * state.stride);
+  text += text_of("Of %zu surfels\n", view.visibility.size());
+  text += text_of("  %zu seen\n  %zu hidden\n  %zu turned away\n  %zu outside fan or gate\n", view.seen, view.hidden,
+                  view.turned_away, view.outside);
+  if (view.seen > 0) text += text_of("Seen from %.2f to %.2f m\n", view.nearest, view.farthest);
+  if (view.seen == 0) text += "Nothing is seen: a ping from here is silent\n";
+  if (view.rays > 0)
+    text += text_of("Rays: %.1f %% meet nothing,\n%.1f %% a hole of the scan\n",
+                    100.0 * static_cast<double>(view.rays_open) / static_cast<double>(view.rays),
+                    100.0 * static_cast<double>(view.holes.size()) / static_cast<double>(view.rays));
+  return text;
+}
+
+std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const HeadPlace& place,
+                           std::uint32_t surfel) {
+  if (surfel >= scene.size())
+    fail(ErrorKind::argument, "explain_surfel: surfel = ", surfel, ", must be below ", scene.size());
+  const HeadFrame head(scene, pose_of(place));
+  const Eigen::Vector3d p = head.position(scene.point[surfel]);
+  const Eigen::Vector3d world = scene.origin + scene.point[surfel].cast<double>();
+  const Direction direction = direction_of(p);
+  const double cosine = -head.direction(scene.normal[surfel].cast<double>()).dot(p) / std::max(p.norm(), 1e-12);
+  const double incidence = std::acos(std::clamp(scene.normals_oriented ? cosine : std::abs(cosine), -1.0, 1.0));
+  std::string text = text_of("Surfel %u (id %u)\n", surfel, scene.id[surfel]);
+  text += "Material " + scene.materials[scene.material[surfel]].name + "\n";
+  text += text_of("At %.3f, %.3f, %.3f m\n", world.x(), world.y(), world.z());
+  text += text_of("Area %.3g m²\n", static_cast<double>(scene.area[surfel]));
+  text += text_of("Range %.3f m\n", p.norm());
+  text += text_of("Bearing %+.2f°, elevation %+.2f°\n", -degrees(direction.azimuth), degrees(direction.elevation));
+  text += text_of("Incidence %.1f°\n", degrees(incidence));
+  if (surfel < view.visibility.size()) text += std::string("It is ") + visibility_text(view.visibility[surfel]) + "\n";
+  return text;
+}
+
+}  // namespace insonify

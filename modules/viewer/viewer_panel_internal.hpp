@@ -1,0 +1,34 @@
+#pragma once
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include "view/canvas_internal.hpp"
+#include "viewer/viewer_layout.hpp"
+
+namespace insonify {
+
+/// A part of the window: what it shows, and above it marks that come and go without that being drawn anew.
+struct ViewerPanel {
+  vtkSmartPointer<vtkRenderer> content, marks;
+};
+
+/// Two renderers in the window's lower and upper layer.
+ViewerPanel add_panel(vtkRenderWindow* window);
+
+/// Puts a panel into its box; an empty box hides it.
+void place_panel(ViewerPanel& panel, const Box& box, const int window_size[2]);
+
+/// Options of a drawing that fills a box of a dark window.
+PictureOptions panel_options(const Box& box, int font_size);
+
+/// An emptied renderer to draw on. keep_camera: as the user left it.
+Canvas fresh_canvas(vtkRenderer* renderer, const PictureOptions& options, bool keep_camera);
+
+/// A filled rectangle behind everything else on the canvas.
+void add_plate(Canvas& canvas, const Box& box, const Colour& colour, double opacity);
+
+/// Lines of text from the top of a box, cut to its width; none below its bottom.
+void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int font_size);
+
+}  // namespace insonify

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include <vtkCamera.h>
+
+#include "view/colour_bar_internal.hpp"
+#include "view/fan_layout_internal.hpp"
+#include "view/text.hpp"
+#include "viewer/viewer_scene_panel_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr const char* who = "show_viewer";
+
+// Returns as a scene of their own, for runs whose scene is not there.
+SceneCloud scene_of_returns(const Soundings& returns) {
+  SceneCloud scene;
+  scene.origin = returns.position.front().array().round();
+  scene.normals_oriented = false;
+  for (const Eigen::Vector3d& p : returns.position) add_surfel(scene, p, Eigen::Vector3d::UnitZ(), 0.01);
+  return scene;
+}
+
+// Those of one ping, range compensated (E20). Pings are told by number, or, if none has it, by their place in the run.
+Soundings returns_of(const ViewerData& data, std::size_t ping) {
+  const Soundings& all = data.returns;
+  const auto count_of = [&](std::int64_t number) { return std::count(all.ping.begin(), all.ping.end(), number); };
+  const std::int64_t number = data.pings[ping].number;
+  const auto wanted = static_cast<std::uint32_t>(count_of(number) > 0 ? number : static_cast<std::int64_t>(ping));
+  Soundings own;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all.ping[i] != wanted) continue;
+    const double range = all.range[i];
+    const double gain = 40 * std::log10(range) + 2 * data.absorption_db_per_m * range;
+    own.position.push_back(all.position[i]);
+    own.level_db.push_back(static_cast<float>(static_cast<double>(all.level_db[i]) + gain));
+    own.range.push_back(all.range[i]);
+    own.azimuth.push_back(all.azimuth[i]);
+    own.elevation.push_back(all.elevation[i]);
+    own.ping.push_back(all.ping[i]);
+    own.beam.push_back(all.beam[i]);
+    own.bin.push_back(all.bin[i]);
+    own.material.push_back(all.material[i]);
+  }
+  return own;
+}
+
+const char* colour_text(SceneColour colour) {
+  switch (colour) {
+    case SceneColour::height:
+      return "height";
+    case SceneColour::material:
+      return "material";
+    case SceneColour::visibility:
+      return "what the head sees";
+    case SceneColour::level:
+      return "level";
+    case SceneColour::grazing:
+      return "grazing angle";
+    case SceneColour::incidence:
+      return "angle of incidence";
+  }
+  return "";
+}
+
+// A square of each colour and its name, from the top left corner down, on a plate.
+void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double top, int font) {
+  const double row = 1.5 * font, left = font;
+  double widest = 0;
+  for (const LegendEntry& entry : legend) widest = std::max(widest, text_size(entry.text, font).width);
+  const double height = row * static_cast<double>(legend.size());
+  add_plate(canvas, {left - 0.5 * font, left + 2 * font + widest, top - height - 0.3 * font, top + 0.3 * font},
+            canvas.colours().background, 0.7);
+  double middle = top - row / 2;
+  for (const LegendEntry& entry : legend) {
+    const Colour colour = {entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0};
+    canvas.add_lines({{{left, middle}, {left + font, middle}}}, font, colour, 1);
+    canvas.add_text({entry.text, {left + 1.6 * font + text_size(entry.text, font).width / 2, middle}, font});
+    middle -= row;
+  }
+}
+
+}  // namespace
+
+ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const ViewerState& state,
+                         const PictureOptions& options)
+    : data_(data), panel_(panel), drawn_(state) {
+  if (data.scene.size() == 0) own_ = scene_of_returns(data.returns);
+  SceneLook look;
+  look.colour = SceneColour::height;
+  look.axes = state.show_grid;
+  look.point_size = state.point_size;
+  look.head = head_of(state);
+  look.level_unit = "dB re 1 µPa at 1 m, range compensated";
+  if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
+  PictureOptions coloured = options;
+  coloured.colour_map = state.colour_map;
+  actors_ = std::make_unique<SceneActors>(shown(), look, coloured, who);
+  drawn_.scene_colour = look.colour;
+  panel.content->SetBackground(theme(options.dark).background.data());
+  actors_->add_to(panel.content);
+  reset_camera();
+}
+
+SceneHead ViewerScene::head_of(const ViewerState& state) const {
+  if (state.mode == ViewerMode::inspect) return {pose_of(state.head), data_.fan, data_.gate};
+  const Ping& ping = data_.pings[state.ping];
+  return {ping.world_from_head, ping.fan, ping.gate};
+}
+
+void ViewerScene::update(const ViewerState& state, const HeadView* view, double max_db) {
+  const SceneHead head = head_of(state);
+  if (state.mode == ViewerMode::inspect || state.ping != drawn_.ping) {
+    actors_->show_head(head.world_from_head, head.fan, head.gate);
+    has_visibility_ = false;
+    if (state.mode == ViewerMode::run) actors_->show_soundings(returns_of(data_, state.ping));
+  }
+  if (view && !own_ && !has_visibility_) {
+    actors_->set_visibility(view->visibility);
+    actors_->show_holes(view->holes);
+    has_visibility_ = true;
+  }
+  const SceneColour colour =
+      state.scene_colour == SceneColour::visibility && !has_visibility_ ? SceneColour::height : state.scene_colour;
+  if (colour != actors_->look().colour) actors_->set_colour(colour);
+  if (state.point_size != drawn_.point_size) actors_->set_point_size(state.point_size);
+  if (state.show_grid != drawn_.show_grid) actors_->show_axes(state.show_grid);
+  if (state.show_normals != drawn_.show_normals && !own_) actors_->show_normals(state.show_normals);
+  if (state.colour_map != drawn_.colour_map) actors_->set_colour_map(state.colour_map);
+  if (state.mode == ViewerMode::run) actors_->set_level_range(max_db - state.window_db, max_db);
+  drawn_ = state;
+}
+
+void ViewerScene::highlight(const std::vector<std::uint32_t>& surfels) {
+  std::vector<std::uint32_t> known;
+  if (!own_)
+    std::copy_if(surfels.begin(), surfels.end(), std::back_inserter(known),
+                 [&](std::uint32_t i) { return i < data_.scene.size(); });
+  actors_->highlight(known);
+}
+
+void ViewerScene::draw_key(const PictureOptions& options, const ViewerState& state) {
+  Canvas canvas = fresh_canvas(panel_.marks, options, false);
+  const int font = options.font_size;
+  PictureOptions titled = options;
+  titled.title = std::string(own_ ? "Returns (the scene is not there)" : "Scene") + " by " +
+                 colour_text(actors_->look().colour) + (data_.returns.size() > 0 && !own_ ? ", returns by level" : "");
+  const auto title = place_title(titled);
+  if (title) canvas.add_text(*title);
+  if (!state.show_colour_bars) return;
+  const double top = (title ? title->box().bottom : options.height) - font;
+  const SceneKey& key = actors_->key();
+  if (!key.legend.empty()) draw_legend(canvas, key.legend, top, font);
+  const double thin = line_width_for(font);
+  double right = options.width - font;
+  const auto add_bar = [&](const ColourScale& scale, const std::string& unit) {
+    const ColourBar bar = upright_colour_bar(scale, unit, font, right, 0.2 * options.height, 0.8 * top);
+    add_plate(canvas,
+              {bar.outer().left - 0.4 * font, bar.outer().right + 0.4 * font, bar.outer().bottom - 0.4 * font,
+               bar.outer().top + 0.4 * font},
+              canvas.colours().background, 0.7);
+    canvas.add_colour_bar(bar, scale, thin);
+    right = bar.outer().left - 1.5 * font;
+  };
+  if (key.scale) add_bar(*key.scale, key.unit);
+  if (const auto soundings = actors_->soundings_key(); soundings && soundings->scale)
+    add_bar(*soundings->scale, soundings->unit);
+}
+
+void ViewerScene::reset_camera() {
+  actors_->place_camera(panel_.content, {});
+  follow_camera();
+}
+
+void ViewerScene::set_moving(bool moving) { actors_->set_detail(moving ? SceneDetail::moving : SceneDetail::still); }
+
+void ViewerScene::follow_camera() {
+  panel_.content->ResetCameraClippingRange();
+  actors_->update_axes(panel_.content);
+}
+
+Point2 ViewerScene::pixel_of(const Eigen::Vector3d& world) const {
+  const Eigen::Vector3d p = world - shown().origin;
+  panel_.content->SetWorldPoint(p.x(), p.y(), p.z(), 1);
+  panel_.content->WorldToDisplay();
+  const double* at = panel_.content->GetDisplayPoint();
+  return {at[0], at[1]};
+}
+
+std::optional<std::uint32_t> ViewerScene::surfel_at(Point2 place) const {
+  if (own_) return {};
+  return actors_->surfel_at(panel_.content, place.x, place.y);
+}
+
+std::optional<Eigen::Vector3d> ViewerScene::world_at(Point2 place) const {
+  const auto surfel = actors_->surfel_at(panel_.content, place.x, place.y);
+  if (!surfel) return {};
+  return shown().origin + shown().point[*surfel].cast<double>();
+}
+
+}  // namespace insonify

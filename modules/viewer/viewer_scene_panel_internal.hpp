@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/scene_actors_internal.hpp"
+#include "viewer/viewer_data.hpp"
+#include "viewer/viewer_inspect.hpp"
+#include "viewer/viewer_panel_internal.hpp"
+
+namespace insonify {
+
+/// The 3-D panel: the scene, or, without one, the returns; the head, the returns of the ping, what is selected.
+class ViewerScene {
+ public:
+  /// `data` and `panel` must outlive it.
+  ViewerScene(const ViewerData& data, ViewerPanel& panel, const ViewerState& state, const PictureOptions& options);
+
+  /// Brings the panel to a state; `view` is what the head sees, if it is known; `max_db` the brightest range compensated
+  /// level: that of the returns, whatever the fan shows, so that near and far ones compare.
+  void update(const ViewerState& state, const HeadView* view, double max_db);
+  void highlight(const std::vector<std::uint32_t>& surfels);
+  /// Title and colour key, on an emptied upper layer.
+  void draw_key(const PictureOptions& options, const ViewerState& state);
+  void reset_camera();
+  void set_moving(bool moving);
+  void follow_camera();  ///< before drawing, when the camera has moved
+  /// The surfel of data.scene, or the place in the world, at a place in the window.
+  std::optional<std::uint32_t> surfel_at(Point2 place) const;
+  std::optional<Eigen::Vector3d> world_at(Point2 place) const;
+
+  /// Where a point of the world is drawn [pixels of the window].
+  Point2 pixel_of(const Eigen::Vector3d& world) const;
+
+  static bool has_something(const ViewerData& data) { return data.scene.size() > 0 || data.returns.size() > 0; }
+
+ private:
+  const SceneCloud& shown() const { return own_ ? *own_ : data_.scene; }
+  SceneHead head_of(const ViewerState& state) const;
+
+  const ViewerData& data_;
+  ViewerPanel& panel_;
+  std::optional<SceneCloud> own_;  ///< made from the returns
+  std::unique_ptr<SceneActors> actors_;
+  ViewerState drawn_;
+  bool has_visibility_ = false;
+};
+
+}  // namespace insonify

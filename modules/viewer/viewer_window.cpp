@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkGenericRenderWindowInteractor.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "view/egl_window_internal.hpp"
+#include "viewer/viewer_window_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr const char* who = "show_viewer";
+constexpr int samples_per_pixel = 4;
+constexpr unsigned long ticks_every_ms = 40;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void require_start(const ViewerState& start, const ViewerExtent& extent) {
+  if (start.mode == ViewerMode::inspect) return;
+  if (start.ping >= extent.pings)
+    fail(ErrorKind::argument, who, ": ping = ", start.ping, ", must be below ", extent.pings, ", the number of pings");
+  if (start.selected && start.selected->beam >= extent.beams)
+    fail(ErrorKind::argument, who, ": beam = ", start.selected->beam, ", must be below ", extent.beams,
+         ", the number of beams");
+  if (start.selected && start.selected->bin >= extent.bins)
+    fail(ErrorKind::argument, who, ": bin = ", start.selected->bin, ", must be below ", extent.bins,
+         ", the number of bins");
+}
+
+// A file name that is not taken.
+std::string free_screenshot_name() {
+  for (int i = 1;; ++i) {
+    const std::string name = "insonify-view-" + std::to_string(i) + ".png";
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+}  // namespace
+
+ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options, ViewerScreen screen)
+    : data_(data), screen_(screen), extent_(extent_of(data)), say_(options.say), state_(options.start) {
+  require_viewable(data, state_.mode);
+  require_start(state_, extent_);
+  layout_ = lay_out_viewer(options.width, options.height, state_.mode, ViewerScene::has_something(data));
+  if (state_.mode == ViewerMode::run)
+    for (const bool tvg : {false, true}) max_db_[tvg ? 1 : 0] = common_max_db(data, tvg);
+  open(options);
+  for (ViewerPanel* panel : {&fan_, &scene_panel_, &ascan_, &history_, &facts_panel_, &status_})
+    *panel = add_panel(window_);
+  fan_.marks->SetActiveCamera(fan_.content->GetActiveCamera());
+  lay_out();
+  if (ViewerScene::has_something(data))
+    scene_ = std::make_unique<ViewerScene>(data, scene_panel_, state_, panel_options(layout_.scene, layout_.font_size));
+  connect_style();
+  if (state_.mode == ViewerMode::run)
+    sliders_ = std::make_unique<ViewerSliders>(window_, interactor_, [this](double gain_db, double window_db) {
+      ViewerState next = state_;
+      next.gain_db = gain_db;
+      next.window_db = window_db;
+      guarded([&] { change(next); });
+    });
+  help_ = add_panel(window_);
+  help_.content->SetLayer(1);
+  help_.content->InteractiveOff();
+  lay_out();
+}
+
+ViewerWindow::~ViewerWindow() {
+  if (timer_ != 0) interactor_->DestroyTimer(timer_);
+  sliders_.reset();
+  interactor_->SetInteractorStyle(nullptr);
+}
+
+void ViewerWindow::open(const ViewerOptions& options) {
+  if (screen_ == ViewerScreen::off_screen) {
+    const auto window = vtkSmartPointer<EglWindow>::New();
+    window->open(who);
+    window_ = window;
+    interactor_ = vtkSmartPointer<vtkGenericRenderWindowInteractor>::New();
+  } else {
+    if (!has_display()) fail(ErrorKind::runtime, "no display: set DISPLAY, run under xvfb-run, or use insonify image");
+    window_ = vtkSmartPointer<vtkRenderWindow>::New();
+    interactor_ = vtkSmartPointer<vtkRenderWindowInteractor>::New();
+  }
+  // Smooth edges for pictures; on a screen, speed: drawing in software, samples are most of the time of a frame.
+  window_->SetMultiSamples(screen_ == ViewerScreen::off_screen ? samples_per_pixel : 0);
+  window_->SetDPI(72);  // one point of text is one pixel
+  window_->SetSize(options.width, options.height);
+  window_->SetNumberOfLayers(2);
+  window_->SetWindowName(("insonify-view: " + data_.title).c_str());
+  interactor_->SetRenderWindow(window_);
+  window_->AddObserver(vtkCommand::WindowResizeEvent, this, &ViewerWindow::resized);
+  interactor_->AddObserver(vtkCommand::TimerEvent, this, &ViewerWindow::tick);
+}
+
+void ViewerWindow::connect_style() {
+  style_ = vtkSmartPointer<ViewerStyle>::New();
+  style_->motion_at = [this](Point2 place) { return motion_at(place); };
+  style_->on_click = [this](Point2 place) { guarded([&] { click(place); }); };
+  style_->on_key = [this](const std::string& key) { guarded([&] { press_key(key); }); };
+  style_->on_moving = [this](bool moving) {
+    if (!scene_) return;
+    scene_->set_moving(moving);
+    if (!moving) draw();
+  };
+  interactor_->SetInteractorStyle(style_);
+  if (scene_) scene_panel_.content->AddObserver(vtkCommand::StartEvent, scene_.get(), &ViewerScene::follow_camera);
+}
+
+// An error of what the user asked for is told in the status line; the window stays.
+void ViewerWindow::guarded(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    notice_ = error.what();
+    say(notice_);
+    drawn_.reset();
+    draw();
+  }
+}
+
+void ViewerWindow::say(const std::string& text) const {
+  if (say_) say_(text);
+}
+
+void ViewerWindow::lay_out() {
+  const int* size = window_->GetSize();
+  layout_ =
+      lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, ViewerScene::has_something(data_));
+  place_panel(fan_, layout_.fan, size);
+  place_panel(scene_panel_, layout_.scene, size);
+  place_panel(ascan_, layout_.ascan, size);
+  place_panel(history_, layout_.history, size);
+  place_panel(facts_panel_, layout_.facts, size);
+  place_panel(status_, layout_.status, size);
+  if (help_.content) place_panel(help_, {0, layout_.facts.right, 0, layout_.facts.top}, size);
+  const double font = layout_.font_size;
+  if (sliders_)
+    sliders_->place({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font, layout_.facts.bottom + 0.5 * font,
+                     layout_.facts.bottom + 12 * font},
+                    size, layout_.font_size);
+}
+
+void ViewerWindow::resized() {
+  const Box& box = layout_.status;
+  const int* size = window_->GetSize();
+  if (!drawn_ || (size[0] == box.right && size[1] == layout_.facts.top)) return;
+  lay_out();
+  drawn_.reset();
+  guarded([this] { draw(); });
+}
+
+void ViewerWindow::press_key(const std::string& key) { answer(apply_key(state_, key, extent_)); }
+
+void ViewerWindow::answer(const KeyAnswer& answer) {
+  notice_.clear();
+  change(answer.state);
+  switch (answer.request) {
+    case ViewerRequest::none:
+      break;
+    case ViewerRequest::screenshot: {
+      const std::string name = free_screenshot_name();
+      save_png(name);
+      notice_ = "wrote " + name;
+      say(name);
+      break;
+    }
+    case ViewerRequest::print_pose:
+      say(pose_option(state_.head));
+      break;
+    case ViewerRequest::reset_cameras:
+      if (scene_) scene_->reset_camera();
+      drawn_.reset();
+      draw();
+      break;
+    case ViewerRequest::quit:
+      finished_ = true;
+      if (screen_ == ViewerScreen::desktop) interactor_->TerminateApp();
+      break;
+  }
+}
+
+void ViewerWindow::change(ViewerState next) {
+  const bool started = next.playing && !state_.playing;
+  state_ = std::move(next);
+  if (started) {
+    carried_ = 0;
+    last_tick_ = now();
+    if (timer_ == 0 && screen_ == ViewerScreen::desktop) timer_ = interactor_->CreateRepeatingTimer(ticks_every_ms);
+  }
+  if (!state_.playing && timer_ != 0) {
+    interactor_->DestroyTimer(timer_);
+    timer_ = 0;
+  }
+  draw();
+}
+
+void ViewerWindow::tick() {
+  if (!state_.playing) return;
+  const double time = now();
+  const ViewerState next = play_on(state_, time - last_tick_, extent_, carried_);
+  last_tick_ = time;
+  if (next.ping != state_.ping) guarded([&] { change(next); });
+}
+
+void ViewerWindow::play(const ViewerEvent& event) {
+  const Box& box = box_of(layout_, event.panel);
+  const Point2 from{box.left + event.from.x, box.bottom + event.from.y};
+  switch (event.kind) {
+    case ViewerEvent::Kind::click:
+      return mouse(from, {});
+    case ViewerEvent::Kind::drag:
+      return mouse(from, event.by);
+    case ViewerEvent::Kind::key:
+      return press_key(event.text);
+    case ViewerEvent::Kind::select: {
+      ViewerState next = state_;
+      next.selected = event.place;
+      require_start(next, extent_);
+      change(next);
+      return say(explanation_);
+    }
+    case ViewerEvent::Kind::wait: {
+      const double end = now() + event.seconds;
+      while (now() < end && !finished_) {
+        if (screen_ == ViewerScreen::desktop) interactor_->ProcessEvents();
+        tick();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+      return;
+    }
+    case ViewerEvent::Kind::screenshot:
+      return save_png(event.text);
+    case ViewerEvent::Kind::quit:
+      finished_ = true;
+  }
+}
+
+// As the window system would tell it, so that styles and sliders get their turn.
+void ViewerWindow::mouse(Point2 from, Point2 by) {
+  const auto move_to = [&](double part) {
+    interactor_->SetEventInformation(static_cast<int>(std::lround(from.x + part * by.x)),
+                                     static_cast<int>(std::lround(from.y + part * by.y)));
+    interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
+  };
+  move_to(0);
+  interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  if (by.x != 0 || by.y != 0)
+    for (const double part : {0.25, 0.5, 0.75, 1.0}) move_to(part);
+  interactor_->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+}
+
+void ViewerWindow::run(const std::vector<ViewerEvent>& events) {
+  interactor_->Initialize();
+  draw();
+  for (const ViewerEvent& event : events) {
+    if (finished_) break;
+    play(event);
+  }
+  if (!finished_ && screen_ == ViewerScreen::desktop) interactor_->Start();
+}
+
+}  // namespace insonify

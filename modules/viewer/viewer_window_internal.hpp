@@ -1,0 +1,113 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkSmartPointer.h>
+
+#include "view/vtk_messages_internal.hpp"
+#include "viewer/show_viewer.hpp"
+#include "viewer/viewer_explain.hpp"
+#include "viewer/viewer_flat_panels_internal.hpp"
+#include "viewer/viewer_inspect.hpp"
+#include "viewer/viewer_layout.hpp"
+#include "viewer/viewer_pick_internal.hpp"
+#include "viewer/viewer_scene_panel_internal.hpp"
+#include "viewer/viewer_sliders_internal.hpp"
+#include "viewer/viewer_style_internal.hpp"
+
+namespace insonify {
+
+enum class ViewerScreen { desktop, off_screen };
+
+/// The viewer's window: draws a ViewerState with VTK, and turns what the user does into the next state.
+class ViewerWindow {
+ public:
+  /// `data` must outlive it. Throws as show_viewer.
+  ViewerWindow(const ViewerData& data, const ViewerOptions& options, ViewerScreen screen);
+  ~ViewerWindow();
+  ViewerWindow(const ViewerWindow&) = delete;
+  ViewerWindow& operator=(const ViewerWindow&) = delete;
+
+  const ViewerState& state() const { return state_; }
+  const ViewerLayout& layout() const { return layout_; }
+  const std::string& explanation() const { return explanation_; }
+  /// Middle of a sample's cell on the fan, in pixels of the window.
+  Point2 pixel_of(PixelPlace place) const;
+  /// Where a point of the world [m] is drawn in 3-D; none: there is no 3-D panel.
+  std::optional<Point2> pixel_of_point(const Eigen::Vector3d& world) const;
+  bool finished() const { return finished_; }
+
+  /// What the user does. Each draws the new state.
+  void press_key(const std::string& key);
+  void click(Point2 place);
+  void play(const ViewerEvent& event);
+
+  /// Plays the events, then lets the user have the window until it is closed.
+  void run(const std::vector<ViewerEvent>& events);
+  void draw();
+  void save_png(const std::string& path);
+  vtkRenderWindowInteractor* interactor() { return interactor_; }
+
+ private:
+  void open(const ViewerOptions& options);
+  void connect_style();
+  void change(ViewerState next);
+  void answer(const KeyAnswer& answer);
+  void lay_out();
+  void resized();
+  void tick();
+  void mouse(Point2 from, Point2 by);
+  void guarded(const std::function<void()>& work);
+  void say(const std::string& text) const;
+
+  Point2 on_panel(const Box& box, Point2 place) const;
+  Point2 on_fan(Point2 place) const;
+  PanelMotion motion_at(Point2 place) const;
+  void click_fan(Point2 place);
+  void click_scene(Point2 place);
+  void click_ascan(Point2 place);
+  void select(PixelPlace place, const Eigen::Vector2d& at);
+
+  PictureOptions options_for(const Box& box) const;
+  PixelPlace shown_place() const;
+  void update_data();
+  void draw_levels(bool keep_camera);
+  void draw_selection();
+  void draw_scene();
+  void draw_words();
+  std::string status_text() const;
+
+  const ViewerData& data_;
+  ViewerScreen screen_;
+  ViewerExtent extent_;
+  std::function<void(const std::string&)> say_;
+  VtkMessages messages_;
+  ViewerState state_;
+  std::optional<ViewerState> drawn_;  ///< none: everything is to be drawn
+  ViewerLayout layout_;
+  bool finished_ = false;
+  std::string explanation_, notice_;
+
+  // What the state's numbers stand for.
+  std::optional<LevelImage> image_;
+  std::optional<PixelFacts> facts_;
+  std::optional<HeadView> head_view_;
+  double max_db_[2] = {0, 0};  ///< of the colour scale: raw, range compensated
+  FanLayout fan_layout_;
+  Axes ascan_axes_;
+
+  vtkSmartPointer<vtkRenderWindow> window_;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
+  vtkSmartPointer<ViewerStyle> style_;
+  ViewerPanel fan_, scene_panel_, ascan_, history_, facts_panel_, status_, help_;
+  std::unique_ptr<ViewerScene> scene_;
+  std::unique_ptr<ViewerSliders> sliders_;
+  double carried_ = 0, last_tick_ = 0;
+  int timer_ = 0;
+};
+
+}  // namespace insonify

@@ -1,0 +1,381 @@
+#include "acoustics/reverberation_echoes.hpp"
+
+#include <map>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acoustics/reverberation_cells_internal.hpp"
+#include "beamforming/error_text.hpp"
+#include "core/units.hpp"
+#include "sampling/find_scatterers.hpp"
+#include "scene/built_in_scenes.hpp"
+
+using namespace insonify;
+
+namespace {
+
+const Pulse pulse{900e3, 29.5e3, 220};
+const Medium medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
+const double wavelength = 1500 / 900e3, beam_width = radians(1);
+const double array_length = 0.885893 * wavelength / beam_width;  // of a uniform line with that -3 dB width
+const double pulse_energy = 0.469719 / 29.5e3;                   // integral of the squared envelope [s]
+const double slice = 0.5 * 1500 * pulse_energy;                  // range that sounds at once [m]
+
+BeamFan fan_of(double field_deg) {
+  return make_fan(static_cast<std::size_t>(field_deg), radians(field_deg), beam_width, radians(20));
+}
+
+Transmission transmission(std::uint64_t seed = 1, double elevation_width = 0) {
+  return {pulse, medium, {.elevation_width = elevation_width, .seed = seed}};
+}
+
+Environment environment() {
+  Environment e;
+  e.volume_scattering_db = -70;
+  e.surface = SeaSurface{.height = 0, .scattering_strength_db = -30};
+  e.bottom = FlatBottom{.height = -10, .lambert_mu = power_from_db(-27)};
+  return e;
+}
+
+Pose at(double x, double y, double z, double yaw_deg = 0, double pitch_deg = 0, double roll_deg = 0) {
+  return pose_from_yaw_pitch_roll({x, y, z}, radians(yaw_deg), radians(pitch_deg), radians(roll_deg));
+}
+
+/// What the beam of a uniform line steered ahead receives from `range`: the plain sum, the whole pulse.
+std::complex<double> beam_ahead(const Echoes& e, double range) {
+  std::complex<double> sum = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double t = 2 * range / 1500 - e.delay[i];
+    if (std::abs(t) > 1.5 / pulse.bandwidth) continue;
+    const double x = pi * array_length / wavelength * e.u[i];
+    const double pattern = std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
+    sum += e.amplitude[i] * pattern * echo_envelope(pulse, medium.absorption, 750 * e.delay[i]).at(t);
+  }
+  return sum;
+}
+
+struct Looks {
+  double power = 0, square = 0;
+  int count = 0;
+  void add(std::complex<double> p) {
+    power += std::norm(p);
+    square += std::norm(p) * std::norm(p);
+    ++count;
+  }
+  double level_db() const { return pressure_level_db(std::sqrt(power / count)); }
+  double contrast() const { return square * count / (power * power); }  // 2: exponential intensity, Rayleigh amplitude
+};
+
+/// Hears `looks` independent pings at places a metre round `range`, 4 cm apart: more than the pulse is long.
+template <typename Hear>
+Looks listen(Hear&& hear, double range, int pings) {
+  Looks looks;
+  for (int p = 0; p < pings; ++p) {
+    const Echoes e = hear(RangeGate{range - 0.4, range + 0.4, 0.01}, p);
+    for (int k = -10; k <= 10; ++k) looks.add(beam_ahead(e, range + 0.04 * k));
+  }
+  return looks;
+}
+
+bool equal(const Echoes& a, const Echoes& b) {
+  return a.delay == b.delay && a.u == b.u && a.v == b.v && a.amplitude == b.amplitude;
+}
+
+}  // namespace
+
+// RL = SL - 40 log r - 2 a r + Sv + 10 log V, V = (lambda / L) integral b_E^2 de  r^2 c tau_e / 2: over a line beam
+// ahead, cos(e) dtheta de = du de, so that the cosine cancels.
+TEST(VolumeEchoes, has_the_level_of_the_sonar_equation) {
+  const double width = radians(20), range = 10;
+  const auto hear = [&](const RangeGate& gate, int ping) {
+    return volume_echoes(environment(), fan_of(40), gate, transmission(1, width), {.ping = ping});
+  };
+  const Looks looks = listen(hear, range, 150);
+  const double over_elevation = 0.5 * width * std::sqrt(pi / std::numbers::ln2);
+  const double volume = wavelength / array_length * over_elevation * range * range * slice;
+  const double expected = 220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 70 + db_from_power(volume);
+  EXPECT_NEAR(looks.level_db(), expected, 0.3);  // 3150 looks: sd 0.08 dB
+  EXPECT_NEAR(looks.contrast(), 2, 0.2);
+}
+
+// Bigger cells, same mean: what makes up a beam's cell must not depend on how the water is cut.
+TEST(VolumeEchoes, level_does_not_depend_on_the_cells) {
+  double power[2] = {0, 0};
+  for (const int fine : {0, 1}) {
+    const Echoes e = volume_echoes(environment(), fan_of(40), {9, 11, 0.01}, transmission(1, radians(20)),
+                                   {.cells_per_resolution = fine ? 4.0 : 1.0});
+    for (std::size_t i = 0; i < e.size(); ++i)
+      if (std::abs(750 * e.delay[i] - 10) < 0.9) power[fine] += std::norm(e.amplitude[i]);
+  }
+  EXPECT_NEAR(power[1] / power[0], 1, 0.04);  // 6600 exponential intensities in the coarse sum: sd 0.012
+}
+
+TEST(VolumeEchoes, rows_share_a_cells_volume) {
+  BeamFan planar = fan_of(40);
+  planar.row_width = radians(2);
+  const Echoes one = volume_echoes(environment(), fan_of(40), {9, 11, 0.01}, transmission(1, radians(20)));
+  const Echoes rows = volume_echoes(environment(), planar, {9, 11, 0.01}, transmission(1, radians(20)));
+  EXPECT_GT(rows.size(), 20 * one.size());
+  const auto power = [](const Echoes& e) {
+    double sum = 0;
+    for (const auto& a : e.amplitude) sum += std::norm(a);
+    return sum;
+  };
+  EXPECT_NEAR(power(rows) / power(one), 1, 0.04);
+}
+
+TEST(VolumeEchoes, applies_the_transmit_pattern_in_azimuth) {
+  const auto hear = [](double transmit_width) {
+    Transmission sent = transmission(1, radians(20));
+    sent.echo_options.transmit_width = transmit_width;
+    return volume_echoes(environment(), fan_of(40), {9, 9.2, 0.01}, sent);
+  };
+  const Echoes even = hear(0), shaped = hear(radians(30));
+  ASSERT_EQ(shaped.size(), even.size());
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    const double azimuth = std::asin(even.u[i] / std::sqrt(1 - even.v[i] * even.v[i]));
+    const double expected = transmit_response(radians(30), azimuth);
+    EXPECT_NEAR(std::abs(shaped.amplitude[i] / even.amplitude[i]), expected, 1e-9 * expected) << degrees(azimuth);
+  }
+}
+
+TEST(ElevationLaw, integral_is_the_closed_form_of_a_gaussian) {
+  // integral of 2^(-(2x/w)^2) cos(c + x) dx = cos(c) sqrt(pi / (4 ln2)) w exp(-w^2 / (16 ln2))
+  for (const double centre : {0.0, 0.3}) {
+    const double w = radians(20), ln2 = std::numbers::ln2;
+    const ElevationLaw law(fan_of(40), {.elevation_width = w, .elevation_centre = centre});
+    // The law holds the intensity of the two-way response: its -3 dB width is w.
+    const double expected = std::cos(centre) * std::sqrt(pi / (4 * ln2)) * w * std::exp(-w * w / (16 * ln2));
+    EXPECT_NEAR(law.integral() / expected, 1, 1e-5);
+  }
+  const ElevationLaw sector(fan_of(40), {.elevation_shape = ElevationShape::sector, .elevation_width = 0.5});
+  EXPECT_NEAR(sector.integral(), 2 * std::sin(0.25), 1e-4);
+}
+
+TEST(ElevationLaw, draws_equal_parts) {
+  const ElevationLaw law(fan_of(40), {.elevation_width = radians(20)});
+  EXPECT_NEAR(law.elevation_at(0.5), 0, 1e-6);
+  // A normal law of variance w^2 / (8 ln2): 84.134 % lie below one sd (cos(e) narrows it a little).
+  EXPECT_NEAR(law.elevation_at(0.84134), radians(20) / std::sqrt(8 * std::numbers::ln2), 0.002);
+  double before = law.elevation_at(0);
+  for (double q = 0.001; q <= 1; q += 0.001) {
+    EXPECT_GE(law.elevation_at(q), before);
+    before = law.elevation_at(q);
+  }
+}
+
+// RL = SL - 40 log r - 2 a r + 10 log mu + 20 log(h / r) + 10 log[(lambda / L) r^2 / sqrt(r^2 - h^2) c tau_e / 2] of a
+// flat bottom 3 m below; the same to 0.01 dB as an independent evaluation: 129.28, 110.47 and 89.28 dB.
+TEST(BottomEchoes, has_the_level_of_the_closed_form) {
+  const double h = 3, recorded[][2] = {{5, 129.28}, {10, 110.47}, {20, 89.28}};
+  for (const auto& [range, level] : recorded) {
+    const double area = wavelength / array_length * range * range / std::sqrt(range * range - h * h) * slice;
+    const double closed =
+        220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 27 + 20 * std::log10(h / range) + db_from_power(area);
+    EXPECT_NEAR(closed, level, 0.03);  // recorded for 1489.8 m/s, here 1500
+    const auto hear = [&](const RangeGate& gate, int ping) {
+      return bottom_echoes(environment(), at(0, 0, -7), fan_of(40), gate, transmission(1 + ping));
+    };
+    const Looks looks = listen(hear, range, 80);
+    EXPECT_NEAR(looks.level_db(), closed, 0.4)
+        << range;  // 1680 looks: sd 0.1 dB, and a slope of 10 dB per metre at 5 m
+    EXPECT_NEAR(looks.contrast(), 2, 0.3) << range;
+  }
+}
+
+// A turned head over the same plane as surfels: elevation and transmit pattern, direction and incidence all agree, ring
+// by ring.
+TEST(BottomEchoes, is_what_a_plane_of_surfels_gives) {
+  SceneCloud plane = make_built_in_scene("plane", {.points = 150000, .size = {40, 40}});
+  Environment e = environment();
+  e.bottom->height = 0;
+  e.surface.reset();
+  e.bottom->lambert_mu = plane.materials[0].lambert_mu;
+  const Pose pose = at(2, 0, 3, 5, 12, 15);
+  const RangeGate gate{4, 14, 0.01};
+  Transmission sent = transmission(1, radians(20));
+  sent.echo_options.transmit_width = radians(40);
+  const Echoes cells = bottom_echoes(e, pose, fan_of(60), gate, sent);
+
+  sent.echo_options.amplitude = SurfaceAmplitude::coherent;
+  const SamplingOptions sampling{.scatterers_per_cell = 0, .elevation_half_extent = pi / 2, .occlusion = false};
+  const Scatterers s = find_scatterers(plane, pose, fan_of(60), gate, sampling).scatterers;
+  const Echoes surfels = direct_echoes(s, plane.materials, pulse, medium, sent.echo_options);
+  const auto moments = [](const Echoes& x, double from, double to) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (750 * x.delay[i] >= from && 750 * x.delay[i] < to)
+        sum += std::norm(x.amplitude[i]) * Eigen::Vector3d(1, x.u[i], x.v[i]);
+    return sum;
+  };
+  for (const auto& [from, to] : {std::pair(5.0, 7.0), std::pair(7.0, 10.0), std::pair(10.0, 13.0)}) {
+    const Eigen::Vector3d a = moments(cells, from, to), b = moments(surfels, from, to);
+    EXPECT_NEAR(db_from_power(a[0] / b[0]), 0, 0.25) << from;
+    EXPECT_NEAR(a[1] / a[0], b[1] / b[0], 0.01) << from;
+    EXPECT_NEAR(a[2] / a[0], b[2] / b[0], 0.01) << from;
+  }
+}
+
+// Below the head itself a slice of range begins at the foot: no area is lost there.
+TEST(BottomEchoes, counts_the_whole_disc_under_the_head) {
+  const Pose down = at(0, 0, -7, 0, 90);
+  BeamFan round = make_fan(360, 2 * pi, beam_width, radians(60));
+  const Echoes e = bottom_echoes(environment(), down, round, {2.5, 3.05, 0.01}, transmission());
+  double area = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double r = 750 * e.delay[i], sine = 3 / r;
+    if (r < 3.05)
+      area += std::norm(e.amplitude[i] * r * r / source_pressure(pulse)) / (power_from_db(-27) * sine * sine);
+  }
+  EXPECT_NEAR(area / (pi * (3.05 * 3.05 - 9)), 1, 0.1);  // about 13 000 exponential intensities of unequal size
+}
+
+TEST(SurfaceEchoes, has_the_level_of_its_strength) {
+  const double d = 2, range = 10;
+  const auto hear = [&](const RangeGate& gate, int ping) {
+    return surface_echoes(environment(), at(0, 0, -d), fan_of(40), gate, transmission(), {.ping = ping});
+  };
+  const Looks looks = listen(hear, range, 80);
+  const double area = wavelength / array_length * range * range / std::sqrt(range * range - d * d) * slice;
+  const double closed = 220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 30 + db_from_power(area);
+  EXPECT_NEAR(looks.level_db(), closed, 0.4);
+  const Echoes e = hear({9, 11, 0.01}, 0);
+  for (std::size_t i = 0; i < e.size(); ++i) ASSERT_NEAR(e.v[i], d / (750 * e.delay[i]), 1e-12);  // from above
+}
+
+TEST(Reverberation, of_water_and_surface_is_new_in_every_ping) {
+  const RangeGate gate{9, 9.2, 0.01};
+  const auto volume = [&](std::int64_t ping) {
+    return volume_echoes(environment(), fan_of(10), gate, transmission(1, 0.3), {.ping = ping});
+  };
+  const auto surface = [&](std::int64_t ping) {
+    return surface_echoes(environment(), at(0, 0, -2), fan_of(10), gate, transmission(), {.ping = ping});
+  };
+  EXPECT_TRUE(equal(volume(3), volume(3)));
+  EXPECT_TRUE(equal(surface(3), surface(3)));
+  std::complex<double> volumes = 0, surfaces = 0;
+  double volume_power = 0, surface_power = 0;
+  const Echoes v1 = volume(1), v2 = volume(2), s1 = surface(1), s2 = surface(2);
+  for (std::size_t i = 0; i < v1.size(); ++i) {
+    volumes += v1.amplitude[i] * std::conj(v2.amplitude[i]);
+    volume_power += std::norm(v1.amplitude[i]);
+  }
+  for (std::size_t i = 0; i < std::min(s1.size(), s2.size()); ++i) {
+    surfaces += s1.amplitude[i] * std::conj(s2.amplitude[i]);
+    surface_power += std::norm(s1.amplitude[i]);
+  }
+  EXPECT_LT(std::abs(volumes) / volume_power, 0.1);
+  EXPECT_LT(std::abs(surfaces) / surface_power, 0.1);
+}
+
+TEST(Reverberation, of_the_bottom_stays_while_the_head_does) {
+  const RangeGate gate{9, 9.2, 0.01};
+  const auto bottom = [&](const Pose& pose, std::int64_t ping) {
+    return bottom_echoes(environment(), pose, fan_of(40), gate, transmission(), {.ping = ping});
+  };
+  const Echoes first = bottom(at(1, 2, -7), 1);
+  EXPECT_TRUE(equal(first, bottom(at(1, 2, -7), 2)));
+
+  // Turned by 10 of 42 degrees, three quarters of the cells are the same ones, heard elsewhere.
+  std::map<double, std::complex<double>> by_delay;
+  for (std::size_t i = 0; i < first.size(); ++i) by_delay[first.delay[i]] = first.amplitude[i];
+  const auto shared_with = [&](const Echoes& e) {
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      const auto same = by_delay.find(e.delay[i]);
+      if (same != by_delay.end()) shared += std::abs(same->second - e.amplitude[i]) < 1e-9 * std::abs(e.amplitude[i]);
+    }
+    return static_cast<double>(shared) / static_cast<double>(e.size());
+  };
+  EXPECT_NEAR(shared_with(bottom(at(1, 2, -7, 10), 1)), 32.0 / 42, 0.05);
+  EXPECT_EQ(shared_with(bottom(at(1.5, 2, -7), 1)), 0);
+}
+
+TEST(Reverberation, of_a_part_of_the_gate_is_that_part) {
+  const auto cells = [](const RangeGate& gate) {
+    std::map<double, std::complex<double>> found;
+    const Echoes e = surface_echoes(environment(), at(0, 0, -2), fan_of(10), gate, transmission());
+    for (std::size_t i = 0; i < e.size(); ++i)
+      if (std::abs(750 * e.delay[i] - 10) < 0.1) found[e.delay[i]] = e.amplitude[i];
+    return found;
+  };
+  EXPECT_GT(cells({9, 11, 0.01}).size(), 100u);
+  EXPECT_EQ(cells({9, 11, 0.01}), cells({9.7, 20, 0.02}));
+}
+
+TEST(Reverberation, fills_the_sector_of_the_fan_and_no_more) {
+  for (const double pitch : {0.0, 25.0}) {
+    const Echoes e = surface_echoes(environment(), at(0, 0, -2, 0, -pitch), fan_of(40), {9, 9.5, 0.01}, transmission());
+    double least = 10, most = -10;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      const double azimuth = std::asin(e.u[i] / std::sqrt(1 - e.v[i] * e.v[i]));
+      least = std::min(least, azimuth);
+      most = std::max(most, azimuth);
+    }
+    EXPECT_NEAR(degrees(most), 20.5, 1.2) << pitch;  // half the field of view, less half a beam, and a beam width
+    EXPECT_NEAR(degrees(least), -20.5, 1.2) << pitch;
+  }
+}
+
+TEST(Reverberation, does_not_depend_on_the_thread_count) {
+  const RangeGate gate{5, 9, 0.01};
+  Transmission sent = transmission(1, radians(20));
+  Echoes first[3];
+  for (const int threads : {1, 2, 7}) {
+    sent.echo_options.threads = threads;
+    const Echoes now[] = {volume_echoes(environment(), fan_of(10), gate, sent),
+                          surface_echoes(environment(), at(0, 0, -2), fan_of(10), gate, sent),
+                          bottom_echoes(environment(), at(0, 0, -7, 0, 20), fan_of(10), gate, sent)};
+    for (int k = 0; k < 3; ++k) {
+      if (threads == 1) first[k] = now[k];
+      EXPECT_GT(now[k].size(), 1000u);
+      EXPECT_TRUE(equal(now[k], first[k])) << k << " " << threads;
+    }
+  }
+}
+
+TEST(Reverberation, refuses_what_is_not_there) {
+  const RangeGate gate{5, 9, 0.01};
+  const BeamFan fan = fan_of(10);
+  EXPECT_EQ(error_of([&] { volume_echoes({}, fan, gate, transmission()); }),
+            "volume_echoes: environment has no volume_scattering_db");
+  EXPECT_EQ(error_of([&] { surface_echoes({}, at(0, 0, -2), fan, gate, transmission()); }),
+            "surface_echoes: environment has no surface.scattering_strength_db");
+  EXPECT_EQ(error_of([&] { bottom_echoes({}, at(0, 0, -2), fan, gate, transmission()); }),
+            "bottom_echoes: environment has no bottom.lambert_mu");
+  EXPECT_EQ(error_of([&] { surface_echoes(environment(), at(0, 0, 1), fan, gate, transmission()); }),
+            "surface_echoes: the head stands at height 1 m, must be below surface.height = 0 m");
+  EXPECT_EQ(error_of([&] { bottom_echoes(environment(), at(0, 0, -11), fan, gate, transmission()); }),
+            "bottom_echoes: the head stands at height -11 m, must be above bottom.height = -10 m");
+  EXPECT_THAT(error_of([&] { volume_echoes(environment(), fan, gate, transmission(), {.cells_per_resolution = 0}); }),
+              testing::HasSubstr("options.cells_per_resolution = 0, must be finite and > 0"));
+  EXPECT_THAT(error_of([&] {
+                volume_echoes(environment(), fan, {1, 1e6, 1}, transmission());
+              }),
+              testing::HasSubstr("must be at most 2^27; lower cells_per_resolution or max_range"));
+}
+
+TEST(Reverberation, is_silent_where_the_gate_ends_before_the_boundary) {
+  EXPECT_EQ(bottom_echoes(environment(), at(0, 0, -2), fan_of(10), {1, 7, 0.01}, transmission()).size(), 0u);
+  EXPECT_EQ(surface_echoes(environment(), at(0, 0, -9), fan_of(10), {1, 7, 0.01}, transmission()).size(), 0u);
+}
+
+// Independent evaluation of the published formula: wind 10 and 20 knots.
+TEST(ChapmanHarris, gives_the_checked_values) {
+  const double knot = 1852.0 / 3600;
+  EXPECT_NEAR(chapman_harris_strength_db(1000, 10 * knot, radians(10)), -58.65, 0.006);
+  EXPECT_NEAR(chapman_harris_strength_db(1000, 10 * knot, radians(30)), -41.44, 0.006);
+  EXPECT_NEAR(chapman_harris_strength_db(4000, 10 * knot, radians(10)), -49.67, 0.006);
+  EXPECT_NEAR(chapman_harris_strength_db(1000, 20 * knot, radians(30)), -34.04, 0.006);
+}
+
+TEST(ChapmanHarris, refuses_values_without_a_meaning) {
+  EXPECT_EQ(error_of([] { chapman_harris_strength_db(0, 5, 0.2); }),
+            "chapman_harris_strength_db: frequency = 0 Hz, must be finite and > 0");
+  EXPECT_EQ(error_of([] { chapman_harris_strength_db(1000, 0, 0.2); }),
+            "chapman_harris_strength_db: wind_speed = 0 m/s, must be finite and > 0");
+  EXPECT_EQ(error_of([] { chapman_harris_strength_db(1000, 5, 0); }),
+            "chapman_harris_strength_db: grazing = 0 rad, must be > 0 and at most pi/2");
+}

@@ -1,0 +1,100 @@
+// What is gridded, as against summed directly: every kind of pulse and loss, with more echoes than are summed.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/shading.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+
+using namespace insonify;
+
+namespace {
+
+constexpr double c = 1490;
+
+SonarHead head_of(PulseShape shape) {
+  SonarHead head;
+  head.pulse = {750e3, 60e3, 220, shape, shape == PulseShape::linear_fm ? 1e-3 : 0, ReplicaWindow::hamming};
+  head.fan = make_fan(64, radians(90), radians(2), radians(20));
+  head.gate = {1, 2.2, default_bin_size(head.pulse, c)};
+  head.array = {0.5 * c / 750e3, taylor_shading(32, -30)};
+  return head;
+}
+
+/// Absorption of 20 dB from end to end of the gate, and as much over the band by its slope or its curvature.
+Medium medium_of(bool slope, bool curvature) {
+  const double loss = 20 * nepers_per_db / 2.4;
+  return {c, {loss, slope ? 0.3 * loss / 30e3 : 0, curvature ? 0.3 * loss / 30e3 / 30e3 : 0}};
+}
+
+Echoes crowd(std::size_t count, double doppler) {
+  Echoes e;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = random_uniform(5, RandomStage::scene_points, {i, 0, 0});
+    e.delay.push_back(2 * (0.95 + 1.3 * at[0]) / c);  // some begin or end outside the gate
+    e.u.push_back(-0.9 + 1.8 * at[1]);
+    e.amplitude.push_back(std::polar(1.0, 2 * pi * at[2]));
+    if (doppler != 0) e.doppler.push_back(doppler * (2 * at[3] - 1));
+  }
+  return e;
+}
+
+/// GridPlaces twice as many echoes as would be summed directly.
+void expect_promise(const SonarHead& head, const Medium& medium, double doppler = 0) {
+  for (const double tolerance : {1e-2, 1e-4, 1e-7, 1e-11}) {
+    const PingSynthesizer plan(head, medium, {tolerance, 2});
+    const std::size_t most = plan.choice().direct_echoes;
+    ASSERT_LT(most, 2000U);
+    const Echoes echoes = crowd(2 * most + 50, doppler);
+    ASSERT_FALSE(plan.sums_directly(echoes));
+    const ComplexGrid exact = synthesize_direct(echoes, head, medium);
+    EXPECT_LE(std::sqrt((plan.pressure(echoes) - exact).abs2().sum() / exact.abs2().sum()), tolerance) << tolerance;
+  }
+}
+
+}  // namespace
+
+TEST(GriddedEchoes, keep_the_promise_for_a_pulse_of_one_shape) {
+  expect_promise(head_of(PulseShape::gaussian), medium_of(false, false));
+}
+
+TEST(GriddedEchoes, keep_the_promise_where_absorption_has_a_slope) {
+  expect_promise(head_of(PulseShape::gaussian), medium_of(true, false));
+}
+
+TEST(GriddedEchoes, keep_the_promise_where_absorption_is_curved) {
+  expect_promise(head_of(PulseShape::gaussian), medium_of(false, true));
+}
+
+TEST(GriddedEchoes, keep_the_promise_where_everything_moves) {
+  expect_promise(head_of(PulseShape::gaussian), medium_of(false, false), 2000);
+}
+
+TEST(GriddedEchoes, keep_the_promise_for_sweeps_with_both_their_ends) {
+  expect_promise(head_of(PulseShape::linear_fm), medium_of(false, false));
+}
+
+TEST(GriddedEchoes, keep_the_promise_for_sweeps_through_sloping_absorption) {
+  expect_promise(head_of(PulseShape::linear_fm), medium_of(true, true));
+}
+
+TEST(GriddedEchoes, keep_the_promise_for_sweeps_that_move) {
+  expect_promise(head_of(PulseShape::linear_fm), medium_of(false, false), 2000);
+}
+
+// Echoes beside the fan are heard by side lobes alone: seen from the image, and made again with more digits.
+TEST(GriddedEchoes, keep_the_promise_where_no_beam_looks) {
+  SonarHead head = head_of(PulseShape::gaussian);
+  head.fan = make_fan(64, radians(8), radians(2), radians(20));
+  const Medium medium = medium_of(false, false);
+  for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
+    const PingSynthesizer plan(head, medium, {tolerance, 2});
+    Echoes echoes = crowd(2 * plan.choice().direct_echoes + 50, 0);
+    for (double& u : echoes.u) u = 0.75 + 0.1 * u;
+    ASSERT_FALSE(plan.sums_directly(echoes));
+    const ComplexGrid exact = synthesize_direct(echoes, head, medium);
+    EXPECT_LE(std::sqrt((plan.pressure(echoes) - exact).abs2().sum() / exact.abs2().sum()), tolerance) << tolerance;
+  }
+}
