@@ -5,15 +5,16 @@
 
 namespace insonify {
 
-/// What kind of thing went wrong; the tool turns each into an exit code (docs/troubles.md).
+/// Category of an error; the command-line tool maps each to an exit code (docs/troubles.md).
 enum class ErrorKind {
-  runtime,   ///< something failed that should not have (exit code 1)
-  argument,  ///< a caller's value breaks a rule (2)
-  content,   ///< a file or a scene holds something unusable (3)
-  file       ///< a file is missing, exists already, or cannot be written (4)
+  runtime,   ///< an operation failed at run time (exit code 1)
+  argument,  ///< an argument violates a rule (2)
+  content,   ///< the content of a file or scene is unusable (3)
+  file       ///< a file is missing, already exists, or cannot be written (4)
 };
 
-/// The one exception of insonify. The text names the function or file, the value, its unit, the rule and a remedy.
+/// The exception type of all insonify functions. The text names the function or file, the value with its unit, the rule
+/// it violates and a remedy.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& text) : std::runtime_error(text), kind_(kind) {}
@@ -23,7 +24,8 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// Throws Error with the parts joined: fail(ErrorKind::argument, "range_gate: min_range = ", r, " m, must be > 0").
+/// Throws Error whose text is the concatenation of the parts: fail(ErrorKind::argument, "range_gate: min_range = ", r,
+/// " m, must be > 0").
 template <typename... Parts>
 [[noreturn]] void fail(ErrorKind kind, const Parts&... parts) {
   std::ostringstream text;

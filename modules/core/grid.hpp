@@ -3,14 +3,15 @@
 
 #include <Eigen/Core>
 
-// Debian's PCL is built for baseline x86-64: with AVX flags its objects change size and answers go silently
-// wrong. Every file that sees Eigen is therefore compiled at baseline (docs/decisions.md).
+// Debian builds PCL for baseline x86-64. With AVX flags Eigen objects change alignment and size across that binary
+// interface, and results are silently wrong. Every file that includes Eigen is therefore compiled for the baseline
+// (docs/decisions.md).
 static_assert(EIGEN_MAX_ALIGN_BYTES == 16 || EIGEN_MAX_ALIGN_BYTES == 0,
               "insonify: compile without AVX flags (-march=native, -mavx...); see docs/decisions.md");
 
 namespace insonify {
 
-/// Rows x columns, row-major: grid(beam, bin).
+/// Row-major array, indexed grid(row, column), e.g. grid(beam, bin).
 template <typename T>
 using Grid = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

@@ -9,14 +9,14 @@
 
 namespace insonify {
 
-/// Number of threads meant by `threads`: itself if positive, else all cores.
+/// Resolves a thread count: `threads` itself if positive, else the number of hardware threads.
 inline int thread_count(int threads) {
   return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// Calls body(i) once for every i in [0, n), on up to `threads` threads (0: all cores).
-/// body(i) may write only what belongs to i, so the result does not depend on `threads`.
-/// If a call throws, calls not yet started are dropped and the first exception is rethrown here.
+/// Calls body(i) once for every i in [0, n), on up to `threads` threads (0: all cores). body(i) must only write to data
+/// of index i, so the result does not depend on `threads`. If a call throws, calls not yet started are skipped and the
+/// first exception is rethrown.
 template <typename Body>
 void parallel_for(std::size_t n, int threads, Body&& body) {
   std::atomic<std::size_t> next{0};
@@ -40,7 +40,7 @@ void parallel_for(std::size_t n, int threads, Body&& body) {
   if (first) std::rethrow_exception(first);
 }
 
-/// Calls body(begin, end) for the fixed blocks of `block` indices that tile [0, n); see parallel_for.
+/// Calls body(begin, end) for consecutive blocks of `block` indices that partition [0, n); otherwise as parallel_for.
 template <typename Body>
 void parallel_blocks(std::size_t n, std::size_t block, int threads, Body&& body) {
   parallel_for((n + block - 1) / block, threads, [&](std::size_t b) { body(b * block, std::min(n, (b + 1) * block)); });

@@ -16,7 +16,8 @@ Pose pose_from_yaw_pitch_roll(const Eigen::Vector3d& position, double yaw, doubl
 }
 
 Pose pose_from_ned(const Eigen::Vector3d& position, double yaw, double pitch, double roll) {
-  // Half a turn about x maps (x, y, z) to (x, -y, -z); on both sides it turns yaw and pitch round, keeps roll.
+  // A rotation by pi about x maps (x, y, z) to (x, -y, -z); applied on both sides it negates yaw and pitch and keeps
+  // roll.
   return pose_from_yaw_pitch_roll({position.x(), -position.y(), -position.z()}, -yaw, -pitch, roll);
 }
 

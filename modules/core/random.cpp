@@ -19,7 +19,7 @@ std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, RandomStage stage, 
 std::array<double, 4> random_uniform(std::uint64_t seed, RandomStage stage, RandomCounter counter) {
   const auto bits = random_bits(seed, stage, counter);
   std::array<double, 4> u{};
-  // The middle of one of 2^52 equal intervals: never 0, never 1.
+  // The midpoint of one of 2^52 equal intervals: never 0, never 1.
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = (static_cast<double>(bits[i] >> 12) + 0.5) * 0x1p-52;
   return u;
 }

@@ -5,8 +5,8 @@
 
 namespace insonify {
 
-/// Which stage draws: streams of different stages are independent. Numbers are part of the file format: a
-/// changed number changes every simulated ping.
+/// Stage of the simulation that draws a random number; the streams of different stages are independent. The numeric
+/// values are part of the file format: changing one changes every simulated ping.
 enum class RandomStage : std::uint64_t {
   surface_amplitude = 1,  ///< counted by scatterer id
   surfel_split = 2,       ///< counted by surfel id
@@ -14,26 +14,26 @@ enum class RandomStage : std::uint64_t {
   scene_points = 4,       ///< counted by (part of the scene, point)
   mesh_points = 5,        ///< counted by sample
   ray_jitter = 6,         ///< counted by (beam, ray)
-  micro_relief = 7,       ///< counted by (octave, triad of waves, what)
+  micro_relief = 7,       ///< counted by (octave, triad of waves, quantity)
   volume = 8,             ///< reverberation, counted by (ping, range cell, direction cell)
   sea_surface = 9,        ///< reverberation, counted by (ping, range cell, direction cell)
-  flat_bottom = 10        ///< reverberation, counted by (place of the head, range cell, direction cell)
+  flat_bottom = 10        ///< reverberation, counted by (head position, range cell, direction cell)
 };
 
-/// Where in a stage's stream a number stands.
+/// Position of a random number in the stream of its stage.
 struct RandomCounter {
   std::uint64_t first = 0;
   std::uint64_t second = 0;
   std::uint64_t third = 0;
 };
 
-/// 256 random bits: Philox4x64-10 with key (seed, stage) and the counter as given (Salmon et al. 2011).
+/// Returns 256 random bits: Philox4x64-10 with key (seed, stage) and the given counter (Salmon et al. 2011).
 std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, RandomStage stage, RandomCounter counter);
 
-/// Four independent numbers, uniform in the open interval (0, 1), with 52 random bits each.
+/// Returns four independent numbers, uniform in the open interval (0, 1), with 52 random bits each.
 std::array<double, 4> random_uniform(std::uint64_t seed, RandomStage stage, RandomCounter counter);
 
-/// A complex normal number with E|z|^2 = 1: Rayleigh amplitude, uniform phase (E9; Box-Muller).
+/// Returns a circular complex normal number with E|z|^2 = 1: Rayleigh amplitude, uniform phase (E9; Box-Muller).
 std::complex<double> random_complex_normal(std::uint64_t seed, RandomStage stage, RandomCounter counter);
 
 }  // namespace insonify

@@ -20,7 +20,7 @@ std::vector<Patch> sphere_patches(const BuiltInSceneOptions& options) {
   return {ellipsoid({5, 0, 0}, Vector3d::Constant(options.radius))};
 }
 
-// A part of the plane x = const that faces the head: y from low to high, z from bottom to top.
+// Rectangle in the plane x = const with its normal towards the head: y from low to high, z from bottom to top.
 Patch facing_wall(double x, double low, double high, double bottom, double top) {
   return rectangle({x, low, bottom}, {0, 0, top - bottom}, {0, high - low, 0});
 }
@@ -79,9 +79,9 @@ SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOption
 }
 
 void make_built_in_scene_in_batches(const std::string& name, const BuiltInSceneOptions& options, std::size_t batch,
-                                    const std::function<void(const SceneCloud&)>& take) {
+                                    const std::function<void(const SceneCloud&)>& consume) {
   const SceneCloud like = empty_built_in_scene(name, options);
-  sample_patches_in_batches(like, patches_of(name, options), options.points, options.seed, batch, take);
+  sample_patches_in_batches(like, patches_of(name, options), options.points, options.seed, batch, consume);
 }
 
 }  // namespace insonify

@@ -12,32 +12,32 @@
 namespace insonify {
 
 struct BuiltInSceneOptions {
-  std::size_t points = 200000;                         ///< surfels wanted; the result is within 2 % of it
+  std::size_t points = 200000;                         ///< requested number of surfels; met within 2 %
   Eigen::Vector2d size = Eigen::Vector2d(40.0, 40.0);  ///< [m]; plane: extent in x and y; wall: width and height
   double radius = 0.5;                                 ///< [m]; sphere
   double lambert_mu = 0.001995262314968880;            ///< [1/sr] of plane, wall, sphere (harbour: per part)
-  std::uint64_t seed = 1;                              ///< of the stratified jitter and the ripples
+  std::uint64_t seed = 1;                              ///< seeds the stratified jitter and the ripples
 };
 
-/// Names that make_built_in_scene knows: harbour, plane, sphere, wall, poles.
+/// Returns the names accepted by make_built_in_scene: harbour, plane, sphere, wall, poles.
 std::vector<std::string> built_in_scene_names();
 
-/// A reproducible scene with outward normals, exact areas and materials, sampled area-preserving (stratified).
+/// Returns a reproducible scene with outward normals, exact areas and materials, by stratified area-preserving sampling.
 ///   harbour  quay wall, pilings, rippled sea bed, wreck, pipe, calibration sphere; x 0..60, y -30..30, water
 ///            surface z = 0, sea bed near z = -8; a good pose is 0,0,-3, pitch 10 deg
 ///   plane    z = 0, x 0..size.x, y -size.y/2..size.y/2, normal up
 ///   sphere   centred at (5, 0, 0)
 ///   wall     x = 5, y -size.x/2..size.x/2, z -size.y/2..size.y/2, normal towards -x, with a 1 m square hole
 ///            in its centre when it is larger than 2 m
-///   poles    three vertical poles (radius 0.1 m) at x = 4, y = -1, 0, 1 before a wall at x = 7
-/// Throws Error for an unknown name (listing the known ones), no points, or a size that is not positive.
+///   poles    three vertical poles (radius 0.1 m) at x = 4, y = -1, 0, 1 in front of a wall at x = 7
+/// Throws Error for an unknown name (listing the known ones), points = 0, or a size that is not positive.
 SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOptions& options = {});
 
-/// The same surfels in the same order, handed over in scenes of about `batch` surfels: for more than memory holds.
-/// Throws also what `take` throws.
+/// Passes the same surfels in the same order to `consume`, in scenes of about `batch` surfels each, for scenes that do
+/// not fit into memory. Exceptions thrown by `consume` propagate.
 void make_built_in_scene_in_batches(const std::string& name, const BuiltInSceneOptions& options, std::size_t batch,
-                                    const std::function<void(const SceneCloud&)>& take);
-/// A scene without surfels that has the materials of the built-in one.
+                                    const std::function<void(const SceneCloud&)>& consume);
+/// Returns a scene without surfels that has the materials of the built-in scene.
 SceneCloud empty_built_in_scene(const std::string& name, const BuiltInSceneOptions& options = {});
 
 }  // namespace insonify

@@ -14,7 +14,7 @@ using Eigen::Vector2d, Eigen::Vector3d;
 
 enum HarbourMaterial : std::uint16_t { sand, concrete, timber, steel, rock, rubber, calibration };
 
-// Rises from 0 to 1 between a and b, with level ends.
+// Cubic step: rises from 0 at a to 1 at b with zero slope at both ends.
 double smooth_step(double x, double a, double b) {
   const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -23,7 +23,7 @@ double smooth_step(double x, double a, double b) {
 struct SeaBed {
   double phase[4];
 
-  // Sand waves, ripples bent by a slow meander, and the scour that currents dig round the wreck.
+  // Height [m] of sand waves, meandering ripples and the scour around the wreck.
   double height(double x, double y) const {
     const double waves =
         0.12 * std::sin(0.31 * x + 0.17 * y + phase[0]) + 0.10 * std::sin(0.13 * x - 0.27 * y + phase[1]);
@@ -39,7 +39,7 @@ struct SeaBed {
   }
 };
 
-// A wall of cast blocks with buttresses every 5 m, worn joints between the blocks and a rough face.
+// Wall of cast concrete blocks with buttresses every 5 m, worn joints between the blocks and a rough face.
 Patch quay_wall() {
   return {[](double u, double v) {
             const double x = 6 + 54 * u, z = -8.4 + 8.3 * v;
@@ -57,7 +57,7 @@ Patch quay_wall() {
 void add_pilings(std::vector<Patch>& patches) {
   for (int row = 0; row < 2; ++row)
     for (int i = 0; i < 7; ++i) {
-      // Driven by hand: none stands exactly upright.
+      // No piling is exactly vertical.
       const double lean_x = 0.12 * std::sin(2.4 * i + row), lean_y = 0.1 * std::cos(1.7 * i - row);
       Patch piling = cylinder({14 + 5.0 * i, -12.0 - 4.5 * row, -8.3}, {lean_x, lean_y, 8.1}, 0.3);
       piling.material = timber;
@@ -66,8 +66,7 @@ void add_pilings(std::vector<Patch>& patches) {
     }
 }
 
-// Places the wreck: ship axes (x to the bow, z up from the deck line) to the world, heeled and down by the
-// stern.
+// Transforms ship axes (x to the bow, z up from the deck line) to the world: heeled, and down by the stern.
 Vector3d from_ship(const Vector3d& p) {
   const Eigen::Matrix3d turn =
       (Eigen::AngleAxisd(radians(128), Vector3d::UnitZ()) * Eigen::AngleAxisd(radians(-4), Vector3d::UnitY()) *
@@ -114,13 +113,13 @@ void add_wreck(std::vector<Patch>& patches) {
   add_ship_part(patches, {3.0, 0, 1}, cylinder({3.0, 0, 0.05}, {0.9, 0.25, 2.2}, 0.1));  // mast
 }
 
-void add_things_on_the_bed(std::vector<Patch>& patches, const SeaBed& bed) {
+void add_bed_objects(std::vector<Patch>& patches, const SeaBed& bed) {
   const auto put = [&](Patch patch, HarbourMaterial material, double density) {
     patch.material = material;
     patch.density = density;
     patches.push_back(std::move(patch));
   };
-  // A pipe half a metre wide that crosses from the jetty towards the wreck.
+  // Pipe of 0.56 m diameter that runs from the jetty towards the wreck.
   const Vector3d from(15.5, -8.5, bed.height(15.5, -8.5) + 0.18), to(33, -3, bed.height(33, -3) + 0.18);
   put(cylinder(from, to - from, 0.28), steel, 3);
   const double boulders[][4] = {{16, 9, 0.55, 0.45}, {18.5, 11.5, 0.8, 0.6}, {20, 14, 0.5, 0.5},
@@ -142,7 +141,7 @@ std::vector<Patch> harbour_patches(std::uint64_t seed) {
   std::vector<Patch> patches = {bed.patch(), quay_wall()};
   add_pilings(patches);
   add_wreck(patches);
-  add_things_on_the_bed(patches, bed);
+  add_bed_objects(patches, bed);
   return patches;
 }
 

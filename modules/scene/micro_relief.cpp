@@ -15,24 +15,25 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int triads = 2, most_octaves = 10;
+constexpr int triads = 2, max_octaves = 10;
 
-/// Four random numbers of one triad; `what` tells its turn, its phases and its wavelengths apart.
-std::array<double, 4> draw(std::uint64_t seed, int octave, int triad, std::uint64_t what) {
+/// Draws four random numbers of one triad; `quantity` distinguishes rotation (0), phases (1) and wavelengths (2).
+std::array<double, 4> draw(std::uint64_t seed, int octave, int triad, std::uint64_t quantity) {
   return random_uniform(seed, RandomStage::micro_relief,
-                        {static_cast<std::uint64_t>(octave), static_cast<std::uint64_t>(triad), what});
+                        {static_cast<std::uint64_t>(octave), static_cast<std::uint64_t>(triad), quantity});
 }
 
-/// A rotation drawn evenly from all (Shoemake 1992); its columns are a triad.
-Eigen::Matrix3d random_turn(const std::array<double, 4>& u) {
+/// Returns a uniformly distributed rotation (Shoemake 1992); its columns are a triad.
+Eigen::Matrix3d random_rotation(const std::array<double, 4>& u) {
   const double a = std::sqrt(1 - u[0]), b = std::sqrt(u[0]);
   return Eigen::Quaterniond(b * std::cos(2 * pi * u[2]), a * std::sin(2 * pi * u[1]), a * std::cos(2 * pi * u[1]),
                             b * std::sin(2 * pi * u[2]))
       .toRotationMatrix();
 }
 
-/// sin(2 pi cycles) within 2e-5, without a call: c (1 - 4 c^2) has its zeros, the rest is a polynomial through four
-/// Chebyshev nodes in c^2. Adding and taking away 1.5 * 2^52 rounds to whole cycles.
+/// Returns sin(2 pi cycles) within 2e-5 without a library call: after reduction to c in [-1/2, 1/2] (adding and
+/// subtracting 1.5 * 2^52 rounds to whole cycles) the factor c (1 - 4 c^2) has the zeros of the sine, and the remaining
+/// factor is the polynomial in c^2 through four Chebyshev nodes.
 template <typename Waves>
 Waves sine_of_cycles(const Waves& cycles) {
   constexpr double rounder = 0x1.8p52;
@@ -46,16 +47,16 @@ Waves sine_of_cycles(const Waves& cycles) {
 ReliefField::ReliefField(const MicroRelief& relief) {
   if (!(relief.outer_scale > 0 && std::isfinite(relief.outer_scale)))
     fail(ErrorKind::argument, "ReliefField: relief.outer_scale = ", relief.outer_scale, " m, must be finite and > 0");
-  if (relief.octaves < 1 || relief.octaves > most_octaves)
-    fail(ErrorKind::argument, "ReliefField: relief.octaves = ", relief.octaves, ", must be in 1 .. ", most_octaves);
+  if (relief.octaves < 1 || relief.octaves > max_octaves)
+    fail(ErrorKind::argument, "ReliefField: relief.octaves = ", relief.octaves, ", must be in 1 .. ", max_octaves);
   octaves_.resize(static_cast<std::size_t>(relief.octaves));
 
-  // Half the height at half the length is the same slope: every octave has its equal share.
+  // Height and wavelength halve together from octave to octave, so every octave contributes the same slope variance.
   const double slope = 1 / std::sqrt(triads * relief.octaves);
   for (int n = 0; n < relief.octaves; ++n) {
     Octave& octave = octaves_[static_cast<std::size_t>(n)];
     for (int triad = 0; triad < triads; ++triad) {
-      const Eigen::Matrix3d directions = random_turn(draw(relief.seed, n, triad, 0));
+      const Eigen::Matrix3d directions = random_rotation(draw(relief.seed, n, triad, 0));
       const auto phases = draw(relief.seed, n, triad, 1), lengths = draw(relief.seed, n, triad, 2);
       for (int w = 0; w < 3; ++w) {
         const auto drawn = static_cast<std::size_t>(w);

@@ -13,18 +13,19 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t block_surfels = 128;
-constexpr std::uint32_t steps_per_axis = 1 << 10;  // of the Morton curve
+constexpr std::uint32_t steps_per_axis = 1 << 10;  // cells of the Morton curve along each axis
 constexpr float rounding = 1 + 1e-5f;
 
-// Spreads ten bits to every third place.
-std::uint32_t every_third(std::uint32_t v) {
+// Inserts two zero bits after each of the ten low bits of v.
+std::uint32_t insert_two_zeros(std::uint32_t v) {
   v = (v | v << 16) & 0x030000ff;
   v = (v | v << 8) & 0x0300f00f;
   v = (v | v << 4) & 0x030c30c3;
   return (v | v << 2) & 0x09249249;
 }
 
-// Steps along each axis over the bulk of the points: a few strays far away share the outermost ones.
+// Quantises coordinates over the bulk of the points; the few points beyond the 0.5 % quantiles share the outermost
+// cells.
 class Quantiser {
  public:
   explicit Quantiser(const std::vector<Eigen::Vector3f>& points) {
@@ -45,17 +46,17 @@ class Quantiser {
     std::uint32_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float step = std::clamp((p[axis] - low_[axis]) * per_metre, 0.0f, float{steps_per_axis - 1});
-      code |= every_third(static_cast<std::uint32_t>(step)) << axis;
+      code |= insert_two_zeros(static_cast<std::uint32_t>(step)) << axis;
     }
     return code;
   }
 
  private:
   Eigen::Vector3f low_;
-  double extent_ = 0;  // of the longest axis, the same for all: cells are cubes
+  double extent_ = 0;  // of the longest axis; used for all axes, so cells are cubes
 };
 
-// Sorts by the upper half (the code), keeping the order of equal ones.
+// Sorts by the Morton code in the upper 32 bits; stable, so equal codes keep their order.
 void radix_sort(std::vector<std::uint64_t>& keys) {
   constexpr int digit_bits = 10, code_bits = 30;
   std::vector<std::uint64_t> sorted(keys.size());

@@ -10,29 +10,31 @@
 
 namespace insonify {
 
-/// Surfels that stand close together, and the ball that holds their centres.
+/// A block of neighbouring surfels and a bounding ball of their centres.
 struct SurfelBlock {
   Eigen::Vector3f centre;            ///< [m], relative to the scene's origin
   float radius = 0;                  ///< [m]
-  float largest_area = 0;            ///< of one surfel [m^2]
-  std::uint32_t begin = 0, end = 0;  ///< of PreparedScene::order()
+  float largest_area = 0;            ///< area of the largest surfel [m^2]
+  std::uint32_t begin = 0, end = 0;  ///< range of indices into PreparedScene::order()
 };
 
-/// A scene checked and put into blocks once, for many pings: a ping then looks only at blocks that the fan reaches.
-/// Costs O(n) time and 4 bytes per surfel. Refers to `scene`, which must outlive it and not change.
+/// A scene that is validated and divided into blocks once, for many pings: each ping then only visits the blocks within
+/// its insonified region. Construction takes O(n) time and 4 bytes per surfel. Keeps a reference to `scene`, which must
+/// outlive it unchanged.
 class PreparedScene {
  public:
-  /// Throws Error for an invalid scene. The blocks do not depend on `threads` (0: all cores).
+  /// Throws Error for an invalid scene or one of 2^32 surfels or more. The blocks do not depend on `threads` (0: all
+  /// cores).
   explicit PreparedScene(const SceneCloud& scene, int threads = 0);
   PreparedScene(SceneCloud&& temporary, int threads = 0) = delete;
 
   const SceneCloud& scene() const { return *scene_; }
   std::span<const SurfelBlock> blocks() const { return blocks_; }
-  /// Indices of all surfels, block by block (along a Morton curve), ascending inside a block.
+  /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
   std::span<const std::uint32_t> order() const { return order_; }
-  /// Root of the mean area of the surfels [m]; 0 without surfels.
+  /// Returns the root of the mean surfel area [m]; 0 for an empty scene.
   double mean_spacing() const { return mean_spacing_; }
-  /// Area of the largest surfel [m^2]; 0 without surfels.
+  /// Returns the area of the largest surfel [m^2]; 0 for an empty scene.
   float largest_area() const { return largest_area_; }
 
  private:

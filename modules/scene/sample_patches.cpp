@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// d/du x d/dv by central differences: its length is the area per unit of (u, v).
+// Normal vector d/du x d/dv by central differences; its length is the area per unit of (u, v).
 Vector3d area_vector(const Patch& patch, double u, double v) {
   constexpr double h = 1e-5;
   const Vector3d along_u = (patch.at(u + h, v) - patch.at(u - h, v)) / (2 * h);
@@ -23,7 +23,7 @@ Vector3d area_vector(const Patch& patch, double u, double v) {
   return (patch.flip ? -1.0 : 1.0) * along_u.cross(along_v);
 }
 
-// Cumulative length along u, mean over several lines of constant v, at equal steps of u.
+// Cumulative arc length along u at equal steps of u, averaged over several lines of constant v.
 std::vector<double> length_along_u(const Patch& patch) {
   constexpr int lines = 8, steps = 1024;
   std::vector<double> length = {0.0};
@@ -38,7 +38,7 @@ std::vector<double> length_along_u(const Patch& patch) {
   return length;
 }
 
-// Edges in u of rows that are equally long on the surface, also where it runs steeply across u.
+// Edges in u of rows of equal arc length, also on surfaces that are steep across u.
 std::vector<double> row_edges(const std::vector<double>& length, std::size_t rows) {
   std::vector<double> edges = {0.0};
   std::size_t step = 0;
@@ -64,17 +64,17 @@ std::vector<double> row_areas(const Patch& patch, const std::vector<double>& edg
   return areas;
 }
 
-// One row of surfels: jittered in u across the row, one per equal interval of v.
+// One row of surfels, jittered across the row in u, with one surfel per equal interval of v.
 struct Row {
-  std::size_t first = 0, count = 0;  // surfels of the whole sample
+  std::size_t first = 0, count = 0;  // index of the first surfel in the whole sample, and number of surfels
 };
 
 struct PatchSampler {
   const Patch& patch;
-  std::size_t part;  // number of the patch, for the random counter
+  std::size_t part;  // index of the patch, for the random counter
   std::uint64_t seed;
 
-  // From place `at` of the scene on.
+  // Writes the surfels of one row to the scene from index `at` on.
   void sample(SceneCloud& scene, std::size_t at, const Row& row, std::size_t index, double low, double high) const {
     for (std::size_t k = 0; k < row.count; ++k, ++at) {
       const auto jitter = random_uniform(seed, RandomStage::scene_points, {part, index, k});
@@ -90,7 +90,7 @@ struct PatchSampler {
   }
 };
 
-// How many surfels each row gets. Rounding the running sum `wanted`, not each row, keeps the total exact.
+// Assigns a number of surfels to each row. Rounding the running sum `wanted`, not each row, keeps the total exact.
 std::vector<Row> plan_rows(const std::vector<double>& row_area, double per_area, std::size_t first, double& wanted) {
   std::vector<Row> plan;
   for (const double area : row_area) {
@@ -102,7 +102,7 @@ std::vector<Row> plan_rows(const std::vector<double>& row_area, double per_area,
   return plan;
 }
 
-// Random sampling leaves the sum of areas a little off that of the patch.
+// The areas of the jittered samples do not add up exactly to the area of the patch; this factor corrects their sum.
 float area_factor(double area, double sum) { return static_cast<float>(sum > 0 ? area / sum : 1); }
 
 void resize(SceneCloud& scene, std::size_t surfels) {
@@ -119,7 +119,7 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-// A patch and the rows that sample it.
+// A patch and the rows of surfels that sample it.
 struct PatchPlan {
   PatchSampler sampler;
   double area = 0;
@@ -129,7 +129,7 @@ struct PatchPlan {
   std::size_t first() const { return rows.front().first; }
   std::size_t end() const { return rows.back().first + rows.back().count; }
 
-  // Rows [begin, to) into the scene, the first of them at its place `at`; areas not scaled yet.
+  // Writes rows [begin, to) to the scene, the first of them at index `at`; areas are not yet scaled.
   void sample(SceneCloud& scene, std::size_t begin, std::size_t to, std::size_t at) const {
     parallel_for(to - begin, 0, [&](std::size_t k) {
       const Row& row = rows[begin + k];
@@ -138,7 +138,7 @@ struct PatchPlan {
   }
 };
 
-// What to sample of all patches; the first surfel has number `first`.
+// Plans the rows of all patches; the first surfel gets number `first`.
 std::vector<PatchPlan> plan_patches(const std::vector<Patch>& patches, std::size_t points, std::uint64_t seed,
                                     std::size_t first) {
   std::vector<std::vector<double>> length;
@@ -164,7 +164,7 @@ std::vector<PatchPlan> plan_patches(const std::vector<Patch>& patches, std::size
   return plans;
 }
 
-// Calls body(begin, end) for runs of rows of about `batch` surfels.
+// Calls body(begin, end) for consecutive runs of rows that hold about `batch` surfels each.
 template <typename Body>
 void for_runs_of_rows(const PatchPlan& plan, std::size_t batch, const Body& body) {
   for (std::size_t begin = 0, end = 0; begin < plan.rows.size(); begin = end) {
@@ -187,7 +187,7 @@ void sample_patches(SceneCloud& scene, const std::vector<Patch>& patches, std::s
 
 void sample_patches_in_batches(const SceneCloud& like, const std::vector<Patch>& patches, std::size_t points,
                                std::uint64_t seed, std::size_t batch,
-                               const std::function<void(const SceneCloud&)>& take) {
+                               const std::function<void(const SceneCloud&)>& consume) {
   SceneCloud part = like;
   const auto sample = [&](const PatchPlan& plan, std::size_t begin, std::size_t end) {
     resize(part, plan.rows[end - 1].first + plan.rows[end - 1].count - plan.rows[begin].first);
@@ -203,7 +203,7 @@ void sample_patches_in_batches(const SceneCloud& like, const std::vector<Patch>&
     for_runs_of_rows(plan, batch, [&](std::size_t begin, std::size_t end) {
       sample(plan, begin, end);
       for (float& a : part.area) a *= factor;
-      take(part);
+      consume(part);
     });
   }
 }

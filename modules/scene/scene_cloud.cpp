@@ -21,7 +21,7 @@ void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* wh
   };
   if (!scene.point[i].allFinite())
     fail(ErrorKind::content, who, ": scene.point[", i, "] = ", at(scene.point[i]),
-         " m, must be finite; drop such points");
+         " m, must be finite; remove such points");
   if (!(std::abs(scene.normal[i].squaredNorm() - 1.0f) <= 2e-3f))
     fail(ErrorKind::content, who, ": scene.normal[", i, "] = ", at(scene.normal[i]),
          ", must be a unit vector; normalise the normals or estimate them");

@@ -12,7 +12,7 @@ namespace {
 
 using Index = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
 
-// Writes hits straight into the caller's vector, so that a query allocates nothing of its own.
+// Writes results directly into the caller's vector, so a query does not allocate a result set.
 class WithinRadius final : public flann::ResultSet<float> {
  public:
   WithinRadius(float squared_radius, std::vector<Neighbour>& hits) : squared_radius_(squared_radius), hits_(hits) {}
@@ -50,7 +50,7 @@ class Nearest final : public flann::ResultSet<float> {
   std::vector<Neighbour>& hits_;
 };
 
-// Slightly negative: FLANN prunes by box distances summed in float; the slack keeps the search exact.
+// FLANN prunes by box distances summed in float; a slightly negative epsilon adds slack and keeps the search exact.
 flann::SearchParams exact_search() { return {flann::FLANN_CHECKS_UNLIMITED, -1e-5f, false}; }
 
 }  // namespace
@@ -58,7 +58,7 @@ flann::SearchParams exact_search() { return {flann::FLANN_CHECKS_UNLIMITED, -1e-
 struct SceneIndex::Tree {
   explicit Tree(std::span<const Eigen::Vector3f> points) : size(points.size()) {
     if (points.empty()) return;
-    // FLANN takes a mutable pointer, reads from it while building, and keeps its own reordered copy.
+    // FLANN takes a mutable pointer but only reads from it while building, and keeps its own reordered copy.
     const flann::Matrix<float> matrix(const_cast<float*>(points.front().data()), points.size(), 3);
     index = std::make_unique<Index>(matrix, flann::KDTreeSingleIndexParams(leaf_points, true));
     index->buildIndex();
@@ -73,7 +73,7 @@ SceneIndex::SceneIndex(std::span<const Eigen::Vector3f> points) {
   if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     fail(ErrorKind::argument, "SceneIndex: ", points.size(), " points, must be below 2^31; divide the scene");
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!points[i].allFinite()) fail(ErrorKind::content, "SceneIndex: point ", i, " is not finite; drop such points");
+    if (!points[i].allFinite()) fail(ErrorKind::content, "SceneIndex: point ", i, " is not finite; remove such points");
   tree_ = std::make_unique<Tree>(points);
 }
 

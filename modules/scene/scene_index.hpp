@@ -8,14 +8,14 @@
 
 namespace insonify {
 
-/// A neighbour: which point, and its squared distance [m^2 for positions, squared chord for unit directions].
+/// Result of a query: index of the point and squared distance [m^2 for positions, squared chord for unit directions].
 struct Neighbour {
   std::uint32_t index = 0;
   float squared_distance = 0;
 };
 
-/// KD-tree (FLANN, exact, single tree) over 3-D points: positions of a scene, or unit vectors of directions.
-/// The points are copied. Queries are const and may run from several threads at once; results do not depend on it.
+/// KD-tree (FLANN, exact, single tree) over 3-D points: positions of a scene, or unit vectors of directions. Copies the
+/// points. Queries are const, may run concurrently, and do not depend on the number of threads.
 class SceneIndex {
  public:
   explicit SceneIndex(std::span<const Eigen::Vector3f> points);
@@ -25,11 +25,11 @@ class SceneIndex {
 
   std::size_t size() const;
 
-  /// The k points nearest to `query`, nearest first; fewer if the index is smaller. The query point itself counts
-  /// if it is in the index. `result` is overwritten.
+  /// Finds the k points nearest to `query`, sorted by distance; fewer if the index is smaller. A query point that is in
+  /// the index is among the results. `result` is overwritten.
   void find_nearest(const Eigen::Vector3f& query, std::size_t k, std::vector<Neighbour>& result) const;
 
-  /// All points closer than `radius`, in no particular order. `result` is overwritten.
+  /// Finds all points closer than `radius`, in unspecified order. `result` is overwritten.
   void find_within(const Eigen::Vector3f& query, float radius, std::vector<Neighbour>& result) const;
 
  private:

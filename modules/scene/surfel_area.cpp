@@ -13,16 +13,25 @@
 #include "core/units.hpp"
 #include "scene/scene_index.hpp"
 
+// Estimates the surface area of each point of a cloud as the area of its Voronoi cell in the tangent plane (E15):
+//   1. merge coincident points, build a KD-tree of the distinct ones, find the k nearest of each (k = 16);
+//   2. project those on the same sheet (at most 45 degrees off the tangent plane) onto the tangent plane; if they are
+//      collinear, as on one scan line, repeat with 4 k neighbours;
+//   3. at borders, where the neighbours leave an angular gap above 120 degrees, mirror the opposite neighbours into it;
+//      isolated points get the squared spacing of their neighbour instead;
+//   4. clip a square by the perpendicular bisectors to all neighbours (half-plane clipping of a convex polygon);
+//   5. limit outliers to (16 median spacings)^2 and divide each cell among its coincident points.
+// Cost: O(n log n) for the tree and its queries, O(k^2) per point for clipping; parallel over points.
 namespace insonify {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 
-constexpr double border_gap = radians(120);  // wider gaps between neighbours are borders
-constexpr double isolation = 4;              // farther from the nearest point, in spacings of that point: an outlier
-constexpr double largest_spacing = 16;       // of a cell, in median spacings of the cloud
+constexpr double border_gap = radians(120);  // wider angular gaps between neighbours are borders
+constexpr double isolation = 4;              // an outlier is farther from its nearest point, in spacings at that point
+constexpr double largest_spacing = 16;       // limit of a cell's width, in median spacings of the cloud
 
-// A convex polygon with the point itself at (0, 0).
+// A convex polygon with the surfel at (0, 0).
 using Polygon = std::vector<Vector2d>;
 
 double area_of(const Polygon& polygon) {
@@ -32,7 +41,7 @@ double area_of(const Polygon& polygon) {
   return std::abs(twice) / 2;
 }
 
-// Keeps the side of the bisector between (0, 0) and `neighbour` on which (0, 0) lies.
+// Clips the polygon to the side of the bisector between (0, 0) and `neighbour` that contains (0, 0).
 void clip_by_bisector(Polygon& polygon, const Vector2d& neighbour, Polygon& scratch) {
   const double half = neighbour.squaredNorm() / 2;
   scratch.clear();
@@ -45,16 +54,16 @@ void clip_by_bisector(Polygon& polygon, const Vector2d& neighbour, Polygon& scra
   polygon.swap(scratch);
 }
 
-// An interval of directions without neighbours, counter-clockwise from `begin`.
+// An angular interval without neighbours, counter-clockwise from `begin` [rad].
 struct Gap {
   double begin = 0, width = 0;
   double middle() const { return begin + width / 2; }
-  bool holds(double angle) const {
+  bool contains(double angle) const {
     return std::remainder(angle - middle(), 2 * pi) * 2 < width && std::remainder(middle() - angle, 2 * pi) * 2 < width;
   }
 };
 
-// Everything one thread needs for one point after another.
+// Scratch memory of one thread, reused from point to point.
 struct Workspace {
   std::vector<Neighbour> found;
   std::vector<Vector2d> flat;  // neighbours in the tangent plane, nearest first
@@ -63,7 +72,7 @@ struct Workspace {
   Polygon cell, scratch;
 };
 
-// Distinct points of a cloud and how often each occurs.
+// Distinct positions of a cloud and the number of points at each.
 struct DistinctPoints {
   std::vector<std::uint32_t> first;     // one point of the cloud for each distinct position
   std::vector<std::uint32_t> position;  // of each point of the cloud, index into `first`
@@ -95,7 +104,7 @@ class AreaEstimator {
       : points_(points), index_(points), neighbours_(static_cast<std::size_t>(neighbours)) {}
 
   double area(std::size_t i, const Vector3f& normal, Workspace& work) const {
-    // A neighbourhood that is a line (one scan line of a lidar) is widened until the next lines come into it.
+    // A collinear neighbourhood (one scan line of a lidar) is enlarged until it includes the adjacent lines.
     std::size_t k = neighbours_;
     find_flat_neighbours(i, normal, k, work);
     if (work.gaps.size() > 1) find_flat_neighbours(i, normal, k *= 4, work);
@@ -110,7 +119,7 @@ class AreaEstimator {
   }
 
  private:
-  // Neighbours on the same sheet of surface, in the tangent plane, and the gaps between their directions.
+  // Finds the neighbours on the same sheet of surface, in tangent-plane coordinates, and the angular gaps between them.
   void find_flat_neighbours(std::size_t i, const Vector3f& normal, std::size_t k, Workspace& work) const {
     const Vector3d n = normal.cast<double>();
     const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
@@ -145,9 +154,8 @@ class AreaEstimator {
     return std::sqrt(static_cast<double>(work.found.back().squared_distance));
   }
 
-  // Fills borders with mirror images of the neighbours opposite, so that a cell ends as far beyond its point
-  // as it does inside; where a gap stays wider than the limit, with points at the distance of the nearest
-  // neighbour.
+  // Fills gaps with mirror images of the opposite neighbours, so a border cell extends as far outwards as inwards; gaps
+  // that remain wider than the limit get points at the distance of the nearest neighbour.
   static void close_gaps(double nearest, Workspace& work) {
     const std::size_t real = work.flat.size();
     const std::vector<Gap> gaps = work.gaps;
@@ -155,7 +163,7 @@ class AreaEstimator {
       const Vector2d mirrored = -work.flat[j];
       const double angle = std::atan2(mirrored.y(), mirrored.x());
       for (const Gap& gap : gaps)
-        if (gap.holds(angle)) work.flat.push_back(mirrored);
+        if (gap.contains(angle)) work.flat.push_back(mirrored);
     }
     find_gaps(work);
     for (const Gap& gap : work.gaps) {
@@ -182,7 +190,7 @@ class AreaEstimator {
   std::size_t neighbours_;
 };
 
-// No cell may be absurdly large: an outlier's disc would hide whole scenes.
+// Limits cell areas, since the disc of an outlier would occlude a large part of the scene.
 void limit_cells(std::vector<double>& areas) {
   std::vector<double> sorted = areas;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -203,7 +211,7 @@ std::vector<float> estimate_surfel_areas(std::span<const Vector3f> points, std::
   std::vector<float> result(points.size(), 0.0f);
   if (points.size() < 4) return result;
 
-  // Coincident points count as one; its cell is shared among them at the end.
+  // Coincident points share one cell; its area is divided among them at the end.
   const DistinctPoints distinct = find_distinct(points);
   std::vector<Vector3f> position(distinct.first.size());
   for (std::size_t d = 0; d < position.size(); ++d) position[d] = points[distinct.first[d]];
