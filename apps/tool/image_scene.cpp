@@ -104,7 +104,7 @@ void look_from_head(const SceneCloud& scene, int threads, SceneLook& look) {
   sampling.rays_per_beam = 16;
   const PreparedScene prepared(scene, threads);
   look.visibility = find_visibility(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), sampling);
-  look.holes = places_of(find_holes(prepared, pose, fan, gate, sampling), pose);
+  look.holes = hole_positions(find_holes(prepared, pose, fan, gate, sampling), pose);
 }
 
 Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Progress& progress) {

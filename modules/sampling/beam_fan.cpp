@@ -56,7 +56,8 @@ Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, doubl
   std::vector<double> azimuth = fan.azimuth;
   std::sort(azimuth.begin(), azimuth.end());
 
-  // The fan is what the widest gap between beams leaves of the circle: it may look astern, across +-pi.
+  // The fan is the complement of the widest azimuth gap between beams, so it may extend across +-pi (a head that looks
+  // astern).
   double begin = azimuth.front(), widest = azimuth.front() + 2 * pi - azimuth.back();
   for (std::size_t b = 1; b < azimuth.size(); ++b)
     if (azimuth[b] - azimuth[b - 1] > widest) {

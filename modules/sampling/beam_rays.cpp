@@ -11,9 +11,9 @@ namespace insonify {
 namespace {
 
 constexpr double golden = 0.61803398874989485;
-constexpr double one_column = 1e-9;  // beams closer than this in azimuth [rad] share it
+constexpr double one_column = 1e-9;  // beams closer than this in azimuth [rad] form one column
 
-// Cuts between neighbours of an ascending list, and its two ends.
+// Midpoints between neighbours of an ascending list, preceded by `low` and followed by `high`.
 std::vector<double> midpoints(const std::vector<double>& values, double low, double high) {
   std::vector<double> cuts = {low};
   for (std::size_t i = 1; i < values.size(); ++i) cuts.push_back((values[i - 1] + values[i]) / 2);
@@ -24,7 +24,8 @@ std::vector<double> midpoints(const std::vector<double>& values, double low, dou
 }  // namespace
 
 std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
-  // Columns: beams of one azimuth, measured from the sector's starboard edge, so that +-pi is no seam.
+  // Columns of beams of one azimuth. Azimuths are unwrapped from the starboard edge of the sector, so there is no jump
+  // at +-pi.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t b = 0; b < fan.beams(); ++b) {
     const double from_edge = std::fmod(fan.azimuth[b] - sector.min_azimuth + 4 * pi, 2 * pi);

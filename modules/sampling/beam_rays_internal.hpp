@@ -8,26 +8,26 @@
 
 namespace insonify {
 
-/// The part of the insonified sector that one beam's rays cover.
+/// The part of the insonified sector covered by the rays of one beam.
 struct BeamShare {
   double min_azimuth = 0, max_azimuth = 0;      ///< [rad]
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
 
-/// Shares of all beams: they tile `sector` in azimuth, cut at the midpoints between neighbouring beams. Beams
-/// of one azimuth share the sector's elevations in the same way. So every direction belongs to one beam, also when
-/// rows are staggered or no two beams have an azimuth in common: rays serve all beams, not only their own.
+/// Returns the shares of all beams. They tile `sector`: in azimuth cut at the midpoints between neighbouring columns of
+/// beams, in elevation at the midpoints between the beams of a column. Every direction thus belongs to exactly one
+/// beam, also for staggered rows or beams that all differ in azimuth; each ray contributes to all beams.
 std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector);
 
-/// A direction in which a beam looks.
+/// A ray from the head.
 struct Ray {
   Direction direction;
   Eigen::Vector3f along;   ///< unit vector
-  double solid_angle = 0;  ///< its part of the beam's share [sr]
+  double solid_angle = 0;  ///< solid angle that the ray represents [sr]
 };
 
-/// options.rays_per_beam rays in each beam's share, beam by beam and upwards: one per equal interval of elevation, jittered
-/// in it by options.seed, spread in azimuth by the golden ratio; solid angle cos(elevation) dtheta dphi.
+/// Returns options.rays_per_beam rays per beam, beam by beam and upwards: one per equal interval of elevation, jittered
+/// within it by options.seed, with azimuths from the golden-ratio sequence; solid angle cos(elevation) dtheta dphi.
 std::vector<Ray> beam_rays(const std::vector<BeamShare>& shares, const SamplingOptions& options);
 
 }  // namespace insonify

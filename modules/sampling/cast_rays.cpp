@@ -11,15 +11,15 @@
 namespace insonify {
 namespace {
 
-// What became of one ray.
-struct Landing {
-  RayFate fate = RayFate::missed;
+// Result of one ray.
+struct CastRay {
+  RayOutcome outcome = RayOutcome::missed;
   RayHit hit;
 };
 
-std::vector<Landing> land_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+std::vector<CastRay> cast_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
                                    const std::vector<Ray>& rays, const SamplingOptions& options) {
-  std::vector<Landing> landings(rays.size());
+  std::vector<CastRay> cast(rays.size());
   parallel_blocks(rays.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> candidates;
     std::vector<Neighbour> scratch;
@@ -29,40 +29,40 @@ std::vector<Landing> land_by_index(const std::vector<GatedSurfel>& surfels, cons
         candidates.push_back(s);
         return false;
       });
-      landings[r].fate = hit_surface(surfels, rays[r].along, options.occlusion, candidates, landings[r].hit);
+      cast[r].outcome = hit_surface(surfels, rays[r].along, options.occlusion, candidates, cast[r].hit);
     }
   });
-  return landings;
+  return cast;
 }
 
-std::vector<Landing> land_by_raster(const std::vector<GatedSurfel>& surfels, const std::vector<Ray>& rays,
+std::vector<CastRay> cast_by_raster(const std::vector<GatedSurfel>& surfels, const std::vector<Ray>& rays,
                                     const SamplingOptions& options) {
   std::vector<CubePoint> queries(rays.size());
   for (std::size_t r = 0; r < rays.size(); ++r) queries[r] = on_cube(rays[r].along);
-  std::vector<Landing> landings(rays.size());
+  std::vector<CastRay> cast(rays.size());
   for_candidates(surfels, queries, options.threads, [&](std::uint32_t r, std::vector<std::uint32_t>& candidates) {
-    landings[r].fate = hit_surface(surfels, rays[r].along, options.occlusion, candidates, landings[r].hit);
+    cast[r].outcome = hit_surface(surfels, rays[r].along, options.occlusion, candidates, cast[r].hit);
   });
-  return landings;
+  return cast;
 }
 
-// Rays that met nothing though surfels stand within three footprints on all sides of them.
+// Counts the missed rays that are surrounded by surfels within three footprints.
 std::size_t count_holes(std::vector<GatedSurfel> surfels, const std::vector<Ray>& rays,
-                        const std::vector<Landing>& landings, int threads) {
-  constexpr float reach = 3;
+                        const std::vector<CastRay>& cast, int threads) {
+  constexpr float footprints = 3;
   std::vector<std::uint32_t> missed;
   std::vector<CubePoint> queries;
   for (std::uint32_t r = 0; r < rays.size(); ++r)
-    if (landings[r].fate == RayFate::missed) {
+    if (cast[r].outcome == RayOutcome::missed) {
       missed.push_back(r);
       queries.push_back(on_cube(rays[r].along));
     }
   if (missed.empty() || surfels.empty()) return 0;
-  for (GatedSurfel& s : surfels) s.radius *= reach;
+  for (GatedSurfel& s : surfels) s.radius *= footprints;
   std::atomic<std::size_t> holes{0};
   for_candidates(surfels, queries, threads, [&](std::uint32_t q, std::vector<std::uint32_t>& candidates) {
     const Eigen::Vector3f& along = rays[missed[q]].along;
-    keep_footprints_of(along, surfels, candidates);
+    keep_covering(along, surfels, candidates);
     if (is_surrounded(along, surfels, candidates)) ++holes;
   });
   return holes;
@@ -78,17 +78,17 @@ std::size_t count_different(std::vector<std::uint32_t> values) {
 CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, Projection projection,
                      const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options) {
   const std::vector<Ray> rays = beam_rays(shares, options);
-  const std::vector<Landing> landings =
+  const std::vector<CastRay> cast =
       projection == Projection::raster
-          ? land_by_raster(surfels, rays, options)
-          : land_by_index(surfels, DirectionIndex(surfels, projection, options.threads), rays, options);
+          ? cast_by_raster(surfels, rays, options)
+          : cast_by_index(surfels, DirectionIndex(surfels, projection, options.threads), rays, options);
   CastResult result;
   Scatterers& out = result.scatterers;
   for (std::size_t r = 0; r < rays.size(); ++r) {
-    const RayHit& hit = landings[r].hit;
+    const RayHit& hit = cast[r].hit;
     const double range = hit.range;
-    result.missed += landings[r].fate == RayFate::missed;
-    if (landings[r].fate != RayFate::echoes || range < gate.min_range || range > gate.max_range) continue;
+    result.missed += cast[r].outcome == RayOutcome::missed;
+    if (cast[r].outcome != RayOutcome::hit || range < gate.min_range || range > gate.max_range) continue;
     const GatedSurfel& s = surfels[hit.surfel];
     out.range.push_back(range);
     out.azimuth.push_back(rays[r].direction.azimuth);
@@ -99,8 +99,8 @@ CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& su
     out.id.push_back(std::uint64_t{scene.id[s.surfel]} << 32 | r);
     out.surfel.push_back(s.surfel);
   }
-  if (result.missed > 0) result.unknown = count_holes(surfels, rays, landings, options.threads);
-  result.met_surfels = count_different(out.surfel);
+  if (result.missed > 0) result.unknown = count_holes(surfels, rays, cast, options.threads);
+  result.hit_surfels = count_different(out.surfel);
   return result;
 }
 

@@ -11,13 +11,13 @@ namespace insonify {
 
 struct CastResult {
   Scatterers scatterers;
-  std::size_t missed = 0;       ///< rays that met nothing
-  std::size_t unknown = 0;      ///< of these, with surfels within three footprints on all sides
-  std::size_t met_surfels = 0;  ///< different surfels that gave an echo
+  std::size_t missed = 0;       ///< rays that hit no surfel
+  std::size_t unknown = 0;      ///< of these, rays surrounded by surfels within three footprints
+  std::size_t hit_surfels = 0;  ///< number of distinct surfels hit inside the gate
 };
 
-/// Where the rays of all beams (beam_rays) meet the surfels. Each ray's cell is r^2 times its solid angle.
-/// The projection (not automatic) changes the cost alone.
+/// Casts the rays of all beams (beam_rays) and returns a scatterer for each hit inside the gate, with a projected area
+/// of r^2 times the solid angle of the ray. `projection` (not automatic) affects the cost only.
 CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, Projection projection,
                      const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options);
 

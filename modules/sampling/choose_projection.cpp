@@ -9,7 +9,8 @@ namespace insonify {
 Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries,
                              int threads) {
   if (wanted != Projection::automatic) return wanted;
-  // Measured times [ns]: a wide surfel against a direction, a surfel drawn, a tree's point sorted in and a search.
+  // Measured times [ns]: test of a wide surfel against a direction, drawing of a surfel, insertion into a tree, and
+  // search.
   constexpr double wide_test = 2, draw = 120, build = 25, search = 1500;
   const auto n = static_cast<double>(surfels.size()), asked = static_cast<double>(queries);
   const auto wide = static_cast<double>(

@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// `wanted`, or for automatic the projection that costs less for so many directions: raster, unless too many surfels fill
-/// more than it puts into tiles.
+/// Returns `wanted`, or for automatic the projection with the lower estimated cost for `queries` directions: the
+/// raster, unless too many surfels are too wide for its tiles.
 Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries,
                              int threads);
 

@@ -8,8 +8,8 @@
 
 namespace insonify {
 
-/// For each query the surfels whose cone may hold it: calls use(query, candidates), from several threads. `candidates` may be
-/// changed by the call.
+/// Calls use(query, candidates) for each query, concurrently; `candidates` lists all surfels whose footprint cone
+/// contains the query, and possibly others. The call may modify it.
 template <typename Use>
 void for_candidates(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, int threads,
                     const Use& use) {

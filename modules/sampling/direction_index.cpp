@@ -10,8 +10,8 @@
 namespace insonify {
 namespace {
 
-constexpr float widest_indexed = 0.5f;  // sine of the half-angle
-// Directions are rounded to single precision: search a little wider than the footprint.
+constexpr float widest_indexed = 0.5f;  // sine of the footprint's half-angle
+// Directions are rounded to single precision, so the search is slightly wider than the footprint.
 constexpr float chord_slack = 1e-6f, chord_factor = 1.0001f, nearest_factor = 0.9999f;
 
 }  // namespace
@@ -20,7 +20,7 @@ DirectionIndex::DirectionIndex(const std::vector<GatedSurfel>& surfels, Projecti
   std::map<int, std::vector<std::uint32_t>, std::greater<>> members;
   for (std::uint32_t s = 0; s < surfels.size(); ++s) {
     const float sine = surfels[s].radius / surfels[s].range;
-    if (!(sine > 0)) continue;  // no area: blocks nothing
+    if (!(sine > 0)) continue;  // no area: occludes nothing
     if (projection == Projection::brute_force || sine > widest_indexed)
       wide_.push_back(s);
     else

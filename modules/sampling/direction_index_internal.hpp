@@ -10,16 +10,17 @@
 
 namespace insonify {
 
-/// Finds the surfels that may stand in a direction: KD-trees over the directions of the gated surfels, one
-/// per octave of angular footprint (disc radius / range), each searched with its own widest footprint.
-/// Surfels that fill more than 30 degrees to either side, or all with Projection::brute_force, are looked at
-/// one by one.
+/// Finds the surfels whose footprint may contain a direction, as one KD-tree query per octave of angular size: the unit
+/// vectors towards the gated surfels are grouped by angular radius (disc radius / range) into octaves, one KD-tree
+/// each, and each tree is searched with the chord of its widest footprint. Surfels with a half-angle above 30 degrees,
+/// or all of them for Projection::brute_force, are tested one by one. Building costs O(n log n), a query O(log n) per
+/// octave plus the surfels found.
 class DirectionIndex {
  public:
   DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, int threads);
 
-  /// Calls test(surfel) for the surfels that may stand in `direction`, among them all that do and are nearer
-  /// than `range`, until one call returns true; returns whether one did. `scratch` is overwritten.
+  /// Calls test(surfel) for candidates in `direction`, among them all surfels that cover it and are nearer than `range`
+  /// [m], until a call returns true; returns whether one did. `scratch` is overwritten.
   template <typename Test>
   bool any(const Eigen::Vector3f& direction, float range, std::vector<Neighbour>& scratch, Test&& test) const {
     for (const std::uint32_t s : wide_)
@@ -36,9 +37,9 @@ class DirectionIndex {
  private:
   struct Octave {
     std::vector<std::uint32_t> members;  // gated surfels, in the order of the tree's points
-    SceneIndex index;                    // over their directions
-    float chord = 0;                     // no member's footprint is wider
-    float nearest = 0;                   // no member's disc comes nearer [m]
+    SceneIndex index;                    // of their directions
+    float chord = 0;                     // chord of the widest footprint
+    float nearest = 0;                   // lower bound on the range of the discs [m]
   };
 
   std::vector<std::uint32_t> wide_;

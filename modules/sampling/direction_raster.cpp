@@ -12,17 +12,17 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr std::size_t block = 8192;
-constexpr float cells_per_footprint = 2;               // along one side of a typical one's box
-constexpr float most_cells_per_surfel = 64;            // on average, however large some are
-constexpr float slack_factor = 1.001f, slack = 4e-6f;  // single precision: boxes a little wider than footprints
+constexpr float cells_per_footprint = 2;               // along one side of a typical bounding box
+constexpr float most_cells_per_surfel = 64;            // upper limit of the average
+constexpr float slack_factor = 1.001f, slack = 4e-6f;  // boxes slightly wider than footprints, for rounding
 
-// A surfel's footprint on one face: centre and half extents.
+// Bounding box of a footprint on one face: centre and half extents.
 struct Extent {
   float x, y, half_x, half_y;
 };
 
-// For v in the disc or the ball, (p + v) is projected to x + (v . w) / (d + v . f), with w = e_x - x f: a bound for the
-// numerator and one for the denominator give the box.
+// For v in the disc or ball, p + v projects to x + (v . w) / (d + v . f) with w = e_x - x f; bounding numerator and
+// denominator separately gives the box.
 bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Extent& box) {
   const int k = static_cast<int>(face / 2), i = (k + 1) % 3, j = (k + 2) % 3;
   const float sign = face % 2 == 0 ? 1.0f : -1.0f, d = sign * s.position[k], nf = sign * s.away[k];
@@ -49,7 +49,8 @@ std::uint32_t main_face(const Vector3f& v) {
   return static_cast<std::uint32_t>(2 * k + (v[k] < 0));
 }
 
-// Turns counts[block][tile] into where each block's share of each tile begins; returns where each tile begins, and the end.
+// Replaces counts[block][tile] by the index at which the entries of each block begin in each tile; returns the begin of
+// each tile and the total.
 std::vector<std::size_t> starts_of(std::vector<std::vector<std::size_t>>& counts, std::size_t tiles) {
   std::vector<std::size_t> first(tiles + 1, 0);
   std::size_t total = 0;
@@ -92,21 +93,21 @@ DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::s
   sort_queries(queries, threads);
 }
 
-// What the queries fill of each face.
+// Bounds the queries on each face.
 void DirectionRaster::bound_faces(std::span<const CubePoint> queries, int threads) {
   std::vector<std::array<Face, 6>> parts((queries.size() + block - 1) / block);
   parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    for (const CubePoint& q : queries.subspan(begin, end - begin)) parts[begin / block][q.face].take_in(q.x, q.y);
+    for (const CubePoint& q : queries.subspan(begin, end - begin)) parts[begin / block][q.face].include(q.x, q.y);
   });
   for (const auto& part : parts)
     for (std::size_t f = 0; f < faces_.size(); ++f)
       if (part[f].x1 >= part[f].x0) {
-        faces_[f].take_in(part[f].x0, part[f].y0);
-        faces_[f].take_in(part[f].x1, part[f].y1);
+        faces_[f].include(part[f].x0, part[f].y0);
+        faces_[f].include(part[f].x1, part[f].y1);
       }
 }
 
-// A typical footprint should fill a few cells; all together a bounded number for each surfel and query.
+// A typical footprint should cover a few cells, with a bounded total number of cells per surfel and query.
 void DirectionRaster::size_cells(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
                                  Footprint footprint) {
   const std::size_t stride = surfels.size() / 4096 + 1;
@@ -169,7 +170,7 @@ void DirectionRaster::add_boxes(const GatedSurfel& s, std::uint32_t index, Footp
     if (f != home && faces_[f].nx > 0 && project(s, f, footprint, e)) add(f, e);
 }
 
-// Counting sort by tile; a box that crosses tiles goes to each, clipped.
+// Counting sort by tile; a box that crosses tiles is clipped and added to each.
 void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads) {
   constexpr int side = DirectionTile::side;
   const auto for_tiles = [this](const Box& box, auto&& use) {

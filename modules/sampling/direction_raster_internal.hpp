@@ -11,8 +11,8 @@
 
 namespace insonify {
 
-/// Where a vector from the head pierces a cube round it: face 0 .. 5 (+x, -x, +y, ...), coordinates there in -1 .. 1
-/// along the next two axes, and the vector's part along the face's axis.
+/// Projection of a vector from the head onto a cube around it: face 0 .. 5 (+x, -x, +y, ...), coordinates on it in -1
+/// .. 1 along the next two axes, and the component of the vector along the face's axis.
 struct CubePoint {
   std::uint32_t face;
   float x, y;
@@ -20,31 +20,31 @@ struct CubePoint {
 };
 CubePoint on_cube(const Eigen::Vector3f& v);
 
-/// What of a surfel is looked for in a direction.
+/// Which footprint of a surfel is rasterised.
 enum class Footprint {
-  disc,  ///< where it may hide another one (`hides`): its disc, and half a spacing round its centre
-  cone   ///< where a ray may meet it (`hit_surface`): the cone round a ball of its radius
+  disc,  ///< where it may occlude another surfel (`hides`): its disc, and a ball of half a spacing around its centre
+  cone   ///< where a ray may hit it (`hit_surface`): the cone around a ball of its radius
 };
 
-/// Cells of one tile that a surfel's footprint may touch, both ends included.
+/// Range of cells of one tile that a footprint may overlap, inclusive.
 struct TileBox {
   std::uint32_t surfel;
   std::uint8_t x0, x1, y0, y1;
 };
 
-/// A square of directions on one face of the cube.
+/// A square tile of directions on one face of the cube.
 struct DirectionTile {
   static constexpr int side = 64;  ///< cells
 
   std::uint32_t face = 0;
-  float x = 0, y = 0;                      ///< its lower corner
+  float x = 0, y = 0;                      ///< lower corner
   float cell = 0;                          ///< width of a cell
-  std::span<const TileBox> boxes;          ///< surfels that may stand in it, in order
-  std::span<const std::uint32_t> queries;  ///< which directions asked about lie in it, in order
+  std::span<const TileBox> boxes;          ///< footprints that overlap the tile, by surfel
+  std::span<const std::uint32_t> queries;  ///< indices of the queries in the tile, ascending
   std::size_t cell_of(const CubePoint& q) const;
 };
 
-/// Entries of type T, listed by cell of a tile.
+/// Linked lists of entries of type T, one list per cell of a tile.
 template <typename T>
 class CellLists {
  public:
@@ -59,7 +59,7 @@ class CellLists {
     links_.push_back({entry, first_[cell]});
     first_[cell] = static_cast<std::uint32_t>(links_.size() - 1);
   }
-  /// Calls use(entry) for the entries in the box's cells.
+  /// Calls use(entry) for all entries in the cells of the box.
   template <typename Use>
   void for_each(const TileBox& box, Use&& use) {
     for (std::size_t y = box.y0; y <= box.y1; ++y)
@@ -78,31 +78,32 @@ class CellLists {
   std::vector<Link> links_;
 };
 
-/// Footprints of surfels, rasterised over the directions that are asked about: cells on a cube round the head, sized
-/// after the footprints, in tiles that are worked on independently. In the coordinates of a face a surfel's plane has a
-/// linear inverse depth and its footprint a box in closed form, so no angle is ever computed.
+/// Rasterises the footprints of surfels over the queried directions: cells on a cube around the head, sized after the
+/// typical footprint, in tiles of 64 x 64 cells that are processed independently. In the coordinates of a face the
+/// inverse depth of a surfel's plane is linear and its footprint has a bounding box in closed form, so no angle is
+/// computed. Building costs O(surfels + queries) by counting sort.
 class DirectionRaster {
  public:
-  /// `queries` must stay alive.
+  /// Keeps a reference to `queries`.
   DirectionRaster(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, Footprint footprint,
                   int threads);
 
   std::size_t tiles() const { return tiles_.size(); }
   DirectionTile tile(std::size_t t) const;
-  /// Surfels that fill more than 14 degrees to either side: they stand in no tile and must be looked at one by one.
+  /// Surfels with a half-angle above 14 degrees: they are in no tile and must be tested one by one.
   const std::vector<std::uint32_t>& wide() const { return wide_; }
 
-  /// True if a surfel's footprint is so wide.
+  /// Returns true if a surfel belongs to wide().
   static bool is_wide(const GatedSurfel& s) { return s.radius > widest_ * s.range; }
 
  private:
   struct Face {
-    float x0 = 1, x1 = -1, y0 = 1, y1 = -1;  // what queries fill of it
+    float x0 = 1, x1 = -1, y0 = 1, y1 = -1;  // bounds of the queries on the face
     int nx = 0, ny = 0;                      // cells
     int columns = 0;                         // tiles in a row
     std::size_t first_tile = 0;
 
-    void take_in(float x, float y) {
+    void include(float x, float y) {
       x0 = std::min(x0, x);
       x1 = std::max(x1, x);
       y0 = std::min(y0, y);
@@ -123,7 +124,7 @@ class DirectionRaster {
   void sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads);
   void sort_queries(std::span<const CubePoint> queries, int threads);
 
-  // Below 1/4, a disc that touches a face's directions lies wholly before the head as that face sees it.
+  // Below 1/4, a disc that overlaps the directions of a face lies entirely in front of the head along the face's axis.
   static constexpr float widest_ = 0.25f;
 
   std::array<Face, 6> faces_;
@@ -132,7 +133,7 @@ class DirectionRaster {
   std::vector<std::uint32_t> wide_;
   std::vector<TileBox> boxes_;
   std::vector<std::uint32_t> queries_;
-  std::vector<std::size_t> first_box_, first_query_;  // of each tile, and the end
+  std::vector<std::size_t> first_box_, first_query_;  // begin of each tile, and the end
 };
 
 }  // namespace insonify

@@ -15,29 +15,29 @@
 namespace insonify {
 namespace {
 
-constexpr float reach = 3;          // footprints that surfels around a hole may be away
-constexpr float other_surface = 8;  // spacings in range between two surfaces
+constexpr float rim_footprints = 3;  // surfels around a hole are within this many footprints
+constexpr float other_surface = 8;   // range gap between two surfaces, in spacings
 
-// Surfels as they are, and with the footprints that reach across a hole.
-struct TwoSizes {
-  std::vector<GatedSurfel> own, wide;
+// The gated surfels with their own footprints, and enlarged to span a hole.
+struct FootprintSets {
+  std::vector<GatedSurfel> own, enlarged;
 
-  explicit TwoSizes(std::vector<GatedSurfel> surfels) : own(std::move(surfels)), wide(own) {
-    for (GatedSurfel& s : wide) s.radius *= reach;
+  explicit FootprintSets(std::vector<GatedSurfel> surfels) : own(std::move(surfels)), enlarged(own) {
+    for (GatedSurfel& s : enlarged) s.radius *= rim_footprints;
   }
 };
 
-// The hole that a ray looks into, if any; `candidates` may hold more than the surfels around it.
-std::optional<Hole> hole_at(const TwoSizes& surfels, std::uint32_t beam, const Ray& ray,
+// Returns the hole in the direction of a ray, if any; `candidates` may contain more than the surfels around it.
+std::optional<Hole> hole_at(const FootprintSets& surfels, std::uint32_t beam, const Ray& ray,
                             std::vector<std::uint32_t>& candidates) {
   std::vector<std::uint32_t> around = candidates;
   RayHit hit;
-  const RayFate fate = hit_surface(surfels.own, ray.along, true, candidates, hit);
-  if (fate == RayFate::blocked) return {};
-  // Only what stands clearly before the surface that is met can be the rim of a hole.
-  const float limit = fate == RayFate::missed ? std::numeric_limits<float>::infinity()
-                                              : hit.range - other_surface * surfels.own[hit.surfel].spacing;
-  keep_footprints_of(ray.along, surfels.wide, around);
+  const RayOutcome outcome = hit_surface(surfels.own, ray.along, true, candidates, hit);
+  if (outcome == RayOutcome::blocked) return {};
+  // Only surfels clearly in front of the surface hit can form the rim of a hole.
+  const float limit = outcome == RayOutcome::missed ? std::numeric_limits<float>::infinity()
+                                                    : hit.range - other_surface * surfels.own[hit.surfel].spacing;
+  keep_covering(ray.along, surfels.enlarged, around);
   std::erase_if(around, [&](std::uint32_t s) { return !(surfels.own[s].range < limit); });
   if (!is_surrounded(ray.along, surfels.own, around)) return {};
   const auto nearer = [&](std::uint32_t a, std::uint32_t b) { return surfels.own[a].range < surfels.own[b].range; };
@@ -46,15 +46,16 @@ std::optional<Hole> hole_at(const TwoSizes& surfels, std::uint32_t beam, const R
               surfels.own[*farthest].range};
 }
 
-std::vector<std::optional<Hole>> look_along(const std::vector<Ray>& rays, const TwoSizes& surfels,
-                                            const SamplingOptions& options) {
+std::vector<std::optional<Hole>> search_along(const std::vector<Ray>& rays, const FootprintSets& surfels,
+                                              const SamplingOptions& options) {
   std::vector<CubePoint> queries;
   for (const Ray& ray : rays) queries.push_back(on_cube(ray.along));
   std::vector<std::optional<Hole>> found(rays.size());
-  for_candidates(surfels.wide, queries, options.threads, [&](std::uint32_t q, std::vector<std::uint32_t>& candidates) {
-    const std::uint32_t beam = q / static_cast<std::uint32_t>(options.rays_per_beam);
-    found[q] = hole_at(surfels, beam, rays[q], candidates);
-  });
+  for_candidates(surfels.enlarged, queries, options.threads,
+                 [&](std::uint32_t q, std::vector<std::uint32_t>& candidates) {
+                   const std::uint32_t beam = q / static_cast<std::uint32_t>(options.rays_per_beam);
+                   found[q] = hole_at(surfels, beam, rays[q], candidates);
+                 });
   return found;
 }
 
@@ -80,22 +81,22 @@ Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, con
   const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
   const Sector sector = insonified_sector(fan, half_extent, options.azimuth_margin);
   const HeadFrame head(prepared.scene(), world_from_head);
-  const TwoSizes surfels(gate_surfels(prepared, head, sector, gate, options.footprint, options.threads));
+  const FootprintSets surfels(gate_surfels(prepared, head, sector, gate, options.footprint, options.threads));
   const std::vector<Ray> rays = beam_rays(beam_shares(fan, sector), options);
   Holes result;
   result.directions = rays.size();
   if (surfels.own.empty()) return result;
-  for (const std::optional<Hole>& hole : look_along(rays, surfels, options))
+  for (const std::optional<Hole>& hole : search_along(rays, surfels, options))
     if (hole) result.holes.push_back(*hole);
   return result;
 }
 
-std::vector<Eigen::Vector3d> places_of(const Holes& holes, const Pose& world_from_head) {
-  std::vector<Eigen::Vector3d> places;
+std::vector<Eigen::Vector3d> hole_positions(const Holes& holes, const Pose& world_from_head) {
+  std::vector<Eigen::Vector3d> positions;
   for (const Hole& hole : holes.holes)
-    places.push_back(world_from_head * Eigen::Vector3d(0.5 * (hole.min_range + hole.max_range) *
-                                                       unit_vector({hole.azimuth, hole.elevation})));
-  return places;
+    positions.push_back(world_from_head * Eigen::Vector3d(0.5 * (hole.min_range + hole.max_range) *
+                                                          unit_vector({hole.azimuth, hole.elevation})));
+  return positions;
 }
 
 Grid<std::uint8_t> mask_holes(const Holes& holes, const BeamFan& fan, const RangeGate& gate) {

@@ -14,33 +14,33 @@
 
 namespace insonify {
 
-/// A direction in which the scan has a hole: what stands there is not known.
+/// A direction in which the scan has a hole, so that the presence of a surface is unknown.
 struct Hole {
-  std::uint32_t beam = 0;               ///< in whose share of the sector it lies
+  std::uint32_t beam = 0;               ///< beam in whose share of the sector the hole lies
   double azimuth = 0, elevation = 0;    ///< in head axes [rad]
-  double min_range = 0, max_range = 0;  ///< of the surfels around it [m]
+  double min_range = 0, max_range = 0;  ///< ranges of the surrounding surfels [m]
 };
 
 struct Holes {
-  std::vector<Hole> holes;     ///< by beam, then upwards in elevation
-  std::size_t directions = 0;  ///< how many were looked at
+  std::vector<Hole> holes;     ///< sorted by beam, then by elevation
+  std::size_t directions = 0;  ///< number of directions tested
 };
 
-/// Looks along options.rays_per_beam directions of each beam's share of the insonified sector, spread like the rays of
-/// find_scatterers. There is a hole where surfels stand within three footprints on all sides, but nothing at their range
-/// meets the ray: an opening less than about seven spacings wide. A wider one counts as open water but for its narrow
-/// corners. What a ray meets further behind does not fill the hole.
-/// Of `options` kind, splitting, occlusion and projection have no part in it. The result does not depend on
+/// Tests options.rays_per_beam directions per beam, distributed like the rays of find_scatterers. A direction is a hole
+/// if surfels within three footprints surround it, but no surfel at their range covers it: an opening up to about seven
+/// spacings wide. Wider openings count as open water except in narrow corners. A surface hit behind a hole does not
+/// fill it. The options kind, splitting, occlusion and projection are ignored, and the result does not depend on
 /// options.threads. Throws Error for an invalid pose, fan, gate or option, as find_scatterers does.
 Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
                  const SamplingOptions& options = {});
 
-/// Where holes are in the world [m]: in their directions, half way between the nearest and the farthest of the surfels
-/// around them.
-std::vector<Eigen::Vector3d> places_of(const Holes& holes, const Pose& world_from_head);
+/// Returns the world positions of holes [m]: in their directions, half way between the nearest and the farthest of the
+/// surrounding surfels.
+std::vector<Eigen::Vector3d> hole_positions(const Holes& holes, const Pose& world_from_head);
 
-/// Mask, beams x bins: 1 where surface may be missing, in bins that touch the range interval of a hole in the beam's
-/// share; else 0. Shadows behind missing surface are not marked. Throws Error if a hole's beam is not of the fan.
+/// Returns a mask, beams x bins: 1 where surface may be missing, i.e. in the bins that overlap the range interval of a
+/// hole in the beam's share, else 0. Shadows behind missing surface are not marked. Throws Error if a hole's beam is
+/// not in the fan.
 Grid<std::uint8_t> mask_holes(const Holes& holes, const BeamFan& fan, const RangeGate& gate);
 
 }  // namespace insonify

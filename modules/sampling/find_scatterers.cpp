@@ -14,6 +14,16 @@
 #include "sampling/surfel_visibility_internal.hpp"
 #include "sampling/tilt_by_relief_internal.hpp"
 
+// Finds the visible patches of a scene (E16, E17):
+//   1. gate: transform surfels to head axes, keep those whose disc overlaps the sector and is within the far range
+//      (gate_surfels; a prepared scene visits only the blocks that overlap the region);
+//   2. project: find the surfels that cover a direction, by KD-trees over unit vectors (direction_index), one per octave
+//      of angular footprint, or by a raster with a depth buffer (direction_raster); both give the same result;
+//   3. decide: a surfel is hidden if a disc in front of it covers it (surfel_visibility), or a ray hits the front cluster
+//      of surfels that cover it (hit_rule, cast_rays);
+//   4. split visible surfels into parts, several per resolution cell (split_surfels);
+//   5. tilt the normals of rough materials by micro-relief (tilt_by_relief).
+// Cost: O(n) for the gate, O(m log m) for the m surfels inside by KD-trees, about O(m) by the raster; parallel.
 namespace insonify {
 namespace {
 
@@ -49,7 +59,7 @@ double half_extent_of(const BeamFan& fan, const SamplingOptions& options) {
   return options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
 }
 
-// Everything about the ping that is not the scene.
+// All parameters of a ping except the scene.
 struct View {
   const Pose& world_from_head;
   const BeamFan& fan;
@@ -68,7 +78,7 @@ struct View {
         head(scene, pose) {}
 };
 
-// Surfels that give an echo, in scene order; counts the others.
+// Returns the surfels that contribute echoes, in scene order; counts the others in the report.
 std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfels, const SamplingOptions& options,
                                           SamplingReport& report) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
@@ -85,7 +95,7 @@ std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfel
   return visible;
 }
 
-// What the head sees of the surfels in sector and gate.
+// Samples the visible part of the gated surfels.
 Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
   const SamplingOptions& options = view.options;
   Sampling result;
@@ -102,7 +112,7 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
     result.scatterers = std::move(cast.scatterers);
     report.rays_missed = cast.missed;
     report.rays_unknown = cast.unknown;
-    report.visible = cast.met_surfels;
+    report.visible = cast.hit_surfels;
   } else {
     const auto visible = select_visible(surfels, options, report);
     const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * view.gate.bin_size;

@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double nothing_nearer = 1e-6;  // [m]: the head itself
+constexpr double min_distance = 1e-6;  // [m]; nearer points belong to the head itself
 
-// A sector as four half-spaces: signed distances need no trigonometry per point.
+// A sector as four half-spaces: signed distances avoid trigonometry per point.
 class SectorTest {
  public:
   explicit SectorTest(const Sector& sector)
@@ -25,8 +25,8 @@ class SectorTest {
         top_(std::sin(sector.max_elevation), cos_elevation(sector.max_elevation)),
         bottom_(std::sin(sector.min_elevation), cos_elevation(sector.min_elevation)) {}
 
-  // True if a sphere of radius `margin` round p may reach into the sector; exact for margin 0.
-  bool holds(const Vector3d& p, double margin) const {
+  // Returns true if a ball of radius `margin` around p may overlap the sector; exact for margin 0.
+  bool overlaps(const Vector3d& p, double margin) const {
     const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
     if (p.z() * top_.y() - across * top_.x() > margin) return false;
     if (across * bottom_.x() - p.z() * bottom_.y() > margin) return false;
@@ -36,7 +36,7 @@ class SectorTest {
   }
 
  private:
-  // Nought at +-pi/2, where the rounded cosine would leave out the zenith itself.
+  // Zero at +-pi/2, where the rounded cosine would exclude the zenith itself.
   static double cos_elevation(double elevation) { return std::abs(elevation) < pi / 2 ? std::cos(elevation) : 0; }
 
   bool whole_circle_, convex_;
@@ -54,13 +54,13 @@ struct Gate {
   void add_if_inside(std::size_t i, std::vector<GatedSurfel>& inside) const {
     const Vector3d p = head.position(scene.point[i]);
     const double r2 = p.squaredNorm();
-    if (!(r2 <= range.max_range * range.max_range) || r2 < nothing_nearer * nothing_nearer) return;
+    if (!(r2 <= range.max_range * range.max_range) || r2 < min_distance * min_distance) return;
     const double spacing = std::sqrt(static_cast<double>(scene.area[i])), radius = footprint * spacing;
-    if (!sector.holds(p, radius)) return;
+    if (!sector.overlaps(p, radius)) return;
 
     const double r = std::sqrt(r2);
     const Vector3d normal = head.direction(scene.normal[i].cast<double>());
-    const double along = normal.dot(p);  // negative: the normal points back to the head
+    const double along = normal.dot(p);  // negative: the normal points towards the head
     GatedSurfel s{};
     s.position = p.cast<float>();
     s.range = static_cast<float>(r);
@@ -69,20 +69,20 @@ struct Gate {
     s.radius = static_cast<float>(radius);
     s.spacing = static_cast<float>(spacing);
     s.surfel = static_cast<std::uint32_t>(i);
-    s.in_gate = r >= range.min_range && sector.holds(p, 0);
+    s.in_gate = r >= range.min_range && sector.overlaps(p, 0);
     s.facing = scene.normals_oriented ? along < 0 : along != 0;
     inside.push_back(s);
   }
 };
 
-// Surfels to look at, one bit each, so that they come in scene order whatever the order of the blocks.
+// Surfels to test, one bit each, so they are visited in scene order whatever the order of the blocks.
 using Marks = std::vector<std::uint64_t>;
 
 bool reaches(const Vector3d& centre, double radius, double largest_area, const SectorTest& sector, double max_range,
              double footprint) {
   constexpr double rounding = 1 + 1e-9;
   if (centre.norm() > (max_range + radius) * rounding) return false;
-  return sector.holds(centre, (radius + footprint * std::sqrt(largest_area)) * rounding + nothing_nearer);
+  return sector.overlaps(centre, (radius + footprint * std::sqrt(largest_area)) * rounding + min_distance);
 }
 
 bool reaches(const SurfelBlock& block, const Gate& gate) {
@@ -126,7 +126,8 @@ InsonifiedRegion region_around(const Vector3d& centre, double radius) {
   return all;
 }
 
-bool may_hold(const InsonifiedRegion& region, const Vector3d& ball_centre, double ball_radius, double largest_area) {
+bool may_intersect(const InsonifiedRegion& region, const Vector3d& ball_centre, double ball_radius,
+                   double largest_area) {
   const Pose& pose = region.world_from_head;
   const Vector3d in_head_axes = pose.linear().transpose() * (ball_centre - pose.translation());
   return reaches(in_head_axes, ball_radius, largest_area, SectorTest(region.sector), region.gate.max_range,

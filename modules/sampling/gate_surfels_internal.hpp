@@ -12,21 +12,21 @@
 
 namespace insonify {
 
-/// A surfel in head axes, and the disc that stands for it when it blocks sound. Single precision is enough
-/// here: this decides what is seen, not where it is.
+/// A surfel in head axes, with the disc that represents it as an occluder. Single precision suffices: these values
+/// decide visibility, not position.
 struct GatedSurfel {
   Eigen::Vector3f position;  ///< [m]
   float range;               ///< [m]
-  Eigen::Vector3f away;      ///< unit normal, turned so that it points away from the head
+  Eigen::Vector3f away;      ///< unit normal, oriented away from the head
   float plane_distance;      ///< from the head to the tangent plane [m], >= 0; 0: seen edge-on
   float radius;              ///< of the disc [m]
   float spacing;             ///< sqrt(area) [m]
   std::uint32_t surfel;      ///< index in the scene
-  bool in_gate;              ///< inside sector and gate; else it can only block
-  bool facing;               ///< shows the head its front (or either side, when normals are not oriented)
+  bool in_gate;              ///< inside sector and gate; else it can only occlude
+  bool facing;               ///< front side towards the head (either side if normals are not oriented)
 };
 
-/// Double-precision transform of scene points to head axes: the large coordinates cancel first.
+/// Transforms scene points to head axes in double: subtracts the large world coordinates first.
 class HeadFrame {
  public:
   HeadFrame(const SceneCloud& scene, const Pose& world_from_head)
@@ -39,11 +39,12 @@ class HeadFrame {
   Eigen::Vector3d shift_;
 };
 
-/// Surfels whose disc reaches into `sector` and which stand nearer than the far end of `gate`, in scene
-/// order. footprint   disc radius in units of the surfel's spacing
+/// Returns the surfels whose disc overlaps `sector` and whose centre is within the far end of `gate`, in scene order.
+///
+/// footprint   disc radius in units of the surfel's spacing
 std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& gate, double footprint, int threads);
-/// The same surfels in the same order, found in the blocks that sector and gate reach.
+/// Returns the same surfels in the same order, visiting only the blocks that overlap sector and gate.
 std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& gate, double footprint, int threads);
 

@@ -10,33 +10,34 @@
 namespace insonify {
 namespace {
 
-constexpr float link = 8;        // a cluster goes on while the next range is within so many spacings
-constexpr float corner = 0.71f;  // from the middle of a square to its corner, in widths
+constexpr float max_step = 8;           // largest range step within a cluster, in spacings
+constexpr float half_diagonal = 0.71f;  // half diagonal of a square, in widths
 
-// The end of the cluster that begins with candidate `begin`: the first of the next surface. Sorted by range.
+// Returns the end of the cluster that begins with candidate `begin`; candidates are sorted by range.
 std::size_t end_of_cluster(const std::vector<GatedSurfel>& surfels, const std::vector<std::uint32_t>& candidates,
                            std::size_t begin) {
   for (std::size_t k = begin + 1; k < candidates.size(); ++k) {
     const GatedSurfel &a = surfels[candidates[k - 1]], &b = surfels[candidates[k]];
-    if (b.range - a.range > link * std::max(a.spacing, b.spacing)) return k;
+    if (b.range - a.range > max_step * std::max(a.spacing, b.spacing)) return k;
   }
   return candidates.size();
 }
 
-// True if the ray crosses the tangent plane of s within the corners of a square of its area.
+// Returns true if the ray crosses the tangent plane of s within the circumcircle of a square of its area.
 bool crosses(const GatedSurfel& s, const Eigen::Vector3f& direction) {
-  const float slope = s.away.dot(direction), reach = corner * s.spacing * slope;
+  const float slope = s.away.dot(direction), reach = half_diagonal * s.spacing * slope;
   return (direction * s.plane_distance - s.position * slope).squaredNorm() <= reach * reach;
 }
 
-// Range at which a ray meets the tangent plane of s, trusted as far as one surface reaches.
+// Range at which the ray intersects the tangent plane of s, limited to the extent of a cluster.
 float range_on_tangent_plane(const GatedSurfel& s, const Eigen::Vector3f& direction) {
-  const float reach = link * s.spacing, slope = s.away.dot(direction);
+  const float reach = max_step * s.spacing, slope = s.away.dot(direction);
   const float low = std::max(0.0f, s.range - reach), high = s.range + reach;
   return slope * high <= s.plane_distance ? high : std::max(low, s.plane_distance / slope);  // (E16)
 }
 
-// Angularly nearest member of the cluster, facing ones only if so asked; the cluster's size if there is none.
+// Returns the angularly nearest member of the cluster, optionally among those that face the head; the cluster's size if
+// there is none.
 std::size_t nearest_member(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> cluster,
                            const Eigen::Vector3f& direction, bool facing_only) {
   std::size_t best = cluster.size();
@@ -52,8 +53,8 @@ std::size_t nearest_member(const std::vector<GatedSurfel>& surfels, std::span<co
   return best;
 }
 
-// True if the ray passes beside a surface: it crosses none of its surfels, and from where it meets the tangent plane of the
-// nearest one, their centres lie to one side, all within a quarter turn.
+// Returns true if the ray misses a surface at its edge: it crosses none of the surfels, and seen from its intersection
+// with the nearest tangent plane all their centres lie within 90 degrees of each other.
 bool passes_beside(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> cluster,
                    const Eigen::Vector3f& direction) {
   for (const std::uint32_t c : cluster)
@@ -76,8 +77,8 @@ float squared_footprint_chord(const GatedSurfel& s) {
   return sine < 1 ? 2 - 2 * std::sqrt(1 - sine * sine) : 4.0f;
 }
 
-void keep_footprints_of(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
-                        std::vector<std::uint32_t>& candidates) {
+void keep_covering(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+                   std::vector<std::uint32_t>& candidates) {
   std::erase_if(candidates, [&](std::uint32_t c) {
     return !(squared_chord(direction, surfels[c]) <= squared_footprint_chord(surfels[c]));
   });
@@ -97,14 +98,14 @@ bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurf
          angles.end();
 }
 
-RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
-                    std::vector<std::uint32_t>& candidates, RayHit& hit) {
-  keep_footprints_of(direction, surfels, candidates);
-  if (candidates.empty()) return RayFate::missed;
+RayOutcome hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
+                       std::vector<std::uint32_t>& candidates, RayHit& hit) {
+  keep_covering(direction, surfels, candidates);
+  if (candidates.empty()) return RayOutcome::missed;
   std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) {
     return surfels[a].range != surfels[b].range ? surfels[a].range < surfels[b].range : a < b;
   });
-  // The front cluster, unless the ray passes beside it and there is another one behind.
+  // Select the front cluster; advance to the next one while the ray passes beside it and another is behind.
   std::size_t begin = 0, end = front_only ? end_of_cluster(surfels, candidates, 0) : candidates.size();
   const auto members_of = [&] { return std::span<const std::uint32_t>(candidates).subspan(begin, end - begin); };
   while (end < candidates.size() && passes_beside(surfels, members_of(), direction)) {
@@ -113,13 +114,14 @@ RayFate hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector
   }
   const auto cluster = members_of();
 
-  // A thin body has front and back in one cluster: the side that the ray meets first counts.
+  // A thin body has both faces in one cluster: the one that the ray intersects first counts.
   const std::size_t facing = nearest_member(surfels, cluster, direction, true);
-  if (facing == cluster.size()) return RayFate::blocked;
+  if (facing == cluster.size()) return RayOutcome::blocked;
   hit = {cluster[facing], range_on_tangent_plane(surfels[cluster[facing]], direction)};
   const std::size_t nearest = nearest_member(surfels, cluster, direction, false);
-  if (nearest == facing) return RayFate::echoes;
-  return hit.range <= range_on_tangent_plane(surfels[cluster[nearest]], direction) ? RayFate::echoes : RayFate::blocked;
+  if (nearest == facing) return RayOutcome::hit;
+  return hit.range <= range_on_tangent_plane(surfels[cluster[nearest]], direction) ? RayOutcome::hit
+                                                                                   : RayOutcome::blocked;
 }
 
 }  // namespace insonify

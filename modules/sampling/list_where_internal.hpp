@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Indices in [0, n) for which test(index) is true, ascending.
+/// Returns the indices in [0, n) for which test(index) is true, ascending.
 template <typename Test>
 std::vector<std::uint32_t> list_where(std::size_t n, int threads, Test&& test) {
   constexpr std::size_t block = 1 << 14;
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> list_where(std::size_t n, int threads, Test&& test) {
   return list;
 }
 
-/// How many indices in [0, n) pass test(index).
+/// Returns the number of indices in [0, n) for which test(index) is true.
 template <typename Test>
 std::size_t count_where(std::size_t n, int threads, Test&& test) {
   std::atomic<std::size_t> count{0};

@@ -13,24 +13,24 @@ namespace {
 
 using Cell = std::int64_t;
 
-/// Counts the cells from `first` on and before `end` that are not in `occupied`, ascending.
+/// Counts the cells of [first, end) that are not in `occupied` (ascending).
 RangeGaps gaps_within(Cell first, Cell end, const std::vector<Cell>& occupied, double cell) {
   RangeGaps gaps;
   gaps.cells = static_cast<std::size_t>(end - first);
-  const auto close = [&](Cell to) {
+  const auto close_gap = [&](Cell to) {
     if (to <= first) return;
     gaps.empty += static_cast<std::size_t>(to - first);
     gaps.widest = std::max(gaps.widest, static_cast<double>(to - first) * cell);
   };
   for (auto at = std::lower_bound(occupied.begin(), occupied.end(), first); at != occupied.end() && *at < end; ++at) {
-    close(*at);
+    close_gap(*at);
     first = *at + 1;
   }
-  close(end);
+  close_gap(end);
   return gaps;
 }
 
-/// Indices of the scatterers in the order of their rays, which stand in the lower half of their ids.
+/// Indices of the scatterers in the order of their rays, whose numbers are the lower half of their ids.
 std::vector<std::size_t> by_ray(const Scatterers& scatterers) {
   std::vector<std::size_t> order(scatterers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -62,7 +62,7 @@ bool on_one_surface(const SurfaceHit& a, const SurfaceHit& b) {
 }
 
 RangeGaps count_range_gaps(const std::vector<SurfaceHit>& hits, double cell) {
-  // Cells that hold a hit, and stretches that a surface fills, from the first hit's cell on.
+  // Cells occupied by a hit, and intervals of cells filled by a surface between neighbouring rays.
   std::vector<Cell> occupied;
   for (const SurfaceHit& hit : hits) occupied.push_back(static_cast<Cell>(std::floor(hit.range / cell)));
   std::vector<std::pair<Cell, Cell>> filled;
@@ -72,7 +72,7 @@ RangeGaps count_range_gaps(const std::vector<SurfaceHit>& hits, double cell) {
   std::sort(occupied.begin(), occupied.end());
   std::sort(filled.begin(), filled.end());
 
-  // Stretches that overlap count once.
+  // Overlapping intervals count once.
   RangeGaps gaps;
   Cell done = filled.empty() ? 0 : filled.front().first;
   for (const auto& [first, last] : filled) {
@@ -90,7 +90,7 @@ RangeGaps count_range_gaps(const SceneCloud& scene, const Pose& world_from_head,
   if (!(cell > 0 && std::isfinite(cell)))
     fail(ErrorKind::argument, "count_range_gaps: cell = ", cell, " m, must be finite and > 0");
   RangeGaps gaps;
-  std::vector<SurfaceHit> beam;  // hits of the beam at hand
+  std::vector<SurfaceHit> beam;  // hits of the current beam
   const auto beam_of = [&](const SurfaceHit& hit) { return hit.ray / static_cast<std::uint32_t>(rays_per_beam); };
   for (const std::size_t i : by_ray(scatterers)) {
     const SurfaceHit hit = hit_of(scene, world_from_head, scatterers, i);

@@ -7,7 +7,7 @@
 namespace insonify {
 
 std::size_t RangeGate::bins() const {
-  // A hair less, so that a whole number of bins is not rounded up to one more.
+  // The factor avoids rounding a whole number of bins up to one more.
   return static_cast<std::size_t>(std::ceil((max_range - min_range) / bin_size * (1 - 1e-12)));
 }
 

@@ -3,13 +3,14 @@
 
 namespace insonify {
 
-/// The range axis. Bin n covers [min_range + n bin_size, min_range + (n+1) bin_size]; samples are taken at centres.
+/// The range axis. Bin n covers [min_range + n bin_size, min_range + (n + 1) bin_size]; samples are taken at bin
+/// centres.
 struct RangeGate {
   double min_range = 0;  ///< [m]
   double max_range = 0;  ///< [m]
   double bin_size = 0;   ///< [m]
 
-  std::size_t bins() const;  ///< enough to cover max_range
+  std::size_t bins() const;  ///< number of bins that covers max_range
   double centre(std::size_t bin) const { return min_range + (static_cast<double>(bin) + 0.5) * bin_size; }
 };
 

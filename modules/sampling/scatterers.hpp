@@ -10,12 +10,12 @@ struct Scatterers {
   std::vector<double> range;            ///< [m], one way
   std::vector<double> azimuth;          ///< [rad], positive to port
   std::vector<double> elevation;        ///< [rad], positive up
-  std::vector<float> cos_incidence;     ///< cosine between normal and the way back to the head, in [0, 1]
-  std::vector<float> projected_area;    ///< area seen from the head [m^2]: cos_incidence x surface area, or the
-                                        ///< solid angle of a ray x range^2. Never divided by the cosine.
+  std::vector<float> cos_incidence;     ///< cosine between normal and direction to the head, in [0, 1]
+  std::vector<float> projected_area;    ///< area projected towards the head [m^2]: cos_incidence x surface area, or
+                                        ///< range^2 x solid angle of a ray; never divided by the cosine
   std::vector<std::uint16_t> material;  ///< index into the scene's materials
-  std::vector<std::uint64_t> id;        ///< surfel id x 2^32 + part; bound to the scene, so speckle is too
-  std::vector<std::uint32_t> surfel;    ///< which surfel of the SceneCloud it came from
+  std::vector<std::uint64_t> id;        ///< surfel id x 2^32 + part; fixed to the scene, and so is the speckle
+  std::vector<std::uint32_t> surfel;    ///< index of the surfel in the SceneCloud
 
   std::size_t size() const { return range.size(); }
 };

@@ -20,10 +20,10 @@ void require_valid(const SceneCloud& scene, const BeamFan& fan, const RangeGate&
          scene.size(), ")");
 }
 
-// What became of those gated surfels that were asked about; all others are outside.
+// Visibility of the queried surfels; those that are not gated are outside.
 std::vector<Visibility> visibility_of(std::vector<GatedSurfel> surfels, const std::vector<std::uint8_t>& asked,
                                       const SamplingOptions& options) {
-  // find_hidden looks at what is in the gate: the rest only blocks.
+  // find_hidden tests the surfels in the gate; the others only occlude.
   for (GatedSurfel& s : surfels) s.in_gate = s.in_gate && asked[s.surfel];
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   if (options.occlusion) {

@@ -18,30 +18,30 @@ using Eigen::Vector3d;
 
 // Steps of the R2 sequence (Roberts 2018): 1 / g and 1 / g^2 with g^3 = g + 1, the plastic number.
 constexpr double step_radius = 0.75487766624669276;  // step_angle = 0.56984029099805327
-constexpr std::uint32_t most_parts = 4096;
-constexpr double nearest = 1e-6;  // [m]: what is nearer counts as that far
-constexpr std::size_t most_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
+constexpr std::uint32_t max_parts = 4096;
+constexpr double min_range = 1e-6;  // lower bound of range and horizontal distance [m]
+constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
   const double cosine = -normal.dot(position) / range;
   return std::min(1.0, oriented ? std::max(0.0, cosine) : std::abs(cosine));
 }
 
-// atan(t) to the last bit of a double for |t| <= 1/16: its series, cut after t^13.
+// atan(t) to double precision for |t| <= 1/16: Taylor series up to t^13.
 constexpr double small_tangent = 1.0 / 16;
 double atan_of_small(double t) {
   const double q = t * t;
   return t + t * q * (-1.0 / 3 + q * (1.0 / 5 + q * (-1.0 / 7 + q * (1.0 / 9 + q * (-1.0 / 11 + q * (1.0 / 13))))));
 }
 
-// Directions of places close to a centre, without a trigonometric function for each: by the tangents of the differences.
-// Good to 1e-15 rad.
+// Directions of points near a centre without a trigonometric function per point, from the tangents of the angle
+// differences; accurate to 1e-15 rad.
 class DirectionsNear {
  public:
   DirectionsNear(const Vector3d& centre, double range)
       : azimuth(std::atan2(centre.y(), centre.x())), elevation(std::asin(std::clamp(centre.z() / range, -1.0, 1.0))) {
     const double across = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
-    if (!(across > nearest)) return;  // straight up or down: no small differences in azimuth
+    if (!(across > min_range)) return;  // straight up or down: differences in azimuth are not small
     ahead_ = {centre.x() / across, centre.y() / across};
     level_ = {across / range, centre.z() / range};
   }
@@ -56,14 +56,14 @@ class DirectionsNear {
     return {std::abs(a) <= pi ? a : a - std::copysign(2 * pi, a), elevation + atan_of_small(up / forth)};
   }
 
-  const double azimuth, elevation;  // of the centre
+  const double azimuth, elevation;  // direction of the centre
 
  private:
-  Eigen::Vector2d ahead_{0, 0};  // towards the centre in the level plane, unit length; 0: nothing is close
-  Eigen::Vector2d level_{1, 0};  // cosine and sine of its elevation
+  Eigen::Vector2d ahead_{0, 0};  // horizontal unit vector towards the centre; 0: no small-angle formula
+  Eigen::Vector2d level_{1, 0};  // cosine and sine of the centre's elevation
 };
 
-// Offsets of the parts of one surfel in its tangent plane, one after another.
+// Generates the offsets of the parts of one surfel in its tangent plane.
 class PartSequence {
  public:
   PartSequence(double area, std::uint64_t seed, std::uint32_t id) : disc_radius_(std::sqrt(area / pi)) {
@@ -71,7 +71,7 @@ class PartSequence {
     shift_ = shift[0];
     turn_ = std::polar(1.0, 2 * pi * shift[1]);
   }
-  // Offset of part k = 1, 2, ...: equal areas of the disc are equally likely.
+  // Returns the offset of part k = 1, 2, ..., uniformly distributed over the disc.
   std::complex<double> next() {
     ++k_;
     turn_ *= turn_step_;
@@ -86,7 +86,7 @@ class PartSequence {
                                                    -0.42487110035732889};  // exp(2 pi i step_angle)
 };
 
-// Parts wanted, before any bound.
+// Number of parts before limits are applied (E17).
 double parts_wanted(double area, double range, double cos_incidence, const SplitOptions& options) {
   if (!(options.scatterers_per_cell > 0)) return 1;
   const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
@@ -103,7 +103,7 @@ double parts_wanted(double area, double range, double cos_incidence, const Split
 }
 
 std::uint32_t bounded(double parts) {
-  return parts < most_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : most_parts;
+  return parts < max_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : max_parts;
 }
 
 struct Splitter {
@@ -133,7 +133,7 @@ struct Splitter {
       out.id[first + k] = std::uint64_t{scene.id[surfel]} << 32 | k;
       out.surfel[first + k] = surfel;
     };
-    const double range = std::max(centre.norm(), nearest);
+    const double range = std::max(centre.norm(), min_range);
     const DirectionsNear directions(centre, range);
     put(0, centre, range, {directions.azimuth, directions.elevation});
     if (parts == 1) return;
@@ -144,13 +144,13 @@ struct Splitter {
     for (std::size_t k = 1; k < parts; ++k) {
       const std::complex<double> offset = sequence.next();
       const Vector3d position = centre + (offset.real() * t1 + offset.imag() * t2);
-      const double range_of_part = std::max(position.norm(), nearest);
+      const double range_of_part = std::max(position.norm(), min_range);
       put(k, position, range_of_part, directions.of(position, range_of_part));
     }
   }
 };
 
-// Fresh memory costs as much as what is written to it: the arrays share the threads.
+// Page faults of new memory cost as much as writing to it, so the arrays are allocated in parallel.
 void resize(Scatterers& s, std::size_t n, int threads) {
   parallel_for(8, threads, [&](std::size_t array) {
     switch (array) {
@@ -191,12 +191,12 @@ SplitSurfels split_surfels(const SceneCloud& scene, const HeadFrame& head, const
     for (std::size_t s = begin; s < end; ++s) {
       const double wanted = splitter.wanted(surfels[s]);
       first[s + 1] = bounded(wanted);
-      capped_here += wanted > most_parts;
+      capped_here += wanted > max_parts;
     }
     capped += capped_here;
   });
   for (std::size_t s = 0; s < surfels.size(); ++s) first[s + 1] += first[s];
-  if (first.back() > most_scatterers)
+  if (first.back() > max_scatterers)
     fail(ErrorKind::argument, "split_surfels: ", surfels.size(), " surfels make ", first.back(), " scatterers (",
          first.back() * bytes_per_scatterer >> 30,
          " GiB), must be at most 2^28; lower scatterers_per_cell = ", options.scatterers_per_cell,

@@ -11,26 +11,26 @@ namespace insonify {
 struct SplitOptions {
   double scatterers_per_cell = 10;  ///< 0: never split
   double range_resolution = 0;      ///< length of a cell [m]
-  double beam_width = 0;            ///< its width [rad]
+  double beam_width = 0;            ///< width of a cell [rad]
   std::uint64_t seed = 1;
   int threads = 0;
-  double row_width = 0;  ///< its height [rad] for a planar array; 0: as high as the surface goes
+  double row_width = 0;  ///< height of a cell for a planar array [rad]; 0: unlimited
 };
 
-/// Number of parts that put `scatterers_per_cell` of them in one resolution cell (E17):
+/// Returns the number of parts that gives `scatterers_per_cell` scatterers per resolution cell (E17):
 ///
 ///   parts = ceil(scatterers_per_cell area / (length width)), 1 .. 4096
 ///   width = range beam_width, length = min(dr / sin(incidence), 2 sqrt(2 range dr))
 ///
-/// The second length is what a plane at normal incidence shows within dr. A planar array sees no more of a surface
-/// than its beam's cross-section, range^2 beam_width row_width / cos_incidence, and a slice of it that may lie along
-/// either side: the cell is the smaller of that and of length x range x the narrower of both widths.
+/// The second length is the extent of a plane at normal incidence within dr. For a planar array the cell is limited by the
+/// cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x range x
+/// the narrower of both widths.
 std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options);
 
-/// Scatterers of the given surfels (indices in the scene), in order. Part 0 is the surfel's centre; part k
-/// stands where the k-th point of a low-discrepancy sequence over the surfel's disc (of its area, in its
-/// tangent plane) falls, turned by a number bound to (seed, surfel id): at the same place in the scene for
-/// every pose. Throws Error if that makes more than 2^28 scatterers.
+/// Returns the scatterers of the given surfels (indices in the scene), in order. Part 0 is at the surfel's centre; part
+/// k is point k of a low-discrepancy sequence over a disc of the surfel's area in its tangent plane, shifted and
+/// rotated by random numbers of (seed, surfel id): at the same position in the scene for every pose. Throws Error for
+/// more than 2^28 scatterers.
 struct SplitSurfels {
   Scatterers scatterers;
   std::size_t capped = 0;  ///< surfels that would need more than 4096 parts

@@ -8,10 +8,19 @@
 #include "sampling/list_where_internal.hpp"
 #include "sampling/surfel_visibility_internal.hpp"
 
+// Finds the surfels hidden behind the disc of another one (E16), by one of two equivalent methods:
+//   KD-trees: for each surfel query the surfels whose footprint contains its direction, and apply `hides` to each;
+//   raster:   1. project the queried centres onto the faces of a cube and bin them into tiles of cells;
+//             2. per tile, rasterise the footprints into a depth buffer, as in z-buffering of splats: for each cell the
+//                inverse of the least depth at which a surfel may be hidden, rounded to the safe side;
+//             3. surfels in front of the buffer are visible; apply `hides` to the others with each footprint that
+//                overlaps their cell; wide surfels are tested against all.
+// Cost: O(n log n) by KD-trees, O(n x cells per footprint) by the raster; parallel over surfels or tiles. The exact
+// decision is always that of `hides`, so both methods and all thread counts give the same bytes.
 namespace insonify {
 namespace {
 
-// Walks the KD-trees for one surfel after another.
+// Queries the KD-trees for each surfel.
 std::vector<std::uint8_t> hidden_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
                                           int threads) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
@@ -20,7 +29,7 @@ std::vector<std::uint8_t> hidden_by_index(const std::vector<GatedSurfel>& surfel
     for (std::size_t i = begin; i < end; ++i) {
       const GatedSurfel& s = surfels[i];
       if (!s.in_gate || !s.facing) continue;
-      // A surfel cannot hide itself: it does not lie behind its own tangent plane.
+      // A surfel cannot hide itself: it does not lie below its own tangent plane.
       hidden[i] = index.any(s.position / s.range, s.range, scratch,
                             [&](std::uint32_t other) { return hides(surfels[other], s); });
     }
@@ -28,9 +37,9 @@ std::vector<std::uint8_t> hidden_by_index(const std::vector<GatedSurfel>& surfel
   return hidden;
 }
 
-// Where a surfel begins to hide what lies behind it. In the coordinates of a cube's face, its tangent plane is reached at
-// depth plane_distance / g(x, y) with g linear; what it hides lies a spacing below, deeper than (plane_distance +
-// spacing) / g. Here is the inverse of that, a little larger than it is for all that rounding may do.
+// Depth beyond which a surfel may occlude. In the coordinates of a cube face its tangent plane is at depth
+// plane_distance / g(x, y) with g linear, and occluded points are deeper than (plane_distance + spacing) / g. Stores
+// the inverse of that bound, slightly enlarged for rounding.
 struct HidingDepth {
   float constant, along_x, along_y;  // inverse depth and its slopes [1/m]
 
@@ -45,8 +54,8 @@ struct HidingDepth {
   bool before(const CubePoint& q) const { return q.depth * (constant + along_x * q.x + along_y * q.y) >= 1; }
 };
 
-// The depth buffer of one tile: in each cell the inverse of the least depth at which something may be hidden. What lies
-// before it is seen; only what lies behind it is asked about one by one.
+// Depth buffer of one tile: for each cell the inverse of the least depth at which a surfel may be hidden. Surfels in
+// front of it are visible; only those behind it are tested one by one.
 class DepthTile {
  public:
   DepthTile(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> asked,
@@ -83,7 +92,7 @@ class DepthTile {
 
   void draw(const DirectionTile& tile, const TileBox& box) {
     const HidingDepth depth(surfels_[box.surfel], tile.face);
-    // The largest over a cell: at its centre, and half its widths along the gradient.
+    // Maximum over a cell: the value at its centre plus half a cell along the gradient.
     const float most = (std::abs(depth.along_x) + std::abs(depth.along_y)) * 0.5f * tile.cell;
     const float corner = depth.constant + most + depth.along_x * (tile.x + 0.5f * tile.cell);
     const float step = depth.along_x * tile.cell;

@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// For each gated surfel 1 if another one hides it, else 0. Only those that could give an echo (in the gate
-/// and facing the head) are looked at; the others stay 0. The projection (not automatic) changes the cost alone.
+/// Returns 1 for each gated surfel that is hidden by another one, else 0. Tests only surfels that could give an echo
+/// (in the gate and facing the head). `projection` (not automatic) affects the cost only.
 std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, Projection projection, int threads);
 
 }  // namespace insonify

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t block = 1024;
-constexpr double edge_on = 1e-9;  // cosines below it are of surfaces that show the head nothing
+constexpr double edge_on = 1e-9;  // surfaces with a smaller cosine of incidence are edge-on and invisible
 
 struct Tilter {
   const SceneCloud& scene;
@@ -24,7 +24,7 @@ struct Tilter {
     const Vector3d normal = scene.normal[s.surfel[i]].cast<double>().normalized();
     const Vector3d facet = tilted_normal(relief, scene.materials[s.material[i]].relief_slope, place, normal);
 
-    // A surface without sides turns the one that the head sees towards it, relief and all.
+    // A surface with unoriented normals presents the side that faces the head, with its relief.
     const double smooth = -normal.dot(outward);
     const bool seen = scene.normals_oriented ? smooth > edge_on : std::abs(smooth) > edge_on;
     const double tilted = std::clamp(smooth < 0 ? facet.dot(outward) : -facet.dot(outward), 0.0, 1.0);

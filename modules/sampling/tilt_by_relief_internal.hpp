@@ -6,12 +6,12 @@
 
 namespace insonify {
 
-/// Gives every scatterer on a material with a relief_slope the incidence of the facet that the relief puts in its
-/// place (E52). With c the cosine of incidence on the smooth surface, t that on the facet (0 if it looks away from the
-/// head), projected areas are multiplied by t / c: a surfel's part keeps its share of the surfel's area, seen under the
-/// new angle, and surfels and rays keep one mean level. Facets do not shadow each other.
+/// Replaces the incidence of each scatterer on a material with a relief_slope by that of the facet that the relief has
+/// at its position (E52). With c the cosine of incidence on the smooth surface and t that on the facet (0 if it faces
+/// away from the head), projected areas are multiplied by t / c: each part keeps its share of the surfel's area under
+/// the new angle, and surfels and rays have the same mean level. Facets do not shadow each other.
 ///
-/// scatterers   in axes of a head at `world_from_head`; those on smooth materials are not touched
+/// scatterers   in the axes of a head at `world_from_head`; those on smooth materials are unchanged
 void tilt_by_relief(const SceneCloud& scene, const Pose& world_from_head, const ReliefField& relief, int threads,
                     Scatterers& scatterers);
 

@@ -174,7 +174,7 @@ TileSelection TiledScene::select(const InsonifiedRegion& region) const {
   selection.origin = state_->origin_near(region.world_from_head.translation());
   for (std::uint32_t t = 0; t < state_->tiles.size(); ++t) {
     const TileEntry& tile = state_->tiles[t];
-    if (!may_hold(region, state_->info.origin + vector_of(tile.centre), tile.radius, tile.largest_area)) continue;
+    if (!may_intersect(region, state_->info.origin + vector_of(tile.centre), tile.radius, tile.largest_area)) continue;
     selection.tiles.push_back(t);
     selection.surfels += tile.count;
   }

@@ -62,7 +62,7 @@ HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate&
   const SamplingReport report = find_scatterers(prepared, pose, fan, gate, rays).report;
   view.rays = fan.beams() * static_cast<std::size_t>(rays_per_beam);
   view.rays_open = report.rays_missed - report.rays_unknown;
-  view.holes = places_of(find_holes(prepared, pose, fan, gate, rays), pose);
+  view.holes = hole_positions(find_holes(prepared, pose, fan, gate, rays), pose);
   return view;
 }
 

@@ -88,8 +88,8 @@ TEST(Rays, that_meet_a_back_just_before_a_face_are_blocked) {
     RayHit hit;
     return hit_surface(surfels, {1, 0, 0}, true, both, hit);
   };
-  EXPECT_EQ(fate({surfel(5, 0, false), surfel(5.1f, 0.05f, true)}), RayFate::blocked);
-  EXPECT_EQ(fate({surfel(5, 0.05f, true), surfel(5.1f, 0, false)}), RayFate::echoes);
+  EXPECT_EQ(fate({surfel(5, 0, false), surfel(5.1f, 0.05f, true)}), RayOutcome::blocked);
+  EXPECT_EQ(fate({surfel(5, 0.05f, true), surfel(5.1f, 0, false)}), RayOutcome::hit);
 }
 
 TEST(Sampling, hands_on_the_material_of_each_surfel) {
