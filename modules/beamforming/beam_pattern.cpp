@@ -10,7 +10,7 @@
 namespace insonify {
 namespace {
 
-/// |response| over the distance |u - u_beam|, on which alone it depends.
+/// Response as a function of the offset |u - u_beam|, on which alone its magnitude depends.
 struct Pattern {
   const LineArray& array;
   double wavelength;
@@ -25,7 +25,7 @@ struct Peak {
   double offset = 0, amplitude = 0;
 };
 
-constexpr double at_endfire = 1e-9;  // a lobe so little beyond endfire counts as standing there
+constexpr double at_endfire = 1e-9;  // tolerance in u for a lobe at endfire
 
 void require_pattern(const LineArray& array, double wavelength, double steering, const char* who) {
   require_valid(array, who);
@@ -35,8 +35,8 @@ void require_pattern(const LineArray& array, double wavelength, double steering,
     fail(ErrorKind::argument, who, ": steering = ", degrees(steering), " deg, must be within -90 and 90");
 }
 
-/// Where f is largest in [low, high], inside which it has one maximum: golden section.
-double place_of_maximum(const std::function<double(double)>& f, double low, double high) {
+/// Returns the maximum point of f in [low, high], where f is unimodal, by golden-section search.
+double locate_maximum(const std::function<double(double)>& f, double low, double high) {
   const double shrink = (std::sqrt(5.0) - 1) / 2;
   double a = high - shrink * (high - low), b = low + shrink * (high - low);
   double fa = f(a), fb = f(b);
@@ -52,7 +52,7 @@ double place_of_maximum(const std::function<double(double)>& f, double low, doub
   return 0.5 * (low + high);
 }
 
-double place_of_zero(const Pattern& pattern, double low, double high) {
+double locate_zero(const Pattern& pattern, double low, double high) {
   const bool positive = pattern.signed_at(low) > 0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
@@ -61,22 +61,22 @@ double place_of_zero(const Pattern& pattern, double low, double high) {
   return 0.5 * (low + high);
 }
 
-/// Where the main lobe ends: its first zero, or minimum if it turns up again without one.
+/// End of the main lobe: its first zero, or its first minimum if the response rises again without one.
 std::optional<double> main_lobe_end(const Pattern& pattern, double most) {
   const double step = 0.02 * pattern.lobe();
   double before = pattern.signed_at(0);
   for (int i = 1;; ++i) {
     const double offset = std::min(i * step, most), here = pattern.signed_at(offset);
-    if ((here > 0) != (before > 0)) return place_of_zero(pattern, (i - 1) * step, offset);
+    if ((here > 0) != (before > 0)) return locate_zero(pattern, (i - 1) * step, offset);
     if (std::abs(here) > std::abs(before))
-      return place_of_maximum([&](double x) { return -pattern.at(x); }, std::max(0, i - 2) * step, offset);
+      return locate_maximum([&](double x) { return -pattern.at(x); }, std::max(0, i - 2) * step, offset);
     if (offset >= most) return std::abs(here) < 1e-9 ? std::optional(most) : std::nullopt;
     before = here;
   }
 }
 
-/// The highest maximum in [from, to]: samples finer than any lobe, then each that may be the highest refined. Of equal
-/// ones, the nearest to the main lobe.
+/// Returns the highest maximum in [from, to]: samples at 16 points per lobe, then refines each candidate. Of equal
+/// maxima the one nearest to the main lobe is returned.
 Peak highest_peak(const Pattern& pattern, double from, double to) {
   const auto steps = static_cast<std::size_t>(std::ceil(16 * (to - from) / pattern.lobe())) + 2;
   const double step = (to - from) / static_cast<double>(steps);
@@ -89,14 +89,14 @@ Peak highest_peak(const Pattern& pattern, double from, double to) {
   for (std::size_t i = 0; i <= steps; ++i) {
     const std::size_t left = i > 0 ? i - 1 : i, right = i < steps ? i + 1 : i;
     if (sample[i] < enough || sample[i] < sample[left] || sample[i] < sample[right]) continue;
-    const double place = place_of_maximum([&](double x) { return pattern.at(x); }, offset(left), offset(right));
+    const double place = locate_maximum([&](double x) { return pattern.at(x); }, offset(left), offset(right));
     const double amplitude = pattern.at(place);
     if (amplitude > best.amplitude * (1 + 1e-6)) best = {place, amplitude};
   }
   return best;
 }
 
-/// Azimuths at which the main lobe comes again within endfire.
+/// Azimuths of the grating lobes up to endfire.
 std::vector<double> find_grating_lobes(const Pattern& pattern, double u_beam) {
   std::vector<double> azimuths;
   if (pattern.array.elements() == 1) return azimuths;
@@ -109,7 +109,7 @@ std::vector<double> find_grating_lobes(const Pattern& pattern, double u_beam) {
 }
 
 void find_side_lobe(const Pattern& pattern, double u_beam, double null, BeamPatternReport& report) {
-  // Symmetry and period bring every offset that can be heard into [0, far], seen on the side towards broadside.
+  // Symmetry and periodicity map every offset in the visible region into [0, far], on the side towards broadside.
   const double far = std::min(1 + std::abs(u_beam), pattern.period() / 2);
   const double towards = u_beam > 0 ? -1 : 1;
   Peak peak;
@@ -118,7 +118,7 @@ void find_side_lobe(const Pattern& pattern, double u_beam, double null, BeamPatt
     peak = highest_peak(pattern, null, far);
     u = u_beam + towards * peak.offset;
   }
-  // A grating lobe that peaks beyond endfire shows its flank.
+  // A grating lobe with its peak beyond endfire contributes its flank.
   for (const double end : {-1.0, 1.0}) {
     const double offset = std::abs(end - u_beam), copy = std::round(offset / pattern.period()) * pattern.period();
     const bool flank = copy > 0 && copy - offset > at_endfire && copy - offset < null;
@@ -162,7 +162,7 @@ BeamPatternCurve beam_pattern_curve(const LineArray& array, double wavelength, d
   for (std::size_t i = 0; i <= steps; ++i) {
     const double azimuth = pi * (static_cast<double>(i) / static_cast<double>(steps) - 0.5);
     const double here = array_response(array, wavelength, std::sin(azimuth), std::sin(steering));
-    // A null between two points gets one of its own, where the straight line through them is zero.
+    // Insert a point at a null between two samples, where their linear interpolation is zero.
     if (before * here < 0) add(curve.azimuth.back() + (azimuth - curve.azimuth.back()) * before / (before - here), 0);
     add(azimuth, here);
     before = here;

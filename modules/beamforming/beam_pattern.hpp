@@ -7,31 +7,31 @@
 
 namespace insonify {
 
-/// What the pattern of one beam of a line array looks like between endfire and endfire (azimuth -pi/2..pi/2, in the
+/// Properties of the pattern of one beam of a line array between endfire and endfire (azimuth -pi/2 .. pi/2 in the
 /// plane of the array: u = sin(azimuth), positive to port).
 struct BeamPatternReport {
-  /// Full -3 dB width of the steered beam [rad] (E35). A flank that reaches endfire above -3 dB ends there.
+  /// Full -3 dB width of the steered beam [rad] (E35). A flank still above -3 dB at endfire ends there.
   double width = 0;
-  /// Angle between the beam and its nearest null [rad], on the side towards broadside; absent if there is none. Of a
-  /// response that never crosses zero: its first minimum.
+  /// Angle between the beam and its nearest null [rad], on the side towards broadside; absent if there is none. For a
+  /// response without a zero crossing: its first minimum.
   std::optional<double> first_null;
-  /// Highest level outside the main lobe and the grating lobes [dB re the beam's peak], and its azimuth [rad], on the
-  /// side towards broadside if it stands on both; -inf if there is none. The flank of a grating lobe that peaks beyond
+  /// Highest level outside of main lobe and grating lobes [dB re the beam's peak], -inf if there is none, and its
+  /// azimuth [rad], on the side towards broadside if it occurs on both. The flank of a grating lobe that peaks beyond
   /// endfire counts as a side lobe.
   double highest_side_lobe_db = -std::numeric_limits<double>::infinity();
   double highest_side_lobe = 0;
   /// Azimuths of full copies of the main lobe [rad], ascending (E33).
   std::vector<double> grating_lobes;
-  /// [dB] for isotropic noise (E34).
+  /// Directivity index for isotropic noise [dB] (E34).
   double directivity_index_db = 0;
 };
 
-/// Measures the beam steered to azimuth `steering` [rad]. Angles are exact to 1e-9 in u, levels to 1e-6 dB.
-/// Throws Error unless the array is valid, wavelength > 0 [m] and |steering| <= pi/2.
+/// Measures the pattern of the beam steered to azimuth `steering` [rad]. Angles are accurate to 1e-9 in u, levels to
+/// 1e-6 dB. Throws Error unless the array is valid, wavelength > 0 [m] and |steering| <= pi/2.
 BeamPatternReport measure_beam_pattern(const LineArray& array, double wavelength, double steering);
 
-/// The pattern as a line to be drawn: level [dB re the beam's peak, -inf in a null] over azimuth [rad] from -pi/2 to
-/// pi/2, at least 16 points per lobe and one in each null. Throws as measure_beam_pattern does.
+/// The pattern as a curve for plotting: level [dB re the beam's peak, -inf in a null] over azimuth [rad] from -pi/2 to
+/// pi/2, with at least 16 points per lobe and one in each null. Throws as measure_beam_pattern does.
 struct BeamPatternCurve {
   std::vector<double> azimuth, level_db;
 };

@@ -46,7 +46,7 @@ BeamSpectrum beam_spectrum(const ComplexGridF& pressure, std::span<const std::si
   for (std::size_t n = 0; n < length; ++n)
     window[n] = std::sin(pi * (static_cast<double>(n) + 0.5) / static_cast<double>(length));
 
-  // Every sample lies in two segments, the first and the last half a segment too.
+  // Every sample is in two segments; the first and last segments extend half a segment beyond the series.
   const ForwardFft fft(length);
   std::vector<double> power(length, 0);
   std::vector<Complex> piece(length);
@@ -61,7 +61,7 @@ BeamSpectrum beam_spectrum(const ComplexGridF& pressure, std::span<const std::si
       for (std::size_t k = 0; k < length; ++k) power[k] += std::norm(piece[k]);
     }
 
-  // The series turns as exp(-i omega t): entry k of the transform belongs to frequency -k.
+  // The time dependence is exp(-i omega t), so entry k of the transform belongs to frequency -k.
   BeamSpectrum spectrum;
   const double scale = step_time / (2 * static_cast<double>(samples) * static_cast<double>(beams.size()));
   for (std::ptrdiff_t k = -half; k < half; ++k) {
@@ -86,20 +86,20 @@ std::vector<double> pulse_density(const Pulse& pulse, double step_time, const st
   if (!(step_time > 0) || !std::isfinite(step_time))
     fail(ErrorKind::argument, who, ": step_time = ", step_time, " s, must be finite and > 0");
 
-  constexpr int places = 8;  // between two samples: folds of up to seven bands average out exactly
+  constexpr int positions = 8;  // positions between two samples: aliases of up to seven bands average out exactly
   const EchoEnvelope envelope = echo_envelope(pulse, {}, 0);
-  const int reach = places * static_cast<int>(std::ceil(pulse_half_length(pulse, 1e-8) / step_time));
+  const int reach = positions * static_cast<int>(std::ceil(pulse_half_length(pulse, 1e-8) / step_time));
   std::vector<Complex> samples;
-  for (int n = -reach; n < reach; ++n) samples.push_back(envelope.at(n * step_time / places));
+  for (int n = -reach; n < reach; ++n) samples.push_back(envelope.at(n * step_time / positions));
 
   std::vector<double> density;
   double sum = 0;
   for (const double f : frequency) {
-    std::array<Complex, places> transform{};
+    std::array<Complex, positions> transform{};
     for (int n = -reach; n < reach; ++n) {
       const auto i = static_cast<std::size_t>(n + reach);
-      const double cycles = reduced_cycles((f - pulse.centre_frequency) * step_time * n / places);
-      transform[i % places] += samples[i] * std::polar(1.0, 2 * pi * cycles);
+      const double cycles = reduced_cycles((f - pulse.centre_frequency) * step_time * n / positions);
+      transform[i % positions] += samples[i] * std::polar(1.0, 2 * pi * cycles);
     }
     density.push_back(0);
     for (const Complex& t : transform) density.back() += std::norm(t);

@@ -22,8 +22,8 @@ void destroy_plan(fftw_plan plan) {
 
 ForwardFft::ForwardFft(std::size_t n) : plan_(nullptr, &destroy_plan) {
   const std::scoped_lock lock(fftw_planner());
-  std::vector<Complex> room(n);
-  auto* raw = reinterpret_cast<fftw_complex*>(room.data());
+  std::vector<Complex> buffer(n);
+  auto* raw = reinterpret_cast<fftw_complex*>(buffer.data());
   plan_.reset(fftw_plan_dft_1d(static_cast<int>(n), raw, raw, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED));
 }
 
@@ -42,11 +42,12 @@ EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const Frequ
   if (pulse.shape != PulseShape::linear_fm) return;
   sent_ = sweep_spectrum(false, 0);
   replica_ = sweep_spectrum(true, 0);
-  replica_area_ = pulse.duration * replica_weight(pulse, 0.25 * pulse.duration);  // where a weight is its mean
+  replica_area_ = pulse.duration * replica_weight(pulse, 0.25 * pulse.duration);  // the weight at T/4 equals its mean
 }
 
 std::vector<Complex> EchoSpectrum::sweep_spectrum(bool weighted, double doppler) const {
-  // Samples of the sweep, rising with exp(-i omega t), against time, since the FFT's sign is that of the way back.
+  // Samples of the sweep in reversed time: its time dependence is exp(-i omega t), the opposite sign of the forward
+  // FFT.
   std::vector<Complex> x(grid_.samples, 0);
   const double half = 0.5 * pulse_.duration, rate = pulse_.bandwidth / pulse_.duration;
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(half / grid_.step_time));

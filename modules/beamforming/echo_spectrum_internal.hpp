@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Frequencies f_k of a discrete Fourier transform, both signs, and its step in time.
+/// Frequencies f_k of a discrete Fourier transform, of both signs, and its sampling interval [s].
 struct FrequencyGrid {
   std::size_t samples = 0;
   double step_time = 0;
@@ -21,17 +21,19 @@ struct FrequencyGrid {
   }
 };
 
-/// Spectrum of a Gaussian pulse in baseband, 1/Hz, integral 1: envelope peak 1 (E8).
+/// Returns the baseband spectrum of a Gaussian pulse [1/Hz] with integral 1, i.e. envelope peak 1 (E8).
 double gaussian_spectrum(double f, double bandwidth);
 
-/// Spectra of single echoes behind the receive filter [1/Hz], from the samples of sweep and replica by FFT, or for a
-/// Gaussian by its own transform. A Doppler shift moves what was sent, after its losses on the way. Outside of its swept
-/// band a sweep is absorbed as at the band's edge: absorption about a centre frequency means nothing far from it.
+/// Computes spectra of single echoes after the receive filter [1/Hz]: by FFT of the samples of sweep and replica, or in
+/// closed form for a Gaussian. A Doppler shift moves the transmitted spectrum, after its absorption. Outside its swept
+/// band a sweep is absorbed as at the band edge, since the expansion of the absorption about the centre frequency does
+/// not hold there.
 class EchoSpectrum {
  public:
   EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid);
 
-  /// One value per frequency of the grid, for an echo at delay 0 after a way of `range` there and back.
+  /// Returns one value per frequency of the grid, for an echo at delay 0 from one-way range `range` [m] with Doppler
+  /// shift `doppler` [Hz].
   std::vector<std::complex<double>> of(double range, double doppler) const;
 
  private:
@@ -42,7 +44,7 @@ class EchoSpectrum {
   FrequencyGrid grid_;
   ForwardFft fft_;
   std::vector<std::complex<double>> sent_, replica_;
-  double replica_area_ = 0;  ///< integral of its weights [s]
+  double replica_area_ = 0;  ///< integral of the replica's weights [s]
 };
 
 }  // namespace insonify

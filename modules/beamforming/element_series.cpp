@@ -21,17 +21,17 @@ void require_tolerance(const ElementOptions& options, const char* who) {
     fail(ErrorKind::argument, who, ": tolerance = ", options.tolerance, ", must be within 1e-12 and 0.1");
 }
 
-/// Place of element m along the array [m], positive to port.
-double place_of(const LineArray& array, std::size_t m) { return array.spacing * element_place(m, array.elements()); }
+/// Position of element m along the array [m], positive to port.
+double element_y(const LineArray& array, std::size_t m) { return array.spacing * element_place(m, array.elements()); }
 
-/// How much longer the way to an element at `place` is than to the middle of the array [m].
-double detour(Wavefront wavefront, double range, double u, double place) {
-  if (wavefront == Wavefront::plane) return -place * u;
-  const double squared = place * place - 2 * range * place * u;                  // (E61)
-  return squared / (std::sqrt(std::max(0.0, range * range + squared)) + range);  // the difference without cancellation
+/// Path difference [m] between the element at `y` and the centre of the array.
+double path_difference(Wavefront wavefront, double range, double u, double y) {
+  if (wavefront == Wavefront::plane) return -y * u;
+  const double squared = y * y - 2 * range * y * u;                              // (E61)
+  return squared / (std::sqrt(std::max(0.0, range * range + squared)) + range);  // sqrt difference without cancellation
 }
 
-/// Highest frequency off the carrier that matters [Hz]: there the spectrum is down to the tolerance. A sweep's falls off
+/// Highest baseband frequency [Hz] that matters: there the spectrum has fallen to the tolerance. That of a sweep decays
 /// slowly beyond its ends.
 double half_band(const Pulse& pulse, double tolerance) {
   if (pulse.shape == PulseShape::linear_fm)
@@ -39,7 +39,7 @@ double half_band(const Pulse& pulse, double tolerance) {
   return pulse.bandwidth * std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2));
 }
 
-/// A Kaiser-windowed sinc for signals that fill half of the band at most.
+/// Kaiser-windowed sinc interpolation for signals that fill at most half of the band.
 class Interpolator {
  public:
   explicit Interpolator(double tolerance) {
@@ -57,7 +57,7 @@ class Interpolator {
   }
   std::size_t width() const { return width_; }
 
-  /// Weights of the samples first, first + 1, ... for the value at `position` [samples]; returns first.
+  /// Computes the weights of samples first, first + 1, ... for the value at `position` [samples]; returns first.
   std::ptrdiff_t weights(double position, std::vector<double>& weight) const {
     const double low = position - 0.5 * static_cast<double>(width_), first = std::ceil(low), t = 2 * (first - low) - 1;
     weight.resize(pieces_.lanes);
@@ -83,29 +83,30 @@ ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const 
   const double c = medium.sound_speed, f = head.pulse.centre_frequency;
   const std::size_t elements = head.array.elements();
 
-  // The time axis: fine enough for the band, and longer than the gate by the array and the interpolation.
+  // Time axis: sampled finely enough for the band, and longer than the gate by array length and interpolation width.
   ElementSeries series;
   series.step = 1 / (4 * half_band(head.pulse, 0.1 * options.tolerance));
-  const double beyond = place_of(head.array, elements - 1) / c +
+  const double beyond = element_y(head.array, elements - 1) / c +
                         static_cast<double>(Interpolator(options.tolerance).width()) * series.step;
   series.start = 2 * head.gate.centre(0) / c - beyond;
   const double end = 2 * head.gate.centre(head.gate.bins() - 1) / c + beyond;
   const auto samples = static_cast<std::size_t>(std::ceil((end - series.start) / series.step)) + 1;
   series.pressure.setZero(elements, samples);
 
-  // Each element belongs to one thread, which adds the echoes in their order.
+  // Each element is computed by one thread, which adds the echoes in order.
   const PulseReach reach(head.pulse, medium.absorption, c, !echoes.doppler.empty(), 0.1 * options.tolerance);
   const EchoShapes shapes(head.pulse, medium);
   parallel_for(elements, options.threads, [&](std::size_t m) {
-    const double place = place_of(head.array, m);
+    const double y = element_y(head.array, m);
     for (std::size_t i = 0; i < echoes.size(); ++i) {
-      const double longer = detour(options.wavefront, 0.5 * c * echoes.delay[i], echoes.u[i], place) / c;
-      const double arrival = echoes.delay[i] + longer, half = reach.at(echoes.delay[i]);
+      const double extra_delay = path_difference(options.wavefront, 0.5 * c * echoes.delay[i], echoes.u[i], y) / c;
+      const double arrival = echoes.delay[i] + extra_delay, half = reach.at(echoes.delay[i]);
       const double first = std::max(0.0, std::ceil((arrival - half - series.start) / series.step));
       const double last =
           std::min(static_cast<double>(samples) - 1, std::floor((arrival + half - series.start) / series.step));
       const EchoEnvelope envelope = shapes.of(echoes.delay[i], echoes.doppler_of(i));
-      const std::complex<double> amplitude = echoes.amplitude[i] * std::polar(1.0, 2 * pi * reduced_cycles(f * longer));
+      const std::complex<double> amplitude =
+          echoes.amplitude[i] * std::polar(1.0, 2 * pi * reduced_cycles(f * extra_delay));
       for (double n = first; n <= last; ++n)
         series.pressure(m, static_cast<Eigen::Index>(n)) +=
             amplitude * envelope.at(series.start + n * series.step - arrival);  // (E61)
@@ -134,17 +135,17 @@ ComplexGrid beam_from_elements(const ElementSeries& series, const SonarHead& hea
     std::vector<double> weight;
     beams.row(b).setZero();
     for (std::size_t m = 0; m < elements; ++m) {
-      const double place = place_of(head.array, m), shading = head.array.shading[m] / static_cast<double>(elements);
+      const double y = element_y(head.array, m), shading = head.array.shading[m] / static_cast<double>(elements);
       for (std::size_t n = 0; n < bins; ++n) {
         const double t = 2 * head.gate.centre(n) / c;
-        const double longer = detour(options.wavefront, head.gate.centre(n), u_beam[b], place) / c;
-        const std::ptrdiff_t first = interpolator.weights((t + longer - series.start) / series.step, weight);
+        const double extra_delay = path_difference(options.wavefront, head.gate.centre(n), u_beam[b], y) / c;
+        const std::ptrdiff_t first = interpolator.weights((t + extra_delay - series.start) / series.step, weight);
         if (first < 0 || first + static_cast<std::ptrdiff_t>(interpolator.width()) > series.pressure.cols())
           fail(ErrorKind::argument, "beam_from_elements: bin ", n, " of beam ", b, " needs samples outside the series");
         std::complex<double> value = 0;
         for (std::size_t k = 0; k < interpolator.width(); ++k)
           value += weight[k] * series.pressure(m, first + static_cast<std::ptrdiff_t>(k));
-        beams(b, n) += value * std::polar(shading, -2 * pi * reduced_cycles(f * longer));  // (E62)
+        beams(b, n) += value * std::polar(shading, -2 * pi * reduced_cycles(f * extra_delay));  // (E62)
       }
     }
   });

@@ -5,10 +5,10 @@
 
 namespace insonify {
 
-/// Which way wavefronts cross the array.
+/// Shape of the wavefronts at the array.
 enum class Wavefront {
-  spherical,  ///< from the echo's apparent range, half its delay: exact also in the near field
-  plane       ///< from infinity
+  spherical,  ///< centred at the echo's apparent range (half its delay): exact also in the near field
+  plane       ///< from infinite range
 };
 
 struct ElementOptions {
@@ -17,30 +17,34 @@ struct ElementOptions {
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
-/// What each element of a line array hears, elements x samples [Pa], complex baseband about the carrier. Element m stands
-/// at y = (m - (N-1)/2) spacing, positive to port; sample n at start + n step, seconds after transmission.
+/// Pressure received by each element of a line array, elements x samples [Pa], complex baseband about the carrier.
+/// Element m is at y = (m - (N-1)/2) spacing, positive to port; sample n is at time start + n step [s] after
+/// transmission.
 struct ElementSeries {
   double start = 0, step = 0;
   ComplexGrid pressure;
 };
 
-/// The series of all elements with true delays per element (E61), no far-field or narrow-band assumption on receive:
+/// Returns the series of all elements with true delays per element (E61), without the far-field and narrow-band
+/// assumptions on receive:
 ///
 ///   x_m(t) = sum_i A_i exp(2 pi i f_c d_im / c) G_i(t - delay_i - d_im / c)
 ///   d_im   = sqrt(r_i^2 - 2 r_i y_m u_i + y_m^2) - r_i (spherical) or -y_m u_i (plane)
 ///
-/// Samples are fine enough to interpolate between them (about four times the pulse's band) and reach beyond the gate by
-/// the array's length. For a user's own beamformer; beam_from_elements is the built-in one.
-/// Cost: echoes x elements x pulse samples. Throws Error as synthesize_direct does, or for a tolerance out of range.
+/// The sampling rate (about four times the pulse's band) permits interpolation, and the series extends beyond the gate
+/// by the length of the array. Intended for external beamformers; beam_from_elements is the built-in one. Cost: echoes
+/// x elements x pulse samples. Throws Error as synthesize_direct does, or for a tolerance out of range.
 ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                              const ElementOptions& options = {});
 
-/// Delay-and-sum beams of `series`, beams x bins [Pa] (E62): every sample of a beam sums the elements at the times at
-/// which a wavefront from that direction (spherical: and range, focused dynamically) crosses them:
+/// Returns delay-and-sum beams of `series`, beams x bins [Pa] (E62): each sample of a beam sums the elements at the
+/// times at which a wavefront from the beam's direction (spherical: from direction and range, i.e. dynamically focused)
+/// reaches them:
 ///
 ///   p_b(t) = (1/N) sum_m w_m exp(-2 pi i f_c d_mb / c) x_m(t + d_mb / c)
 ///
-/// Between samples a Kaiser-windowed sinc, good to the tolerance. Throws Error if the series does not fit the head.
+/// Interpolates between samples with a Kaiser-windowed sinc, accurate to the tolerance. Throws Error if the series does
+/// not match the head.
 ComplexGrid beam_from_elements(const ElementSeries& series, const SonarHead& head, const Medium& medium,
                                const ElementOptions& options = {});
 

@@ -31,7 +31,7 @@ void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::siz
 
 void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::size_t last,
                           std::span<const std::size_t> beams, ComplexGrid& pressure) const {
-  // One row per element now, so that the sums run along time.
+  // Transpose to one row per element, so the sums run along time.
   const Grid<double> re = series.re.transpose(), im = series.im.transpose();
   double beam_re[tile_bins], beam_im[tile_bins];
   for (const std::size_t b : beams) {

@@ -9,7 +9,7 @@ namespace insonify {
 
 constexpr std::size_t tile_bins = 64;
 
-/// The time series of every element over one tile of bins: tile_bins x elements, in two planes [Pa].
+/// The time series of all elements over one tile of bins: tile_bins x elements, real and imaginary parts [Pa].
 struct ElementTile {
   Grid<double> re, im;
 
@@ -17,14 +17,14 @@ struct ElementTile {
       : re(Grid<double>::Zero(tile_bins, elements)), im(Grid<double>::Zero(tile_bins, elements)) {}
 };
 
-/// Shading and steering phase of every beam and element, ready to turn tiles of element series into beams.
+/// Shading and steering phasors of all beams and elements, to form beams from tiles of element series.
 class BeamSums {
  public:
   BeamSums(const SonarHead& head, double wavelength);
 
-  /// pressure(b, n) for the bins [first, last) of one tile: the sum over elements (E10).
+  /// Computes pressure(b, n) for the bins [first, last) of one tile: the sum over elements (E10).
   void form_beams(const ElementTile& series, std::size_t first, std::size_t last, ComplexGrid& pressure) const;
-  /// The same for some of the beams: rows of a planar array hear other series than their neighbours.
+  /// Computes the same for a subset of the beams: each row of a planar array has its own element series.
   void form_beams(const ElementTile& series, std::size_t first, std::size_t last, std::span<const std::size_t> beams,
                   ComplexGrid& pressure) const;
 

@@ -6,9 +6,9 @@ namespace insonify {
 
 template <typename Real>
 FftAlongRows<Real>::FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign) {
-  AlignedArray<std::complex<Real>, Real> room(n * stride);
+  AlignedArray<std::complex<Real>, Real> buffer(n * stride);
   const std::scoped_lock lock(fftw_planner());
-  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), static_cast<int>(stride), room.data(), sign);
+  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), static_cast<int>(stride), buffer.data(), sign);
 }
 
 template <typename Real>

@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// FFTW for one precision, under one set of names.
+/// FFTW functions of one precision under common names.
 template <typename Real>
 struct Fftw;
 
@@ -16,8 +16,8 @@ template <>
 struct Fftw<double> {
   using Plan = fftw_plan;
   static void destroy(Plan plan) { fftw_destroy_plan(plan); }
-  static Plan make(int n, int batch, int stride, std::complex<double>* room, int sign) {
-    auto* raw = reinterpret_cast<fftw_complex*>(room);
+  static Plan make(int n, int batch, int stride, std::complex<double>* buffer, int sign) {
+    auto* raw = reinterpret_cast<fftw_complex*>(buffer);
     return fftw_plan_many_dft(1, &n, batch, raw, nullptr, stride, 1, raw, nullptr, stride, 1, sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<double>* data) {
@@ -32,8 +32,8 @@ template <>
 struct Fftw<float> {
   using Plan = fftwf_plan;
   static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
-  static Plan make(int n, int batch, int stride, std::complex<float>* room, int sign) {
-    auto* raw = reinterpret_cast<fftwf_complex*>(room);
+  static Plan make(int n, int batch, int stride, std::complex<float>* buffer, int sign) {
+    auto* raw = reinterpret_cast<fftwf_complex*>(buffer);
     return fftwf_plan_many_dft(1, &n, batch, raw, nullptr, stride, 1, raw, nullptr, stride, 1, sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<float>* data) {
@@ -44,7 +44,7 @@ struct Fftw<float> {
   static void release(void* p) { fftwf_free(p); }
 };
 
-/// An array aligned as FFTW wants it.
+/// An array with the alignment that FFTW requires.
 template <typename T, typename Real>
 class AlignedArray {
  public:
@@ -64,18 +64,18 @@ class AlignedArray {
   T* data_;
 };
 
-/// FFT of length n of `batch` series at once, in place; entry k of series s stands at k * batch + s. Plans are ESTIMATE,
-/// so that bits do not depend on timing.
+/// In-place FFT of length n of `batch` series; entry k of series s is at index k * stride + s. Plans use FFTW_ESTIMATE,
+/// so bits do not depend on timing.
 template <typename Real>
 class FftAlongRows {
  public:
-  /// `stride`: from one row to the next, at least `batch`.
+  /// stride   distance between rows, at least `batch`
   FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign);
   FftAlongRows(std::size_t n, std::size_t batch, int sign) : FftAlongRows(n, batch, batch, sign) {}
   ~FftAlongRows();
   FftAlongRows(const FftAlongRows&) = delete;
   FftAlongRows& operator=(const FftAlongRows&) = delete;
-  /// `data` from AlignedArray; may run from several threads at once.
+  /// Transforms `data`, allocated by AlignedArray; may be called concurrently.
   void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data); }
 
  private:

@@ -3,7 +3,7 @@
 
 namespace insonify {
 
-/// FFTW's planner may make or destroy one plan at a time, of whatever precision; running plans needs no lock.
+/// FFTW creates and destroys plans one at a time, for all precisions together; executing plans needs no lock.
 inline std::mutex& fftw_planner() {
   static std::mutex planner;
   return planner;

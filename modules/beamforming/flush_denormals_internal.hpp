@@ -6,8 +6,8 @@
 
 namespace insonify {
 
-/// While it lives, numbers too small for full precision count as 0 on this thread: processors take
-/// many cycles over them, and they are hundreds of dB below everything else.
+/// Treats denormal numbers as 0 on this thread during its lifetime: they slow down processors and are hundreds of dB
+/// below all signals.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

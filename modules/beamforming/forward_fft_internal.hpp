@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// A forward complex FFT of one length, in place; ESTIMATE plans, so that bits do not depend on timing.
+/// In-place forward complex FFT of one length; plans use FFTW_ESTIMATE, so bits do not depend on timing.
 class ForwardFft {
  public:
   explicit ForwardFft(std::size_t n);

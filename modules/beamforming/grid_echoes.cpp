@@ -8,123 +8,123 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t batch = 256;           // echoes handed to the kernel at once
-constexpr std::size_t terms_at_once = 2048;  // echoes added up before the sum is put aside
+constexpr std::size_t batch = 256;            // echoes per call of the inner loop
+constexpr std::size_t flush_interval = 2048;  // echoes accumulated before partial sums are flushed
 
 template <typename Real>
 kernels::Pieces<Real> pieces(const PolynomialPieces<Real>& p) {
   return {p.coefficient.data(), p.degree, p.lanes};
 }
 
-/// Echoes that all have the planned pulse, whole.
+/// Grids echoes that all have the planned pulse.
 template <typename Real>
-double grid_pulses(const GriddingPlan<Real>& plan, const GriddingPing& ping, std::span<const std::uint32_t> list,
-                   std::size_t first_bin, GridTile<Real>& tile) {
+double grid_planned_pulses(const GriddingPlan<Real>& plan, const GriddingInput& input,
+                           std::span<const std::uint32_t> list, std::size_t first_bin, GridTile<Real>& tile) {
   std::array<std::uint32_t, batch> row, column;
   std::array<Real, batch> row_offset, column_offset, re, im;
-  const kernels::GridPlaces<Real> grids{row.data(),           column.data(), row_offset.data(),
-                                        column_offset.data(), re.data(),     im.data()};
+  const kernels::GridTargets<Real> targets{row.data(),           column.data(), row_offset.data(),
+                                           column_offset.data(), re.data(),     im.data()};
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width());
   const double first_row = static_cast<double>(first_bin) - static_cast<double>(plan.margin);
   double power = 0;
   for (; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
     const std::size_t count = std::min(batch, list.size());
     for (std::size_t k = 0; k < count; ++k) {
-      // Where the echo lies between grid steps and between bins, and what is left of it on its way.
+      // Position of the echo between grid steps and between bins, and its amplitude after absorption.
       const std::uint32_t i = list[k];
-      const double delay = ping.echoes.delay[i];
-      const auto place = plan.place_of(ping.echoes.u[i]);
+      const double delay = input.echoes.delay[i];
+      const auto place = plan.place_of(input.echoes.u[i]);
       const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
       const double low_row = (delay - plan.half - plan.axis.start) / plan.axis.step, row_0 = std::ceil(low_row);
       const double gain =
-          place.sign / ping.unit * std::exp(-plan.medium.absorption.a0 * plan.medium.sound_speed * delay);
+          place.sign / input.unit * std::exp(-plan.medium.absorption.a0 * plan.medium.sound_speed * delay);
       column[k] = static_cast<std::uint32_t>(column_0 + grid_pad);
       column_offset[k] = static_cast<Real>(2 * (column_0 - low_column) - 1);
       row[k] = static_cast<std::uint32_t>(row_0 - first_row);
       row_offset[k] = static_cast<Real>(2 * (row_0 - low_row) - 1);
-      re[k] = static_cast<Real>(gain * ping.echoes.amplitude[i].real());  // (E13)
-      im[k] = static_cast<Real>(gain * ping.echoes.amplitude[i].imag());
-      power += std::norm(gain * ping.echoes.amplitude[i]);
+      re[k] = static_cast<Real>(gain * input.echoes.amplitude[i].real());  // (E13)
+      im[k] = static_cast<Real>(gain * input.echoes.amplitude[i].imag());
+      power += std::norm(gain * input.echoes.amplitude[i]);
     }
-    kernels::grid(grids, count, pieces(plan.rows), plan.choice.pulse_samples, pieces(plan.columns), tile.scratch.data(),
-                  tile.re.data(), tile.im.data(), plan.stride);
+    kernels::grid_pulses(targets, count, pieces(plan.rows), plan.choice.pulse_samples, pieces(plan.columns),
+                         tile.scratch.data(), tile.re.data(), tile.im.data(), plan.stride);
   }
   return power * plan.pulse_energy;
 }
 
-/// Sweeps: only what falls on the tile of each.
+/// Grids sweeps; of each only the samples on this tile.
 template <typename Real>
-double grid_sweeps(const GriddingPlan<Real>& plan, const GriddingPing& ping, std::span<const std::uint32_t> list,
+double grid_sweeps(const GriddingPlan<Real>& plan, const GriddingInput& input, std::span<const std::uint32_t> list,
                    std::size_t first_bin, GridTile<Real>& tile) {
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()),
-               pieces_in_all = static_cast<double>(plan.rows.pieces);
+               all_pieces = static_cast<double>(plan.rows.pieces);
   const auto from = static_cast<double>(first_bin),
              to = static_cast<double>(std::min(first_bin + plan.tile_bins, plan.axis.bins));
   const EchoEnvelope envelope = echo_envelope(plan.head.pulse, {}, 0);
   double power = 0;
   for (const std::uint32_t i : list) {
-    const double delay = ping.echoes.delay[i];
-    const auto place = plan.place_of(ping.echoes.u[i]);
+    const double delay = input.echoes.delay[i];
+    const auto place = plan.place_of(input.echoes.u[i]);
     const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
     const double low_row = (delay - plan.half - plan.axis.start) / plan.axis.step, row_0 = std::ceil(low_row);
-    const double piece_0 = std::max(0.0, from - row_0), piece_1 = std::min(pieces_in_all, to - row_0);
+    const double piece_0 = std::max(0.0, from - row_0), piece_1 = std::min(all_pieces, to - row_0);
     if (!(piece_0 < piece_1)) continue;
-    const std::complex<double> a = place.sign / ping.unit *
+    const std::complex<double> a = place.sign / input.unit *
                                    std::exp(-plan.medium.absorption.a0 * plan.medium.sound_speed * delay) *
-                                   ping.echoes.amplitude[i];
+                                   input.echoes.amplitude[i];
     const auto column_offset = static_cast<Real>(2 * (column_0 - low_column) - 1);
     const auto at = [&](double piece) {
       return static_cast<std::size_t>(row_0 + piece - from) * plan.stride +
              static_cast<std::size_t>(column_0 + grid_pad);
     };
-    kernels::grid_rows(static_cast<Real>(a.real()), static_cast<Real>(a.imag()),
-                       static_cast<Real>(2 * (row_0 - low_row) - 1), column_offset, pieces(plan.rows),
-                       pieces(plan.rows_im), static_cast<std::size_t>(piece_0),
-                       static_cast<std::size_t>(piece_1 - piece_0), pieces(plan.columns), tile.scratch.data(),
-                       tile.re.data() + at(piece_0), tile.im.data() + at(piece_0), plan.stride);
-    power += std::norm(a) * (piece_1 - piece_0) / pieces_in_all;
+    kernels::grid_pulse_rows(static_cast<Real>(a.real()), static_cast<Real>(a.imag()),
+                             static_cast<Real>(2 * (row_0 - low_row) - 1), column_offset, pieces(plan.rows),
+                             pieces(plan.rows_im), static_cast<std::size_t>(piece_0),
+                             static_cast<std::size_t>(piece_1 - piece_0), pieces(plan.columns), tile.scratch.data(),
+                             tile.re.data() + at(piece_0), tile.im.data() + at(piece_0), plan.stride);
+    power += std::norm(a) * (piece_1 - piece_0) / all_pieces;
     if (!plan.sweep_ends) continue;
-    for (const double end : {0.0, pieces_in_all - 1}) {
+    for (const double end : {0.0, all_pieces - 1}) {
       if (end < piece_0 || end >= piece_1) continue;
       const double t = plan.axis.start + (row_0 + end) * plan.axis.step - delay;
       const double level = std::copysign(plan.half - plan.axis.step, t);
       const std::complex<double> g = a * (envelope.at(t) - envelope.at(level));  // (E13)
       const double g_re = g.real(), g_im = g.imag();
-      kernels::grid_pulse(&g_re, &g_im, 1, column_offset, pieces(plan.columns), tile.re.data() + at(end),
-                          tile.im.data() + at(end), plan.stride);
+      kernels::grid_sampled_pulse(&g_re, &g_im, 1, column_offset, pieces(plan.columns), tile.re.data() + at(end),
+                                  tile.im.data() + at(end), plan.stride);
     }
   }
   return power * plan.pulse_energy;
 }
 
-/// Echoes whose pulses differ: sample by sample.
+/// Grids echoes with different pulses, sample by sample.
 template <typename Real>
-double grid_singly(const GriddingPlan<Real>& plan, const GriddingPing& ping, std::span<const std::uint32_t> list,
-                   std::size_t first_bin, GridTile<Real>& tile) {
+double grid_sampled_pulses(const GriddingPlan<Real>& plan, const GriddingInput& input,
+                           std::span<const std::uint32_t> list, std::size_t first_bin, GridTile<Real>& tile) {
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width());
   const std::size_t last_bin = std::min(first_bin + plan.tile_bins, plan.axis.bins);
   double energy = 0;
   for (const std::uint32_t i : list) {
-    const double delay = ping.echoes.delay[i];
-    const auto place = plan.place_of(ping.echoes.u[i]);
+    const double delay = input.echoes.delay[i];
+    const auto place = plan.place_of(input.echoes.u[i]);
     const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
-    const EchoEnvelope envelope = plan.shapes.of(delay, ping.echoes.doppler_of(i));
-    const auto [first, last] = plan.axis.around(delay, ping.reach.at(delay));
+    const EchoEnvelope envelope = plan.shapes.of(delay, input.echoes.doppler_of(i));
+    const auto [first, last] = plan.axis.around(delay, input.reach.at(delay));
     const std::size_t from = std::max(first, first_bin), to = std::min(last, last_bin);
     tile.pulse_re.clear();
     tile.pulse_im.clear();
     for (std::size_t n = from; n < to; ++n) {
       const double t = plan.axis.start + static_cast<double>(n) * plan.axis.step - delay;
-      const std::complex<double> g = place.sign / ping.unit * ping.echoes.amplitude[i] * envelope.at(t);  // (E13)
+      const std::complex<double> g = place.sign / input.unit * input.echoes.amplitude[i] * envelope.at(t);  // (E13)
       tile.pulse_re.push_back(g.real());
       tile.pulse_im.push_back(g.imag());
       energy += std::norm(g);
     }
     const std::size_t start =
         (from - first_bin + plan.margin) * plan.stride + static_cast<std::size_t>(column_0 + grid_pad);
-    kernels::grid_pulse(tile.pulse_re.data(), tile.pulse_im.data(), tile.pulse_re.size(),
-                        static_cast<Real>(2 * (column_0 - low_column) - 1), pieces(plan.columns),
-                        tile.re.data() + start, tile.im.data() + start, plan.stride);
+    kernels::grid_sampled_pulse(tile.pulse_re.data(), tile.pulse_im.data(), tile.pulse_re.size(),
+                                static_cast<Real>(2 * (column_0 - low_column) - 1), pieces(plan.columns),
+                                tile.re.data() + start, tile.im.data() + start, plan.stride);
   }
   return energy;
 }
@@ -140,41 +140,41 @@ GridTile<Real>::GridTile(const GriddingPlan<Real>& plan)
       plane_(plan.tile_rows * plan.stride) {}
 
 template <typename Real>
-void GridTile<Real>::put_aside() {
-  if (whole_re.empty()) whole_re.assign(plane_, 0), whole_im.assign(plane_, 0);
-  for (std::size_t k = 0; k < plane_; ++k) whole_re[k] += re[k];
-  for (std::size_t k = 0; k < plane_; ++k) whole_im[k] += im[k];
+void GridTile<Real>::flush_partial_sums() {
+  if (flushed_re.empty()) flushed_re.assign(plane_, 0), flushed_im.assign(plane_, 0);
+  for (std::size_t k = 0; k < plane_; ++k) flushed_re[k] += re[k];
+  for (std::size_t k = 0; k < plane_; ++k) flushed_im[k] += im[k];
   re.clear();
   im.clear();
 }
 
 template <typename Real>
-void GridTile<Real>::take_back() {
-  for (std::size_t k = 0; k < whole_re.size(); ++k) re[k] += whole_re[k];
-  for (std::size_t k = 0; k < whole_im.size(); ++k) im[k] += whole_im[k];
+void GridTile<Real>::restore_flushed_sums() {
+  for (std::size_t k = 0; k < flushed_re.size(); ++k) re[k] += flushed_re[k];
+  for (std::size_t k = 0; k < flushed_im.size(); ++k) im[k] += flushed_im[k];
 }
 
 template <typename Real>
-double grid_echoes(const GriddingPlan<Real>& plan, const GriddingPing& ping, std::span<const std::uint32_t> list,
+double grid_echoes(const GriddingPlan<Real>& plan, const GriddingInput& input, std::span<const std::uint32_t> list,
                    std::size_t first_bin, GridTile<Real>& tile) {
   double energy = 0;
   while (!list.empty()) {
-    const auto some = list.first(std::min(terms_at_once, list.size()));
-    energy += !ping.planned ? grid_singly(plan, ping, some, first_bin, tile)
-              : plan.sweep  ? grid_sweeps(plan, ping, some, first_bin, tile)
-                            : grid_pulses(plan, ping, some, first_bin, tile);
+    const auto some = list.first(std::min(flush_interval, list.size()));
+    energy += !input.planned ? grid_sampled_pulses(plan, input, some, first_bin, tile)
+              : plan.sweep   ? grid_sweeps(plan, input, some, first_bin, tile)
+                             : grid_planned_pulses(plan, input, some, first_bin, tile);
     list = list.subspan(some.size());
-    if (!list.empty()) tile.put_aside();
+    if (!list.empty()) tile.flush_partial_sums();
   }
-  tile.take_back();
+  tile.restore_flushed_sums();
   return energy;
 }
 
 template struct GridTile<float>;
 template struct GridTile<double>;
-template double grid_echoes(const GriddingPlan<float>&, const GriddingPing&, std::span<const std::uint32_t>,
+template double grid_echoes(const GriddingPlan<float>&, const GriddingInput&, std::span<const std::uint32_t>,
                             std::size_t, GridTile<float>&);
-template double grid_echoes(const GriddingPlan<double>&, const GriddingPing&, std::span<const std::uint32_t>,
+template double grid_echoes(const GriddingPlan<double>&, const GriddingInput&, std::span<const std::uint32_t>,
                             std::size_t, GridTile<double>&);
 
 }  // namespace insonify

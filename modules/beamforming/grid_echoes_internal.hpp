@@ -10,37 +10,39 @@
 
 namespace insonify {
 
-/// The room of one tile of bins: planes for gridding (a margin of rows to either side takes what belongs to
-/// neighbours) and the grid that the transforms work on.
+/// Working memory of one tile of bins: planes for gridding (with margin rows on both sides for samples that belong to
+/// neighbouring tiles) and the grid for the transforms.
 template <typename Real>
 struct GridTile {
   AlignedArray<Real, Real> re, im;
   AlignedArray<std::complex<Real>, Real> grid;
-  std::vector<Real> scratch, whole_re, whole_im;  ///< whole: what was gridded before
+  std::vector<Real> scratch, flushed_re, flushed_im;  ///< flushed: sums of earlier echoes
   std::vector<double> pulse_re, pulse_im;
 
   explicit GridTile(const GriddingPlan<Real>& plan);
 
-  /// Puts aside what was gridded so far, so that no sum has too many terms of like sign for its precision.
-  void put_aside();
-  void take_back();
+  /// Adds the planes to the flushed sums and clears them, which bounds the number of terms accumulated in single
+  /// precision.
+  void flush_partial_sums();
+  /// Adds the flushed sums back to the planes.
+  void restore_flushed_sums();
 
  private:
   std::size_t plane_;
 };
 
-/// Which echoes, and how their pulses look: the same for all tiles of one ping.
-struct GriddingPing {
+/// The echoes to grid and their pulses; the same for all tiles of one image.
+struct GriddingInput {
   const Echoes& echoes;
   PulseReach reach;
-  bool planned;     ///< every echo has the planned pulse, times a factor
-  double unit = 1;  ///< what is gridded is counted in this [Pa]
+  bool planned;     ///< all echoes have the planned pulse, times an amplitude
+  double unit = 1;  ///< amplitudes are gridded in this unit [Pa]
 };
 
-/// GridPlaces the listed echoes (E13), in their order, on the tile that begins with first_bin; returns their energy, counted in
-/// units of ping.unit^2 [bins].
+/// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`; returns their energy in units
+/// of input.unit^2 [bins].
 template <typename Real>
-double grid_echoes(const GriddingPlan<Real>& plan, const GriddingPing& ping, std::span<const std::uint32_t> list,
+double grid_echoes(const GriddingPlan<Real>& plan, const GriddingInput& input, std::span<const std::uint32_t> list,
                    std::size_t first_bin, GridTile<Real>& tile);
 
 }  // namespace insonify

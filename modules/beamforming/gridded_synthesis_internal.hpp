@@ -5,33 +5,33 @@
 
 namespace insonify {
 
-/// An image, and how much of what was gridded is in it.
+/// An image, and the fraction of the gridded energy that it contains.
 struct GriddedImage {
   ComplexGrid pressure;  ///< beams x bins [Pa]
-  /// Root of the mean energy of a beam over that of all gridded pulses: 0.1 for a fan of 500 beams of which 5 hear an
-  /// echo. The errors of the kernel go into all beams alike; the smaller this is, the more they weigh.
+  /// Root of the mean energy per beam over that of all gridded pulses: 0.1 for a fan of 500 beams of which 5 receive an
+  /// echo. Kernel errors are distributed evenly over all beams, so the smaller this fraction, the larger the relative error.
   double share = 0;
 };
 
-/// The gridding work of PingSynthesizer in one precision.
+/// The gridded synthesis of PingSynthesizer in one precision.
 template <typename Real>
 class GriddedSynthesis {
  public:
-  /// kernel_tolerance: error of the kernel relative to what is gridded.
+  /// kernel_tolerance   error of the kernel relative to the gridded energy
   GriddedSynthesis(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
                    double kernel_tolerance);
   GriddedImage image(const Echoes& echoes) const;
   const SynthesisChoice& choice() const { return plan_.choice; }
-  /// Whether it grids these echoes dearer than they are summed directly.
+  /// Returns true if the cost model favours the direct sum over gridding for these echoes.
   bool direct_is_cheaper(const Echoes& echoes) const;
 
  private:
   using Complex = std::complex<Real>;
 
-  GriddingPing ping_of(const Echoes& echoes) const;
-  /// Turns the gridded tile into beams: the bins [first, last) of `pressure`.
+  GriddingInput input_for(const Echoes& echoes) const;
+  /// Transforms the gridded tile into beams: bins [first, last) of `pressure`.
   void form_beams(GridTile<Real>& tile, std::size_t first, std::size_t last, ComplexGrid& pressure) const;
-  void unfold(GridTile<Real>& tile) const;
+  void wrap_and_transpose(GridTile<Real>& tile) const;
 
   GriddingPlan<Real> plan_;
   int threads_;

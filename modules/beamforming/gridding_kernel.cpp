@@ -7,20 +7,21 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t widest = 16, highest_degree = 24;
+constexpr std::size_t max_width = 16, max_degree = 24;
 
 std::size_t width_for(double tolerance) {
   const double digits = -std::log10(std::clamp(tolerance, 1e-16, 0.1));
-  return std::min(widest, static_cast<std::size_t>(std::ceil(digits)) + 1);
+  return std::min(max_width, static_cast<std::size_t>(std::ceil(digits)) + 1);
 }
 
-/// Coefficients of the polynomial of `degree` in t through f at the Chebyshev nodes of [-1, 1], lowest power first.
+/// Returns the coefficients, lowest power first, of the polynomial of `degree` that interpolates f at the Chebyshev
+/// nodes of [-1, 1].
 std::vector<double> fit_polynomial(const std::function<double(double)>& f, std::size_t degree) {
   const std::size_t n = degree + 1;
   std::vector<double> values(n), result(n, 0.0);
   const auto node = [&](std::size_t j) { return pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n); };
   for (std::size_t j = 0; j < n; ++j) values[j] = f(std::cos(node(j)));
-  // Chebyshev coefficients, added up as polynomials by T_(k+1) = 2 t T_k - T_(k-1).
+  // Chebyshev coefficients, summed as polynomials by the recurrence T_(k+1) = 2 t T_k - T_(k-1).
   std::vector<double> now(n, 0.0), before(n, 0.0);
   now[0] = 1;
   for (std::size_t k = 0; k < n; ++k) {
@@ -56,7 +57,7 @@ PolynomialPieces<Real> PolynomialPieces<Real>::fit(const std::function<double(do
   };
   std::vector<std::vector<double>> best(pieces);
   std::size_t degree = 3;
-  for (bool good = false; !good && degree <= highest_degree; ++degree) {
+  for (bool good = false; !good && degree <= max_degree; ++degree) {
     good = true;
     for (std::size_t l = 0; l < pieces && good; ++l) {
       const auto exact = piece(l);
@@ -68,7 +69,7 @@ PolynomialPieces<Real> PolynomialPieces<Real>::fit(const std::function<double(do
     }
     if (good) break;
   }
-  degree = std::min(degree, highest_degree);
+  degree = std::min(degree, max_degree);
   for (std::size_t l = 0; l < pieces; ++l) best[l] = fit_polynomial(piece(l), degree);
 
   PolynomialPieces result;
@@ -98,7 +99,7 @@ double GriddingKernel::at(double x) const {
 }
 
 double GriddingKernel::transform(double frequency) const {
-  // x = (w/2) sin(s) takes the square root out; the trapezoid rule then converges quickly, ends alike.
+  // The substitution x = (w/2) sin(s) removes the square root; the trapezoidal rule then converges rapidly.
   constexpr int steps = 400;
   const double half = 0.5 * static_cast<double>(width_);
   double sum = 0;

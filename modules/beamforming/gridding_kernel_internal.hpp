@@ -5,28 +5,29 @@
 
 namespace insonify {
 
-/// A function of compact support, cut into pieces of unit length, each a polynomial: evaluated for all pieces at once, one
-/// piece per lane. Lane l of `evaluate(z)` is f(start + l + z) for z in [0, 1).
+/// A function of compact support as piecewise polynomials on intervals of unit length, evaluated for all intervals at
+/// once, one per lane: lane l is f(start + l + z) for z in [0, 1).
 template <typename Real>
 struct PolynomialPieces {
   std::size_t pieces = 0, lanes = 0, degree = 0;
-  std::vector<Real> coefficient;  ///< (degree + 1) x lanes and 8 spare, highest power first, in t = 2 z - 1
+  std::vector<Real> coefficient;  ///< (degree + 1) x lanes plus 8 of padding, highest power first, in t = 2 z - 1
 
-  /// The lowest degree whose largest error is below `error`; lanes beyond `pieces` are zero, and `lanes` is rounded up to a
-  /// multiple of 8.
+  /// Fits polynomials of the lowest degree with an error below `error`; `lanes` is `pieces` rounded up to a multiple of
+  /// 8, and the excess lanes are zero.
   static PolynomialPieces fit(const std::function<double(double)>& f, double start, std::size_t pieces, double error);
 };
 
-/// The "exponential of semicircle" kernel of Barnett, Magland and af Klinteberg (2019) for non-uniform FFTs on a grid
-/// twice as fine as needed (E60): phi(x) = exp(beta (sqrt(1 - (2x/w)^2) - 1)), x in grid steps, |x| <= w/2.
+/// The "exponential of semicircle" kernel of Barnett, Magland and af Klinteberg (2019) for non-uniform FFTs with an
+/// oversampling factor of 2 (E60): phi(x) = exp(beta (sqrt(1 - (2x/w)^2) - 1)), x in grid steps, |x| <= w/2.
 class GriddingKernel {
  public:
-  /// The narrowest kernel whose error is below `tolerance`; at most 16 wide, good to 1e-14.
+  /// Chooses the narrowest kernel with an error below `tolerance`; at most 16 grid steps wide, accurate to 1e-14.
   explicit GriddingKernel(double tolerance);
 
   std::size_t width() const { return width_; }
   double at(double x) const;
-  /// Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1/4: integral of phi(x) cos(2 pi f x).
+  /// Returns the Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1/4: integral of phi(x) cos(2
+  /// pi f x).
   double transform(double frequency) const;
 
  private:

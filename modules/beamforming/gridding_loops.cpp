@@ -6,7 +6,7 @@ namespace {
 
 #define INSONIFY_INLINE [[gnu::always_inline]] inline
 
-/// Horner's rule on all lanes at once.
+/// Evaluates the polynomials of all lanes by Horner's rule.
 template <std::size_t lanes, typename Real>
 INSONIFY_INLINE void evaluate(Pieces<Real> p, Real t, Real* value) {
   for (std::size_t l = 0; l < lanes; ++l) value[l] = p.coefficient[l];
@@ -21,7 +21,7 @@ INSONIFY_INLINE void add_row(Real g_re, Real g_im, const Real* kernel, Real* __r
 }
 
 template <std::size_t lanes, typename Real>
-INSONIFY_INLINE void grid_all(const GridPlaces<Real>& s, std::size_t count, Pieces<Real> rows_of, std::size_t rows,
+INSONIFY_INLINE void grid_all(const GridTargets<Real>& s, std::size_t count, Pieces<Real> rows_of, std::size_t rows,
                               Pieces<Real> columns_of, Real* __restrict pulse, Real* x_re, Real* x_im,
                               std::size_t stride) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -43,7 +43,7 @@ INSONIFY_INLINE void grid_all(const GridPlaces<Real>& s, std::size_t count, Piec
   }
 }
 
-/// The polynomials of the lanes from `first` on, eight at a time, until `count` of them are there.
+/// Evaluates the polynomials of `count` lanes from `first` on, eight at a time.
 template <typename Real>
 INSONIFY_INLINE void evaluate_some(Pieces<Real> p, std::size_t first, std::size_t count, Real t, Real* value) {
   for (std::size_t l0 = 0; l0 < count; l0 += 8) {
@@ -104,8 +104,8 @@ INSONIFY_INLINE void interpolate_rows(const Real* weight, const std::uint32_t* r
 }  // namespace
 
 INSONIFY_CLONES
-void grid(const GridPlaces<float>& s, std::size_t count, Pieces<float> rows_of, std::size_t rows,
-          Pieces<float> columns_of, float* scratch, float* x_re, float* x_im, std::size_t stride) {
+void grid_pulses(const GridTargets<float>& s, std::size_t count, Pieces<float> rows_of, std::size_t rows,
+                 Pieces<float> columns_of, float* scratch, float* x_re, float* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
     grid_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
   else
@@ -113,8 +113,8 @@ void grid(const GridPlaces<float>& s, std::size_t count, Pieces<float> rows_of, 
 }
 
 INSONIFY_CLONES
-void grid(const GridPlaces<double>& s, std::size_t count, Pieces<double> rows_of, std::size_t rows,
-          Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride) {
+void grid_pulses(const GridTargets<double>& s, std::size_t count, Pieces<double> rows_of, std::size_t rows,
+                 Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
     grid_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
   else
@@ -122,9 +122,9 @@ void grid(const GridPlaces<double>& s, std::size_t count, Pieces<double> rows_of
 }
 
 INSONIFY_CLONES
-void grid_rows(float re, float im, float row_offset, float column_offset, Pieces<float> pulse_re,
-               Pieces<float> pulse_im, std::size_t first, std::size_t rows, Pieces<float> columns_of, float* scratch,
-               float* x_re, float* x_im, std::size_t stride) {
+void grid_pulse_rows(float re, float im, float row_offset, float column_offset, Pieces<float> pulse_re,
+                     Pieces<float> pulse_im, std::size_t first, std::size_t rows, Pieces<float> columns_of,
+                     float* scratch, float* x_re, float* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
     grid_some<8>(re, im, row_offset, column_offset, pulse_re, pulse_im, first, rows, columns_of, scratch, x_re, x_im,
                  stride);
@@ -134,9 +134,9 @@ void grid_rows(float re, float im, float row_offset, float column_offset, Pieces
 }
 
 INSONIFY_CLONES
-void grid_rows(double re, double im, double row_offset, double column_offset, Pieces<double> pulse_re,
-               Pieces<double> pulse_im, std::size_t first, std::size_t rows, Pieces<double> columns_of, double* scratch,
-               double* x_re, double* x_im, std::size_t stride) {
+void grid_pulse_rows(double re, double im, double row_offset, double column_offset, Pieces<double> pulse_re,
+                     Pieces<double> pulse_im, std::size_t first, std::size_t rows, Pieces<double> columns_of,
+                     double* scratch, double* x_re, double* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
     grid_some<8>(re, im, row_offset, column_offset, pulse_re, pulse_im, first, rows, columns_of, scratch, x_re, x_im,
                  stride);
@@ -146,8 +146,8 @@ void grid_rows(double re, double im, double row_offset, double column_offset, Pi
 }
 
 INSONIFY_CLONES
-void grid_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, float offset,
-                Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride) {
+void grid_sampled_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, float offset,
+                        Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
     grid_samples<8>(pulse_re, pulse_im, rows, offset, columns_of, x_re, x_im, stride);
   else
@@ -155,8 +155,8 @@ void grid_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows
 }
 
 INSONIFY_CLONES
-void grid_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, double offset,
-                Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride) {
+void grid_sampled_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, double offset,
+                        Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
     grid_samples<8>(pulse_re, pulse_im, rows, offset, columns_of, x_re, x_im, stride);
   else

@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-/// The smallest even number from `least` on with no prime factor above 5: FFTW's fast lengths.
+/// Returns the smallest even number >= `least` without a prime factor above 5, a fast length for FFTW.
 std::size_t fast_length(std::size_t least) {
   for (std::size_t n = least + least % 2;; n += 2) {
     std::size_t rest = n;
@@ -28,14 +28,14 @@ GriddingPlan<Real>::GriddingPlan(const SonarHead& head_in, const Medium& medium_
       axis(head.gate, medium.sound_speed),
       cut(pulse_cut(tolerance)),
       shapes(head.pulse, medium),
-      one_shape(medium.absorption.a1 == 0 && medium.absorption.a2 == 0),
+      common_shape(medium.absorption.a1 == 0 && medium.absorption.a2 == 0),
       kernel(kernel_tolerance),
       grid(fast_length(std::max(2 * head.array.elements(), 2 * kernel.width()))),
       stride(grid + 2 * grid_pad),
       tile_bins(grid <= 2048 ? 64 : 32),
       grid_row(tile_bins + 8),
       cycles_per_u(head.array.spacing * head.pulse.centre_frequency / medium.sound_speed),
-      half_place(head.array.elements() % 2 == 0 ? 0.5 : 0.0) {
+      element_offset(head.array.elements() % 2 == 0 ? 0.5 : 0.0) {
   plan_time(tolerance, kernel_tolerance);
   plan_elements();
   plan_beams();
@@ -51,17 +51,19 @@ void GriddingPlan<Real>::plan_time(double tolerance, double kernel_tolerance) {
   columns = PolynomialPieces<Real>::fit([this](double x) { return kernel.at(x); }, -half_width, kernel.width(),
                                         0.1 * kernel_tolerance);
   const double reach = PulseReach(head.pulse, medium.absorption, medium.sound_speed, false, cut).half;
-  sweep = one_shape && head.pulse.shape == PulseShape::linear_fm;
-  half = sweep ? std::ceil(reach / axis.step) * axis.step : reach;  // a sweep's middle stands between two pieces
+  sweep = common_shape && head.pulse.shape == PulseShape::linear_fm;
+  // The centre of a sweep is a boundary between two pieces.
+  half = sweep ? std::ceil(reach / axis.step) * axis.step : reach;
   sweep_ends = sweep && half > head.pulse.duration - axis.step;
   choice.pulse_half_length = reach;
   choice.pulse_samples = static_cast<std::size_t>(std::floor(2 * half / axis.step + 1e-9)) + (sweep ? 0 : 1);
-  margin = one_shape && !sweep ? choice.pulse_samples - 1 : 0;
+  margin = common_shape && !sweep ? choice.pulse_samples - 1 : 0;
   tile_rows = tile_bins + 2 * margin;
-  if (!one_shape) return;
+  if (!common_shape) return;
   const EchoEnvelope envelope = echo_envelope(head.pulse, {}, 0);
   const double first = -half / axis.step, last_piece = -first - 1;
-  // The ends of a sweep are corners, which no polynomial follows: their pieces are level, and grid_sweeps adds the rest.
+  // The ends of a sweep are discontinuous, which polynomials cannot follow: their pieces are constant, and grid_sweeps
+  // adds the remainder.
   const auto value = [&](double x) {
     return envelope.at((sweep_ends ? std::clamp(x, first + 1, last_piece) : x) * axis.step);
   };
@@ -80,14 +82,14 @@ void GriddingPlan<Real>::plan_elements() {
   const auto steps = static_cast<double>(grid);
   element.assign(grid, Complex(0));
   for (std::size_t m = 0; m < n; ++m) {
-    const double place = element_place(m, n), spread = kernel.transform(place / steps);
+    const double place = element_place(m, n), kernel_transform = kernel.transform(place / steps);
     const auto frequency = static_cast<std::ptrdiff_t>(std::floor(place));
     element[static_cast<std::size_t>(frequency < 0 ? frequency + static_cast<std::ptrdiff_t>(grid) : frequency)] =
-        static_cast<Real>(head.array.shading[m] / (static_cast<double>(n) * spread * spread));
+        static_cast<Real>(head.array.shading[m] / (static_cast<double>(n) * kernel_transform * kernel_transform));
   }
-  half_turn.resize(grid);
+  offset_phase.resize(grid);
   for (std::size_t j = 0; j < grid; ++j)
-    half_turn[j] = Complex(std::polar(1.0, 2 * pi * half_place * static_cast<double>(j) / steps));
+    offset_phase[j] = Complex(std::polar(1.0, 2 * pi * element_offset * static_cast<double>(j) / steps));
 }
 
 template <typename Real>
@@ -98,7 +100,7 @@ void GriddingPlan<Real>::plan_beams() {
     const double low = place.step - 0.5 * static_cast<double>(width), first = std::ceil(low);
     for (std::size_t k = 0; k < width; ++k) {
       const double j = first + static_cast<double>(k), wraps = std::floor(j / static_cast<double>(grid));
-      const double sign = wraps != 0 && half_place != 0 ? -place.sign : place.sign;
+      const double sign = wraps != 0 && element_offset != 0 ? -place.sign : place.sign;
       beam_weight.push_back(static_cast<Real>(sign * kernel.at(j - place.step)));
       beam_row.push_back(static_cast<std::uint32_t>(j - wraps * static_cast<double>(grid)));
     }
@@ -108,7 +110,7 @@ void GriddingPlan<Real>::plan_beams() {
 template <typename Real>
 typename GriddingPlan<Real>::Place GriddingPlan<Real>::place_of(double u) const {
   const double cycles = cycles_per_u * u, whole = std::floor(cycles);
-  const bool turned = half_place != 0 && std::fmod(whole, 2) != 0;
+  const bool turned = element_offset != 0 && std::fmod(whole, 2) != 0;
   return {(cycles - whole) * static_cast<double>(grid), turned ? -1.0 : 1.0};
 }
 

@@ -11,11 +11,12 @@
 
 namespace insonify {
 
-constexpr std::size_t grid_pad = 16;  ///< columns before the grid's first and after its last
+constexpr std::size_t grid_pad = 16;  ///< padding columns on either side of the grid
 
-/// What gridding in one precision has in common for all pings of a head. Directions are counted as phase from one element
-/// to the next, in cycles; a grid of `grid` steps covers one cycle. Elements stand at whole places for odd numbers of
-/// them and at half ones for even numbers: then everything changes sign from one cycle to the next.
+/// Constants of the gridded synthesis in one precision, shared by all pings of a head. A direction is represented by
+/// the phase between neighbouring elements [cycles]; `grid` steps cover one cycle. Element positions are integers for
+/// odd numbers of elements and half-integers for even ones, in which case the grid changes sign from one cycle to the
+/// next.
 template <typename Real>
 struct GriddingPlan {
   using Complex = std::complex<Real>;
@@ -23,31 +24,33 @@ struct GriddingPlan {
   SonarHead head;
   Medium medium;
   TimeAxis axis;
-  double cut;  ///< pulses are cut where they fall below this
+  double cut;  ///< pulses are cut where they fall below this fraction of their peak
   EchoShapes shapes;
-  bool one_shape;  ///< absorption leaves every pulse its shape: samples are polynomials of its offset from the bins
+  bool
+      common_shape;  ///< absorption does not change the pulse shape: samples are polynomials of the offset from the bins
   GriddingKernel kernel;
   std::size_t grid, stride, tile_bins, margin = 0, tile_rows = 0;
-  std::size_t grid_row;  ///< numbers from one grid step to the next: no power of 2, which would crowd a few cache sets
-  double cycles_per_u, half_place;
+  std::size_t grid_row;  ///< row stride of the grid; not a power of 2, to avoid cache conflicts
+  double cycles_per_u, element_offset;
 
   PolynomialPieces<Real> columns, rows, rows_im;  ///< rows_im: of a sweep
-  bool sweep = false, sweep_ends = false;         ///< one_shape of a sweep; its ends are among the rows
-  double half = 0;                                ///< of what is planned of a pulse [s]
-  double pulse_energy = 0;                        ///< of the planned pulse with unit peak [bins]
+  bool sweep = false,
+       sweep_ends = false;  ///< sweep: common_shape of a linear FM pulse; sweep_ends: the rows include its ends
+  double half = 0;          ///< half length of the planned part of a pulse [s]
+  double pulse_energy = 0;  ///< energy of the planned pulse with unit peak [bins]
 
-  std::vector<Complex> half_turn;       ///< exp(i half_place 2 pi j / grid)
-  std::vector<Complex> element;         ///< shading, deconvolution: by grid frequency; 0 where no element is
+  std::vector<Complex> offset_phase;    ///< exp(i element_offset 2 pi j / grid)
+  std::vector<Complex> element;         ///< shading / deconvolution factor, by grid frequency; 0 without element
   std::vector<Real> beam_weight;        ///< beams x width
   std::vector<std::uint32_t> beam_row;  ///< beams x width
   SynthesisChoice choice;
 
-  /// kernel_tolerance: error of the kernel relative to what is gridded.
+  /// kernel_tolerance   error of the kernel relative to the gridded energy
   GriddingPlan(const SonarHead& head, const Medium& medium, double tolerance, double kernel_tolerance);
 
   std::size_t tiles() const { return (axis.bins + tile_bins - 1) / tile_bins; }
 
-  /// Where a direction lies on the grid: step, and the sign that whole cycles bring along.
+  /// Position of a direction on the grid: step, and sign due to whole cycles.
   struct Place {
     double step, sign;
   };

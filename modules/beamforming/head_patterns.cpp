@@ -24,7 +24,7 @@ Extent elevations_of(const BeamFan& fan) {
 EchoOptions with_patterns(EchoOptions options, const SonarHead& head) {
   require_valid(head.fan, "with_patterns");
   const Extent rows = elevations_of(head.fan);
-  const bool own_pattern = !head.column && rows.low != rows.high;  // each row its own, in synthesize
+  const bool own_pattern = !head.column && rows.low != rows.high;  // synthesize applies that of each row
   options.elevation_shape = head.elevation_shape;
   options.elevation_width = own_pattern ? 0 : head.fan.elevation_width;
   options.elevation_centre = rows.middle();
@@ -36,7 +36,8 @@ double sampled_half_extent(const SonarHead& head, double floor_db) {
   require_valid(head.fan, "sampled_half_extent");
   const double half = elevation_half_extent(head.elevation_shape, head.fan.elevation_width, floor_db);
   if (!head.column) return half;
-  // The transmitter's pattern stands about the middle; beams outside it still hear one beam width around them.
+  // The transmitter's pattern is centred on the middle of the rows; beams outside it still receive from one beam width
+  // around them.
   const Extent rows = elevations_of(head.fan);
   return std::max(half - (rows.high - rows.low) / 2, std::min(head.fan.row_width, pi / 2));
 }

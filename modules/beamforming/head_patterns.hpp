@@ -6,22 +6,22 @@
 
 namespace insonify {
 
-/// `options` with the patterns of `head` that direct_echoes must apply; synthesize applies the rest (E14, E56, E57).
+/// Returns `options` with the patterns of `head` that direct_echoes must apply; synthesize applies the rest (E14, E56, E57).
 ///
 ///   one row, no column        the two-way elevation pattern about the fan's elevation
 ///   a column                  the transmitter's elevation pattern, as wide as fan.elevation_width, about the middle
 ///                             between the lowest and the highest row
-///   several rows, no column   no elevation pattern (elevation_width = 0): each row has its own
+///   several rows, no column   no elevation pattern (elevation_width = 0): synthesize applies that of each row
 ///
-/// The transmitter's pattern in azimuth goes with all of them. Throws Error for a fan that is not valid.
+/// All include the transmitter's azimuth pattern. Throws Error for an invalid fan.
 EchoOptions with_patterns(EchoOptions options, const SonarHead& head);
 
-/// How far above the highest and below the lowest beam [rad, > 0] scatterers may lie before all patterns of `head` are
-/// below `floor_db` there: SamplingOptions::elevation_half_extent.
+/// Returns the elevation margin [rad, > 0] above the highest and below the lowest beam within which any pattern of
+/// `head` exceeds `floor_db`: SamplingOptions::elevation_half_extent.
 double sampled_half_extent(const SonarHead& head, double floor_db);
 
-/// What a row of beams at `row_elevation` [rad] makes of an echo with direction cosine v upwards: pressure, 1 at the
-/// row's own elevation. Of a head with a column its response (E56), else the elevation pattern (E14).
+/// Pressure response of a row of beams at `row_elevation` [rad] to an echo with upward direction cosine v, 1 at the
+/// row's own elevation: the response of the head's column (E56) if it has one, else the elevation pattern (E14).
 class RowResponse {
  public:
   RowResponse(const SonarHead& head, double wavelength, double row_elevation);

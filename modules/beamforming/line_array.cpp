@@ -33,7 +33,7 @@ double half_power_offset(const LineArray& array, double wavelength, double most)
     return b * b;
   };
   if (array.elements() == 1) return most;
-  // Walk out of the main lobe in steps much finer than it, then bisect.
+  // Step out of the main lobe much finer than its width, then bisect.
   const double step = 0.02 * wavelength / (array.spacing * static_cast<double>(array.elements()));
   double inside = 0, outside = step;
   while (outside < most && power(outside) > 0.5) inside = outside, outside += step;
@@ -54,8 +54,8 @@ double array_beam_width(const LineArray& array, double wavelength) {
 double directivity_index_db(const LineArray& array, double wavelength, double u_beam) {
   require_valid(array, "directivity_index_db");
   const std::size_t n = array.elements();
-  // Integral of B^2 du over [-1, 1]: pairs of elements with x radians between them at endfire give
-  // 2 cos(x u_beam) sin(x) / x.
+  // Integral of B^2 du over [-1, 1]: pairs of elements whose phase difference at endfire is x contribute 2 cos(x
+  // u_beam) sin(x) / x.
   double integral = 0;
   for (std::size_t lag = 0; lag < n; ++lag) {
     double pairs = 0;

@@ -12,16 +12,16 @@
 namespace insonify {
 namespace {
 
-constexpr double finest = 1e-13;
-/// Errors of the kernel and of rounding go into all beams alike, so what a kernel may do is the tolerance times the share
-/// of the gridded energy that beams hear. From here on single precision is good enough for that.
+constexpr double min_tolerance = 1e-13;
+/// Errors of kernel and rounding are distributed evenly over all beams, so the kernel tolerance is the image tolerance
+/// times the fraction of the gridded energy that the beams receive. From this value on single precision suffices.
 constexpr double single_precision_from = 2e-6;
-/// The finest kernel there is.
-constexpr double finest_kernel = 1e-15;
-/// What is lost of a cut pulse may weigh so much more by cancellation.
+/// Least tolerance of a kernel.
+constexpr double min_kernel_tolerance = 1e-15;
+/// Least ratio of coherent to incoherent amplitude: cancellation amplifies the error of cut pulses by its inverse.
 constexpr double least_kept = 0.25;
 
-/// Share that an echo in the fan has in the image (see GriddedImage): the pattern's mean square over the fan's span.
+/// Expected GriddedImage::share of an echo in the fan: root mean square of the pattern over the fan's extent in u.
 double expected_share(const SonarHead& head, double wavelength) {
   const std::vector<double> u = beam_cosines(head.fan);
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
@@ -34,7 +34,7 @@ double expected_share(const SonarHead& head, double wavelength) {
 
 }  // namespace
 
-/// Either precision of the same synthesis, good for images with a share of at least half of `share`.
+/// The synthesis in single or double precision, accurate for images whose share is at least half of `share`.
 struct PingSynthesizer::Plan {
   SonarHead head;
   Medium medium;
@@ -62,12 +62,12 @@ struct PingSynthesizer::Plan {
   GriddedImage gridded(const Echoes& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
   }
-  /// The direct sum over what the pulses reach, and farther if the echoes cancel.
+  /// The direct sum with pulses cut at the tolerance, or later if the echoes cancel.
   ComplexGrid summed(const Echoes& echoes) const {
     WindowedImage image = windowed.image(echoes);
     if (image.kept >= least_kept) return std::move(image.pressure);
     const double finer = options.tolerance * image.kept;
-    if (finer < finest_kernel) return synthesize_direct(echoes, head, medium, options);
+    if (finer < min_kernel_tolerance) return synthesize_direct(echoes, head, medium, options);
     return WindowedSum(head, medium, pulse_cut(finer), options.threads).image(echoes).pressure;
   }
 };
@@ -75,8 +75,8 @@ struct PingSynthesizer::Plan {
 PingSynthesizer::PingSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   require_synthesis({}, head, medium, options, "PingSynthesizer");
   require_one_row(head, "PingSynthesizer");
-  if (!(options.tolerance >= finest))
-    fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ", finest,
+  if (!(options.tolerance >= min_tolerance))
+    fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ", min_tolerance,
          "; below that use the direct method");
   plan_ = std::make_unique<Plan>(head, medium, options,
                                  expected_share(head, medium.sound_speed / head.pulse.centre_frequency));
@@ -100,8 +100,9 @@ ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
   if (plan.sums_directly(echoes)) return plan.summed(echoes);
   GriddedImage image = plan.gridded(echoes);
   if (image.share >= 0.5 * plan.share) return std::move(image.pressure);
-  // So little is heard of so much that the errors weigh: once more with as many digits as it takes.
-  if (plan.options.tolerance * image.share < finest_kernel)
+  // The beams receive a smaller fraction of the gridded energy than expected, so the relative error may exceed the
+  // tolerance: repeat with a kernel of correspondingly lower tolerance.
+  if (plan.options.tolerance * image.share < min_kernel_tolerance)
     return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
   return Plan(plan.head, plan.medium, plan.options, image.share).gridded(echoes).pressure;
 }

@@ -9,7 +9,7 @@
 
 namespace insonify {
 namespace {
-/// Linear interpolation errs by at most step^2 |B''| / 8, and B is a sum of cosines no faster than pi / lobe.
+/// The error of linear interpolation is at most step^2 |B''| / 8, and no cosine in B is faster than pi / lobe.
 constexpr double steps_per_lobe = 360;
 }  // namespace
 
@@ -18,7 +18,7 @@ ResponseTable::ResponseTable(const LineArray& array, double wavelength) {
   if (!(std::isfinite(wavelength) && wavelength > 0))
     fail(ErrorKind::argument, "ResponseTable: wavelength = ", wavelength, " m, must be finite and > 0");
   const std::size_t n = array.elements();
-  half_period_ = 0.5 * wavelength / array.spacing;  // (E33) beyond it the pattern runs backwards
+  half_period_ = 0.5 * wavelength / array.spacing;  // (E33) the pattern is symmetric about it
   per_unit_ = steps_per_lobe * static_cast<double>(n) * array.spacing / wavelength;
   const double last = std::min(half_period_, 2.0);
   std::vector<double> re(n), im(n);

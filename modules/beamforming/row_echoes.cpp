@@ -9,9 +9,9 @@
 namespace insonify {
 
 RowEchoes::RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
-                     double part, int threads)
+                     double cutoff, int threads)
     : echoes_(echoes), head_(head), wavelength_(wavelength), threads_(threads), least_(echoes.size(), -1) {
-  if (part == 0) return;
+  if (cutoff == 0) return;
   std::vector<double> v_row;
   for (const FanRow& row : rows) v_row.push_back(std::sin(row.elevation));
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t begin, std::size_t end) {
@@ -19,7 +19,7 @@ RowEchoes::RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelen
       const double v = echoes.v[i];
       std::size_t above = std::lower_bound(v_row.begin(), v_row.end(), v) - v_row.begin();
       if (above > 0 && (above == rows.size() || v - v_row[above - 1] < v_row[above] - v)) --above;
-      least_[i] = part * std::abs(RowResponse(head, wavelength, rows[above].elevation).at(v));
+      least_[i] = cutoff * std::abs(RowResponse(head, wavelength, rows[above].elevation).at(v));
     }
   });
 }
@@ -30,15 +30,15 @@ Echoes RowEchoes::of(const FanRow& row) const {
     RowResponse row_response(head_, wavelength_, row.elevation);
     for (std::size_t i = begin; i < end; ++i) response[i] = row_response.at(echoes_.v[i]);
   });
-  Echoes heard;
+  Echoes of_row;
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     if (std::abs(response[i]) <= least_[i]) continue;
-    heard.delay.push_back(echoes_.delay[i]);
-    heard.u.push_back(echoes_.u[i]);
-    heard.amplitude.push_back(echoes_.amplitude[i] * response[i]);
-    if (!echoes_.doppler.empty()) heard.doppler.push_back(echoes_.doppler[i]);
+    of_row.delay.push_back(echoes_.delay[i]);
+    of_row.u.push_back(echoes_.u[i]);
+    of_row.amplitude.push_back(echoes_.amplitude[i] * response[i]);
+    if (!echoes_.doppler.empty()) of_row.doppler.push_back(echoes_.doppler[i]);
   }
-  return heard;
+  return of_row;
 }
 
 SonarHead line_head(const SonarHead& head, const FanRow& row) {
@@ -51,7 +51,7 @@ SonarHead line_head(const SonarHead& head, const FanRow& row) {
   return line;
 }
 
-double row_part(double tolerance, std::size_t rows) { return 0.1 * tolerance / std::sqrt(static_cast<double>(rows)); }
+double row_cutoff(double tolerance, std::size_t rows) { return 0.1 * tolerance / std::sqrt(static_cast<double>(rows)); }
 
 void require_elevations(const Echoes& echoes) {
   if (echoes.v.size() != echoes.size())

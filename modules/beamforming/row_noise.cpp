@@ -23,7 +23,7 @@ RowNoise::RowNoise(const SonarHead& head, double wavelength, const std::vector<F
 
 ComplexGrid RowNoise::white(std::size_t m, std::size_t first, std::size_t last, std::uint64_t begin,
                             std::size_t bins) const {
-  // Layers of independent elements: the rows themselves, or the elements of the column.
+  // Independent elements: those of the rows themselves, or those of the column.
   const std::size_t first_layer = column_.size() ? 0 : first;
   const std::size_t layers = column_.size() ? static_cast<std::size_t>(column_.cols()) : last - first;
   ComplexGrid xi(layers, bins);

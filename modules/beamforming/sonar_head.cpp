@@ -10,11 +10,11 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t most_elements = 16384;
-constexpr std::size_t most_numbers = std::size_t{1} << 28;  // complex ones in one image, or one set of beam weights
+constexpr std::size_t max_elements = 16384;
+constexpr std::size_t max_numbers = std::size_t{1} << 28;  // complex ones in one image, or one set of beam weights
 
 void require_memory(std::size_t beams, std::size_t others, const char* what, const char* remedy, const char* who) {
-  if (others <= most_numbers / beams) return;
+  if (others <= max_numbers / beams) return;
   const double gib = static_cast<double>(beams) * static_cast<double>(others) * sizeof(std::complex<double>) / 0x1p30;
   fail(ErrorKind::argument, who, ": ", beams, " beams x ", others, " ", what, " need ", gib,
        " GiB, must be at most 2^28 numbers (4 GiB); ", remedy);
@@ -28,7 +28,7 @@ void require_valid_column(const LineArray& column, const char* who) {
   }
 }
 
-/// sum over pairs of elements `lag` apart of w_i w_j / N^2, both orders; lag = 0 .. N-1.
+/// Sum over pairs of elements `lag` apart of w_i w_j / N^2, in both orders; lag = 0 .. N-1.
 std::vector<double> lag_products(const LineArray& array) {
   const std::size_t n = array.elements();
   std::vector<double> products(n, 0);
@@ -57,7 +57,7 @@ void require_valid(const SonarHead& head, const char* who) {
   require_valid_column(*head.column, who);
   if (!(head.fan.row_width > 0))
     fail(ErrorKind::argument, who, ": fan.row_width = 0, must be the width of the column's beam");
-  if (head.column->elements() > most_numbers / head.array.elements())
+  if (head.column->elements() > max_numbers / head.array.elements())
     fail(ErrorKind::argument, who, ": ", head.array.elements(), " columns of ", head.column->elements(),
          " elements, must be at most 2^28 in all; ask for wider beams");
 }
@@ -87,14 +87,15 @@ LineArray array_for_beam_width(double beam_width, double wavelength, Shading sha
   if (!(beam_width > 0))
     fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width), " deg, must be > 0");
   const auto with = [&](std::size_t n) { return LineArray{wavelength / 2, shading_weights(shading, n, side_lobe_db)}; };
-  // More elements, narrower beam: bisect for the first array that is narrow enough, then take the nearer neighbour.
+  // The beam narrows with the number of elements: bisect for the first array that is narrow enough, then take the
+  // closer of it and its predecessor.
   std::size_t wide = 1, narrow = 2;
   if (array_beam_width(with(1), wavelength) <= beam_width) return with(1);
   while (array_beam_width(with(narrow), wavelength) > beam_width) {
     wide = narrow, narrow *= 2;
-    if (narrow > most_elements)
+    if (narrow > max_elements)
       fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width), " deg needs more than ",
-           most_elements, " elements");
+           max_elements, " elements");
   }
   while (narrow - wide > 1) {
     const std::size_t middle = (wide + narrow) / 2;

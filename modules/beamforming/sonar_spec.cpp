@@ -13,7 +13,7 @@ void require(bool holds, const char* who, const char* key, double value, const c
   if (!holds) fail(ErrorKind::argument, who, ": ", key, " = ", value, *unit ? " " : "", unit, ", must be ", rule);
 }
 
-/// What is said of a sweep belongs to a sweep, and is enough for one.
+/// Keys of a sweep require a sweep, and a sweep requires its duration.
 void require_pulse(const SonarSpec& s, const char* who) {
   if (s.pulse == PulseShape::gaussian) {
     if (s.pulse_length)
@@ -45,7 +45,7 @@ void require_beam_table(const SonarSpec& s, const char* who) {
          " beams, must be at most 65536 beams in all");
 }
 
-/// The beams of the spec: a table, or rows of an even fan.
+/// The beams of the spec: listed directions, or rows of an evenly spaced fan.
 BeamFan fan_of(const SonarSpec& s) {
   BeamFan fan = make_fan(s.beams, s.field_of_view, s.beam_width, s.elevation_width, s.elevation);
   fan.row_width = s.column_beam_width;

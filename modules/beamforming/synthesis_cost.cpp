@@ -8,7 +8,7 @@
 namespace insonify {
 
 SynthesisCost::SynthesisCost(const SonarHead& head, const SynthesisChoice& choice, std::size_t tile_bins,
-                             bool one_shape) {
+                             bool common_shape) {
   const auto beams = static_cast<double>(head.fan.beams()), elements = static_cast<double>(head.array.elements());
   const auto bins = static_cast<double>(head.gate.bins()), grid = static_cast<double>(choice.grid);
   const auto samples = std::min(static_cast<double>(choice.pulse_samples), bins);
@@ -16,10 +16,10 @@ SynthesisCost::SynthesisCost(const SonarHead& head, const SynthesisChoice& choic
   const double width = precision * static_cast<double>(choice.kernel_width);
   const double out_of_cache = choice.bytes_per_thread > 0x100000 ? 7.5 : 0;
 
-  // Transforms; beams out of the grid; and what it takes to write them, less what silence takes.
+  // Transforms, interpolation of beams, and writing them, minus the cost of a silent tile.
   tile = static_cast<double>(tile_bins) *
          (grid * (0.3 * std::log2(grid) + 1.7 * precision + out_of_cache) + beams * (0.31 * width + 4.4));
-  gridded_echo = 70 + samples * (precision * lanes + (one_shape ? 0 : 20));
+  gridded_echo = 70 + samples * (precision * lanes + (common_shape ? 0 : 20));
   direct_fixed = beams * (0.32 * elements + 0.3 * bins);
   direct_echo = 0.46 * elements + 20 * samples + beams * (0.39 * samples + 0.9);
   direct_block = 0.37 * static_cast<double>(WindowedSum::block) * beams * elements;
@@ -32,9 +32,9 @@ bool SynthesisCost::direct_is_cheaper(std::size_t echoes, std::size_t tiles) con
 }
 
 double SynthesisCost::break_even(std::size_t tiles) const {
-  const double dearer = direct_echo + direct_block / static_cast<double>(WindowedSum::block) - gridded_echo;
-  if (dearer <= 0) return std::numeric_limits<double>::infinity();
-  return std::max(0.0, (static_cast<double>(tiles) * tile - direct_fixed) / dearer);
+  const double extra_per_echo = direct_echo + direct_block / static_cast<double>(WindowedSum::block) - gridded_echo;
+  if (extra_per_echo <= 0) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, (static_cast<double>(tiles) * tile - direct_fixed) / extra_per_echo);
 }
 
 }  // namespace insonify

@@ -5,22 +5,23 @@
 
 namespace insonify {
 
-/// What the two ways to make an image cost beyond a silent one, in nanoseconds of one core; only their ratio decides.
-/// Constants are fitted to 26 heads and tolerances timed on one machine, good to 30 % there;
-/// `insonify_benchmarks --benchmark_filter=few_echoes` times both ways.
+/// Cost model of the two synthesis methods beyond that of a silent image, in nanoseconds of one core; only the ratio
+/// matters. The constants are fitted to 26 heads and tolerances timed on one machine, accurate to 30 % there;
+/// `insonify_benchmarks --benchmark_filter=few_echoes` measures both methods.
 struct SynthesisCost {
-  double tile;          ///< gridded: to turn one tile of bins into beams
+  double tile;          ///< gridded: transform and interpolation of one tile of bins
   double gridded_echo;  ///< gridded: one echo
-  double direct_fixed;  ///< direct: to steer all beams, and to see how far echoes cancel
+  double direct_fixed;  ///< direct: steering of all beams, and test for cancellation
   double direct_echo;   ///< direct: one echo in all beams
-  double direct_block;  ///< direct: the pattern of all beams towards a block of echoes, full or not
+  double direct_block;  ///< direct: patterns of all beams for one block of echoes, full or not
 
-  /// choice: of the gridding synthesis. one_shape: all pulses are alike, and gridded from polynomials.
-  SynthesisCost(const SonarHead& head, const SynthesisChoice& choice, std::size_t tile_bins, bool one_shape);
+  /// choice         parameters of the gridded synthesis
+  /// common_shape   all pulses have the same shape and are gridded from polynomials
+  SynthesisCost(const SonarHead& head, const SynthesisChoice& choice, std::size_t tile_bins, bool common_shape);
 
-  /// `tiles`: how many of them the echoes touch.
+  /// tiles   number of tiles that the echoes overlap
   bool direct_is_cheaper(std::size_t echoes, std::size_t tiles) const;
-  /// From so many echoes on gridding is cheaper, if they touch so many tiles.
+  /// Returns the number of echoes above which gridding is cheaper, if they overlap `tiles` tiles.
   double break_even(std::size_t tiles) const;
 };
 

@@ -32,10 +32,11 @@ ComplexGrid synthesize_line(const Echoes& echoes, const SonarHead& head, const M
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize");
-  const double part = method == SynthesisMethod::direct ? 0 : row_part(options.tolerance, fan_rows(head.fan).size());
-  return image_by_rows<ComplexGrid>(echoes, head, medium, part, options.threads,
-                                    [&](const Echoes& heard, const SonarHead& line) {
-                                      return synthesize_line(heard, line, medium, method, options);
+  const double cutoff =
+      method == SynthesisMethod::direct ? 0 : row_cutoff(options.tolerance, fan_rows(head.fan).size());
+  return image_by_rows<ComplexGrid>(echoes, head, medium, cutoff, options.threads,
+                                    [&](const Echoes& of_row, const SonarHead& line) {
+                                      return synthesize_line(of_row, line, medium, method, options);
                                     });
 }
 

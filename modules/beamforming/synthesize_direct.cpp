@@ -38,7 +38,7 @@ ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const
   ComplexGrid pressure = ComplexGrid::Zero(beams, bins);
   const EchoShapes shapes(head.pulse, medium);
 
-  // Blocks of echoes in order; inside a block, each tile of bins belongs to one thread.
+  // Blocks of echoes in order; within a block, each tile of bins is computed by one thread.
   for (std::size_t first = 0; first < echoes.size(); first += echoes_at_once) {
     const std::size_t last = std::min(first + echoes_at_once, echoes.size());
     const ComplexGrid weights = beam_weights(echoes, first, last, head, medium, options.threads);

@@ -16,17 +16,17 @@
 namespace insonify {
 namespace {
 
-constexpr double finest = 1e-13;  // tolerance of gridding
+constexpr double min_tolerance = 1e-13;  // of the gridded synthesis
 constexpr std::size_t echoes_at_once = 256;
 
-/// An image still to be made: what is heard by what.
-struct LineImage {
+/// Input of the synthesis of a line-array image.
+struct LineInput {
   Echoes echoes;
   SonarHead head;
   Medium medium;
 };
 
-/// The array whose response is the square of that of `array`.
+/// Returns the array whose response is the square of that of `array`.
 LineArray squared(const LineArray& array) {
   const std::size_t n = array.elements();
   const auto elements = static_cast<double>(n);
@@ -34,15 +34,15 @@ LineArray squared(const LineArray& array) {
   for (std::size_t lag = 0; lag < n; ++lag) {
     double pairs = 0;
     for (std::size_t m = 0; m + lag < n; ++m) pairs += array.shading[m] * array.shading[m + lag];
-    // The response divides by 2N - 1, not by N^2.
+    // array_response divides by 2N - 1 instead of N^2.
     const double weight = pairs * (2 * elements - 1) / (elements * elements);  // (E65)
     result.shading[n - 1 + lag] = result.shading[n - 1 - lag] = weight;
   }
   return result;
 }
 
-/// The image whose echoes' parts are the squared magnitudes of those of `image`, for Gaussian pulses.
-LineImage squared(LineImage image) {
+/// Returns the input whose image is a sum of the squared magnitudes of the echoes of `image`, for Gaussian pulses.
+LineInput squared(LineInput image) {
   const EchoShapes shapes(image.head.pulse, image.medium);
   const double sent = echo_envelope(image.head.pulse, {}, 0).a;
   for (std::size_t i = 0; i < image.echoes.size(); ++i) {
@@ -52,7 +52,8 @@ LineImage squared(LineImage image) {
   }
   image.echoes.doppler.clear();
   image.head.array = squared(image.head.array);
-  image.head.array.spacing /= 2;  // the same in wavelengths: room for the bandwidth below twice the frequency
+  // The same spacing in wavelengths; twice the frequency keeps the bandwidth below twice the centre frequency.
+  image.head.array.spacing /= 2;
   image.head.pulse.centre_frequency *= 2;
   image.head.pulse.bandwidth *= std::numbers::sqrt2;
   const Absorption& absorption = image.medium.absorption;
@@ -60,14 +61,14 @@ LineImage squared(LineImage image) {
   return image;
 }
 
-/// Samples of |G|^(2 power) of one echo, from a first bin on.
+/// Samples of |G|^(2 power) of one echo, beginning at bin `first`.
 struct PulsePower {
   std::size_t first = 0;
   std::vector<double> sample;
 };
 
-/// The sum of (|A|^2 |B|^2 |G|^2)^power over echoes, one by one.
-Grid<double> sum_directly(const LineImage& image, int power, int threads) {
+/// Direct sum of (|A|^2 |B|^2 |G|^2)^power over echoes.
+Grid<double> sum_directly(const LineInput& image, int power, int threads) {
   const auto& [echoes, head, medium] = image;
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   const std::vector<double> u_beam = beam_cosines(head.fan);
@@ -99,10 +100,10 @@ Grid<double> sum_directly(const LineImage& image, int power, int threads) {
   return sum;
 }
 
-/// The sum of (|A|^2 |B|^2 |G|^2)^power over the echoes of a line array, power 1 or 2.
+/// Sum of (|A|^2 |B|^2 |G|^2)^power over the echoes of a line array, power 1 or 2.
 Grid<double> sum_of_powers(const Echoes& echoes, const SonarHead& head, const Medium& medium, int power,
                            const SynthesisOptions& options) {
-  LineImage image{echoes, head, medium};
+  LineInput image{echoes, head, medium};
   if (head.pulse.shape == PulseShape::linear_fm) return sum_directly(image, power, options.threads);
   for (int k = 0; k < power; ++k) image = squared(std::move(image));
   return synthesize_gridded(image.echoes, image.head, image.medium, options).real().max(0);
@@ -113,10 +114,10 @@ Grid<double> sum_of_powers(const Echoes& echoes, const SonarHead& head, const Me
 Grid<double> synthesize_intensity(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                   const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize_intensity");
-  const SynthesisOptions squares{std::max(finest, options.tolerance * options.tolerance), options.threads};
+  const SynthesisOptions squares{std::max(min_tolerance, options.tolerance * options.tolerance), options.threads};
   return image_by_rows<Grid<double>>(
-      echoes, head, medium, row_part(options.tolerance, fan_rows(head.fan).size()), options.threads,
-      [&](const Echoes& heard, const SonarHead& line) { return sum_of_powers(heard, line, medium, 1, squares); });
+      echoes, head, medium, row_cutoff(options.tolerance, fan_rows(head.fan).size()), options.threads,
+      [&](const Echoes& of_row, const SonarHead& line) { return sum_of_powers(of_row, line, medium, 1, squares); });
 }
 
 Grid<float> predict_level_error_db(const Echoes& echoes, const SonarHead& head, const Medium& medium,
@@ -125,13 +126,13 @@ Grid<float> predict_level_error_db(const Echoes& echoes, const SonarHead& head, 
     fail(ErrorKind::argument, "predict_level_error_db: dynamic_range_db = ", options.dynamic_range_db,
          " dB, must be within (0, 50]");
   require_synthesis(echoes, head, medium, {1e-3, options.threads}, "predict_level_error_db");
-  // One part in a hundred of the weakest cell that is judged.
+  // Tolerance of 1 % of the weakest cell judged.
   const double weakest = std::pow(10, -0.1 * options.dynamic_range_db);
   const auto sum = [&](int power) {
-    const SynthesisOptions fine{std::max(finest, 0.01 * std::pow(weakest, power)), options.threads};
+    const SynthesisOptions fine{std::max(min_tolerance, 0.01 * std::pow(weakest, power)), options.threads};
     return image_by_rows<Grid<double>>(
-        echoes, head, medium, row_part(weakest, fan_rows(head.fan).size()), options.threads,
-        [&](const Echoes& heard, const SonarHead& line) { return sum_of_powers(heard, line, medium, power, fine); });
+        echoes, head, medium, row_cutoff(weakest, fan_rows(head.fan).size()), options.threads,
+        [&](const Echoes& of_row, const SonarHead& line) { return sum_of_powers(of_row, line, medium, power, fine); });
   };
   const Grid<double> once = sum(1), twice = sum(2);
   const double least = weakest * once.maxCoeff(), db_per_part = 10 / std::numbers::ln10;

@@ -16,12 +16,12 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t rows_at_once = 128;  // of beams, so that a tile of all their elements stays in memory
+constexpr std::size_t rows_at_once = 128;  // rows of beams per pass, which bounds the memory for element series
 
 using Complex = std::complex<double>;
 
-/// Taps h_-K .. h_K of a Gaussian's receive filter on the bins of the gate: the pulse's envelope, cut at 1e-6, with
-/// unit energy.
+/// Taps h_-K .. h_K of the receive filter for a Gaussian pulse at the bin spacing: the pulse's envelope, cut at 1e-6,
+/// with unit energy.
 std::vector<double> gaussian_filter(const SonarHead& head, double step) {
   const auto reach = static_cast<int>(std::ceil(pulse_half_length(head.pulse, 1e-6) / step));
   const EchoEnvelope envelope = echo_envelope(head.pulse, {}, 0);
@@ -35,8 +35,8 @@ std::vector<double> gaussian_filter(const SonarHead& head, double step) {
   return taps;
 }
 
-/// Taps of a sweep's matched filter: its conjugate replica w(t) exp(i pi k t^2) on the bins, the outermost by the part of
-/// their bins that the sweep covers, with unit energy. So the noise is white noise behind that very filter (E55).
+/// Taps of a sweep's matched filter: the conjugate replica w(t) exp(i pi k t^2) at the bin spacing, the outermost taps
+/// weighted by the fraction of their bins that the sweep covers, with unit energy (E55).
 std::vector<Complex> matched_filter(const Pulse& pulse, double step) {
   const double half = 0.5 * pulse.duration, rate = pulse.bandwidth / pulse.duration;
   const auto reach = static_cast<int>(std::ceil(half / step));
@@ -53,7 +53,7 @@ std::vector<Complex> matched_filter(const Pulse& pulse, double step) {
   return taps;
 }
 
-/// What the receiver makes of white noise: real taps for a Gaussian pulse, complex ones for a sweep.
+/// Receive filter: real taps for a Gaussian pulse, complex taps for a sweep.
 struct ReceiveFilter {
   std::vector<double> real;
   std::vector<Complex> complex;
@@ -96,7 +96,7 @@ ComplexGrid synthesize_noise(const SonarHead& head, const Medium& medium, double
       const std::size_t end_row = std::min(row + rows_at_once, rows.size());
       std::vector<ElementTile> series(end_row - row, ElementTile(elements));
       for (std::size_t m = 0; m < elements; ++m) {
-        // White noise on this tile's bins and the filter's reach around them, then the filter.
+        // White noise on this tile and the filter length around it, then the filter.
         const ComplexGrid white = noise.white(m, row, end_row, first, last - first + filter.size() - 1);
         for (std::size_t r = 0; r < series.size(); ++r) {
           for (std::size_t n = 0; n < last - first; ++n) {

@@ -16,16 +16,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Frequencies of the sum: M equally spaced ones over `oversampling` times the output's sampling rate, wide enough
-/// for the pulse, in a window that holds every echo with its pulse so that nothing wraps round.
+/// Frequency grid of the sum: M equally spaced frequencies over `oversampling` times the sampling rate of the output,
+/// wide enough for the pulse, with a time window that contains every echo and its pulse, so nothing wraps around.
 struct SpectrumGrid {
   std::size_t oversampling = 1, samples = 0;
-  std::size_t skipped = 0;  ///< output bins before the gate's first
+  std::size_t skipped = 0;  ///< output bins before the first of the gate
   double step_time = 0, start_time = 0;
 
   SpectrumGrid(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
     const double bin_time = 2 * head.gate.bin_size / medium.sound_speed;
-    // At +-5 B a Gaussian's spectrum is down to e^-34, 1e-15 of its peak; a sweep's ends leave more behind them.
+    // At +-5 B the spectrum of a Gaussian is down to e^-34, 1e-15 of its peak; that of a sweep decays more slowly.
     const double band = (head.pulse.shape == PulseShape::linear_fm ? 64 : 10) * head.pulse.bandwidth;
     oversampling = static_cast<std::size_t>(std::ceil(band * bin_time));
     step_time = bin_time / static_cast<double>(oversampling);
@@ -45,8 +45,8 @@ struct SpectrumGrid {
   FrequencyGrid frequencies() const { return {samples, step_time}; }
 };
 
-/// Spectrum of one beam per hertz, for echoes that are all the same Gaussian pulse:
-/// S(f) sum_i A_i B(u_i) exp(+2 pi i f (delay - start)) exp(-2 alpha(f) r).
+/// Spectrum of one beam [1/Hz] for echoes that are all the same Gaussian pulse:
+///   S(f) sum_i A_i B(u_i) exp(+2 pi i f (delay - start)) exp(-2 alpha(f) r).
 std::vector<Complex> gaussian_beam_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                             const SpectrumGrid& grid, double u_beam) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
@@ -68,7 +68,7 @@ std::vector<Complex> gaussian_beam_spectrum(const Echoes& echoes, const SonarHea
   return spectrum;
 }
 
-/// Spectra of all beams, beams x frequencies, for echoes that each have their own: sweeps, or Doppler shifts.
+/// Spectra of all beams, beams x frequencies, for echoes with individual spectra: sweeps, or Doppler shifts.
 ComplexGrid beam_spectra(const Echoes& echoes, const SonarHead& head, const Medium& medium, const SpectrumGrid& grid,
                          const std::vector<double>& u_beam, int threads) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;

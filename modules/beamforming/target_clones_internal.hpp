@@ -1,6 +1,6 @@
 #pragma once
 
-// Sanitizers start after the loader has chosen a variant, and crash on it: they get the plain one.
+// Sanitizers are initialised after the loader resolves function variants and crash on them, so they use the plain code.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_CLONES
 #else

@@ -6,10 +6,10 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t least_block = 4096;  // echoes that are worth a thread's while
-constexpr std::size_t most_blocks = 256;
+constexpr std::size_t min_block = 4096;  // least number of echoes per block of work
+constexpr std::size_t max_blocks = 256;
 
-/// Calls visit(tile, i) for every tile that the pulse of one of the echoes [begin, end) touches.
+/// Calls visit(tile, i) for every tile that the pulse of echo i in [begin, end) overlaps.
 template <typename Visit>
 void each_tile(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
                std::size_t begin, std::size_t end, Visit&& visit) {
@@ -24,17 +24,18 @@ void each_tile(const Echoes& echoes, const TimeAxis& axis, const PulseReach& rea
 TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
                      int threads) {
   const std::size_t tiles = (axis.bins + tile_bins - 1) / tile_bins;
-  const std::size_t block = std::max(least_block, (echoes.size() + most_blocks - 1) / most_blocks);
+  const std::size_t block = std::max(min_block, (echoes.size() + max_blocks - 1) / max_blocks);
   const std::size_t blocks = (echoes.size() + block - 1) / block;
 
-  // How many entries each block of echoes has in each tile.
+  // Count the entries of each block of echoes in each tile.
   std::vector<std::size_t> next(blocks * tiles, 0);
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
     std::size_t* count = next.data() + first / block * tiles;
     each_tile(echoes, axis, reach, tile_bins, first, last, [&](std::size_t t, std::size_t) { ++count[t]; });
   });
 
-  // Where they go: tile by tile, within a tile block by block, so that any cut into blocks gives the same lists.
+  // Assign positions tile by tile, within a tile block by block, so the lists do not depend on the division into
+  // blocks.
   begin.assign(1, 0);
   std::size_t place = 0;
   for (std::size_t t = 0; t < tiles; ++t) {

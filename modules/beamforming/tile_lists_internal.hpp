@@ -9,10 +9,10 @@
 
 namespace insonify {
 
-/// Which echoes touch which tile of bins, in order of echoes: the same for any number of threads.
+/// Lists of the echoes that overlap each tile of bins, in order of echoes, for any number of threads.
 struct TileLists {
   std::vector<std::size_t> begin;   ///< tiles + 1 offsets into `echo`
-  std::vector<std::uint32_t> echo;  ///< less than 2^32 of them
+  std::vector<std::uint32_t> echo;  ///< indices of echoes, fewer than 2^32
 
   TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins, int threads);
 
@@ -22,7 +22,7 @@ struct TileLists {
   }
 };
 
-/// How many tiles hold part of a pulse: what TileLists would not find empty.
+/// Returns the number of tiles that some pulse overlaps, i.e. whose TileLists entry is not empty.
 std::size_t touched_tiles(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins);
 
 }  // namespace insonify

@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// The time axis of the gate: sample n stands at start + n step, two-way seconds.
+/// The time axis of the gate: sample n is at start + n step [s], two-way time.
 struct TimeAxis {
   double start, step;
   std::size_t bins;
@@ -16,7 +16,7 @@ struct TimeAxis {
   TimeAxis(const RangeGate& gate, double sound_speed)
       : start(2 * gate.centre(0) / sound_speed), step(2 * gate.bin_size / sound_speed), bins(gate.bins()) {}
 
-  /// Samples [first, last) within `half` seconds of `delay`, cut to the axis; empty if outside.
+  /// Returns the samples [first, last) within `half` seconds of `delay`, clipped to the axis; empty if outside.
   std::pair<std::size_t, std::size_t> around(double delay, double half) const {
     const double low = std::ceil((delay - half - start) / step), high = std::floor((delay + half - start) / step);
     const auto n = static_cast<double>(bins);
@@ -25,25 +25,26 @@ struct TimeAxis {
   }
 };
 
-/// Where pulses are cut for an image good to `tolerance`, as a part of their peaks: what is lost stays a tenth of it.
+/// Returns the fraction of its peak at which a pulse is cut for an image with relative error `tolerance`; the error due
+/// to cutting stays below a tenth of it.
 inline double pulse_cut(double tolerance) { return tolerance / 4; }
 
-/// How far an echo's pulse reaches to either side of its delay before it falls below the tolerance [s]. Curvature of
-/// the absorption lengthens a Gaussian on its way (E8).
+/// Half length of an echo's pulse [s]: the distance from its delay at which it falls below the tolerance. The curvature
+/// of the absorption over frequency lengthens a Gaussian with range (E8).
 struct PulseReach {
-  double half, growth = 0;  // half length as sent [s]; growth of its square per second of delay
+  double half, growth = 0;  // half length as transmitted [s]; growth of its square per second of delay
 
   PulseReach(const Pulse& pulse, const Absorption& absorption, double sound_speed, bool doppler, double tolerance) {
     if (pulse.shape == PulseShape::linear_fm) {
       half = sweep_reach(pulse, absorption, doppler, tolerance);
       return;
     }
-    half = pulse_half_length(pulse, tolerance / 2);  // two lost samples per echo stay below the tolerance
+    half = pulse_half_length(pulse, tolerance / 2);  // the two cut ends of an echo stay below the tolerance
     growth = absorption.a2 * sound_speed / echo_envelope(pulse, {}, 0).a;
   }
 
-  /// Side lobes of a sweep fall off slowly: all that are cut together stay below the tolerance. An echo with Doppler
-  /// shift, or with a loss that tilts its spectrum, is taken whole.
+  /// The side lobes of a sweep decay slowly: all that are cut together stay below the tolerance. Echoes with a Doppler
+  /// shift, or with frequency-dependent absorption, are not cut.
   static double sweep_reach(const Pulse& pulse, const Absorption& a, bool doppler, double tolerance) {
     if (a.a1 != 0 || a.a2 != 0 || doppler) return pulse.duration;
     return pulse_half_length(pulse, 0.5 * tolerance / std::sqrt(3 * pulse.bandwidth * pulse.duration));

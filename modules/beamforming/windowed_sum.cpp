@@ -12,10 +12,11 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t beams_at_once = 8;        // beams of one thread that use them there
-constexpr std::size_t most_numbers = 0x400000;  // phasors, or samples, held at once
+constexpr std::size_t beams_at_once = 8;       // beams per thread that share the cached phasors
+constexpr std::size_t max_numbers = 0x400000;  // phasors, or samples, in memory
 
-/// Cosine and sine of (first + p) step for p < pairs, each `stride` apart: by turning on, anew every 16 steps.
+/// Writes cosine and sine of (first + p) step for p < pairs, `stride` apart, by rotation; evaluated anew every 16
+/// steps.
 void write_phasors(double first, double step, std::size_t pairs, std::size_t stride, double* to) {
   const double turn_re = std::cos(step), turn_im = std::sin(step);
   double re = 0, im = 0;
@@ -30,12 +31,13 @@ void write_phasors(double first, double step, std::size_t pairs, std::size_t str
 
 }  // namespace
 
-/// What all beams share: phasors of the echoes along the array, and their pulses.
+/// Data shared by all beams: phasors of the echoes along the array, and their pulses.
 struct WindowedSum::Work {
-  std::vector<double> phasor;                      ///< blocks x terms x block
-  std::vector<std::vector<double>> sample;         ///< blocks; amplitude times pulse, real and imaginary in turn
-  std::vector<std::uint32_t> start, count, place;  ///< by echo: first bin, bins, first sample within its block
-  std::vector<double> energy;                      ///< of the pulse, by echo [Pa^2 bins]
+  std::vector<double> phasor;               ///< blocks x terms x block
+  std::vector<std::vector<double>> sample;  ///< per block: amplitude times pulse, real and imaginary parts interleaved
+  std::vector<std::uint32_t> start, count,
+      place;                   ///< per echo: first bin, number of bins, first sample within its block
+  std::vector<double> energy;  ///< pulse energy per echo [Pa^2 bins]
 };
 
 WindowedSum::WindowedSum(const SonarHead& head, const Medium& medium, double cut, int threads)
@@ -46,7 +48,7 @@ WindowedSum::WindowedSum(const SonarHead& head, const Medium& medium, double cut
       axis_(head.gate, medium.sound_speed),
       shapes_(head.pulse, medium),
       u_beam_(beam_cosines(head.fan)) {
-  // cos is even: elements at +y and -y are one term.
+  // cos is even: elements at +y and -y form one term.
   const std::size_t n = head.array.elements();
   step_ = 2 * pi * head.array.spacing * head.pulse.centre_frequency / medium.sound_speed;
   first_place_ = element_place(n / 2, n);
@@ -100,7 +102,7 @@ void WindowedSum::add(const Work& work, std::size_t first_beam, std::size_t last
   }
   for (std::size_t e = 0; e < work.sample.size(); ++e)
     for (std::size_t b = first_beam; b < last_beam; ++b) {
-      // The pattern of one beam towards every echo of the block (E10), then their pulses (E12).
+      // The pattern of one beam for all echoes of the block (E10), then their pulses (E12).
       const std::size_t first = e * block;
       double response[block];
       kernels::interpolate(steering.data() + (b - first_beam) * terms, terms_.data(), terms,
@@ -137,7 +139,7 @@ std::size_t WindowedSum::echoes_at_once() const {
   const PulseReach reach(head_.pulse, medium_.absorption, medium_.sound_speed, true, cut_);
   const double samples = std::min(2 * reach.half / axis_.step + 1, static_cast<double>(axis_.bins));
   const auto numbers = std::max(terms_.size(), 2 * static_cast<std::size_t>(samples));
-  return std::max<std::size_t>(most_numbers / numbers / block, 1) * block;
+  return std::max<std::size_t>(max_numbers / numbers / block, 1) * block;
 }
 
 }  // namespace insonify

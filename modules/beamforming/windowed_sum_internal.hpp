@@ -11,29 +11,32 @@
 
 namespace insonify {
 
-/// An image, and how far its echoes cancel in it.
+/// An image, and the degree to which its echoes cancel.
 struct WindowedImage {
   ComplexGrid pressure;  ///< beams x bins [Pa]
-  double kept = 1;       ///< root of its energy over that of all echoes one by one; small if they cancel
+  double kept = 1;       ///< root of the ratio of its energy to the sum of the echoes' energies; small if they cancel
 };
 
-/// The sum over echoes (E12) with the exact pattern (E10), each over the bins that its pulse reaches: what few echoes
-/// are best summed by. An echo's pulse is cut alike in all beams, so what is lost is small wherever it is heard.
-/// Cost: echoes x beams x (elements + pulse samples), and one touch of every bin.
+/// Direct sum over echoes (E12) with the exact pattern (E10), each over the bins that its pulse overlaps; the cheapest
+/// method for few echoes. Each pulse is cut alike in all beams, so the relative error is the same in every beam that
+/// receives it. Cost: echoes x beams x (elements + pulse samples), plus one pass over all bins.
 class WindowedSum {
  public:
-  static constexpr std::size_t block = 32;  ///< echoes whose phasors stay in the nearest cache together
+  static constexpr std::size_t block = 32;  ///< echoes per block; their phasors fit into the first-level cache
 
-  /// `cut`: pulses end where they fall below this part of their peak. Keeps a reference to `head`.
+  /// cut   fraction of the peak below which pulses are cut
+  ///
+  /// Keeps a reference to `head`.
   WindowedSum(const SonarHead& head, const Medium& medium, double cut, int threads);
-  /// Bits do not depend on the number of threads.
+  /// The bits of the result do not depend on the number of threads.
   WindowedImage image(const Echoes& echoes) const;
 
  private:
   struct Work;
   std::size_t echoes_at_once() const;
   void prepare(const Echoes& echoes, std::size_t first, std::size_t last, Work& work) const;
-  /// Adds the prepared echoes to some beams; `incoherent`, by beam, takes the energy that they have one by one.
+  /// Adds the prepared echoes to beams [first_beam, last_beam); `incoherent` accumulates per beam the sum of their
+  /// energies.
   void add(const Work& work, std::size_t first_beam, std::size_t last_beam, ComplexGrid& pressure,
            std::vector<double>& incoherent) const;
 
@@ -44,9 +47,9 @@ class WindowedSum {
   TimeAxis axis_;
   EchoShapes shapes_;
   std::vector<double> u_beam_;
-  double step_, first_place_;         ///< phase from element to element per u [rad]; place of the first pair's element
-  std::vector<double> weight_;        ///< of each pair of elements that stand opposite
-  std::vector<std::uint32_t> terms_;  ///< 0, 1, 2, ...: a cosine and a sine for each pair
+  double step_, first_place_;   ///< phase between elements per unit of u [rad]; position of the first pair's element
+  std::vector<double> weight_;  ///< weight of each symmetric pair of elements
+  std::vector<std::uint32_t> terms_;  ///< 0, 1, 2, ...: a cosine and a sine per pair
 };
 
 }  // namespace insonify

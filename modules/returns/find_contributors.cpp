@@ -189,7 +189,7 @@ class Search {
     for (std::size_t k = 0; k < looks.size(); ++k) {
       const Group& group = groups_[first_group + k];
       const double nearest = std::max({0.0, group.u_low - u, u - group.u_high});
-      if (!table_.hears(nearest, std::max(group.u_high - u, u - group.u_low), reach_)) continue;
+      if (!table_.responds_to(nearest, std::max(group.u_high - u, u - group.u_low), reach_)) continue;
       const GroupLooks& heard = looks[k];
       sum.assign(heard.bins, 0);
       for (const Look& look : heard.looks) {

@@ -44,8 +44,8 @@ TEST(ResponseTable, hears_wherever_the_response_is_above_the_floor) {
     for (int i = 0; i <= 2000; ++i) {
       const double offset = i / 1000.0;
       if (table.intensity(offset) > 1.01e-4) {
-        ASSERT_TRUE(table.hears(offset, offset, reach)) << array.elements() << " at " << offset;
-        ASSERT_TRUE(table.hears(std::max(0.0, offset - 0.1), offset + 0.1, reach));
+        ASSERT_TRUE(table.responds_to(offset, offset, reach)) << array.elements() << " at " << offset;
+        ASSERT_TRUE(table.responds_to(std::max(0.0, offset - 0.1), offset + 0.1, reach));
       }
     }
   }
@@ -56,8 +56,8 @@ TEST(ResponseTable, does_not_hear_far_from_every_lobe) {
   const ResponseTable table(array, wavelength);
   const double reach = table.reach(1e-4);
   EXPECT_LT(reach, 0.5);
-  EXPECT_FALSE(table.hears(0.6, 0.7, reach));
-  EXPECT_TRUE(table.hears(0.6, 2, reach));
+  EXPECT_FALSE(table.responds_to(0.6, 0.7, reach));
+  EXPECT_TRUE(table.responds_to(0.6, 2, reach));
 }
 
 TEST(ResponseTable, refuses_a_wavelength_that_is_none) { EXPECT_THROW(ResponseTable({0.001, {1}}, 0), Error); }

@@ -30,7 +30,7 @@ struct Places {
       re.push_back(static_cast<Real>(at[0])), im.push_back(static_cast<Real>(at[1]));
     }
   }
-  kernels::GridPlaces<Real> grids() const {
+  kernels::GridTargets<Real> targets() const {
     return {row.data(), column.data(), row_offset.data(), column_offset.data(), re.data(), im.data()};
   }
 };
@@ -51,9 +51,9 @@ void grid(benchmark::State& state) {
   AlignedArray<Real, Real> re(tile_rows * stride), im(tile_rows * stride);
   std::vector<Real> scratch(std::max<std::size_t>(along.lanes, 8));
   for (auto _ : state) {
-    kernels::grid(places.grids(), echoes, {along.coefficient.data(), along.degree, along.lanes}, rows,
-                  {across.coefficient.data(), across.degree, across.lanes}, scratch.data(), re.data(), im.data(),
-                  stride);
+    kernels::grid_pulses(places.targets(), echoes, {along.coefficient.data(), along.degree, along.lanes}, rows,
+                         {across.coefficient.data(), across.degree, across.lanes}, scratch.data(), re.data(), im.data(),
+                         stride);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * echoes));
