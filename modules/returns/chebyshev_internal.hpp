@@ -5,15 +5,15 @@
 
 #include "core/units.hpp"
 
-// Private to find_contributors: interpolation between n Chebyshev nodes cos((2j + 1) pi / 2n).
+// Interpolation between the n Chebyshev nodes cos((2j + 1) pi / 2n), for find_contributors.
 namespace insonify {
 
 inline double chebyshev_angle(std::size_t j, std::size_t n) {
   return (static_cast<double>(j) + 0.5) * pi / static_cast<double>(n);
 }
 
-/// How many nodes over [-half, half] interpolate a sum of cosines no faster than 2 pi / period to `error` of its size;
-/// 0: more than `most`. n nodes err by x^n / (2^(n-1) n!), x = 2 pi half / period.
+/// Returns the number of nodes over [-half, half] that interpolate a sum of cosines of period >= `period` with relative
+/// error `error`; 0 if more than `most` are needed. The error of n nodes is x^n / (2^(n-1) n!), x = 2 pi half / period.
 inline std::size_t chebyshev_nodes(double half, double period, double error, std::size_t most) {
   const double x = 2 * pi * half / period;
   double left = x;
@@ -22,7 +22,7 @@ inline std::size_t chebyshev_nodes(double half, double period, double error, std
   return 0;
 }
 
-/// Lagrange's polynomials of the n nodes at x within [-1, 1], by their barycentric form.
+/// Evaluates the Lagrange polynomials of the n nodes at x in [-1, 1], in barycentric form.
 inline void lagrange(std::size_t n, double x, double* value) {
   double sum = 0;
   for (std::size_t j = 0; j < n; ++j) {

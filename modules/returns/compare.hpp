@@ -3,12 +3,12 @@
 
 namespace insonify {
 
-/// How far two complex images of one size lie apart.
+/// Difference between two complex images of the same size.
 struct ImageDifference {
   double relative_l2 = 0;    ///< ||a - b|| / ||b||
   double max_level_db = 0;   ///< largest difference in level over samples within `window_db` of b's peak
   double correlation = 0;    ///< |<a, b>| / (||a|| ||b||): 1 same speckle, near 0 independent
-  double mean_level_db = 0;  ///< mean level of a minus that of b
+  double mean_level_db = 0;  ///< level of the mean power of a minus that of b
 };
 
 /// Compares `a` with the reference `b`. Throws Error if the sizes differ or `b` is all zero.

@@ -19,7 +19,7 @@ struct Cell {
   float level_db;
 };
 
-/// Bins of beam b that count as detections.                                                            (E19)
+/// Returns the bins of beam b that are detections. (E19)
 std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const std::vector<float>& strongest,
                                  const DetectionOptions& options) {
   std::vector<Cell> cells;
@@ -38,12 +38,12 @@ std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const
   return cells;
 }
 
-/// How far around a beam contributors are looked for: in direction cosine, and in elevation [rad].
+/// Half extent of the search for contributors around a beam: in direction cosine, and in elevation [rad].
 struct AngularExtent {
   double u = 0, elevation = std::numeric_limits<double>::infinity();
 };
 
-/// Echoes sorted by range bin and, inside a bin, by direction cosine: finds what a sample heard.
+/// Echoes sorted by range bin and within a bin by direction cosine, to find the contributors of a sample.
 class ContributorTable {
  public:
   ContributorTable(const Echoes& echoes, const Scatterers& scatterers, const RangeGate& gate)
@@ -51,7 +51,7 @@ class ContributorTable {
     std::vector<std::uint32_t> bin(echoes.size());
     const auto bins = static_cast<double>(gate.bins());
     for (std::size_t i = 0; i < echoes.size(); ++i) {
-      // The bins at either end take also what stands on the gate's edge or within one bin of it.
+      // The first and the last bin include echoes up to one bin outside the gate.
       const double n = std::floor((scatterers.range[i] - gate.min_range) / gate.bin_size);
       bin[i] = n >= -1 && n <= bins ? static_cast<std::uint32_t>(std::clamp(n, 0.0, bins - 1)) : outside;
       if (bin[i] != outside) ++begin_[bin[i] + 1];
@@ -67,17 +67,17 @@ class ContributorTable {
       });
   }
 
-  /// The strongest echo of bins bin-1 .. bin+1 within `reach` of direction u and elevation, or `none`.
-  std::uint32_t strongest(std::uint32_t bin, double u, double elevation, AngularExtent reach) const {
+  /// Returns the strongest echo in bins bin-1 .. bin+1 within `extent` of direction cosine u and elevation, or `none`.
+  std::uint32_t strongest(std::uint32_t bin, double u, double elevation, AngularExtent extent) const {
     std::uint32_t best = none;
     double best_power = 0;
     const std::size_t first = bin > 0 ? bin - 1 : 0, last = std::min<std::size_t>(bin + 2, begin_.size() - 1);
     for (std::size_t n = first; n < last; ++n) {
       const auto end = order_.begin() + begin_[n + 1];
-      auto at = std::lower_bound(order_.begin() + begin_[n], end, u - reach.u,
+      auto at = std::lower_bound(order_.begin() + begin_[n], end, u - extent.u,
                                  [&](std::uint32_t i, double value) { return echoes_.u[i] < value; });
-      for (; at != end && echoes_.u[*at] <= u + reach.u; ++at) {
-        if (!(std::abs(scatterers_.elevation[*at] - elevation) <= reach.elevation)) continue;
+      for (; at != end && echoes_.u[*at] <= u + extent.u; ++at) {
+        if (!(std::abs(scatterers_.elevation[*at] - elevation) <= extent.elevation)) continue;
         const double power = std::norm(echoes_.amplitude[*at]);
         if (power > best_power) best_power = power, best = *at;
       }
@@ -94,47 +94,46 @@ class ContributorTable {
   std::vector<std::uint32_t> begin_, order_;
 };
 
-/// Direction of a beam and how far around it contributors are looked for: first in the beam's own share of the fan, so
-/// that neighbouring beams do not name the same scatterer, then in its whole -3 dB width. A fan of one row hears all
-/// elevations alike.
-struct Look {
+/// Search region of a beam: first its own share of the fan, so that neighbouring beams do not report the same
+/// scatterer, then its whole -3 dB width. A fan of one row does not resolve elevation.
+struct BeamRegion {
   double u = 0, elevation = 0;
   AngularExtent share, width;
 };
 
-/// Cuts the half widths of places back to half the way to their neighbours.
-void share_out(std::vector<std::pair<double, double*>> places) {
-  std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (std::size_t k = 1; k < places.size(); ++k) {
-    const double gap = (places[k].first - places[k - 1].first) / 2;
-    *places[k - 1].second = std::min(*places[k - 1].second, gap);
-    *places[k].second = std::min(*places[k].second, gap);
+/// Limits half widths to half the distance between neighbours.
+void limit_to_midpoints(std::vector<std::pair<double, double*>> widths) {
+  std::sort(widths.begin(), widths.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t k = 1; k < widths.size(); ++k) {
+    const double gap = (widths[k].first - widths[k - 1].first) / 2;
+    *widths[k - 1].second = std::min(*widths[k - 1].second, gap);
+    *widths[k].second = std::min(*widths[k].second, gap);
   }
 }
 
-std::vector<Look> looks_of(const BeamFan& fan) {
-  std::vector<Look> looks(fan.beams());
+std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
+  std::vector<BeamRegion> regions(fan.beams());
   const std::vector<FanRow> rows = fan_rows(fan);
   const double row_width = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
   const bool within_elevation = rows.size() > 1 || fan.row_width > 0;
   std::vector<double> row_share(rows.size(), row_width / 2);
-  std::vector<std::pair<double, double*>> row_places;
-  for (std::size_t r = 0; r < rows.size(); ++r) row_places.emplace_back(rows[r].elevation, &row_share[r]);
-  share_out(row_places);
+  std::vector<std::pair<double, double*>> row_widths;
+  for (std::size_t r = 0; r < rows.size(); ++r) row_widths.emplace_back(rows[r].elevation, &row_share[r]);
+  limit_to_midpoints(row_widths);
 
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::vector<std::pair<double, double*>> beam_places;
+    std::vector<std::pair<double, double*>> beam_widths;
     for (const std::size_t b : rows[r].beams) {
-      Look& look = looks[b];
-      look.u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
-      look.elevation = fan.elevation[b];
-      look.share.u = look.width.u = std::sin(std::min(fan.beam_width / 2, pi / 2));
-      if (within_elevation) look.share.elevation = row_share[r], look.width.elevation = row_width / 2;
-      beam_places.emplace_back(look.u, &look.share.u);
+      BeamRegion& region = regions[b];
+      region.u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
+      region.elevation = fan.elevation[b];
+      region.share.u = region.width.u = std::sin(std::min(fan.beam_width / 2, pi / 2));
+      if (within_elevation) region.share.elevation = row_share[r], region.width.elevation = row_width / 2;
+      beam_widths.emplace_back(region.u, &region.share.u);
     }
-    share_out(beam_places);
+    limit_to_midpoints(beam_widths);
   }
-  return looks;
+  return regions;
 }
 
 void append(Soundings& all, const Soundings& part) {
@@ -150,7 +149,7 @@ void append(Soundings& all, const Soundings& part) {
   join(all.material, part.material);
 }
 
-/// The point of one detection: direction of its strongest contributor, range of its bin.
+/// Appends the sounding of one detection: direction of its strongest contributor, range of its bin.
 void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const Scatterers& scatterers,
                   std::uint32_t contributor) {
   const double range = ping.gate.centre(cell.bin);
@@ -177,16 +176,16 @@ Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const
   std::vector<float> strongest(ping.gate.bins(), -200);
   for (Eigen::Index n = 0; n < level.cols(); ++n) strongest[static_cast<std::size_t>(n)] = level.col(n).maxCoeff();
 
-  // Beams are independent; their soundings are joined in beam order.
+  // Beams are processed independently; their soundings are appended in beam order.
   const ContributorTable contributors(echoes, scatterers, ping.gate);
-  const std::vector<Look> looks = looks_of(ping.fan);
+  const std::vector<BeamRegion> regions = beam_regions(ping.fan);
   std::vector<Soundings> of_beam(beams);
   parallel_for(beams, options.threads, [&](std::size_t b) {
     for (const Cell cell : detect_in_beam(level, static_cast<Eigen::Index>(b), strongest, options)) {
-      const Look& look = looks[b];
-      std::uint32_t contributor = contributors.strongest(cell.bin, look.u, look.elevation, look.share);
+      const BeamRegion& region = regions[b];
+      std::uint32_t contributor = contributors.strongest(cell.bin, region.u, region.elevation, region.share);
       if (contributor == ContributorTable::none)
-        contributor = contributors.strongest(cell.bin, look.u, look.elevation, look.width);
+        contributor = contributors.strongest(cell.bin, region.u, region.elevation, region.width);
       if (contributor != ContributorTable::none) add_sounding(of_beam[b], ping, b, cell, scatterers, contributor);
     }
   });

@@ -9,21 +9,21 @@
 namespace insonify {
 
 struct DetectionOptions {
-  double noise_floor_db = -std::numeric_limits<double>::infinity();  ///< [dB re 1 uPa] of a beam
+  double noise_floor_db = -std::numeric_limits<double>::infinity();  ///< noise level in a beam [dB re 1 uPa]
   double threshold_db = 11.4;       ///< above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)
-  double side_lobe_margin_db = 25;  ///< a sample so far below the strongest beam at its range is leakage, not a target
-  bool all_bins = false;            ///< every bin above `above_db`, not only range maxima above the floor
+  double side_lobe_margin_db = 25;  ///< samples this far below the strongest beam at the same range are side lobes
+  bool all_bins = false;            ///< detect every bin above `above_db`, not only local maxima above the noise floor
   double above_db = -std::numeric_limits<double>::infinity();  ///< [dB re 1 uPa], with all_bins
   int threads = 0;                                             ///< 0: all cores
 };
 
-/// Turns a ping into points (E19). Per beam, each local maximum along range that exceeds the noise floor by the
-/// threshold and is no side lobe gives one sounding; with all_bins, every bin above a level. Its direction is that
-/// of the strongest contributing scatterer within one bin length, in the beam's own share of the fan or, if there is
-/// none, in its -3 dB width, in azimuth and, for a fan of several rows or a planar array, in elevation; its range is the
-/// bin's. Samples without a contributor (leakage through side lobes) give none.
+/// Returns the detections of a ping as points (E19). In each beam every local maximum along range that exceeds the noise
+/// floor by the threshold and is not a side lobe gives one sounding; with all_bins, every bin above a level does. The range
+/// is that of the bin; the direction is that of the strongest contributing scatterer within one bin length, searched in the
+/// beam's own share of the fan and then in its -3 dB width (in azimuth, and in elevation for a fan of several rows or a
+/// planar array). Samples without a contributor (side lobes) give no sounding.
 ///
-/// scatterers and echoes are those the ping was made from, index by index.
+/// scatterers, echoes   those the ping was synthesized from, index by index; throws Error if their numbers differ
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
                            const DetectionOptions& options = {});
 

@@ -13,52 +13,60 @@
 #include "returns/chebyshev_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 
+// Finds the strongest contributors of every pixel (E63), a contributor being a surfel by one pair of legs:
+//   1. sort the echoes that reach the gate by surfel and legs into groups (surfel_arrivals);
+//   2. sample the pulse energy |A G|^2 of each echo on the bins it overlaps;
+//   3. write a group's energy in a beam as sum_k B^2(u_k - u_b) energy_k(n): one term per echo, or for many echoes close
+//      together one per Chebyshev node in u, since B^2 is band-limited (interpolation error 1e-6); whichever is cheaper;
+//   4. for each beam within reach, add up the terms with tabulated B^2 and insert the group into the pixels' lists;
+//   5. convert energies to shares of the pixel's total.
+// Cost: terms x beams above the floor x bins per term, some 5 ns each; parallel over beams or rows. Groups are processed
+// in chunks of bounded memory.
 namespace insonify {
 namespace {
 
 constexpr const char* me = "find_contributors";
-constexpr std::size_t samples_at_once = 1 << 19;  ///< of pulses, in memory
-constexpr double interpolation_error = 1e-6;      ///< of B^2 between nodes, relative to B^2 about there
-constexpr std::size_t most_nodes = 16;
+constexpr std::size_t samples_at_once = 1 << 19;  ///< pulse samples in memory
+constexpr double interpolation_error = 1e-6;      ///< error of B^2 between nodes, relative to its size there
+constexpr std::size_t max_nodes = 16;
 
-/// Energies that the arrivals of some groups leave in each bin they reach, before beams: `length` samples each.
+/// Pulse energies of the arrivals of consecutive groups in the bins they overlap, before beams: `length` samples each.
 struct Pulses {
   std::size_t first_group, last_group, first_arrival;
-  std::vector<std::size_t> bin;  ///< of an arrival's first sample
+  std::vector<std::size_t> bin;  ///< bin of the first sample of each arrival
   std::vector<double> energy;
 };
 
-/// A direction in which a group is heard for all its arrivals nearby, or for one alone, and the energies in the bins from
-/// `bin` (after the group's first) on that count for it.
-struct Look {
+/// One term of a group: direction cosine, and the bins from `bin` (relative to the group's first) with their energies.
+struct Term {
   double u;
   std::size_t bin, length, energy;
 };
 
-/// A group as a sum of looks, E(b, n) = sum B^2(u - u_b) energy(n). B^2 is a sum of cosines no faster than 2 pi / lobe, so
-/// that a few nodes stand for all arrivals of a small surfel.
-struct GroupLooks {
+/// A group as a sum of terms, E(b, n) = sum B^2(u - u_b) energy(n). B^2 is a sum of cosines no faster than 2 pi / lobe,
+/// so a few Chebyshev nodes represent all arrivals of a small surfel.
+struct GroupTerms {
   std::size_t first_bin, bins;
-  std::vector<Look> looks;
+  std::vector<Term> terms;
   std::vector<double> energy;
 };
 
-/// The strongest groups of every pixel so far.
+/// The strongest groups of every pixel found so far.
 struct StrongestGroups {
   std::size_t per_pixel;
   std::vector<double> energy, total;
-  std::vector<double> least;  ///< of those kept
+  std::vector<double> least;  ///< least energy kept
   std::vector<std::uint32_t> group;
 
   StrongestGroups(std::size_t pixels, std::size_t kept)
       : per_pixel(kept), energy(pixels * kept, 0), total(pixels, 0), least(pixels, 0), group(pixels * kept, none) {}
 
-  /// Energies of a group in `count` pixels from `first` on; what interpolation leaves below zero is none.
+  /// Adds the energies of a group in `count` pixels from `first` on; negative values (interpolation error) count as 0.
   void add(std::size_t first, std::size_t count, const double* e, std::uint32_t g) {
-    double *all = total.data() + first, *enough = least.data() + first;
+    double *all = total.data() + first, *threshold = least.data() + first;
     for (std::size_t n = 0; n < count; ++n) all[n] += std::max(e[n], 0.0);
     for (std::size_t n = 0; n < count; ++n)
-      if (e[n] > enough[n]) enough[n] = insert(first + n, e[n], g);
+      if (e[n] > threshold[n]) threshold[n] = insert(first + n, e[n], g);
   }
 
  private:
@@ -92,24 +100,24 @@ class Search {
         groups_(groups_of(arrivals_)),
         found_(head.fan.beams() * axis.bins, static_cast<std::size_t>(options.per_pixel)) {}
 
-  /// Hears groups in order, as many at once as memory allows; beams are independent of each other.
+  /// Processes the groups in order, in chunks that fit into memory, in parallel over beams.
   void run() {
     const bool one_row = rows_.size() == 1 && !head_.column;
     for (std::size_t g = 0; g < groups_.size();) {
       const Pulses pulses = pulses_from(g);
       const std::size_t count = pulses.last_group - g;
-      std::vector<GroupLooks> looks(one_row ? count : 0);
+      std::vector<GroupTerms> terms(one_row ? count : 0);
       if (one_row) {
         parallel_blocks(count, 64, options_.threads, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t k = begin; k < end; ++k) looks[k] = looks_at(groups_[g + k], pulses, {});
+          for (std::size_t k = begin; k < end; ++k) terms[k] = terms_of(groups_[g + k], pulses, {});
         });
-        parallel_for(head_.fan.beams(), options_.threads, [&](std::size_t b) { hear(b, g, looks); });
+        parallel_for(head_.fan.beams(), options_.threads, [&](std::size_t b) { accumulate(b, g, terms); });
       } else {
         parallel_for(rows_.size(), options_.threads, [&](std::size_t r) {
           const std::vector<double> weights = row_weights(rows_[r], pulses);
-          std::vector<GroupLooks> of_row(count);
-          for (std::size_t k = 0; k < count; ++k) of_row[k] = looks_at(groups_[g + k], pulses, weights);
-          for (const std::size_t b : rows_[r].beams) hear(b, g, of_row);
+          std::vector<GroupTerms> of_row(count);
+          for (std::size_t k = 0; k < count; ++k) of_row[k] = terms_of(groups_[g + k], pulses, weights);
+          for (const std::size_t b : rows_[r].beams) accumulate(b, g, of_row);
         });
       }
       g = pulses.last_group;
@@ -121,9 +129,9 @@ class Search {
  private:
   Pulses pulses_from(std::size_t first_group) const {
     Pulses p{first_group, first_group, groups_[first_group].first, {}, {}};
-    const std::size_t enough = std::max<std::size_t>(1, samples_at_once / axis_.length);
+    const std::size_t max_arrivals = std::max<std::size_t>(1, samples_at_once / axis_.length);
     do ++p.last_group;
-    while (p.last_group < groups_.size() && groups_[p.last_group].last - p.first_arrival <= enough);
+    while (p.last_group < groups_.size() && groups_[p.last_group].last - p.first_arrival <= max_arrivals);
     const std::size_t count = groups_[p.last_group - 1].last - p.first_arrival;
     p.bin.resize(count);
     p.energy.assign(count * axis_.length, 0);
@@ -140,7 +148,7 @@ class Search {
     return p;
   }
 
-  /// What a row makes of the elevations of the arrivals.
+  /// Intensity response of a row to the elevations of the arrivals.
   std::vector<double> row_weights(const FanRow& row, const Pulses& pulses) const {
     RowResponse response(head_, wavelength_, row.elevation);
     std::vector<double> weights(pulses.bin.size());
@@ -151,54 +159,54 @@ class Search {
     return weights;
   }
 
-  /// Of a group with many arrivals at a few nodes, else arrival by arrival: whatever costs a beam less.
+  /// Expands a group into terms: at Chebyshev nodes or arrival by arrival, whichever is cheaper per beam.
   ///
-  /// weights   of all arrivals of `pulses` in a row; empty: all 1
-  GroupLooks looks_at(const Group& group, const Pulses& pulses, const std::vector<double>& weights) const {
+  /// weights   response of a row to all arrivals of `pulses`; empty: all 1
+  GroupTerms terms_of(const Group& group, const Pulses& pulses, const std::vector<double>& weights) const {
     const std::size_t begin = group.first - pulses.first_arrival, end = group.last - pulses.first_arrival;
     const auto [low, high] = std::minmax_element(pulses.bin.begin() + begin, pulses.bin.begin() + end);
     const std::size_t length = axis_.length, bins = *high - *low + length;
-    GroupLooks group_looks{*low, bins, {}, {}};
+    GroupTerms result{*low, bins, {}, {}};
     const double middle = 0.5 * (group.u_low + group.u_high), half = 0.5 * (group.u_high - group.u_low);
-    const std::size_t nodes = chebyshev_nodes(half, lobe_, interpolation_error, most_nodes);
+    const std::size_t nodes = chebyshev_nodes(half, lobe_, interpolation_error, max_nodes);
     const bool interpolates = nodes > 0 && nodes * (bins + 4) < (end - begin) * (length + 4);
-    group_looks.energy.assign(interpolates ? nodes * bins : (end - begin) * length, 0);
-    double share[most_nodes] = {1};
+    result.energy.assign(interpolates ? nodes * bins : (end - begin) * length, 0);
+    double share[max_nodes] = {1};
     if (interpolates)
       for (std::size_t j = 0; j < nodes; ++j)
-        group_looks.looks.push_back({middle + half * std::cos(chebyshev_angle(j, nodes)), 0, bins, j * bins});
+        result.terms.push_back({middle + half * std::cos(chebyshev_angle(j, nodes)), 0, bins, j * bins});
     for (std::size_t i = begin; i < end; ++i) {
       const double u = arrivals_[pulses.first_arrival + i].u, weight = weights.empty() ? 1 : weights[i];
       const std::size_t bin = pulses.bin[i] - *low;
       if (interpolates)
         lagrange(nodes, half > 0 ? (u - middle) / half : 0, share);
       else
-        group_looks.looks.push_back({u, bin, length, (i - begin) * length});
+        result.terms.push_back({u, bin, length, (i - begin) * length});
       for (std::size_t j = 0; j < (interpolates ? nodes : 1); ++j) {
-        double* to = group_looks.energy.data() + (interpolates ? j * bins + bin : (i - begin) * length);
+        double* to = result.energy.data() + (interpolates ? j * bins + bin : (i - begin) * length);
         for (std::size_t k = 0; k < length; ++k) to[k] += share[j] * weight * pulses.energy[i * length + k];
       }
     }
-    return group_looks;
+    return result;
   }
 
   /// Adds groups from `first_group` on to the pixels of a beam.
-  void hear(std::size_t beam, std::size_t first_group, const std::vector<GroupLooks>& looks) {
+  void accumulate(std::size_t beam, std::size_t first_group, const std::vector<GroupTerms>& terms) {
     const double u = std::cos(head_.fan.elevation[beam]) * std::sin(head_.fan.azimuth[beam]);
     std::vector<double> sum;
-    for (std::size_t k = 0; k < looks.size(); ++k) {
+    for (std::size_t k = 0; k < terms.size(); ++k) {
       const Group& group = groups_[first_group + k];
       const double nearest = std::max({0.0, group.u_low - u, u - group.u_high});
       if (!table_.responds_to(nearest, std::max(group.u_high - u, u - group.u_low), reach_)) continue;
-      const GroupLooks& heard = looks[k];
-      sum.assign(heard.bins, 0);
-      for (const Look& look : heard.looks) {
-        const double intensity = table_.intensity(look.u - u);
-        const double* energy = heard.energy.data() + look.energy;
-        double* to = sum.data() + look.bin;
-        for (std::size_t n = 0; n < look.length; ++n) to[n] += intensity * energy[n];
+      const GroupTerms& group_terms = terms[k];
+      sum.assign(group_terms.bins, 0);
+      for (const Term& term : group_terms.terms) {
+        const double intensity = table_.intensity(term.u - u);
+        const double* energy = group_terms.energy.data() + term.energy;
+        double* to = sum.data() + term.bin;
+        for (std::size_t n = 0; n < term.length; ++n) to[n] += intensity * energy[n];
       }
-      found_.add(beam * axis_.bins + heard.first_bin, heard.bins, sum.data(),
+      found_.add(beam * axis_.bins + group_terms.first_bin, group_terms.bins, sum.data(),
                  static_cast<std::uint32_t>(first_group + k));
     }
   }
@@ -248,26 +256,26 @@ void require_options(const SonarHead& head, const ContributorOptions& o) {
     fail(ErrorKind::argument, me, ": floor_db = ", o.floor_db, " dB, must be within -200 and 0");
   const double pixels = static_cast<double>(head.fan.beams()) * static_cast<double>(head.gate.bins());
   const double mib = pixels * (31 * o.per_pixel + 16) / (1 << 20);
-  if (!(mib <= o.most_mib))
+  if (!(mib <= o.max_mib))
     fail(ErrorKind::argument, me, ": ", head.fan.beams(), " beams x ", head.gate.bins(), " bins x ", o.per_pixel,
-         " contributors take ", std::ceil(mib), " MiB, must be at most ", o.most_mib,
+         " contributors take ", std::ceil(mib), " MiB, must be at most ", o.max_mib,
          "; keep fewer contributors, or make the range gate shorter");
 }
 
 }  // namespace
 
-Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEchoes> heard, const SonarHead& head,
+Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEchoes> echoes, const SonarHead& head,
                                const Medium& medium, const ContributorOptions& options) {
   require_valid(head, me);
   require_valid(medium, me);
   require_options(head, options);
   double doppler = 0;
-  for (const SurfelEchoes& part : heard) {
+  for (const SurfelEchoes& part : echoes) {
     require_arrivals(scene, part, me);
     for (const double shift : part.echoes.doppler) doppler = std::max(doppler, std::abs(shift));
   }
   const DelayBins axis(head, medium, options.floor_db, doppler);
-  Search search(head, medium, sorted_arrivals(heard, axis), axis, options);
+  Search search(head, medium, sorted_arrivals(echoes, axis), axis, options);
   search.run();
   return search.contributors(scene);
 }

@@ -17,13 +17,13 @@ namespace {
 constexpr const char* me = "add_ping";
 constexpr std::uint32_t none = 0xffffffff;
 
-/// What the beams of a head make of directions, as intensities.
+/// Intensity responses of the beams of a head.
 class Beams {
  public:
   Beams(const SonarHead& head, const Medium& medium)
       : table_(head.array, medium.sound_speed / head.pulse.centre_frequency) {
     const std::vector<FanRow> rows = fan_rows(head.fan);
-    weighed_ = rows.size() > 1 || head.column;
+    has_row_response_ = rows.size() > 1 || head.column;
     for (const FanRow& row : rows) {
       rows_.push_back({{}, RowResponse(head, medium.sound_speed / head.pulse.centre_frequency, row.elevation)});
       std::vector<double>& u = rows_.back().u;
@@ -32,13 +32,13 @@ class Beams {
     }
   }
 
-  /// A beam: which row, and where it looks.
+  /// A beam: its row, and its direction cosine.
   struct Beam {
     std::size_t row = 0;
     double u = 0;
   };
 
-  /// Of the beams that are nearest in each row, the one that hears the direction best.
+  /// Returns the beam with the largest response among those nearest to the direction in each row.
   Beam best(double u, double v) {
     Beam best;
     double most = -1;
@@ -48,14 +48,14 @@ class Beams {
       if (at == beams.end() || (at != beams.begin() && u - at[-1] < *at - u)) --at;
       const Beam beam{r, *at};
       if (rows_.size() == 1) return beam;
-      if (const double heard = intensity(beam, u, v); heard > most) most = heard, best = beam;
+      if (const double response = intensity(beam, u, v); response > most) most = response, best = beam;
     }
     return best;
   }
 
   double intensity(const Beam& beam, double u, double v) {
     const double of_line = table_.intensity(u - beam.u);
-    if (!weighed_) return of_line;
+    if (!has_row_response_) return of_line;
     const double of_row = rows_[beam.row].response.at(v);
     return of_line * of_row * of_row;
   }
@@ -67,39 +67,40 @@ class Beams {
   };
   ResponseTable table_;
   std::vector<Row> rows_;
-  bool weighed_ = false;  ///< whether rows have a response of their own
+  bool has_row_response_ = false;  ///< false for one row of a line array
 };
 
-/// What one ping hears of one surfel.
-struct Heard {
+/// Contribution of one surfel to one ping.
+struct SurfelContribution {
   std::uint32_t surfel;
   Beams::Beam beam;
   double intensity = 0;  ///< [Pa^2], mean square
   bool hit = false;
-  float cosine = 0, range = 0;  ///< largest and least of the parts that count as heard
+  float cosine = 0, range = 0;  ///< extremes over the parts that count as insonified
 };
 
-std::vector<Heard> strongest_beams(std::size_t surfels, const Scatterers& scatterers, const Echoes& echoes,
-                                   const SonarHead& head, const Medium& medium, double least) {
+std::vector<SurfelContribution> surfel_contributions(std::size_t surfels, const Scatterers& scatterers,
+                                                     const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                                     double min_response) {
   Beams beams(head, medium);
   std::vector<std::uint32_t> place(surfels, none);
-  std::vector<Heard> heard;
+  std::vector<SurfelContribution> contributions;
   for (std::size_t i = 0; i < scatterers.size(); ++i) {
     const std::uint32_t surfel = scatterers.surfel[i];
     if (place[surfel] == none) {
-      place[surfel] = static_cast<std::uint32_t>(heard.size());
-      heard.push_back({surfel, beams.best(echoes.u[i], echoes.v[i])});
+      place[surfel] = static_cast<std::uint32_t>(contributions.size());
+      contributions.push_back({surfel, beams.best(echoes.u[i], echoes.v[i])});
     }
-    Heard& h = heard[place[surfel]];
+    SurfelContribution& h = contributions[place[surfel]];
     const double range = scatterers.range[i], response = beams.intensity(h.beam, echoes.u[i], echoes.v[i]);
     h.intensity += 0.5 * std::norm(echoes.amplitude[i]) * response * std::exp(-4 * medium.absorption.a0 * range);
-    if (!(response >= least && range >= head.gate.min_range && range <= head.gate.max_range)) continue;
+    if (!(response >= min_response && range >= head.gate.min_range && range <= head.gate.max_range)) continue;
     const auto r = static_cast<float>(range);
     h.range = h.hit ? std::min(h.range, r) : r;
     h.cosine = std::max(h.cosine, scatterers.cos_incidence[i]);
     h.hit = true;
   }
-  return heard;
+  return contributions;
 }
 
 void require_map(const Insonification& map, const SceneCloud& scene) {
@@ -117,22 +118,23 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
   require_valid(head, me);
   require_valid(medium, me);
   require_map(map, scene);
-  if (!(options.least_response_db <= 0))
-    fail(ErrorKind::argument, me, ": least_response_db = ", options.least_response_db, " dB, must be <= 0");
+  if (!(options.min_response_db <= 0))
+    fail(ErrorKind::argument, me, ": min_response_db = ", options.min_response_db, " dB, must be <= 0");
   for (const std::uint32_t surfel : scatterers.surfel)
     if (surfel >= scene.size())
       fail(ErrorKind::argument, me, ": a scatterer is of surfel ", surfel, ", but the scene has ", scene.size());
 
-  // A coherent amplitude of 1 is the root mean square of every law of speckle.
+  // A coherent amplitude of 1 is the rms amplitude of every speckle distribution.
   EchoOptions echo_options;
   echo_options.amplitude = SurfaceAmplitude::coherent;
   echo_options.threads = options.threads;
   const Echoes echoes =
       direct_echoes(scatterers, scene.materials, head.pulse, medium, with_patterns(echo_options, head));
-  const double least = power_from_db(options.least_response_db);
-  const std::vector<Heard> heard = strongest_beams(scene.size(), scatterers, echoes, head, medium, least);
+  const double min_response = power_from_db(options.min_response_db);
+  const std::vector<SurfelContribution> contributions =
+      surfel_contributions(scene.size(), scatterers, echoes, head, medium, min_response);
 
-  // The best of all pings.
+  // Update the extremes over all pings.
   if (map.hits.empty()) {
     map.hits.assign(scene.size(), 0);
     map.level_db.assign(scene.size(), -std::numeric_limits<float>::infinity());
@@ -140,7 +142,7 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
     map.range.assign(scene.size(), std::numeric_limits<float>::infinity());
   }
   ++map.pings;
-  for (const Heard& h : heard) {
+  for (const SurfelContribution& h : contributions) {
     if (!h.hit) continue;
     ++map.hits[h.surfel];
     const auto level = static_cast<float>(db_from_power(h.intensity / (micropascal * micropascal)));  // (E64)

@@ -6,36 +6,35 @@
 
 namespace insonify {
 
-/// Time-varied gain of a display (E20): spreading log10(r) + 2 absorption r, r in m. The defaults take nothing back but
-/// the spreading of a point's echo; 20 suits a volume, 30 a bottom at grazing incidence.
+/// Time-varied gain of a display (E20): spreading log10(r) + 2 absorption r, r in m. The default compensates the
+/// spreading of a point target only; 20 suits a volume, 30 a bottom at grazing incidence.
 struct Tvg {
   double spreading = 40;           ///< dB per decade of range
   double absorption_db_per_m = 0;  ///< one way
 };
 
-/// Gain of a TVG [dB] at `range` [m].
+/// Returns the gain of a TVG [dB] at `range` [m].
 double gain_db(const Tvg& tvg, double range);
 
-/// Levels with a TVG applied, beams x bins; those at or below `floor_db` stay as they are. With spreading 40 equal to
-/// range_compensated_level_db. The ping itself stays linear. Throws Error(argument) if the levels have another number
-/// of bins than the gate, or the TVG is not finite.
+/// Returns levels with a TVG applied, beams x bins; levels at or below `floor_db` are unchanged. With spreading 40
+/// equal to range_compensated_level_db. The ping itself stays linear. Throws Error(argument) if the number of bins is
+/// not that of the gate, or the TVG is not finite.
 Grid<float> apply_tvg(Grid<float> level_db, const RangeGate& gate, const Tvg& tvg, double floor_db = -200);
 
-/// Levels that a display shows, from black to white.
+/// Range of levels of a display, from black to white.
 struct GreyWindow {
-  double min_db = 0;  ///< and below: 0
-  double max_db = 0;  ///< and above: the largest value, 255 or 65535
+  double min_db = 0;  ///< levels up to it map to 0
+  double max_db = 0;  ///< levels from it on map to the largest value, 255 or 65535
 };
 
-/// Grey values of levels (E58), linear in dB: 0 at or below the floor min_db, and nowhere else; steps of (max_db -
-/// min_db)/255 or /65535 above, the last one and all that is louder at the largest value.
-/// Throws Error(argument) unless the window is finite with min_db < max_db, Error(content) for a level that is not a
-/// number.
+/// Returns grey values of levels (E58), linear in dB: 0 only at or below min_db; above it steps of (max_db -
+/// min_db)/255 or /65535, and the largest value in the last step and above. Throws Error(argument) unless the window is
+/// finite with min_db < max_db, Error(content) for a level that is not a number.
 Grid<std::uint8_t> quantise_8(const Grid<float>& level_db, const GreyWindow& window);
 Grid<std::uint16_t> quantise_16(const Grid<float>& level_db, const GreyWindow& window);
 
-/// Level in the middle of the step of a grey value [dB], off by half a step at most for levels within the window; min_db
-/// for 0. `bits` is 8 or 16, `value` within it, else Error(argument).
+/// Returns the level at the middle of a grey value's step [dB], within half a step of the original for levels in the
+/// window; min_db for 0. Throws Error(argument) unless `bits` is 8 or 16 and `value` is within its range.
 double level_of_grey(std::uint16_t value, int bits, const GreyWindow& window);
 
 }  // namespace insonify

@@ -13,32 +13,32 @@ DelayBins::DelayBins(const SonarHead& head, const Medium& medium, double floor_d
       step(2 * head.gate.bin_size / medium.sound_speed),
       half(pulse_half_length(head.pulse, amplitude_from_db(floor_db))),
       bins(head.gate.bins()) {
-  // The peak of a sweep's echo moves with its Doppler shift.
+  // The Doppler shift displaces the peak of a sweep's echo.
   if (head.pulse.shape == PulseShape::linear_fm) half += doppler * head.pulse.duration / head.pulse.bandwidth;
   length = static_cast<std::size_t>(std::min(2 * half / step + 1, static_cast<double>(bins)));
 }
 
-void require_arrivals(const SceneCloud& scene, const SurfelEchoes& heard, const char* who) {
-  const std::size_t n = heard.echoes.size();
-  if (heard.surfel.size() != n || heard.echoes.v.size() != n || !(heard.legs.empty() || heard.legs.size() == n))
-    fail(ErrorKind::argument, who, ": ", n, " echoes, but ", heard.surfel.size(), " surfels, ", heard.echoes.v.size(),
-         " directions upwards and ", heard.legs.size(), " pairs of legs; give one of each (no legs: all direct)");
+void require_arrivals(const SceneCloud& scene, const SurfelEchoes& part, const char* who) {
+  const std::size_t n = part.echoes.size();
+  if (part.surfel.size() != n || part.echoes.v.size() != n || !(part.legs.empty() || part.legs.size() == n))
+    fail(ErrorKind::argument, who, ": ", n, " echoes, but ", part.surfel.size(), " surfels, ", part.echoes.v.size(),
+         " directions upwards and ", part.legs.size(), " pairs of legs; give one of each (no legs: all direct)");
   for (std::size_t i = 0; i < n; ++i) {
-    if (heard.surfel[i] >= scene.size())
-      fail(ErrorKind::argument, who, ": surfel[", i, "] = ", heard.surfel[i], ", but the scene has ", scene.size());
-    const Echoes& e = heard.echoes;
+    if (part.surfel[i] >= scene.size())
+      fail(ErrorKind::argument, who, ": surfel[", i, "] = ", part.surfel[i], ", but the scene has ", scene.size());
+    const Echoes& e = part.echoes;
     if (!std::isfinite(e.delay[i] + e.u[i] + e.v[i] + std::norm(e.amplitude[i]) + e.doppler_of(i)))
       fail(ErrorKind::argument, who, ": echo ", i, " is not finite (delay ", e.delay[i], " s, amplitude ",
            std::abs(e.amplitude[i]), " Pa)");
   }
 }
 
-std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> heard, const DelayBins& axis) {
+std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> parts, const DelayBins& axis) {
   std::vector<Arrival> arrivals;
   std::size_t total = 0;
-  for (const SurfelEchoes& h : heard) total += h.echoes.size();
+  for (const SurfelEchoes& h : parts) total += h.echoes.size();
   arrivals.reserve(total);
-  for (const SurfelEchoes& h : heard)
+  for (const SurfelEchoes& h : parts)
     for (std::size_t i = 0; i < h.echoes.size(); ++i) {
       const Echoes& e = h.echoes;
       if (!axis.reaches(e.delay[i])) continue;
@@ -56,8 +56,8 @@ std::vector<Group> groups_of(const std::vector<Arrival>& arrivals) {
   double strongest = 0;
   for (std::size_t i = 0; i < arrivals.size(); ++i) {
     const Arrival& a = arrivals[i];
-    const bool opens = i == 0 || arrivals[i - 1].key() != a.key();
-    if (opens) groups.push_back({a.surfel, a.legs, 0, i, i, a.u, a.u}), strongest = -1;
+    const bool is_new = i == 0 || arrivals[i - 1].key() != a.key();
+    if (is_new) groups.push_back({a.surfel, a.legs, 0, i, i, a.u, a.u}), strongest = -1;
     Group& group = groups.back();
     group.last = i + 1;
     group.u_low = std::min(group.u_low, a.u);

@@ -10,14 +10,14 @@
 
 #include "returns/find_contributors.hpp"
 
-// Private to find_contributors: echoes put in order by where they came from.
+// Echoes sorted by their origin, for find_contributors.
 namespace insonify {
 
-/// The range axis as delays [s], and how far pulses reach on it: to where they are floor_db below their peak, with Doppler
-/// shifts up to `doppler` [Hz].
+/// The range axis as delays [s], with the half length of pulses: to where they fall below floor_db, for Doppler shifts
+/// up to `doppler` [Hz].
 struct DelayBins {
   double start, step, half;
-  std::size_t bins, length;  ///< length: most bins that one pulse reaches
+  std::size_t bins, length;  ///< length: largest number of bins that one pulse overlaps
 
   DelayBins(const SonarHead& head, const Medium& medium, double floor_db, double doppler);
   double at(std::size_t bin) const { return start + static_cast<double>(bin) * step; }
@@ -26,14 +26,14 @@ struct DelayBins {
     return std::min(static_cast<double>(bins), std::floor((delay + half - start) / step) + 1);
   }
   bool reaches(double delay) const { return end(delay) > first(delay); }
-  /// The first bin that a pulse with this delay reaches, and one past the last.
+  /// Returns the first bin that a pulse with this delay overlaps, and one past the last.
   std::pair<std::size_t, std::size_t> reached(double delay) const {
     const auto low = static_cast<std::size_t>(first(delay));
     return {low, std::min(static_cast<std::size_t>(end(delay)), low + length)};
   }
 };
 
-/// One echo, with what is asked of it here.
+/// The properties of one echo that find_contributors needs.
 struct Arrival {
   double delay, u, v, power, doppler;
   std::uint32_t surfel;
@@ -46,16 +46,16 @@ struct Arrival {
 struct Group {
   std::uint32_t surfel;
   LegPair legs;
-  float elevation;  ///< of the strongest [rad]
+  float elevation;  ///< elevation of the strongest arrival [rad]
   std::size_t first, last;
   double u_low, u_high;
 };
 
-/// Throws Error(argument) unless all of `heard` is there, finite and of surfels of the scene.
-void require_arrivals(const SceneCloud& scene, const SurfelEchoes& heard, const char* who);
+/// Throws Error(argument) unless the echoes are complete, finite and of surfels of the scene.
+void require_arrivals(const SceneCloud& scene, const SurfelEchoes& part, const char* who);
 
-/// All echoes that reach a bin, those of one contributor next to each other, by ascending surfel and legs.
-std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> heard, const DelayBins& axis);
+/// Returns all echoes that overlap a bin, grouped by contributor, by ascending surfel and legs.
+std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> parts, const DelayBins& axis);
 
 std::vector<Group> groups_of(const std::vector<Arrival>& arrivals);
 

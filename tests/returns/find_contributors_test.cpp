@@ -315,7 +315,7 @@ TEST(FindContributors, refuses_what_does_not_fit) {
   EXPECT_EQ(error_of([&] { heard.find(head, {.floor_db = 0}); }),
             "find_contributors: floor_db = 0 dB, must be within -200 and 0");
   // 11 x 200 pixels x (31 x 255 + 16) bytes
-  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 255, .most_mib = 10}); }),
+  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 255, .max_mib = 10}); }),
             "find_contributors: 11 beams x 200 bins x 255 contributors take 17 MiB, must be at most 10; keep fewer "
             "contributors, or make the range gate shorter");
   heard.echoes.amplitude[17] = std::nan("");

@@ -173,6 +173,6 @@ TEST(Insonification, of_another_scene_is_refused_and_left_alone) {
   const Scatterers two = seen(other, head, Pose::Identity());
   EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), two, head, medium); }),
             "add_ping: a scatterer is of surfel 1, but the scene has 1");
-  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, medium, {.least_response_db = 3}); }),
-            "add_ping: least_response_db = 3 dB, must be <= 0");
+  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, medium, {.min_response_db = 3}); }),
+            "add_ping: min_response_db = 3 dB, must be <= 0");
 }

@@ -143,7 +143,7 @@ TEST(SimulatedContributors, are_insonified) {
   const SonarHead head = small_head();
   const SimulatedPing p = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 1});
   Insonification map;
-  add_ping(map, scene, p.scatterers, head, p.medium, {.least_response_db = -300});
+  add_ping(map, scene, p.scatterers, head, p.medium, {.min_response_db = -300});
   std::size_t hits = 0;
   for (const std::uint32_t h : map.hits) hits += h;
   EXPECT_LE(hits, p.sampling.visible);
