@@ -20,7 +20,7 @@ double one_gradient_time(double c1, double c2, double g, double dx, double dz) {
   return static_cast<double>(std::log1p(y + std::sqrt(y * (2 + y))) / gl);  // acosh(1 + y)
 }
 
-/// Where a ray is.
+/// State of a ray.
 struct RayState {
   double x = 0, z = 0, slope = 0;  ///< slope [rad], positive down
   double time = 0;
@@ -129,7 +129,7 @@ TEST(FindEigenray, follows_the_closed_form_of_one_gradient) {
 }
 
 // The same water cut into layers: arcs of one circle, crossed partly, turning above or below either end.
-TEST(FindEigenray, does_not_care_how_one_gradient_is_cut_into_layers) {
+TEST(FindEigenray, does_not_depend_on_the_layers_that_one_gradient_is_cut_into) {
   SoundSpeedProfile cut;
   for (int i = 0; i <= 400; ++i) {
     cut.depth.push_back(-100 + 1.0 * i);
@@ -191,7 +191,7 @@ TEST(FindEigenray, takes_the_same_time_back) {
 }
 
 // Fermat: no path is faster than the first ray; a direct ray is not slower than the chord.
-TEST(FindEigenray, is_not_slower_than_the_straight_way_and_not_faster_than_the_fastest_water) {
+TEST(FindEigenray, is_not_slower_than_the_straight_line_and_not_faster_than_the_fastest_water) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < 300; ++i) {
@@ -225,7 +225,7 @@ TEST(FindEigenray, turns_in_a_duct) {
   const Eigenray axis = find_eigenray(duct, 20, 20, 100);
   EXPECT_NEAR(axis.travel_time / one_gradient_time(1480, 1480, 2, 100, 0), 1, 1e-12);
   EXPECT_NEAR(std::abs(axis.elevation), std::atan(2 * 100 / (2 * 1480.0)), 1e-12);
-  // Half a cycle of the steepest ray kept in the duct is 2 sqrt(1520^2 - 1480^2) / 2 = 346.4 m: beyond that, several turns.
+  // Half a cycle of the steepest ray trapped in the duct is 2 sqrt(1520^2 - 1480^2) / 2 = 346.4 m: beyond that, several turns.
   const double half_cycle = 2 * std::sqrt(1520.0 * 1520 - 1480.0 * 1480) / 2;
   const Eigenray twice = find_eigenray(duct, 20, 20, 1.5 * half_cycle);
   EXPECT_NEAR(twice.travel_time / (2 * one_gradient_time(1480, 1480, 2, 0.75 * half_cycle, 0)), 1, 1e-12);
@@ -253,7 +253,7 @@ TEST(FindEigenray, has_no_gap_where_a_ray_comes_to_turn_or_to_reach_another_laye
   }
 }
 
-TEST(FindEigenray, holds_out_against_very_large_and_very_small_gradients) {
+TEST(FindEigenray, handles_very_large_and_very_small_gradients) {
   const SoundSpeedProfile wall{{10, 10.01}, {1320, 1680}};  // 36000 /s
   for (const auto& [from, to, x] :
        {std::array{9.0, 11.0, 5.0}, {10.004, 10.006, 1e-3}, {10.005, 20.0, 3.0}, {9.0, 9.0, 0.5}}) {
@@ -281,7 +281,7 @@ TEST(BendPaths, leaves_scatterers_alone_where_sound_speed_is_the_same) {
   EXPECT_EQ(s.azimuth, before.azimuth);
   EXPECT_EQ(s.elevation, before.elevation);
   EXPECT_EQ(refraction_bound({{0, 100}, {1500, 1500}}, 10, Pose::Identity(), s).range, 0);
-  // Far below, where no ray gets, sound speed may change.
+  // Far below, beyond all rays, sound speed may change.
   EXPECT_EQ(refraction_bound({{0, 5000, 6000}, {1500, 1500, 1550}}, 10, Pose::Identity(), s).elevation, 0);
 }
 
@@ -317,7 +317,7 @@ TEST(BendPaths, silences_and_counts_the_shadow) {
 }
 
 // Interpolated among many, solved one by one when alone.
-TEST(BendPaths, keeps_its_promise_when_it_interpolates) {
+TEST(BendPaths, keeps_its_accuracy_when_it_interpolates) {
   std::mt19937_64 random(7);
   for (const auto& [profile, head_depth] :
        {std::pair{layers, 12.0}, {duct, 19.0}, {duct, 20.0}, {random_profile(random, 40, 0.5), 30.0}}) {

@@ -52,7 +52,7 @@ TEST(DirectEchoes, loses_40_log_of_the_range_ratio) {
   EXPECT_NEAR(db_from_amplitude(near / far), 40 * std::log10(2.0), 1e-12);
 }
 
-// A quarter wavelength farther is half a cycle of two-way phase: the sign turns round.
+// A quarter wavelength of range is half a cycle of two-way phase: the sign changes.
 TEST(DirectEchoes, keeps_the_two_way_phase) {
   const double wavelength = medium.sound_speed / pulse.centre_frequency;
   const auto a = echo_of(one_scatterer(600 * wavelength), coherent);
@@ -65,7 +65,7 @@ TEST(DirectEchoes, keeps_the_two_way_phase) {
   EXPECT_NEAR(std::arg(echo_of(one_scatterer(60.0001), coherent)), 2 * pi * 0.12, 1e-9);
 }
 
-TEST(DirectEchoes, tells_delay_and_direction_cosine) {
+TEST(DirectEchoes, gives_delay_and_direction_cosine) {
   const std::vector<Material> materials{{"m", 0.1}};
   const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse, medium, coherent);
   EXPECT_DOUBLE_EQ(e.delay[0], 0.01);
@@ -92,7 +92,7 @@ TEST(DirectEchoes, applies_the_transmit_pattern_in_azimuth) {
   }
 }
 
-TEST(DirectEchoes, tells_the_direction_cosine_upwards) {
+TEST(DirectEchoes, gives_the_direction_cosine_upwards) {
   const std::vector<Material> materials{{"m", 0.1}};
   const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse, medium, coherent);
   EXPECT_DOUBLE_EQ(e.v[0], std::sin(-0.2));

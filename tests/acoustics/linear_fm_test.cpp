@@ -137,7 +137,7 @@ TEST(LinearFm, half_length_bounds_the_envelope) {
     }
 }
 
-// The sweep after its way, as pulse.hpp states it, correlated by quadrature.
+// The sweep after propagation, as defined in pulse.hpp, correlated by quadrature.
 TEST(LinearFm, closed_form_with_frequency_dependent_absorption_is_the_correlation) {
   const double range = 90;
   const Complex i{0, 1};
@@ -162,7 +162,7 @@ TEST(LinearFm, closed_form_with_frequency_dependent_absorption_is_the_correlatio
       }
 }
 
-TEST(LinearFm, absorption_that_hardly_varies_joins_the_one_that_does_not) {
+TEST(LinearFm, small_slopes_of_absorption_approach_constant_absorption) {
   const Pulse pulse = sweep(60, ReplicaWindow::hamming);
   const EchoEnvelope flat = echo_envelope(pulse, {0.01, 0, 0}, 50);
   for (const Absorption a : {Absorption{0.01, 1e-18, 0}, {0.01, 0, 1e-24}, {0.01, 0, -1e-24}})
@@ -170,8 +170,8 @@ TEST(LinearFm, absorption_that_hardly_varies_joins_the_one_that_does_not) {
       EXPECT_LT(std::abs(echo_envelope(pulse, a, 50).at(t) - flat.at(t)), 1e-11) << a.a1 << ", " << a.a2;
 }
 
-// Whatever the way, no overflow and no NaN: an echo fades.
-TEST(LinearFm, fades_on_its_way_without_overflow) {
+// At any range no overflow and no NaN: an echo decays.
+TEST(LinearFm, decays_with_range_without_overflow) {
   const Pulse pulse = sweep(60, ReplicaWindow::hann);
   const Absorption a{0.03, 1.5e-7, 1.9e-13};
   double before = 1;
@@ -192,7 +192,7 @@ TEST(LinearFm, refuses_absorption_that_makes_it_grow) {
     EXPECT_THROW(echo_envelope(pulse, a, 50), Error);
 }
 
-// Range-Doppler coupling of a rising sweep: an approaching target, higher by f_d, stands f_d / k early; its peak falls
+// Range-Doppler coupling of a rising sweep: an approaching target, shifted up by f_d, appears f_d / k early; its peak falls
 // with the overlap that is left. Exact for the uniform window: (1 - |t|/T) at t = -f_d / k.
 TEST(LinearFm, doppler_moves_the_peak) {
   const Pulse pulse = sweep(200, ReplicaWindow::uniform);
@@ -221,8 +221,8 @@ TEST(LinearFm, doppler_of_a_gaussian_moves_its_spectrum) {
     EXPECT_LT(std::abs(spectrum(moving, f + 1300) - spectrum(still, f)), 1e-9 * std::abs(spectrum(still, 0)));
 }
 
-// The Gaussian's numbers are those of its own formulas, to the last bit, by every road.
-TEST(EchoShapes, leave_a_gaussian_as_it_was) {
+// The Gaussian's numbers are those of its own formulas, to the last bit, for every code path.
+TEST(EchoShapes, leave_a_gaussian_unchanged) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const double delay = 0.0837;
   for (const Absorption a : {Absorption{0.02, 0, 0}, {0.02, 1e-7, 0}, {0.02, 1e-7, 1e-13}}) {
@@ -255,14 +255,14 @@ TEST(NoiseBandwidth, of_a_matched_filter_is_about_one_over_its_length) {
   EXPECT_EQ(noise_bandwidth({900e3, 29.5e3, 220}), 29.5e3);
 }
 
-// Processing gain: a uniform sweep hears BT less noise power than a burst of the same bandwidth.
+// Processing gain: a uniform sweep has a noise power lower by BT than a burst of the same bandwidth.
 TEST(NoiseBandwidth, lowers_the_noise_by_the_time_bandwidth_product) {
   const Pulse burst{400e3, 40e3, 220}, pulse = sweep(100, ReplicaWindow::uniform);
   EXPECT_NEAR(thermal_noise_level_db(burst) - thermal_noise_level_db(pulse), 20, 1e-9);
   EXPECT_NEAR(ambient_noise_level_db(burst, 5) - ambient_noise_level_db(pulse, 5), 20, 1e-9);
 }
 
-TEST(LinearFm, refuses_a_sweep_that_is_none) {
+TEST(LinearFm, refuses_invalid_sweeps) {
   Pulse pulse = sweep(100, ReplicaWindow::hann);
   EXPECT_EQ(refusal(pulse), "no error");
   pulse.duration = 0;

@@ -32,7 +32,7 @@ Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
   return s;
 }
 
-Echoes heard(const Scatterers& s) {
+Echoes echoes_of(const Scatterers& s) {
   const std::vector<double> sigma(s.size(), 1);
   const std::vector<std::complex<double>> xi(s.size(), 1);
   Echoes echoes = target_echoes(s, sigma, xi, pulse, medium);
@@ -41,7 +41,7 @@ Echoes heard(const Scatterers& s) {
 }
 
 Echoes moved(const Motion& motion, const Scatterers& s, const Pose& pose = Pose::Identity()) {
-  Echoes echoes = heard(s);
+  Echoes echoes = echoes_of(s);
   move_echoes(motion, pose, s, frequency, c, echoes);
   return echoes;
 }
@@ -69,21 +69,21 @@ Trajectory bent_track() {
 }  // namespace
 
 TEST(MoveEchoes, leaves_echoes_of_a_head_at_rest_as_they_are) {
-  const Echoes before = heard(spread), after = moved({}, spread);
+  const Echoes before = echoes_of(spread), after = moved({}, spread);
   EXPECT_EQ(before.delay, after.delay);
   EXPECT_EQ(before.u, after.u);
   EXPECT_EQ(before.amplitude, after.amplitude);
   EXPECT_TRUE(after.doppler.empty());
 }
 
-// Sound meets the head on its way: c t = r + (r - v t), so t = 2 r / (c + v).
-TEST(MoveEchoes, meets_a_head_that_closes_in) {
+// The head approaches during propagation: c t = r + (r - v t), so t = 2 r / (c + v).
+TEST(MoveEchoes, accounts_for_an_approaching_head) {
   for (const double v : {2.0, -2.0, 14.0}) {
     const Echoes e = moved({{v, 0, 0}, {0, 0, 0}}, ahead);
     const double r0 = 30, r1 = 30 * (c - v) / (c + v);
     EXPECT_NEAR(e.delay[0], 2 * r0 / (c + v), 1e-17);
     EXPECT_NEAR(e.doppler[0] / (frequency * 2 * v / (c - v)), 1, 1e-14);
-    const auto before = heard(ahead).amplitude[0];
+    const auto before = echoes_of(ahead).amplitude[0];
     EXPECT_NEAR(std::abs(e.amplitude[0] / before), r0 / r1, 1e-14);
     EXPECT_NEAR(std::abs(std::polar(1.0, 2 * pi * frequency / c * (r1 - r0)) - e.amplitude[0] / before * (r1 / r0)), 0,
                 1e-9);
@@ -92,8 +92,8 @@ TEST(MoveEchoes, meets_a_head_that_closes_in) {
   EXPECT_NEAR(moved({{2, 0, 0}, {0, 0, 0}}, ahead).doppler[0], 2400, 4);  // 2 v f / c
 }
 
-TEST(MoveEchoes, comes_to_rest_as_motion_vanishes) {
-  const Echoes rest = heard(spread);
+TEST(MoveEchoes, tends_to_rest_as_motion_vanishes) {
+  const Echoes rest = echoes_of(spread);
   for (const double v : {1e-3, 1e-6, 1e-9}) {
     const Echoes e = moved({{v, -v, 0.5 * v}, {0, v, v}}, spread);
     for (std::size_t i = 0; i < spread.size(); ++i) {
@@ -132,7 +132,7 @@ TEST(MoveEchoes, shifts_the_carrier_by_the_rate_of_the_delay) {
 
 TEST(MoveEchoes, turns_directions_only_when_the_head_turns_only) {
   const double rate = 0.8;
-  const Echoes rest = heard(spread), e = moved({{0, 0, 0}, {0, 0, rate}}, spread);
+  const Echoes rest = echoes_of(spread), e = moved({{0, 0, 0}, {0, 0, rate}}, spread);
   for (std::size_t i = 0; i < spread.size(); ++i) {
     EXPECT_EQ(e.delay[i], rest.delay[i]);
     EXPECT_EQ(e.amplitude[i], rest.amplitude[i]);
@@ -144,7 +144,7 @@ TEST(MoveEchoes, turns_directions_only_when_the_head_turns_only) {
 }
 
 TEST(MoveEchoes, fills_directions_upwards_only_where_they_are_needed) {
-  Echoes echoes = heard(spread);
+  Echoes echoes = echoes_of(spread);
   echoes.v.clear();
   move_echoes({{1, 0, 0}, {0, 0, 0}}, Pose::Identity(), spread, frequency, c, echoes);
   EXPECT_TRUE(echoes.v.empty());
@@ -165,7 +165,7 @@ TEST(MoveEchoes, does_not_change_when_world_and_motion_turn_together) {
 }
 
 TEST(MoveEchoes, refuses_large_and_bad_values) {
-  Echoes e = heard(spread);
+  Echoes e = echoes_of(spread);
   const auto call = [&](const Motion& m, double f = frequency) {
     return refusal([&] { move_echoes(m, Pose::Identity(), spread, f, c, e); });
   };

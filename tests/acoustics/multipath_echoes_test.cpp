@@ -35,7 +35,7 @@ struct Setting {
   Scatterers direct() const {
     return find_scatterers(scene, view.world_from_head, view.fan, view.gate, view.sampling).scatterers;
   }
-  Multipath hear(const MultipathOptions& options = {}) const {
+  Multipath compute(const MultipathOptions& options = {}) const {
     return multipath_echoes(scene, direct(), environment, view, sent, options);
   }
 };
@@ -58,7 +58,7 @@ void add_plate(SceneCloud& scene, double x, double low, double high) {
 }
 
 /// Sum of the echoes within half a millimetre of an apparent range.
-std::complex<double> level_at(const Echoes& e, double range) {
+std::complex<double> sum_at(const Echoes& e, double range) {
   std::complex<double> sum = 0;
   for (std::size_t i = 0; i < e.size(); ++i)
     if (std::abs(750 * e.delay[i] - range) < 5e-4) sum += e.amplitude[i];
@@ -77,7 +77,7 @@ double level_after_absorption(std::complex<double> amplitude, double range) {
 // equal cosines and without reflection factors, of an independent evaluation to two decimals.
 TEST(MultipathEchoes, gives_the_textbook_images) {
   const Setting s = one_target();
-  const Multipath m = s.hear();
+  const Multipath m = s.compute();
   ASSERT_EQ(m.echoes.size(), 8u);
   EXPECT_EQ(m.one_bounce, 4u);
   EXPECT_EQ(m.two_bounces, 4u);
@@ -96,8 +96,7 @@ TEST(MultipathEchoes, gives_the_textbook_images) {
     const double range = 0.5 * (e.out + e.back),
                  cosines = (20 / e.out) * (20 / e.back) / ((20 / r_direct) * (20 / r_direct));
     EXPECT_NEAR(range, e.apparent, 6e-5);
-    const double level =
-        level_after_absorption(level_at(m.echoes, range) / (e.reflections * std::sqrt(cosines)), range);
+    const double level = level_after_absorption(sum_at(m.echoes, range) / (e.reflections * std::sqrt(cosines)), range);
     EXPECT_NEAR(level - direct_db, e.level_db, 0.006) << range;
   }
   EXPECT_NEAR(*std::min_element(m.echoes.delay.begin(), m.echoes.delay.end()) - direct.delay[0], 393.7e-6, 5e-8);
@@ -105,7 +104,7 @@ TEST(MultipathEchoes, gives_the_textbook_images) {
 
 // Every echo in full, phase and sign included.
 TEST(MultipathEchoes, follows_its_formula_in_size_and_phase) {
-  const Multipath m = one_target().hear();
+  const Multipath m = one_target().compute();
   const double k = 2 * pi * pulse.centre_frequency / 1500;
   const std::complex<double> r_b = bottom_reflection(FlatBottom{-10}, std::asin(15 / r_bottom));
   const auto path = [&](double out, double back, std::complex<double> reflections) {
@@ -113,7 +112,7 @@ TEST(MultipathEchoes, follows_its_formula_in_size_and_phase) {
            reflections * std::polar(1.0, k * (out + back)) / (out * back);
   };
   const auto expect = [&](double out, double back, std::complex<double> wanted) {
-    EXPECT_LT(std::abs(level_at(m.echoes, 0.5 * (out + back)) - wanted), 1e-5 * std::abs(wanted)) << out + back;
+    EXPECT_LT(std::abs(sum_at(m.echoes, 0.5 * (out + back)) - wanted), 1e-5 * std::abs(wanted)) << out + back;
   };
   expect(r_direct, r_surface, 2.0 * path(r_direct, r_surface, -1));
   expect(r_surface, r_surface, path(r_surface, r_surface, 1));
@@ -123,10 +122,10 @@ TEST(MultipathEchoes, follows_its_formula_in_size_and_phase) {
 }
 
 // The two senses of a mixed path have one delay and amplitude but come back from two directions.
-TEST(MultipathEchoes, comes_back_from_where_the_way_back_comes) {
+TEST(MultipathEchoes, arrives_from_the_direction_of_the_leg_back) {
   Setting s = one_target({15, 5, -3});
   s.environment.bottom.reset();
-  const Echoes e = s.hear().echoes;
+  const Echoes e = s.compute().echoes;
   ASSERT_EQ(e.size(), 3u);  // SD, DS, SS, in the order in which legs out and back are taken
   EXPECT_EQ(e.delay[0], e.delay[1]);
   EXPECT_LT(std::abs(e.amplitude[0] - e.amplitude[1]), 1e-9 * std::abs(e.amplitude[0]));
@@ -155,50 +154,50 @@ TEST(MultipathEchoes, by_the_surface_alone_is_the_direct_echo_of_the_mirrored_sc
       find_scatterers(mirrored, s.view.world_from_head, s.view.fan, s.view.gate, s.view.sampling).scatterers;
   const Echoes expected = direct_echoes(images, mirrored.materials, pulse, s.sent.medium, s.sent.echo_options);
   ASSERT_GT(expected.size(), 40u);
-  const Multipath heard = s.hear();
-  EXPECT_EQ(heard.two_bounces, expected.size());
+  const Multipath computed = s.compute();
+  EXPECT_EQ(computed.two_bounces, expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     double nearest = 1;
-    for (std::size_t j = 0; j < heard.echoes.size(); ++j)
-      if (std::abs(heard.echoes.delay[j] - expected.delay[i]) < 1e-12)
-        nearest = std::min(nearest, std::abs(heard.echoes.amplitude[j] / expected.amplitude[i] - 1.0) +
-                                        std::abs(heard.echoes.u[j] - expected.u[i]) +
-                                        std::abs(heard.echoes.v[j] - expected.v[i]));
+    for (std::size_t j = 0; j < computed.echoes.size(); ++j)
+      if (std::abs(computed.echoes.delay[j] - expected.delay[i]) < 1e-12)
+        nearest = std::min(nearest, std::abs(computed.echoes.amplitude[j] / expected.amplitude[i] - 1.0) +
+                                        std::abs(computed.echoes.u[j] - expected.u[i]) +
+                                        std::abs(computed.echoes.v[j] - expected.v[i]));
     EXPECT_LT(nearest, 1e-5) << i;
   }
 }
 
 // The leg by the surface rises to it at x = 8 m and passes x = 4 m at z = -1 and x = 14 m at z = -1.5 m.
-TEST(MultipathEchoes, a_wall_on_either_side_of_the_bounce_takes_that_way_alone) {
+TEST(MultipathEchoes, a_wall_on_either_side_of_the_bounce_blocks_that_leg_alone) {
   for (const double x : {4.0, 14.0}) {
     Setting s = one_target();
     add_plate(s.scene, x, x < 8 ? -1.4 : -1.9, x < 8 ? -0.6 : -1.1);
-    const Multipath m = s.hear();
+    const Multipath m = s.compute();
     EXPECT_GT(m.blocked, 0u);
-    EXPECT_EQ(level_at(m.echoes, 0.5 * (r_direct + r_surface)), 0.0) << x;
-    EXPECT_EQ(level_at(m.echoes, r_surface), 0.0) << x;
-    EXPECT_NE(level_at(m.echoes, 0.5 * (r_direct + r_bottom)), 0.0) << x;
-    EXPECT_NE(level_at(m.echoes, r_bottom), 0.0) << x;
+    EXPECT_EQ(sum_at(m.echoes, 0.5 * (r_direct + r_surface)), 0.0) << x;
+    EXPECT_EQ(sum_at(m.echoes, r_surface), 0.0) << x;
+    EXPECT_NE(sum_at(m.echoes, 0.5 * (r_direct + r_bottom)), 0.0) << x;
+    EXPECT_NE(sum_at(m.echoes, r_bottom), 0.0) << x;
   }
 }
 
-TEST(MultipathEchoes, a_wall_on_the_direct_way_leaves_the_two_bounce_paths) {
+TEST(MultipathEchoes, a_wall_on_the_direct_leg_leaves_the_two_bounce_paths) {
   Setting s = one_target();
   add_plate(s.scene, 10, -2.8, -2.2);
-  const Multipath m = s.hear();
-  EXPECT_EQ(level_at(m.echoes, 0.5 * (r_direct + r_surface)), 0.0);
-  EXPECT_NE(level_at(m.echoes, r_surface), 0.0);
-  EXPECT_NE(level_at(m.echoes, r_bottom), 0.0);
-  EXPECT_NE(level_at(m.echoes, 0.5 * (r_surface + r_bottom)), 0.0);
+  const Multipath m = s.compute();
+  EXPECT_EQ(sum_at(m.echoes, 0.5 * (r_direct + r_surface)), 0.0);
+  EXPECT_NE(sum_at(m.echoes, r_surface), 0.0);
+  EXPECT_NE(sum_at(m.echoes, r_bottom), 0.0);
+  EXPECT_NE(sum_at(m.echoes, 0.5 * (r_surface + r_bottom)), 0.0);
 }
 
-// A shelf above the head shows it its back; only the surface shows its face.
+// A shelf above the head faces away from it; its face is visible by way of the surface only.
 TEST(MultipathEchoes, finds_patches_that_only_a_boundary_shows) {
   Setting s = one_target({20, 0, -1}, {0, 0, 1});
   s.environment.bottom.reset();
   s.view.sampling.scatterers_per_cell = 10;
   EXPECT_EQ(s.direct().size(), 0u);
-  const Multipath m = s.hear();
+  const Multipath m = s.compute();
   EXPECT_EQ(m.one_bounce, 0u);
   ASSERT_EQ(m.two_bounces, 1u);
   const double r = std::hypot(20, 3), sigma = mu * area * (3 / r) * (3 / r);
@@ -206,22 +205,22 @@ TEST(MultipathEchoes, finds_patches_that_only_a_boundary_shows) {
               1e-5);
 }
 
-// A mixed path may be loud though its direct leg leaves the sampled elevations.
-TEST(MultipathEchoes, looks_for_direct_ways_beyond_the_views_elevations) {
+// A mixed path may be strong although its direct leg is outside of the sampled elevations.
+TEST(MultipathEchoes, finds_direct_legs_beyond_the_views_elevations) {
   Setting s = one_target({6, 0, -5}, Vector3d(-1, 0, 1).normalized());
   s.environment.bottom.reset();
   s.view.world_from_head = pose_from_yaw_pitch_roll({0, 0, -2}, 0, -radians(30), 0);
   s.sent.echo_options.elevation_width = radians(40);
   s.view.sampling.elevation_half_extent = radians(50);
   EXPECT_EQ(s.direct().size(), 0u);
-  EXPECT_EQ(s.hear().one_bounce, 2u);
+  EXPECT_EQ(s.compute().one_bounce, 2u);
 }
 
 TEST(MultipathEchoes, mirrored_left_to_right_it_only_turns_u) {
   Setting s = one_target({15, 5, -3}), t = one_target({15, -5, -3});
   add_plate(s.scene, 9, -4, -1);
   add_plate(t.scene, 9, -4, -1);
-  const Echoes a = s.hear().echoes, b = t.hear().echoes;
+  const Echoes a = s.compute().echoes, b = t.compute().echoes;
   ASSERT_EQ(a.size(), b.size());
   double power_a = 0, power_b = 0, u_a = 0, u_b = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -241,7 +240,7 @@ TEST(MultipathEchoes, world_head_and_boundaries_moved_together_change_nothing) {
   t.view.world_from_head.translation() += shift;
   t.environment.surface->height += 37;
   t.environment.bottom->height += 37;
-  const Echoes a = s.hear().echoes, b = t.hear().echoes;
+  const Echoes a = s.compute().echoes, b = t.compute().echoes;
   ASSERT_EQ(a.size(), 8u);
   ASSERT_EQ(b.size(), 8u);
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -257,21 +256,21 @@ TEST(MultipathEchoes, is_linear_in_the_reflection_of_each_bounce) {
   t.environment.bottom->sound_speed_ratio = 2;
   const double g = std::asin(15 / r_bottom);
   const auto ratio = bottom_reflection(*t.environment.bottom, g) / bottom_reflection(*s.environment.bottom, g);
-  const Echoes a = s.hear().echoes, b = t.hear().echoes;
-  const auto changed = [&](double range) { return level_at(b, range) / level_at(a, range); };
+  const Echoes a = s.compute().echoes, b = t.compute().echoes;
+  const auto changed = [&](double range) { return sum_at(b, range) / sum_at(a, range); };
   EXPECT_LT(std::abs(changed(0.5 * (r_direct + r_bottom)) - ratio), 1e-6);
   EXPECT_LT(std::abs(changed(r_bottom) - ratio * ratio), 1e-6);
   EXPECT_LT(std::abs(changed(0.5 * (r_direct + r_surface)) - 1.0), 1e-12);
 }
 
-TEST(MultipathEchoes, applies_elevation_patterns_one_way_each_and_the_transmitters_on_the_way_out) {
+TEST(MultipathEchoes, applies_elevation_patterns_once_per_leg_and_the_transmitters_on_the_leg_out) {
   Setting s = one_target({15, 5, -3});
   s.environment.bottom.reset();
-  const Echoes plain = s.hear().echoes;
+  const Echoes plain = s.compute().echoes;
   s.sent.echo_options.elevation_width = radians(30);
   s.sent.echo_options.transmit_width = radians(60);
   s.view.world_from_head = pose_from_yaw_pitch_roll({0, 0, -2}, 0, 0, 0);
-  const Echoes shaped = s.hear().echoes;
+  const Echoes shaped = s.compute().echoes;
   ASSERT_EQ(plain.size(), 3u);
   ASSERT_EQ(shaped.size(), 3u);
   const double direct = std::asin(-1 / std::hypot(15, 5, 1)), image = std::asin(5 / std::hypot(15, 5, 5));
@@ -283,8 +282,8 @@ TEST(MultipathEchoes, applies_elevation_patterns_one_way_each_and_the_transmitte
     EXPECT_NEAR(std::abs(shaped.amplitude[i] / plain.amplitude[i]), expected[i] * transmit, 1e-6) << i;
 }
 
-// Under a rolled head the legs by the surface and straight ahead have azimuths of their own.
-TEST(MultipathEchoes, pairs_the_transmitters_gain_on_the_way_out_with_the_direction_of_the_way_back) {
+// For a rolled head the leg by the surface and the direct leg have different azimuths.
+TEST(MultipathEchoes, pairs_the_transmitters_gain_on_the_leg_out_with_the_direction_of_the_leg_back) {
   Setting s = one_target({15, 5, -3});
   s.environment.bottom.reset();
   s.view.world_from_head = pose_from_yaw_pitch_roll({0, 0, -2}, 0, 0, radians(40));
@@ -292,7 +291,7 @@ TEST(MultipathEchoes, pairs_the_transmitters_gain_on_the_way_out_with_the_direct
   const Eigen::Matrix3d to_head = s.view.world_from_head.linear().transpose();
   const Direction direct = direction_of(to_head * Vector3d(15, 5, -1)),
                   image = direction_of(to_head * Vector3d(15, 5, 5));
-  const Echoes e = s.hear().echoes;
+  const Echoes e = s.compute().echoes;
   ASSERT_EQ(e.size(), 3u);  // the first two are the mixed path in its two senses
   const std::size_t by_surface = e.v[0] > e.v[1] ? 0 : 1;
   EXPECT_NEAR(e.v[by_surface], std::sin(image.elevation), 1e-6);
@@ -300,27 +299,27 @@ TEST(MultipathEchoes, pairs_the_transmitters_gain_on_the_way_out_with_the_direct
               transmit_response(0.5, direct.azimuth) / transmit_response(0.5, image.azimuth), 1e-5);
 }
 
-// The seabed that was captured is where the flat bottom lies: it must not hide what bounces.
-TEST(MultipathEchoes, takes_captured_points_at_a_boundary_for_the_boundary) {
+// The captured seabed coincides with the flat bottom: it must not hide bounced legs.
+TEST(MultipathEchoes, treats_captured_points_at_a_boundary_as_the_boundary) {
   Setting s = one_target();
   for (double x = 1; x < 25; x += 0.1)
     for (double y = -2; y <= 2; y += 0.1) add_surfel(s.scene, {x, y, -10 + 0.1 * std::sin(3 * x)}, {0, 0, 1}, 0.01);
   s.environment.surface.reset();
-  EXPECT_EQ(s.hear().echoes.size(), 3u);                           // of the target alone
-  EXPECT_EQ(s.hear({.boundary_tolerance = 0}).echoes.size(), 0u);  // crests before and behind the bounce
+  EXPECT_EQ(s.compute().echoes.size(), 3u);                           // of the target alone
+  EXPECT_EQ(s.compute({.boundary_tolerance = 0}).echoes.size(), 0u);  // crests before and behind the bounce
 }
 
-TEST(MultipathEchoes, hears_nothing_beyond_a_boundary) {
+TEST(MultipathEchoes, gives_no_echo_from_beyond_a_boundary) {
   Setting above = one_target({20, 0, 1}), below = one_target({20, 0, -11});
-  EXPECT_EQ(above.hear().echoes.size(), 0u);
-  EXPECT_EQ(below.hear().one_bounce, 2u);  // by the surface: the scene may go deeper than the flat bottom
+  EXPECT_EQ(above.compute().echoes.size(), 0u);
+  EXPECT_EQ(below.compute().one_bounce, 2u);  // by the surface: the scene may go deeper than the flat bottom
 }
 
-TEST(MultipathEchoes, what_is_buried_in_the_bottom_hides_nothing) {
+TEST(MultipathEchoes, surfels_buried_in_the_bottom_hide_nothing) {
   Setting s = one_target();
-  const auto bounce = level_at(s.hear().echoes, r_bottom);
+  const auto bounce = sum_at(s.compute().echoes, r_bottom);
   add_plate(s.scene, 15, -16, -11);  // where the leg to the image below the bottom passes
-  EXPECT_LT(std::abs(level_at(s.hear().echoes, r_bottom) - bounce), 1e-9 * std::abs(bounce));
+  EXPECT_LT(std::abs(sum_at(s.compute().echoes, r_bottom) - bounce), 1e-9 * std::abs(bounce));
 }
 
 TEST(MultipathEchoes, keeps_the_power_of_a_patch_that_is_split) {
@@ -330,9 +329,9 @@ TEST(MultipathEchoes, keeps_the_power_of_a_patch_that_is_split) {
     return sum;
   };
   Setting s = one_target();
-  const Echoes whole = s.hear().echoes;
+  const Echoes whole = s.compute().echoes;
   s.view.sampling.scatterers_per_cell = 20000;
-  const Echoes split = s.hear().echoes;
+  const Echoes split = s.compute().echoes;
   EXPECT_GT(split.size(), 3 * whole.size());
   EXPECT_NEAR(power(split) / power(whole), 1, 1e-3);
 }
@@ -340,47 +339,47 @@ TEST(MultipathEchoes, keeps_the_power_of_a_patch_that_is_split) {
 TEST(MultipathEchoes, keeps_the_gate_by_apparent_range) {
   Setting s = one_target();
   s.view.gate.max_range = 22;
-  const Echoes e = s.hear().echoes;
-  EXPECT_NE(level_at(e, r_surface), 0.0);
+  const Echoes e = s.compute().echoes;
+  EXPECT_NE(sum_at(e, r_surface), 0.0);
   for (const double delay : e.delay) EXPECT_LT(750 * delay, 22.1);
   // The bottom's leg is 25 m long, but its mean with the direct one lies inside.
   s.view.gate.max_range = 22.6;
-  EXPECT_NE(level_at(s.hear().echoes, 0.5 * (r_direct + r_bottom)), 0.0);
+  EXPECT_NE(sum_at(s.compute().echoes, 0.5 * (r_direct + r_bottom)), 0.0);
 }
 
-TEST(MultipathEchoes, rough_water_swallows_the_bounce_and_says_so) {
+TEST(MultipathEchoes, rough_water_removes_the_bounce_and_reports_it) {
   Setting s = one_target();
   s.environment.bottom.reset();
   EXPECT_EQ(strongest_bounce(s.environment, s.view, s.sent), 1);
   s.environment.wind_speed = 8;
   EXPECT_LT(strongest_bounce(s.environment, s.view, s.sent), 1e-4);
-  EXPECT_EQ(s.hear().echoes.size(), 0u);
+  EXPECT_EQ(s.compute().echoes.size(), 0u);
   s.environment.surface->rms_height = 1e-4;
   const double k = 2 * pi * 900e3 / 1500, left = coherent_reflection_loss(k, 1e-4, std::asin(5 / r_surface));
   EXPECT_LE(left, strongest_bounce(s.environment, s.view, s.sent));
-  const double rough = std::abs(level_at(s.hear().echoes, r_surface));
+  const double rough = std::abs(sum_at(s.compute().echoes, r_surface));
   s.environment.surface->rms_height = 0;
-  EXPECT_NEAR(rough / std::abs(level_at(s.hear().echoes, r_surface)), left * left, 1e-6);
+  EXPECT_NEAR(rough / std::abs(sum_at(s.compute().echoes, r_surface)), left * left, 1e-6);
 }
 
 TEST(MultipathEchoes, rough_bottom_sends_back_its_coherent_part_alone) {
   Setting s = one_target();
   s.environment.surface.reset();
-  const double smooth = std::abs(level_at(s.hear().echoes, r_bottom));
+  const double smooth = std::abs(sum_at(s.compute().echoes, r_bottom));
   s.environment.bottom->rms_height = 1e-4;
   const double left = coherent_reflection_loss(2 * pi * 900e3 / 1500, 1e-4, std::asin(15 / r_bottom));
-  EXPECT_NEAR(std::abs(level_at(s.hear().echoes, r_bottom)) / smooth, left * left, 1e-6);
+  EXPECT_NEAR(std::abs(sum_at(s.compute().echoes, r_bottom)) / smooth, left * left, 1e-6);
   EXPECT_LT(left, 0.91);
 }
 
-TEST(MultipathEchoes, of_rays_hears_surfels) {
+TEST(MultipathEchoes, of_rays_takes_whole_surfels) {
   Setting s = one_target();
-  const Echoes surfels = s.hear().echoes;
+  const Echoes surfels = s.compute().echoes;
   s.view.sampling.kind = SamplingKind::rays;
-  const Echoes rays = s.hear().echoes;
+  const Echoes rays = s.compute().echoes;
   ASSERT_EQ(rays.size(), 8u);
   for (const double range : {0.5 * (r_direct + r_surface), r_bottom})
-    EXPECT_LT(std::abs(level_at(rays, range) / level_at(surfels, range) - 1.0), 1e-6);
+    EXPECT_LT(std::abs(sum_at(rays, range) / sum_at(surfels, range) - 1.0), 1e-6);
 }
 
 TEST(MultipathEchoes, does_not_depend_on_the_thread_count) {
@@ -393,7 +392,7 @@ TEST(MultipathEchoes, does_not_depend_on_the_thread_count) {
   Multipath first;
   for (const int threads : {1, 2, 7}) {
     s.view.sampling.threads = s.sent.echo_options.threads = threads;
-    const Multipath m = s.hear();
+    const Multipath m = s.compute();
     if (threads == 1) {
       first = m;
       EXPECT_GT(m.one_bounce, 1000u);
@@ -408,9 +407,9 @@ TEST(MultipathEchoes, does_not_depend_on_the_thread_count) {
   }
 }
 
-TEST(MultipathEchoes, refuses_what_it_cannot_hear) {
+TEST(MultipathEchoes, refuses_invalid_arguments) {
   Setting s = one_target();
-  const auto refused = [](Setting changed) { return error_of([&] { changed.hear(); }); };
+  const auto refused = [](Setting changed) { return error_of([&] { changed.compute(); }); };
   Setting none = s;
   none.environment.surface.reset();
   none.environment.bottom.reset();
@@ -421,7 +420,7 @@ TEST(MultipathEchoes, refuses_what_it_cannot_hear) {
   Setting buried = s;
   buried.view.world_from_head.translation().z() = -10;
   EXPECT_EQ(refused(buried), "multipath_echoes: the head stands at height -10 m, must be above bottom.height = -10 m");
-  EXPECT_THAT(error_of([&] { s.hear({.boundary_tolerance = -1}); }),
+  EXPECT_THAT(error_of([&] { s.compute({.boundary_tolerance = -1}); }),
               testing::HasSubstr("options.boundary_tolerance = -1 m, must be finite and >= 0"));
   Scatterers wrong = s.direct();
   wrong.surfel[0] = 5;
@@ -430,12 +429,12 @@ TEST(MultipathEchoes, refuses_what_it_cannot_hear) {
 }
 
 // Two targets far apart, the farther one first in the scene.
-TEST(MultipathEchoes, knows_surfel_and_ways_of_every_echo) {
+TEST(MultipathEchoes, reports_surfel_and_legs_of_every_echo) {
   Setting s;
   s.scene.materials = {{"m", mu}};
   add_surfel(s.scene, {40, 0, -3}, {-1, 0, 0}, area);
   add_surfel(s.scene, target, {-1, 0, 0}, area);
-  const Multipath m = s.hear();
+  const Multipath m = s.compute();
   ASSERT_EQ(m.echoes.size(), 16u);
   ASSERT_EQ(m.surfel.size(), 16u);
   ASSERT_EQ(m.legs.size(), 16u);

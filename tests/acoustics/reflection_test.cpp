@@ -34,7 +34,7 @@ TEST(BottomReflection, is_minus_one_at_grazing_zero_and_never_above_one) {
     }
 }
 
-// Below the critical angle of a fast sediment without loss nothing enters it.
+// Below the critical angle of a lossless fast sediment reflection is total.
 TEST(BottomReflection, is_total_below_the_critical_angle_without_loss) {
   FlatBottom b;
   b.loss = 0;
@@ -82,7 +82,7 @@ TEST(RmsWaveHeight, is_that_of_the_spectrum_it_cites) {
   EXPECT_EQ(rms_wave_height(0), 0);
 }
 
-TEST(RmsWaveHeight, refuses_winds_that_are_none) {
+TEST(RmsWaveHeight, refuses_invalid_winds) {
   EXPECT_EQ(error_of([] { rms_wave_height(-1); }), "rms_wave_height: wind_speed = -1 m/s, must be finite and >= 0");
 }
 

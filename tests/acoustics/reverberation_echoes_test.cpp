@@ -68,12 +68,12 @@ struct Looks {
   double contrast() const { return square * count / (power * power); }  // 2: exponential intensity, Rayleigh amplitude
 };
 
-/// Hears `looks` independent pings at places a metre round `range`, 4 cm apart: more than the pulse is long.
+/// Collects `looks` independent pings at ranges within half a metre of `range`, 4 cm apart, more than the pulse length.
 template <typename Hear>
-Looks listen(Hear&& hear, double range, int pings) {
+Looks listen(Hear&& receive, double range, int pings) {
   Looks looks;
   for (int p = 0; p < pings; ++p) {
-    const Echoes e = hear(RangeGate{range - 0.4, range + 0.4, 0.01}, p);
+    const Echoes e = receive(RangeGate{range - 0.4, range + 0.4, 0.01}, p);
     for (int k = -10; k <= 10; ++k) looks.add(beam_ahead(e, range + 0.04 * k));
   }
   return looks;
@@ -89,10 +89,10 @@ bool equal(const Echoes& a, const Echoes& b) {
 // ahead, cos(e) dtheta de = du de, so that the cosine cancels.
 TEST(VolumeEchoes, has_the_level_of_the_sonar_equation) {
   const double width = radians(20), range = 10;
-  const auto hear = [&](const RangeGate& gate, int ping) {
+  const auto receive = [&](const RangeGate& gate, int ping) {
     return volume_echoes(environment(), fan_of(40), gate, transmission(1, width), {.ping = ping});
   };
-  const Looks looks = listen(hear, range, 150);
+  const Looks looks = listen(receive, range, 150);
   const double over_elevation = 0.5 * width * std::sqrt(pi / std::numbers::ln2);
   const double volume = wavelength / array_length * over_elevation * range * range * slice;
   const double expected = 220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 70 + db_from_power(volume);
@@ -100,7 +100,7 @@ TEST(VolumeEchoes, has_the_level_of_the_sonar_equation) {
   EXPECT_NEAR(looks.contrast(), 2, 0.2);
 }
 
-// Bigger cells, same mean: what makes up a beam's cell must not depend on how the water is cut.
+// Larger cells, same mean: the level must not depend on the division of the water into cells.
 TEST(VolumeEchoes, level_does_not_depend_on_the_cells) {
   double power[2] = {0, 0};
   for (const int fine : {0, 1}) {
@@ -127,12 +127,12 @@ TEST(VolumeEchoes, rows_share_a_cells_volume) {
 }
 
 TEST(VolumeEchoes, applies_the_transmit_pattern_in_azimuth) {
-  const auto hear = [](double transmit_width) {
+  const auto receive = [](double transmit_width) {
     Transmission sent = transmission(1, radians(20));
     sent.echo_options.transmit_width = transmit_width;
     return volume_echoes(environment(), fan_of(40), {9, 9.2, 0.01}, sent);
   };
-  const Echoes even = hear(0), shaped = hear(radians(30));
+  const Echoes even = receive(0), shaped = receive(radians(30));
   ASSERT_EQ(shaped.size(), even.size());
   for (std::size_t i = 0; i < even.size(); ++i) {
     const double azimuth = std::asin(even.u[i] / std::sqrt(1 - even.v[i] * even.v[i]));
@@ -175,10 +175,10 @@ TEST(BottomEchoes, has_the_level_of_the_closed_form) {
     const double closed =
         220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 27 + 20 * std::log10(h / range) + db_from_power(area);
     EXPECT_NEAR(closed, level, 0.03);  // recorded for 1489.8 m/s, here 1500
-    const auto hear = [&](const RangeGate& gate, int ping) {
+    const auto receive = [&](const RangeGate& gate, int ping) {
       return bottom_echoes(environment(), at(0, 0, -7), fan_of(40), gate, transmission(1 + ping));
     };
-    const Looks looks = listen(hear, range, 80);
+    const Looks looks = listen(receive, range, 80);
     EXPECT_NEAR(looks.level_db(), closed, 0.4)
         << range;  // 1680 looks: sd 0.1 dB, and a slope of 10 dB per metre at 5 m
     EXPECT_NEAR(looks.contrast(), 2, 0.3) << range;
@@ -218,7 +218,7 @@ TEST(BottomEchoes, is_what_a_plane_of_surfels_gives) {
   }
 }
 
-// Below the head itself a slice of range begins at the foot: no area is lost there.
+// Directly below the head a range slice begins at the nadir: no area is lost there.
 TEST(BottomEchoes, counts_the_whole_disc_under_the_head) {
   const Pose down = at(0, 0, -7, 0, 90);
   BeamFan round = make_fan(360, 2 * pi, beam_width, radians(60));
@@ -234,14 +234,14 @@ TEST(BottomEchoes, counts_the_whole_disc_under_the_head) {
 
 TEST(SurfaceEchoes, has_the_level_of_its_strength) {
   const double d = 2, range = 10;
-  const auto hear = [&](const RangeGate& gate, int ping) {
+  const auto receive = [&](const RangeGate& gate, int ping) {
     return surface_echoes(environment(), at(0, 0, -d), fan_of(40), gate, transmission(), {.ping = ping});
   };
-  const Looks looks = listen(hear, range, 80);
+  const Looks looks = listen(receive, range, 80);
   const double area = wavelength / array_length * range * range / std::sqrt(range * range - d * d) * slice;
   const double closed = 220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 30 + db_from_power(area);
   EXPECT_NEAR(looks.level_db(), closed, 0.4);
-  const Echoes e = hear({9, 11, 0.01}, 0);
+  const Echoes e = receive({9, 11, 0.01}, 0);
   for (std::size_t i = 0; i < e.size(); ++i) ASSERT_NEAR(e.v[i], d / (750 * e.delay[i]), 1e-12);  // from above
 }
 
@@ -278,7 +278,7 @@ TEST(Reverberation, of_the_bottom_stays_while_the_head_does) {
   const Echoes first = bottom(at(1, 2, -7), 1);
   EXPECT_TRUE(equal(first, bottom(at(1, 2, -7), 2)));
 
-  // Turned by 10 of 42 degrees, three quarters of the cells are the same ones, heard elsewhere.
+  // Turned by 10 of 42 degrees, three quarters of the cells are the same, in other directions.
   std::map<double, std::complex<double>> by_delay;
   for (std::size_t i = 0; i < first.size(); ++i) by_delay[first.delay[i]] = first.amplitude[i];
   const auto shared_with = [&](const Echoes& e) {
@@ -336,7 +336,7 @@ TEST(Reverberation, does_not_depend_on_the_thread_count) {
   }
 }
 
-TEST(Reverberation, refuses_what_is_not_there) {
+TEST(Reverberation, refuses_missing_boundaries) {
   const RangeGate gate{5, 9, 0.01};
   const BeamFan fan = fan_of(10);
   EXPECT_EQ(error_of([&] { volume_echoes({}, fan, gate, transmission()); }),

@@ -39,8 +39,8 @@ TEST(SoundPaths, bounced_lines_are_as_long_as_the_echo_is_late_and_bounce_on_the
   const Channel c;
   const Scatterers seen =
       find_scatterers(c.scene, c.view.world_from_head, c.view.fan, c.view.gate, c.view.sampling).scatterers;
-  const Multipath heard = multipath_echoes(c.scene, seen, c.environment, c.view, c.sent);
-  const SoundPaths paths = bounced_paths(heard, c.scene, c.environment, c.view, c.sent.medium, 64);
+  const Multipath multipath = multipath_echoes(c.scene, seen, c.environment, c.view, c.sent);
+  const SoundPaths paths = bounced_paths(multipath, c.scene, c.environment, c.view, c.sent.medium, 64);
 
   // Out and back by direct, surface, bottom: nine pairs of legs less the direct one.
   ASSERT_EQ(paths.size(), 8u);
@@ -56,7 +56,7 @@ TEST(SoundPaths, bounced_lines_are_as_long_as_the_echo_is_late_and_bounce_on_the
     const auto late = [&](double delay) {
       return std::abs(delay * c.sent.medium.sound_speed - length_of(points)) < 1e-4;
     };
-    EXPECT_TRUE(std::any_of(heard.echoes.delay.begin(), heard.echoes.delay.end(), late)) << length_of(points);
+    EXPECT_TRUE(std::any_of(multipath.echoes.delay.begin(), multipath.echoes.delay.end(), late)) << length_of(points);
     longest = std::max(longest, length_of(points));
   }
   EXPECT_NEAR(longest, 2 * std::hypot(9.5, 1.0, 12.0), 1e-5);  // out and back by an image

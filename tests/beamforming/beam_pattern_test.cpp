@@ -80,7 +80,7 @@ TEST(BeamPattern, steered_width_grows_as_one_over_cosine) {
   for (const double s : {10.0, 30.0, 45.0, 60.0}) {
     EXPECT_NEAR(measure(array, s).width * std::cos(radians(s)) / broadside, 1, 2e-3) << s;
     EXPECT_NEAR(measure(array, -s).width, measure(array, s).width, 1e-12) << s;
-    // Exact: the pattern stands still in u, and B^2 is 1/2 at both edges.
+    // Exact: the pattern does not change shape in u, and B^2 is 1/2 at both edges.
     const double h = std::sin(broadside / 2), u = std::sin(radians(s));
     EXPECT_NEAR(measure(array, s).width, std::asin(u + h) - std::asin(u - h), 1e-12) << s;
   }
@@ -95,7 +95,7 @@ TEST(BeamPattern, steered_width_ends_at_endfire) {
 }
 
 // sin g = sin s + n lambda / d. Pitch 1: endfire; 1.5: 41.81; 2: 30 and 90 degrees, on both sides.
-TEST(GratingLobes, stand_where_theory_says) {
+TEST(GratingLobes, are_at_their_closed_form) {
   expect_angles(grating_lobes_deg(0.5, 0), {});
   expect_angles(grating_lobes_deg(1.0, 0), {-90, 90});
   expect_angles(grating_lobes_deg(1.5, 0), {-41.81, 41.81});
@@ -111,7 +111,7 @@ TEST(GratingLobes, are_as_high_as_the_beam) {
 }
 
 // None while |sin s| < lambda / d - 1: 19.47 degrees at a pitch of 0.75, all of them at half a wavelength.
-TEST(GratingLobes, stay_away_while_the_steering_is_small) {
+TEST(GratingLobes, are_absent_for_small_steering) {
   expect_angles(grating_lobes_deg(0.75, 19.4), {});
   expect_angles(grating_lobes_deg(0.75, -19.4), {});
   EXPECT_EQ(grating_lobes_deg(0.75, 19.5).size(), 1U);
@@ -120,8 +120,8 @@ TEST(GratingLobes, stay_away_while_the_steering_is_small) {
   expect_angles(grating_lobes_deg(0.5, 89), {});
 }
 
-// They are no side lobes, and do not hide them; but the flank of one that peaks just beyond endfire is one.
-TEST(GratingLobes, are_told_from_side_lobes) {
+// Grating lobes are not side lobes and do not mask them, but the flank of one that peaks just beyond endfire counts.
+TEST(GratingLobes, are_distinguished_from_side_lobes) {
   EXPECT_NEAR(measure(uniform(16, 1.5), 10).highest_side_lobe_db, -13.147, 0.0006);
   const LineArray array = uniform(16, 0.5);
   const BeamPatternReport report = measure(array, 75);
@@ -132,7 +132,7 @@ TEST(GratingLobes, are_told_from_side_lobes) {
   EXPECT_NEAR(report.highest_side_lobe_db, db_from_amplitude(at_end), 1e-9);
 }
 
-// Against a plain scan of everything between the endfires, outside main lobe and grating lobes.
+// Against a fine scan from endfire to endfire outside of main lobe and grating lobes.
 TEST(BeamPattern, side_lobe_is_the_highest_of_a_scan) {
   for (const double pitch : {0.3, 0.5, 0.9, 1.7})
     for (const double steering : {0.0, 12.0, -50.0})
@@ -173,7 +173,7 @@ TEST(BeamPattern, finds_a_null_that_does_not_cross_zero) {
   EXPECT_NEAR(*measure(array).first_null, std::asin(2.0 / 3), 1e-6);
 }
 
-// By quadrature of B^2 over u; at half a wavelength steering changes nothing: 10 log10 N.
+// By quadrature of B^2 over u; at half a wavelength it does not depend on steering: 10 log10 N.
 TEST(DirectivityIndex, of_a_steered_beam_is_the_integral) {
   EXPECT_NEAR(measure(uniform(40, 0.5), 50).directivity_index_db, 10 * std::log10(40), 1e-9);
   const LineArray array{0.7 * lambda, taylor_shading(24, -30)};
@@ -201,7 +201,7 @@ TEST(BeamPatternCurve, runs_from_endfire_to_endfire_with_its_peak_on_the_beam) {
   EXPECT_EQ(std::count(curve.level_db.begin(), curve.level_db.end(), db_from_amplitude(0)), 63);
 }
 
-TEST(BeamPattern, refuses_what_makes_no_beam) {
+TEST(BeamPattern, refuses_invalid_beams) {
   const LineArray array = uniform(4, 0.5);
   EXPECT_EQ(error_of([&] { measure_beam_pattern(array, lambda, radians(91)); }),
             "measure_beam_pattern: steering = 91 deg, must be within -90 and 90");

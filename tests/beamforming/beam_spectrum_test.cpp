@@ -46,7 +46,7 @@ ComplexGridF tone(double f, Eigen::Index samples) {
   return series;
 }
 
-// Level of a Gaussian's spectrum and what sampling folds into it, as a share of the peak.
+// Spectrum of a Gaussian with aliasing, relative to its peak.
 double folded_gaussian(double f) {
   double sum = 0;
   for (int fold = -4; fold <= 4; ++fold) {
@@ -68,7 +68,7 @@ std::string error_of(const std::function<void()>& call) {
 
 }  // namespace
 
-// Parseval: whatever the segment, whether it divides the series or is longer.
+// Parseval, for segments that divide the series, do not divide it, or are longer.
 TEST(BeamSpectrum, adds_up_to_the_mean_square_pressure) {
   const ComplexGridF series = noise(3, 1001);
   const std::size_t all[] = {0, 1, 2};
@@ -101,12 +101,12 @@ TEST(BeamSpectrum, has_a_line_at_its_own_frequency) {
   }
 }
 
-// (E8): half the power at fc +- B/2. The window of a segment, long against the pulse, smears less than 1 %.
+// (E8): half the power at fc +- B/2. A segment long compared with the pulse broadens it by less than 1 %.
 TEST(BeamSpectrum, of_a_gaussian_pulse_is_as_wide_as_its_bandwidth) {
   ComplexGridF series = ComplexGridF::Zero(1, 2048);
   const Pulse pulse{750e3, bandwidth, 220};
   const EchoEnvelope envelope = echo_envelope(pulse, {}, 0);
-  const double fine = step_time / 4;  // nothing folds
+  const double fine = step_time / 4;  // no aliasing
   for (Eigen::Index n = 0; n < 2048; ++n)
     series(0, n) = std::complex<float>(envelope.at((static_cast<double>(n) - 1017.3) * fine));
   const std::size_t beam[] = {0};
@@ -119,7 +119,7 @@ TEST(BeamSpectrum, of_a_gaussian_pulse_is_as_wide_as_its_bandwidth) {
   }
 }
 
-TEST(PulseDensity, of_a_gaussian_is_the_closed_form_with_what_sampling_folds_in) {
+TEST(PulseDensity, of_a_gaussian_is_the_closed_form_with_aliasing) {
   const std::size_t beam[] = {0};
   const std::vector<double> frequency = beam_spectrum(noise(1, 400), beam, step_time, {750e3, 64}).frequency;
   const std::vector<double> density = pulse_density({750e3, bandwidth, 220}, step_time, frequency, 3.5);
@@ -149,7 +149,7 @@ TEST(PulseDensity, of_a_sweep_fills_its_band) {
   }
 }
 
-TEST(BeamSpectrum, refuses_what_makes_no_spectrum) {
+TEST(BeamSpectrum, refuses_invalid_series) {
   const ComplexGridF series = noise(2, 100);
   const std::size_t none[] = {2}, one[] = {0};
   EXPECT_EQ(error_of([&] { beam_spectrum(series, none, step_time); }),

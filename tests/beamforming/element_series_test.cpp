@@ -40,7 +40,7 @@ Echoes echoes_in(const SonarHead& head, std::size_t n) {
   return e;
 }
 
-/// The definition, echo by echo and element by element, without any series.
+/// The definition, echo by echo and element by element, without sampled series.
 ComplexGrid referee(const Echoes& e, const SonarHead& head, const Medium& medium, Wavefront wavefront) {
   ComplexGrid p = ComplexGrid::Zero(head.fan.beams(), head.gate.bins());
   const std::size_t elements = head.array.elements();
@@ -74,7 +74,7 @@ ComplexGrid beams_of(const Echoes& e, const SonarHead& head, const ElementOption
 
 }  // namespace
 
-// A quarter of the carrier wide, and nearer than the far field begins (L^2 / lambda = 1.5 m).
+// Bandwidth a quarter of the carrier, in the near field (L^2 / lambda = 1.5 m).
 TEST(ElementSeries, wide_band_and_near_field_keep_the_tolerance_against_the_definition) {
   const SonarHead head = head_of(400e3, 100e3, 40, 0.5, 0.9);
   const Echoes e = echoes_in(head, 20);
@@ -85,7 +85,7 @@ TEST(ElementSeries, wide_band_and_near_field_keep_the_tolerance_against_the_defi
   }
 }
 
-// Narrow band, far away: the fixed pattern of the other methods is all there is.
+// Narrow band and far field: agrees with the fixed pattern of the other methods.
 TEST(ElementSeries, far_and_narrow_agree_with_the_fixed_pattern) {
   const SonarHead head = head_of(400e3, 1e3, 24, 100, 108);
   const Echoes e = echoes_in(head, 30);
@@ -93,7 +93,7 @@ TEST(ElementSeries, far_and_narrow_agree_with_the_fixed_pattern) {
   EXPECT_LT(relative_l2(beams_of(e, head, {1e-6, Wavefront::plane}), synthesize_direct(e, head, water())), 0.02);
 }
 
-// What the fixed pattern leaves out grows with bandwidth x array length / sound speed.
+// The error of the fixed pattern grows with bandwidth x array length / sound speed.
 TEST(ElementSeries, wide_band_changes_the_image_in_proportion_to_the_band) {
   const auto change = [](double bandwidth) {
     const SonarHead head = head_of(400e3, bandwidth, 24, 100, 100 + 8e3 / bandwidth);
@@ -105,7 +105,7 @@ TEST(ElementSeries, wide_band_changes_the_image_in_proportion_to_the_band) {
   EXPECT_GT(change(80e3), 0.05);
 }
 
-// In the near field a focused beam holds the level of a point on its axis; plane-wave beams lose it.
+// In the near field a focused beam keeps the level of a point on its axis; a plane-wave beam does not.
 TEST(ElementSeries, focus_keeps_the_level_of_a_point_in_the_near_field) {
   SonarHead head = head_of(900e3, 30e3, 102, 0.8, 1.2);
   head.fan = make_fan(1, 0, radians(1), radians(20));
@@ -120,7 +120,7 @@ TEST(ElementSeries, focus_keeps_the_level_of_a_point_in_the_near_field) {
 }
 
 // An echo from port reaches the port element first.
-TEST(ElementSeries, port_elements_hear_port_first) {
+TEST(ElementSeries, port_elements_receive_port_echoes_first) {
   const SonarHead head = head_of(400e3, 100e3, 40, 5, 5.4);
   Echoes point;
   point.delay = {2 * 5.2 / c};

@@ -1,4 +1,4 @@
-// What is gridded, as against summed directly: every kind of pulse and loss, with more echoes than are summed.
+// Gridding for every kind of pulse and absorption, with more echoes than would be summed directly.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ Echoes crowd(std::size_t count, double doppler) {
   return e;
 }
 
-/// GridPlaces twice as many echoes as would be summed directly.
+/// Grids twice as many echoes as would be summed directly.
 void expect_promise(const SonarHead& head, const Medium& medium, double doppler = 0) {
   for (const double tolerance : {1e-2, 1e-4, 1e-7, 1e-11}) {
     const PingSynthesizer plan(head, medium, {tolerance, 2});
@@ -56,36 +56,36 @@ void expect_promise(const SonarHead& head, const Medium& medium, double doppler 
 
 }  // namespace
 
-TEST(GriddedEchoes, keep_the_promise_for_a_pulse_of_one_shape) {
+TEST(GriddedEchoes, keep_the_tolerance_for_a_pulse_of_one_shape) {
   expect_promise(head_of(PulseShape::gaussian), medium_of(false, false));
 }
 
-TEST(GriddedEchoes, keep_the_promise_where_absorption_has_a_slope) {
+TEST(GriddedEchoes, keep_the_tolerance_where_absorption_has_a_slope) {
   expect_promise(head_of(PulseShape::gaussian), medium_of(true, false));
 }
 
-TEST(GriddedEchoes, keep_the_promise_where_absorption_is_curved) {
+TEST(GriddedEchoes, keep_the_tolerance_where_absorption_is_curved) {
   expect_promise(head_of(PulseShape::gaussian), medium_of(false, true));
 }
 
-TEST(GriddedEchoes, keep_the_promise_where_everything_moves) {
+TEST(GriddedEchoes, keep_the_tolerance_with_doppler_shifts) {
   expect_promise(head_of(PulseShape::gaussian), medium_of(false, false), 2000);
 }
 
-TEST(GriddedEchoes, keep_the_promise_for_sweeps_with_both_their_ends) {
+TEST(GriddedEchoes, keep_the_tolerance_for_sweeps_with_both_their_ends) {
   expect_promise(head_of(PulseShape::linear_fm), medium_of(false, false));
 }
 
-TEST(GriddedEchoes, keep_the_promise_for_sweeps_through_sloping_absorption) {
+TEST(GriddedEchoes, keep_the_tolerance_for_sweeps_through_sloping_absorption) {
   expect_promise(head_of(PulseShape::linear_fm), medium_of(true, true));
 }
 
-TEST(GriddedEchoes, keep_the_promise_for_sweeps_that_move) {
+TEST(GriddedEchoes, keep_the_tolerance_for_sweeps_with_doppler_shifts) {
   expect_promise(head_of(PulseShape::linear_fm), medium_of(false, false), 2000);
 }
 
-// Echoes beside the fan are heard by side lobes alone: seen from the image, and made again with more digits.
-TEST(GriddedEchoes, keep_the_promise_where_no_beam_looks) {
+// Echoes beside the fan are received by side lobes only: detected from the image, which is repeated more accurately.
+TEST(GriddedEchoes, keep_the_tolerance_outside_all_beams) {
   SonarHead head = head_of(PulseShape::gaussian);
   head.fan = make_fan(64, radians(8), radians(2), radians(20));
   const Medium medium = medium_of(false, false);

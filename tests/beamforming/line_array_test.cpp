@@ -38,7 +38,7 @@ TEST(ArrayResponse, of_a_uniform_array_is_the_dirichlet_kernel) {
 }
 
 // lambda / (N d): the first null of a uniform array.
-TEST(ArrayResponse, has_its_first_null_where_theory_says) {
+TEST(ArrayResponse, has_its_first_null_at_the_closed_form) {
   EXPECT_NEAR(array_response(uniform(32, 0.5), lambda, 1 / (32 * 0.5), 0), 0, 1e-14);
 }
 

@@ -91,10 +91,11 @@ TEST(LinearFmSynthesis, gridded_keeps_its_tolerance_against_the_referee) {
       }
 }
 
-// An independent road: sampled sweep and replica, FFT, absorption as a filter on the spectrum. Without slope what is left
-// is the referee's sampling at 64 B. With it the two treat the sweep's ends otherwise: the derivative that a slope
-// stands for makes a spike of each, slope / (2 pi level T) high, which is 0.034 (hann) / BT per dB over the band for
-// small slopes and grows with the loss between peak and end. The water's slope times 1, 10, 100 makes up to 11 dB.
+// An independent method: sampled sweep and replica, FFT, absorption as a filter on the spectrum. Without slope the
+// difference is due to its sampling at 64 B. With slope the two treat the ends of the sweep differently: the derivative
+// that a slope represents makes a spike at each end of height slope / (2 pi level T), which is 0.034 (hann) / BT per dB
+// over the band for small slopes and grows with the loss between peak and end. Slopes of 1, 10 and 100 times that of
+// water amount to up to 11 dB.
 TEST(LinearFmSynthesis, spectrum_form_agrees_with_the_referee) {
   for (const ReplicaWindow window : windows)
     for (const double doppler : {0.0, 900.0}) {
@@ -123,7 +124,7 @@ TEST(LinearFmSynthesis, absorption_inside_the_band_agrees_with_a_filter_on_the_s
         }
 }
 
-// A burst with a Doppler shift, by the referee's own road: its spectrum moved.
+// A burst with a Doppler shift against a shifted spectrum.
 TEST(LinearFmSynthesis, doppler_of_a_gaussian_agrees_with_a_moved_spectrum) {
   SonarHead head = head_of(ReplicaWindow::hann, 3, 8);
   head.pulse = {750e3, 60e3, 220};
@@ -135,7 +136,7 @@ TEST(LinearFmSynthesis, doppler_of_a_gaussian_agrees_with_a_moved_spectrum) {
   }
 }
 
-// A tone of 50 ms hears an approaching target as exp(-2 pi i f_d t), the sign of the carrier itself: bin by bin.
+// The echo of a tone of 50 ms from an approaching target varies as exp(-2 pi i f_d t), the sign of the carrier.
 TEST(LinearFmSynthesis, doppler_turns_a_long_burst_with_the_carrier) {
   SonarHead head = head_of(ReplicaWindow::hann, 1, 4, 60);
   head.pulse = {750e3, 20, 220};
@@ -153,7 +154,7 @@ TEST(LinearFmSynthesis, doppler_turns_a_long_burst_with_the_carrier) {
   }
 }
 
-TEST(LinearFmSynthesis, no_doppler_and_doppler_of_nought_are_one) {
+TEST(LinearFmSynthesis, zero_doppler_equals_no_doppler) {
   for (const PulseShape shape : {PulseShape::gaussian, PulseShape::linear_fm}) {
     SonarHead head = head_of(ReplicaWindow::hamming);
     head.pulse.shape = shape;
@@ -235,7 +236,7 @@ TEST(LinearFmSpec, makes_a_head_whose_bins_sample_the_compressed_pulse) {
   EXPECT_GT(range_resolution(make_head(s, 1500).pulse, 1500), 2 * head.gate.bin_size);
 }
 
-TEST(LinearFmSpec, refuses_halves_of_a_sweep) {
+TEST(LinearFmSpec, refuses_incomplete_sweeps) {
   SonarSpec s;
   s.centre_frequency = 750e3, s.bandwidth = 100e3, s.field_of_view = radians(90), s.beams = 64;
   s.beam_width = radians(1), s.elevation_width = radians(20), s.min_range = 1, s.max_range = 30;

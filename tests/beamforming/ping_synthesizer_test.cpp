@@ -88,9 +88,9 @@ ComplexGrid referee(const Case& c) {
 
 }  // namespace
 
-class PingSynthesizerPromise : public testing::TestWithParam<Case> {};
+class PingSynthesizerTolerance : public testing::TestWithParam<Case> {};
 
-TEST_P(PingSynthesizerPromise, holds_for_the_image_and_for_every_part_of_the_range_axis) {
+TEST_P(PingSynthesizerTolerance, holds_for_the_image_and_for_every_part_of_the_range_axis) {
   const ComplexGrid exact = referee(GetParam());
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
     const ComplexGrid image = synthesized(GetParam(), tolerance);
@@ -101,7 +101,7 @@ TEST_P(PingSynthesizerPromise, holds_for_the_image_and_for_every_part_of_the_ran
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sweep, PingSynthesizerPromise,
+INSTANTIATE_TEST_SUITE_P(Sweep, PingSynthesizerTolerance,
                          testing::Values(Case{.echoes = 1}, Case{.echoes = 10, .beams = 17, .bins = 251},
                                          Case{.echoes = 1000}, Case{.echoes = 30000, .beams = 16},
                                          Case{.beams = 1, .field_of_view = radians(2)},
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Sweep, PingSynthesizerPromise,
                                          Case{.echoes = 100000, .beams = 5, .bins = 251, .bandwidth = 200e3},
                                          Case{.beams = 61, .field_of_view = radians(170), .beam_width = radians(5)}));
 
-// 400 dB from one end of the axis to the other: what is near cannot disturb what is far.
+// 400 dB from one end of the axis to the other: near echoes do not disturb far ones.
 TEST(PingSynthesizer, error_is_local_in_single_precision_over_400_db) {
   const Case c{.echoes = 2000, .dynamic_range_db = 400};
   EXPECT_LE(local_error(synthesized(c, 1e-4), referee(c)), 1e-4);
@@ -163,8 +163,8 @@ TEST(PingSynthesizer, all_echoes_in_one_bin_and_direction_add_coherently) {
   EXPECT_LE(relative_l2(PingSynthesizer(head, m, {1e-4, 0}).pressure(hot), synthesize_direct(one, head, m)), 1e-4);
 }
 
-// Echoes of which no beam hears more than side lobes, and echoes that cancel: the image is weak against what was gridded.
-TEST(PingSynthesizer, keeps_its_promise_where_no_beam_looks) {
+// Echoes received by side lobes only, and echoes that cancel: the image is weak compared with the gridded energy.
+TEST(PingSynthesizer, keeps_its_tolerance_outside_all_beams) {
   Case c{.echoes = 300, .beams = 8, .field_of_view = radians(8)};
   const SonarHead head = head_of(c);
   Echoes e = echoes_of(c, head);
@@ -175,7 +175,7 @@ TEST(PingSynthesizer, keeps_its_promise_where_no_beam_looks) {
     EXPECT_LE(relative_l2(PingSynthesizer(head, m, {tolerance, 0}).pressure(e), exact), tolerance) << tolerance;
 }
 
-TEST(PingSynthesizer, keeps_its_promise_for_echoes_that_cancel) {
+TEST(PingSynthesizer, keeps_its_tolerance_for_echoes_that_cancel) {
   const Case c{.echoes = 300};
   const SonarHead head = head_of(c);
   Echoes e = echoes_of(c, head);
@@ -190,7 +190,7 @@ TEST(PingSynthesizer, keeps_its_promise_for_echoes_that_cancel) {
   EXPECT_LE(relative_l2(PingSynthesizer(head, m, {1e-4, 0}).pressure(e), exact), 1e-4);
 }
 
-TEST(PingSynthesizer, says_what_it_chose) {
+TEST(PingSynthesizer, reports_its_choice) {
   const Case c;
   const SonarHead head = head_of(c);
   const SynthesisChoice coarse = PingSynthesizer(head, medium_of(c, head), {1e-3, 0}).choice();
@@ -202,7 +202,7 @@ TEST(PingSynthesizer, says_what_it_chose) {
   EXPECT_GE(coarse.grid, 2 * head.array.elements());
 }
 
-// By what either way costs: transforms of every bin against echoes x beams x elements.
+// By estimated cost: transforms of every bin against echoes x beams x elements.
 TEST(PingSynthesizer, sums_few_echoes_directly_and_grids_many) {
   for (const double tolerance : {1e-3, 1e-6, 1e-10}) {
     const Case wide{.echoes = 10, .beams = 256, .bins = 1000};
@@ -220,8 +220,8 @@ TEST(PingSynthesizer, sums_few_echoes_directly_and_grids_many) {
   }
 }
 
-// Where echoes touch a few bins, gridding transforms no others: then it wins sooner.
-TEST(PingSynthesizer, grids_a_crowd_that_it_would_sum_if_it_were_spread_out) {
+// Gridding transforms only the tiles that echoes overlap, so it is cheaper sooner if they are few.
+TEST(PingSynthesizer, grids_many_echoes_of_few_tiles_that_it_would_sum_over_the_gate) {
   Case c{.beams = 256, .bins = 1000};
   const SonarHead head = head_of(c);
   const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});
@@ -232,8 +232,8 @@ TEST(PingSynthesizer, grids_a_crowd_that_it_would_sum_if_it_were_spread_out) {
   EXPECT_FALSE(plan.sums_directly(e));
 }
 
-// Both ways on either side of the choice, and the same bits for any number of threads, with moving echoes too.
-TEST(PingSynthesizer, keeps_its_promise_on_both_sides_of_the_choice) {
+// Both methods on either side of the choice, the same bits for any number of threads, also with Doppler shifts.
+TEST(PingSynthesizer, keeps_its_tolerance_on_both_sides_of_the_choice) {
   for (const bool moving : {false, true}) {
     Case c{.beams = 48, .bins = 1000, .bandwidth = 60e3};
     const SonarHead head = head_of(c);
@@ -253,9 +253,9 @@ TEST(PingSynthesizer, keeps_its_promise_on_both_sides_of_the_choice) {
   }
 }
 
-// Two echoes a little apart and of opposite sign. Where a bin stands at the very end of one pulse and beyond that of the
-// other, what was cut is small against either, and not against what they leave of each other.
-TEST(PingSynthesizer, keeps_its_promise_for_few_echoes_that_cancel) {
+// Two echoes of opposite sign a little apart: at a bin near the end of one pulse and beyond that of the other, the part
+// cut off is small compared with each echo but not with their difference.
+TEST(PingSynthesizer, keeps_its_tolerance_for_few_echoes_that_cancel) {
   const Case c{.beams = 4, .bins = 40};
   const SonarHead head = head_of(c);
   const Medium m = medium_of(c, head);
@@ -273,7 +273,7 @@ TEST(PingSynthesizer, keeps_its_promise_for_few_echoes_that_cancel) {
   }
 }
 
-// A thousand elements and a sweep: the pattern's terms and the pulse's samples are many for one echo.
+// A thousand elements and a sweep: many terms and many pulse samples per echo.
 TEST(PingSynthesizer, sums_few_echoes_of_any_array) {
   for (const double beam_width : {radians(0.11), radians(0.3), radians(60)}) {
     const Case c{.echoes = 70, .beams = 21, .bins = 300, .beam_width = beam_width};

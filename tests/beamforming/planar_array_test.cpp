@@ -80,7 +80,7 @@ const SynthesisMethod methods[] = {SynthesisMethod::gridded, SynthesisMethod::di
 
 }  // namespace
 
-// The referee: every element of the planar array on its own, shaded by the product of its weights.
+// Reference: the sum over all elements of the planar array, shaded by the product of the weights.
 TEST(PlanarArray, response_is_the_double_sum_over_all_elements) {
   const SonarHead head = planar_head(7, 5);
   const std::size_t ny = head.array.elements(), nz = head.column->elements();
@@ -149,7 +149,7 @@ TEST(Rows, of_a_head_with_one_are_the_line_array_bit_for_bit) {
   }
 }
 
-// Each row is a head of its own, which hears the echoes through its own elevation pattern.
+// Each row is equivalent to a separate head with its own elevation pattern.
 TEST(Rows, of_a_head_without_column_are_tilted_heads_bit_for_bit) {
   const SonarHead head = stacked_head(6, 4);
   const Echoes echoes = random_echoes(80);
@@ -157,16 +157,16 @@ TEST(Rows, of_a_head_without_column_are_tilted_heads_bit_for_bit) {
   for (const FanRow& row : fan_rows(head.fan)) {
     SonarHead tilted = head;
     tilted.fan = make_fan(6, radians(40), head.fan.beam_width, head.fan.elevation_width, row.elevation);
-    Echoes heard = echoes;
-    for (std::size_t i = 0; i < heard.size(); ++i)
-      heard.amplitude[i] *=
+    Echoes weighted = echoes;
+    for (std::size_t i = 0; i < weighted.size(); ++i)
+      weighted.amplitude[i] *=
           elevation_response(head.elevation_shape, head.fan.elevation_width, std::asin(echoes.v[i]) - row.elevation);
-    const ComplexGrid line = synthesize_gridded(heard, tilted, medium);
+    const ComplexGrid line = synthesize_gridded(weighted, tilted, medium);
     for (std::size_t k = 0; k < 6; ++k) EXPECT_TRUE((p.row(row.beams[k]) == line.row(k)).all());
   }
 }
 
-TEST(Rows, hear_what_a_tilted_head_hears_of_the_same_scatterers) {
+TEST(Rows, agree_with_tilted_heads_on_the_same_scatterers) {
   const SonarHead head = stacked_head(6, 3, radians(20));
   Scatterers s;
   std::vector<double> sigma;
@@ -200,7 +200,7 @@ TEST(Rows, of_an_irregular_table_do_not_depend_on_the_order_of_the_beams) {
 }
 
 // A mirrored scene gives the mirrored image: port to starboard, and top to bottom.
-TEST(PlanarArray, mirrors_what_is_mirrored) {
+TEST(PlanarArray, gives_the_mirrored_image_of_a_mirrored_scene) {
   const SonarHead head = planar_head(6, 4);
   const Echoes echoes = random_echoes(60);
   Echoes across = echoes, upside_down = echoes;
@@ -220,8 +220,8 @@ TEST(PlanarArray, mirrors_what_is_mirrored) {
   EXPECT_GT(relative_error(left, p), 0.1);
 }
 
-// Rows 10 degrees apart: narrow patterns of their own (most echoes are left out of most rows), the column's side lobes,
-// and a scene that stands wholly above all rows.
+// Rows 10 degrees apart: narrow patterns of their own (most echoes are omitted from most rows), the column's side lobes,
+// and a scene entirely above all rows.
 TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
   for (const SonarHead& head : {stacked_head(8, 4, radians(6)), stacked_head(8, 4), planar_head(8, 4)})
     for (const bool above : {false, true}) {
@@ -313,7 +313,7 @@ TEST(SynthesizeNoise, of_a_planar_array_is_the_element_level_less_its_gain) {
 
 // Independent elements: beams of two rows share noise as far as the column's beams overlap, beams of one row as far as
 // the row's do. 3600 bins scatter by 0.02.
-TEST(SynthesizeNoise, of_two_rows_is_related_by_the_response_of_the_column) {
+TEST(SynthesizeNoise, of_two_rows_is_correlated_by_the_response_of_the_column) {
   SonarHead head = planar_head(1, 1, uniform(12));
   head.array = uniform(10);
   head.gate.max_range = 21;

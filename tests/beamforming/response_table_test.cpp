@@ -27,7 +27,7 @@ std::vector<LineArray> arrays() {
 
 }  // namespace
 
-TEST(ResponseTable, is_the_direct_sum_within_its_promise) {
+TEST(ResponseTable, is_the_direct_sum_within_its_stated_error) {
   for (const LineArray& array : arrays()) {
     const ResponseTable table(array, wavelength);
     for (int i = -2000; i <= 2000; ++i) {
@@ -37,7 +37,7 @@ TEST(ResponseTable, is_the_direct_sum_within_its_promise) {
   }
 }
 
-TEST(ResponseTable, hears_wherever_the_response_is_above_the_floor) {
+TEST(ResponseTable, responds_wherever_the_response_is_above_the_floor) {
   for (const LineArray& array : arrays()) {
     const ResponseTable table(array, wavelength);
     const double reach = table.reach(1e-4);
@@ -51,7 +51,7 @@ TEST(ResponseTable, hears_wherever_the_response_is_above_the_floor) {
   }
 }
 
-TEST(ResponseTable, does_not_hear_far_from_every_lobe) {
+TEST(ResponseTable, does_not_respond_far_from_every_lobe) {
   const LineArray array = array_for_beam_width(radians(1), wavelength, Shading::taylor, -30);
   const ResponseTable table(array, wavelength);
   const double reach = table.reach(1e-4);
@@ -60,4 +60,4 @@ TEST(ResponseTable, does_not_hear_far_from_every_lobe) {
   EXPECT_TRUE(table.responds_to(0.6, 2, reach));
 }
 
-TEST(ResponseTable, refuses_a_wavelength_that_is_none) { EXPECT_THROW(ResponseTable({0.001, {1}}, 0), Error); }
+TEST(ResponseTable, refuses_an_invalid_wavelength) { EXPECT_THROW(ResponseTable({0.001, {1}}, 0), Error); }

@@ -91,7 +91,7 @@ TEST(ChebyshevShading, has_every_side_lobe_at_the_level_asked_for) {
 }
 
 // T_(N-1)(x0 cos(psi / 2)) is zero first at cos(psi / 2) = cos(pi / (2 (N-1))) / x0.
-TEST(ChebyshevShading, has_its_first_null_where_theory_says) {
+TEST(ChebyshevShading, has_its_first_null_at_the_closed_form) {
   for (const std::size_t n : {4U, 9U, 100U}) {
     const double x0 = std::cosh(std::acosh(amplitude_from_db(30)) / static_cast<double>(n - 1));
     const double null = 2 / pi * std::acos(std::cos(pi / (2 * static_cast<double>(n - 1))) / x0);

@@ -38,7 +38,7 @@ void expect_refused(const SonarSpec& s, const std::string& part) {
 }  // namespace
 
 // 1 degree needs 0.8859 / (0.5 sin 1 deg) = 101.5 half-wavelength elements.
-TEST(MakeHead, builds_the_array_that_the_beam_width_asks_for) {
+TEST(MakeHead, builds_the_array_for_the_beam_width) {
   const SonarHead head = make_head(spec(), 1490);
   EXPECT_NEAR(static_cast<double>(head.array.elements()), 101.5, 0.6);
   EXPECT_NEAR(degrees(array_beam_width(head.array, 1500 / 750e3)), 1, 0.006);
@@ -78,7 +78,7 @@ TEST(MakeHead, refuses_a_shading_without_its_side_lobe_level) {
   EXPECT_NO_THROW(make_head(s, 1490));
 }
 
-TEST(MakeHead, samples_the_pulse_unless_told_finer) {
+TEST(MakeHead, samples_the_pulse_unless_given_a_bin_size) {
   EXPECT_NEAR(make_head(spec(), 1490).gate.bin_size, 0.44 * 1490 / 300e3, 1e-12);
   SonarSpec fine = spec();
   fine.bin_size = 0.001;

@@ -54,7 +54,7 @@ Medium water(int order) {
   return {c, {a0, order < 1 ? 0 : 2 * a0 / 600e3, order < 2 ? 0 : 2 * a0 / (600e3 * 30e3)}};
 }
 
-/// Places in and around fan and gate, amplitudes complex normal.
+/// Echoes in and around fan and gate with complex normal amplitudes.
 Echoes echoes_in(const SonarHead& head, std::size_t count, bool moving = false) {
   Echoes e;
   const double length = head.gate.max_range - head.gate.min_range;
@@ -193,7 +193,7 @@ TEST(PredictLevelError, of_equal_points_in_one_place_falls_with_the_root_of_thei
     const Grid<float> error = predict_level_error_db(echoes, head, {c, {}});
     const float inside = error(9, 20);
     EXPECT_NEAR(inside, db_per_part / std::sqrt(static_cast<double>(n)), 0.02 * inside);
-    EXPECT_TRUE(std::isnan(error(9, error.cols() - 1)));  // nothing is heard there
+    EXPECT_TRUE(std::isnan(error(9, error.cols() - 1)));  // no echo there
   }
 }
 
@@ -216,7 +216,7 @@ TEST(PredictLevelError, follows_from_the_sums_of_weights_and_squares) {
     }
 }
 
-/// Uniform independent points, as many as a Poisson number says: the level's spread over 200 scenes.
+/// Standard deviation of the level over 200 scenes of independent uniform points with Poisson distributed numbers.
 TEST(PredictLevelError, is_the_spread_of_the_level_over_independent_points) {
   constexpr int scenes = 200;
   SonarHead head = line();
@@ -243,7 +243,7 @@ TEST(PredictLevelError, is_the_spread_of_the_level_over_independent_points) {
   EXPECT_NEAR(std::sqrt(measured / predicted), 1, 0.15);  // a variance from 200 draws is known to 10 %, its root to 5 %
 }
 
-TEST(PredictLevelError, refuses_a_dynamic_range_out_of_reach) {
+TEST(PredictLevelError, refuses_an_invalid_dynamic_range) {
   const SonarHead head = line();
   const Echoes echoes = echoes_in(head, 3);
   for (const double range : {0.0, 51.0, std::nan("")})

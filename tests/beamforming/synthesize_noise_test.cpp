@@ -36,7 +36,7 @@ std::complex<double> correlation(const auto& a, const auto& b) {
 
 }  // namespace
 
-// 32 elements: 10 log 32 = 15.05 dB below one element. 2000 bins of 5 related beams: 0.15 dB of scatter.
+// 32 elements: 10 log 32 = 15.05 dB below one element. 2000 bins of 5 correlated beams: 0.15 dB of scatter.
 TEST(SynthesizeNoise, of_a_beam_is_the_element_level_less_its_directivity) {
   const double one = pressure_level_db(std::sqrt(mean_power(noise(head_of(1)))));
   EXPECT_NEAR(one, level, 0.4);
@@ -50,7 +50,7 @@ TEST(SynthesizeNoise, is_exponential_in_intensity) {
 }
 
 // Independent elements: two beams share noise as far as their patterns overlap, B(u_b - u_b') for uniform shading.
-TEST(SynthesizeNoise, of_overlapping_beams_is_related_by_the_array_response) {
+TEST(SynthesizeNoise, of_overlapping_beams_is_correlated_by_the_array_response) {
   const SonarHead head = head_of(32);
   const ComplexGrid p = noise(head);
   for (int b = 1; b < 5; ++b) {

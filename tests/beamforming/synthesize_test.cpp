@@ -100,7 +100,7 @@ TEST(Synthesize, gridded_keeps_its_tolerance_against_the_referee) {
     }
 }
 
-// An independent road: sum over frequencies, one FFT, no closed form of the pulse.
+// An independent method: sum over frequencies, one FFT, no closed form of the pulse.
 TEST(Synthesize, spectrum_form_agrees_with_the_referee) {
   const SonarHead head = head_of(5, 16, 2);
   const Echoes echoes = random_echoes(40, 1.0, 2.0);

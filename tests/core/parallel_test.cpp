@@ -18,7 +18,7 @@ TEST(ParallelFor, calls_every_index_once_for_any_thread_count) {
   }
 }
 
-TEST(ParallelFor, of_nothing_does_nothing) {
+TEST(ParallelFor, with_no_indices_does_nothing) {
   parallel_for(0, 4, [](std::size_t) { FAIL(); });
 }
 

@@ -25,7 +25,7 @@ TEST(Pose, applies_roll_first_and_yaw_last) {
   expect_near(pose * Vector3d::UnitX(), Vector3d(1, 2, 2));  // nose straight down whatever the yaw
 }
 
-TEST(Pose, in_a_ned_world_is_the_same_place_seen_with_z_down) {
+TEST(Pose, from_ned_is_the_same_pose_in_z_up_axes) {
   // 3 m deep, heading 30 deg clockwise (east of north), nose 10 deg up.
   const Pose ned = pose_from_ned({5, 7, 3}, radians(30), radians(10), 0);
   expect_near(ned.translation(), Vector3d(5, -7, -3));

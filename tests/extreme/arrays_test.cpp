@@ -48,7 +48,7 @@ TEST(ExtremeCase, n24_energy_in_a_beam_falls_as_its_width) {
   for (const std::size_t n : {8UL, 64UL, 512UL, 2048UL}) EXPECT_NEAR(energy(n) * static_cast<double>(n), 1, 1e-3) << n;
 }
 
-TEST(ExtremeCase, n25_beam_of_180_degrees_is_one_element_that_hears_all_alike) {
+TEST(ExtremeCase, n25_beam_of_180_degrees_is_one_omnidirectional_element) {
   SonarSpec s = small_sonar();
   s.beam_width = pi;
   for (const double side_lobes : {0.0, -30.0}) {
@@ -63,7 +63,7 @@ TEST(ExtremeCase, n25_beam_of_180_degrees_is_one_element_that_hears_all_alike) {
   expect_refused(ErrorKind::argument, {"beam_width_deg = 181 deg", "at most 180"}, [&] { make_head(s, 1500); });
 }
 
-TEST(ExtremeCase, n25_one_element_hears_all_alike_whatever_its_spacing) {
+TEST(ExtremeCase, n25_one_element_is_omnidirectional_whatever_its_spacing) {
   for (const double spacing : {1e-300, 1e-3, 1.0, 1e6, 1e300})
     EXPECT_EQ(array_beam_width(uniform_array(1, spacing), 0.003), pi) << spacing;
 }
@@ -100,7 +100,7 @@ TEST(ExtremeCase, n28_beams_beyond_the_circle_are_refused) {
   }
 }
 
-TEST(ExtremeCase, n29_patterns_have_their_limits_where_sine_over_sine_is_nothing_over_nothing) {
+TEST(ExtremeCase, n29_patterns_have_their_limits_where_sine_over_sine_is_0_over_0) {
   EXPECT_EQ(elevation_response(ElevationShape::line, 0.3, 0), 1);
   EXPECT_NEAR(elevation_response(ElevationShape::line, 0.3, 1e-12), 1, 1e-12);
   for (const std::size_t n : {1UL, 2UL, 3UL, 8UL, 101UL})  // x = 2 pi k: the limit is (-1)^(k (N-1))
@@ -129,7 +129,7 @@ TEST(ExtremeCase, n40_everything_in_one_place_adds_up) {
     EXPECT_TRUE(same(synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = threads}), one));
 }
 
-TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_heard) {
+TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_received) {
   SceneCloud scene;
   for (int i = 0; i < 5000; ++i) add_surfel(scene, {5, 0.5, 0.1}, Eigen::Vector3d(-5, -0.5, -0.1).normalized(), 1e-2);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {

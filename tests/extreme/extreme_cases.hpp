@@ -95,7 +95,7 @@ inline double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
   return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
 }
 
-/// Everything a ping hands out is a number.
+/// Expects that all outputs of a ping are finite numbers.
 inline bool all_finite(const SimulatedPing& p) {
   bool finite = p.ping.pressure.isFinite().all() && level_db(p.ping).isFinite().all();
   finite = finite && std::isfinite(p.noise_floor_db) && std::isfinite(p.medium.sound_speed);

@@ -70,7 +70,7 @@ TEST(ExtremeCase, n04_n05_n06_scene_in_memory_with_unusable_points_or_normals_is
   refused([&](SceneCloud& s) { s.area[8] = nan; }, {"scene.area[8] = nan m^2", "finite"});
 }
 
-TEST(ExtremeCase, n07_point_at_the_head_itself_is_not_heard_and_hides_nothing) {
+TEST(ExtremeCase, n07_point_at_the_head_itself_gives_no_echo_and_hides_nothing) {
   SceneCloud scene = plate(5, 2, 20);
   const ComplexGrid alone = image(ping_of(scene));
   add_surfel(scene, {0, 0, 0}, {-1, 0, 0}, 0.01);
@@ -80,7 +80,7 @@ TEST(ExtremeCase, n07_point_at_the_head_itself_is_not_heard_and_hides_nothing) {
 }
 
 // The gate begins at 1 m, and a pulse is 5 cm long at most.
-TEST(ExtremeCase, n08_points_nearer_than_the_gate_are_not_heard_and_overflow_nothing) {
+TEST(ExtremeCase, n08_points_nearer_than_the_gate_give_no_echo_and_overflow_nothing) {
   for (const double r : {1e-30, 1e-7, 1e-6, 1e-3, 0.5, 0.95}) {
     const SimulatedPing p = ping_of(one_surfel({r, 0, 0}, {-1, 0, 0}, 1e-6));
     EXPECT_TRUE(all_finite(p)) << r;
@@ -146,24 +146,24 @@ TEST(ExtremeCase, n16_copies_of_a_point_add_amplitudes_if_coherent_and_powers_if
   EXPECT_NEAR(power / std::pow(peak(ping_of(copies(1), coherent)), 2), 7, 7 * 0.15);
 }
 
-TEST(ExtremeCase, n30_abeam_is_heard_and_astern_is_behind_the_baffle) {
+TEST(ExtremeCase, n30_abeam_is_received_and_astern_is_behind_the_baffle) {
   SonarSpec s = small_sonar();
   s.beams = 5;
   s.azimuths = {-pi / 2, -pi / 4, 0, pi / 4, pi / 2};
-  const auto level_at = [&](double azimuth) {
+  const auto ping_from = [&](double azimuth) {
     const Eigen::Vector3d u = unit_vector({azimuth, 0});
     return ping_of(one_surfel(5 * u, -u), coherent, s);
   };
   for (const double side : {-1.0, 1.0}) {
-    const SimulatedPing abeam = level_at(side * pi / 2);
+    const SimulatedPing abeam = ping_from(side * pi / 2);
     EXPECT_TRUE(all_finite(abeam));
     Eigen::Index beam, bin;
     image(abeam).abs().maxCoeff(&beam, &bin);
     EXPECT_EQ(beam, side > 0 ? 4 : 0);
-    EXPECT_NEAR(peak(abeam), peak(level_at(0)), 1e-3 * peak(abeam));
-    EXPECT_EQ(peak(level_at(side * 0.75 * pi)), 0);  // its mirror image at 45 degrees would be heard
+    EXPECT_NEAR(peak(abeam), peak(ping_from(0)), 1e-3 * peak(abeam));
+    EXPECT_EQ(peak(ping_from(side * 0.75 * pi)), 0);  // its mirror image at 45 degrees would be received
   }
-  EXPECT_EQ(peak(level_at(pi)), 0);
+  EXPECT_EQ(peak(ping_from(pi)), 0);
   s.azimuths[0] = -3.2;
   expect_refused(ErrorKind::argument, {"azimuth[0] = -3.2 rad", "within +-pi"}, [&] { make_head(s, 1500); });
 }

@@ -28,7 +28,7 @@ SonarHead modest_head() {
   return make_head(s, sound);
 }
 
-/// Echoes number [first, last) of one endless random crowd.
+/// Echoes [first, last) of an unlimited random sequence.
 Echoes crowd(const SonarHead& head, std::size_t first, std::size_t last) {
   Echoes e;
   e.delay.resize(last - first), e.u.resize(last - first), e.amplitude.resize(last - first);
@@ -62,7 +62,7 @@ TEST(ExtremeCase, ten_million_echoes_take_no_more_memory_than_lists_image_and_ti
     const double before = memory.mib();
     whole = plan.pressure(all);
     const double lists = 4 * 1.25 * static_cast<double>(many), image = 16.0 * static_cast<double>(whole.size());
-    const double tiles = 2 * plan.choice().bytes_per_thread * 2;  // twice: what is put aside, and room for samples
+    const double tiles = 2 * plan.choice().bytes_per_thread * 2;  // twice: flushed sums, and pulse samples
     const double bound = (lists + image + tiles) / 0x1p20 + 8;
     if (!sanitized) {
       EXPECT_LE(memory.mib() - before, bound);
@@ -77,8 +77,8 @@ TEST(ExtremeCase, ten_million_echoes_take_no_more_memory_than_lists_image_and_ti
   EXPECT_LE(relative_l2(whole, sum), 2 * tolerance);
 }
 
-// A million echoes of one bin at 48 places: the direct sum over the places, each with all that stands there.
-TEST(ExtremeCase, a_million_echoes_in_one_bin_keep_the_promise_in_single_precision) {
+// A million echoes of one bin at 48 positions: direct sum over the positions with the sum of their amplitudes.
+TEST(ExtremeCase, a_million_echoes_in_one_bin_keep_the_tolerance_in_single_precision) {
   constexpr std::size_t count = sanitized ? 50000 : 1000000, places = 48;
   const SonarHead head = modest_head();
   Medium medium;

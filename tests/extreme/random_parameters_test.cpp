@@ -120,7 +120,7 @@ struct Tally {
 
 TEST(RandomParameters, every_ping_is_finite_or_refused) {
   Tally tally;
-  int heard = 0;
+  int received = 0;
   for (std::uint64_t c = 0; c < 6000; ++c)
     tally.add(outcome_of(c, [&] {
       Draw draw(c);
@@ -132,13 +132,13 @@ TEST(RandomParameters, every_ping_is_finite_or_refused) {
       const Pose pose =
           pose_from_yaw_pitch_roll({0, 0, 0}, draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-4, 4));
       const SimulatedPing p = simulate_ping(scene, head, pose, {water}, options);
-      heard += p.ping.pressure.abs().maxCoeff() > 0;
+      received += p.ping.pressure.abs().maxCoeff() > 0;
       return all_finite(p);
     }));
   // The ranges are not so wide that nothing works, nor so narrow that nothing is refused.
   EXPECT_GT(tally.finite, 500);
   EXPECT_GT(tally.refused, 100);
-  EXPECT_GT(heard, 200);
+  EXPECT_GT(received, 200);
 }
 
 TEST(RandomParameters, gridded_synthesis_keeps_its_tolerance_against_the_referee_or_is_refused) {
@@ -161,7 +161,7 @@ TEST(RandomParameters, gridded_synthesis_keeps_its_tolerance_against_the_referee
       const ComplexGrid slow = synthesize_direct(echoes, head, medium);
       const ComplexGrid fast = synthesize_gridded(echoes, head, medium, {.tolerance = tolerance});
       const double size = std::sqrt(slow.abs2().sum());
-      // Beams that look past all echoes hold little but cancelled terms: the error is measured against the echoes.
+      // Beams away from all echoes contain little but cancelled terms: the error is relative to the echoes.
       // Delays are rounded to 1e-16 of themselves, which counts against the pulse's length.
       double incoherent = 0, rounding = 1e-11;
       for (std::size_t i = 0; i < count; ++i)

@@ -37,7 +37,7 @@ TEST(ExtremeCase, n10_n11_the_gate_cuts_an_echo_at_its_edges_but_does_not_change
   }
 }
 
-TEST(ExtremeCase, n10_n11_points_exactly_at_the_edges_of_the_gate_are_heard_and_found) {
+TEST(ExtremeCase, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_and_detected) {
   for (const double r : {1.0, 12.0}) {
     SceneCloud scene;
     add_surfel(scene, {r, 0, 0}, {-1, 0, 0}, 0.01);
@@ -49,7 +49,7 @@ TEST(ExtremeCase, n10_n11_points_exactly_at_the_edges_of_the_gate_are_heard_and_
     ASSERT_EQ(p.scatterers.size(), 1U) << r << " m";
     ASSERT_EQ(p.soundings.size(), 1U) << r << " m";
     EXPECT_NEAR(p.soundings.range[0], r, 0.011);
-    // Just outside: the end of its pulse is heard still; beyond that nothing.
+    // Just outside: the end of its pulse is still received; farther away nothing is.
     scene.point[0].x() = static_cast<float>(r < 2 ? r - 0.02 : r + 0.02);
     const double tail = image(ping_of(scene, {.amplitude = SurfaceAmplitude::coherent}, s)).abs().maxCoeff();
     EXPECT_GT(tail, 0) << r << " m";

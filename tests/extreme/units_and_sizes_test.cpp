@@ -86,9 +86,8 @@ std::string room(double unit) {
 
 }  // namespace
 
-// A ping holds what it works on: 34 bytes per surfel of the scene, and the arrays of the surfels in view. That grows
-// with their number and no faster: 120 bytes per surfel when this was written. What this does not show is a scene larger
-// than memory: nothing is streamed.
+// A ping needs 34 bytes per surfel of the scene and the arrays of the surfels in view, which grow linearly with their
+// number: 120 bytes per surfel when this was written. Scenes larger than memory are not covered here.
 TEST(ExtremeCase, n15_memory_grows_with_the_points_in_view_and_no_faster) {
   if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   constexpr double bytes_per_surfel = 250;
@@ -98,9 +97,9 @@ TEST(ExtremeCase, n15_memory_grows_with_the_points_in_view_and_no_faster) {
   RecordProperty("bytes_per_surfel", std::to_string(full / (1414 * 1414)));
 }
 
-// Points that neither lie in the gate nor can hide what does are let go at once: two million of them beyond the gate
-// cost a ping of one small plate no more than it takes to sort them into blocks (two keys of 8 bytes each), and change no
-// bit of it.
+// Points that are neither in the gate nor can occlude it are discarded at once: two million of them beyond the gate
+// cost a ping of one small plate no more than sorting them into blocks (two keys of 8 bytes each), and do not change a
+// bit of the result.
 TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
   if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   const SceneCloud near = plate(6, 1, 30);
@@ -123,7 +122,7 @@ TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
 
 // A Gaussian spectrum cut off at +-Bs/2 loses erfc(sqrt(2 ln2) Bs / 2B) of its peak: -24.6 dB for the band that the
 // default bins can hold (Bs = 2.27 B), -38 dB at 3 B. The spectrum form takes 10 B whatever the bins: e^-34.
-TEST(ExtremeCase, n22_spectrum_is_taken_so_wide_that_its_cut_is_not_heard) {
+TEST(ExtremeCase, n22_spectrum_is_so_wide_that_its_truncation_is_negligible) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const auto lost_db = [](double band) {
     return db_from_amplitude(std::erfc(std::sqrt(2 * std::log(2)) * 0.5 * band));
@@ -142,7 +141,7 @@ TEST(ExtremeCase, n22_spectrum_is_taken_so_wide_that_its_cut_is_not_heard) {
   }
 }
 
-// No range side lobes stand between two targets: there the spectrum form is as silent as the pulse itself.
+// No range side lobes between two targets: the spectrum form is as silent there as the pulse itself.
 TEST(ExtremeCase, n22_nothing_rings_between_two_echoes) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const SonarHead head = single_beam(pulse, 4, 6);
@@ -188,7 +187,7 @@ TEST(ExtremeCase, n37_values_in_other_units_are_refused_with_the_unit_wanted) {
 
 // 2 m/s towards a patch at 30 m, 900 kHz, 1500 m/s: carrier up by 2 v f / (c - v) = 2403 Hz, range short by v / (c + v)
 // of itself, 40 mm.
-TEST(ExtremeCase, n44_head_that_closes_in_at_2_m_per_s_hears_2403_hz_more_and_40_mm_less) {
+TEST(ExtremeCase, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_40_mm_less) {
   const double r = 30, v = 2, c = 1500;
   SceneCloud scene;
   scene.origin = {r, 0, 0};

@@ -1,4 +1,4 @@
-// A flat Lambert bottom, and what the materials that ship with insonify say of real ones.
+// A flat Lambert bottom, and the materials that ship with insonify against handbook values.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Detection in noise: how often it errs. Bins are longer than the pulse here and beams stand in each other's nulls, so
-// that samples are independent; seeds are fixed, tolerances are multiples of the binomial standard error.
+// Error rates of detection in noise. Bins are longer than the pulse and beams are in each other's nulls, so samples are
+// independent; seeds are fixed, tolerances are multiples of the binomial standard error.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ Ping noise_ping(const SonarHead& head, const ComplexGrid& signal, std::int64_t n
   return ping;
 }
 
-/// Silent patches in every bin of every beam: a detection needs something that it may be.
+/// Silent patches in every bin of every beam: a detection needs a candidate scatterer.
 struct Contributors {
   Scatterers scatterers;
   Echoes echoes;
@@ -83,8 +83,8 @@ TEST(DetectionLaws, thresholds_of_exponential_noise_are_8_39_9_64_and_11_40_db) 
   EXPECT_NEAR(DetectionOptions{}.threshold_db, threshold_db(1e-6), 0.005);
 }
 
-// Samples above the threshold: Pfa of them. A local maximum must also beat both neighbours, which takes one in
-// ln(1 / Pfa) / (1 / Pfa) off, less than 1 % here.
+// The fraction Pfa of the samples is above the threshold. A local maximum must also exceed both neighbours, which
+// removes ln(1 / Pfa) Pfa of them, less than 1 % here.
 TEST(DetectionLaws, false_alarms_come_at_the_rate_of_their_threshold) {
   const double samples = 4.0 * beams * bins;
   for (const double rate : {1e-2, 1e-3, 1e-4}) {

@@ -1,4 +1,4 @@
-// Echoes by way of surface and bottom: the images of one target, through the layers of a whole ping.
+// Echoes by way of surface and bottom: images of one target in the layers of a ping.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ using namespace insonify::laws;
 
 namespace {
 
-/// One patch 20 m away and 3 m deep, heard from 2 m of depth in water 10 m deep at 1500 m/s.
+/// One patch 20 m away and 3 m deep, received at 2 m depth in water 10 m deep at 1500 m/s.
 SimulatedPing ping_of_one_patch(const Environment& environment) {
   SceneCloud scene;
   scene.materials = {{"patch", 0.1}};
@@ -83,8 +83,8 @@ TEST(MultipathLaws, images_of_one_patch_stand_at_their_ranges_with_their_levels)
   }
 }
 
-// Off a surface of rms height h every bounce fades by exp(-2 (k h sin g)^2), and the direct echo not at all.
-TEST(MultipathLaws, rough_surface_takes_eckarts_loss_off_every_bounce) {
+// A surface of rms height h attenuates every bounce by exp(-2 (k h sin g)^2), and the direct echo not at all.
+TEST(MultipathLaws, rough_surface_applies_eckarts_loss_to_every_bounce) {
   Environment environment = shallow_water();
   environment.bottom.reset();
   environment.surface->rms_height = 0;

@@ -22,7 +22,7 @@ inline Medium clear_water() { return {speed, {}}; }
 /// A uniform half-wavelength array of 101 elements, 50.5 wavelengths long: 1 degree wide at broadside.
 inline LineArray one_degree_array() { return {wavelength / 2, std::vector<double>(101, 1.0)}; }
 
-/// Listens with `array` along these azimuths [rad]; patches up to 6 degrees beside them are insonified, beyond which a
+/// A head with `array` and beams at these azimuths [rad]; patches up to 6 degrees beside them are insonified, beyond which a
 /// uniform beam has less than 2 % of its energy.
 inline SonarHead head_with(const LineArray& array, const std::vector<double>& azimuths, double bandwidth,
                            const RangeGate& gate) {
@@ -44,7 +44,7 @@ inline SonarHead single_hydrophone(double max_range) {
   return head_with({wavelength / 2, {1.0}}, {0}, bandwidth, {10 - bin / 2, max_range, bin});
 }
 
-/// Groups of patches, each group at one range far from the others, so that one bin hears one group.
+/// Groups of patches, each group at one range far from the others, so one bin receives one group.
 struct Groups {
   SonarHead head;
   Scatterers scatterers;
@@ -52,7 +52,7 @@ struct Groups {
   std::vector<double> patch_power;  ///< mean intensity of one patch in that bin [Pa^2]
 };
 
-/// number[g] patches in group g, all alike and at one place. `first_id` makes groups of several calls different.
+/// number[g] patches in group g, all alike and at one place. `first_id` distinguishes the groups of several calls.
 inline Groups make_groups(const std::vector<int>& number, std::uint64_t first_id = 0) {
   constexpr int bins_apart = 8;  // 8 pulse lengths: the envelope is below 1e-70
   Groups groups;
@@ -79,18 +79,19 @@ inline Groups make_groups(const std::vector<int>& number, std::uint64_t first_id
 }
 
 /// Complex pressure of every group in units of one patch's rms.
-inline std::vector<Complex> trace_groups(const Groups& groups, const EchoOptions& options,
-                                         double coherent_fraction = 0) {
+inline std::vector<Complex> pressure_of_groups(const Groups& groups, const EchoOptions& options,
+                                               double coherent_fraction = 0) {
   const std::vector<Material> materials{{"patch", 1.0, coherent_fraction, 0}};
   const Echoes echoes = direct_echoes(groups.scatterers, materials, groups.head.pulse, clear_water(), options);
   const ComplexGrid pressure = synthesize_gridded(echoes, groups.head, clear_water());
-  std::vector<Complex> heard;
+  std::vector<Complex> pressures;
   for (std::size_t g = 0; g < groups.bin.size(); ++g) {
-    // The carrier's phase is known: taken off, a coherent patch is real and positive.
+    // Without the known phase of the carrier a coherent patch is real and positive.
     const double cycles = reduced_cycles(2 / wavelength * groups.head.gate.centre(g * 8));
-    heard.push_back(pressure(0, groups.bin[g]) * std::polar(1 / std::sqrt(groups.patch_power[g]), -2 * pi * cycles));
+    pressures.push_back(pressure(0, groups.bin[g]) *
+                        std::polar(1 / std::sqrt(groups.patch_power[g]), -2 * pi * cycles));
   }
-  return heard;
+  return pressures;
 }
 
 /// Means of the intensity and of its square, of the amplitude, and of level and its square in dB.

@@ -1,4 +1,4 @@
-// Second-order laws of speckle: how alike neighbouring beams and neighbouring places of the head are.
+// Second-order laws of speckle: correlation between neighbouring beams and between neighbouring poses of the head.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -43,11 +43,11 @@ std::vector<ComplexGrid> bottom_echoes_at(const Pose& world_from_head) {
   const SceneCloud scene = flat_bottom();
   const SonarHead head = forward_head();
   const Scatterers s = visible(scene, head, world_from_head);
-  std::vector<ComplexGrid> heard;
+  std::vector<ComplexGrid> images;
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
-    heard.push_back(synthesize_gridded(direct_echoes(s, scene.materials, head.pulse, clear_water(), {.seed = seed}),
-                                       head, clear_water()));
-  return heard;
+    images.push_back(synthesize_gridded(direct_echoes(s, scene.materials, head.pulse, clear_water(), {.seed = seed}),
+                                        head, clear_water()));
+  return images;
 }
 
 /// Correlation of the speckle ahead of a head at rest with that of one `sideways` [m] to port and turned: 3 beams, 56
@@ -118,7 +118,7 @@ TEST(SpeckleLaws, correlation_falls_in_a_straight_line_with_sideways_displacemen
 }
 
 // A turn by the angle a moves a patch at elevation e by cos(e) a in u. At 8 m and 3 m below, cos(e) = 0.927.
-TEST(SpeckleLaws, speckle_is_another_once_the_head_has_turned_by_a_beam) {
+TEST(SpeckleLaws, speckle_decorrelates_when_the_head_turns_by_a_beam) {
   for (const double turn_deg : {0.25, 0.5, 1.0, 3.0}) {
     const double expected = sinc(array_length * 0.927 * std::sin(radians(turn_deg)));
     const Complex measured = correlation_with(moved(0, turn_deg), 0);

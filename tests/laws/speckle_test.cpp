@@ -1,5 +1,5 @@
-// First-order laws of speckle: what single pixels do over independent cells and seeds. Seeds are fixed, so that a test
-// that passes always passes; tolerances are multiples of the standard error stated beside them.
+// First-order laws of speckle: statistics of single pixels over independent cells and seeds. Seeds are fixed, so
+// results are reproducible; tolerances are multiples of the standard error stated beside them.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@ using namespace insonify::laws;
 
 namespace {
 
-/// Beams one null width apart and bins four pulse lengths apart hear different parts of the bottom.
+/// Beams one null width apart and bins four pulse lengths apart receive different parts of the bottom.
 SonarHead bottom_head() {
   std::vector<double> azimuths;
   for (int b = -3; b <= 3; ++b) azimuths.push_back(std::asin(b * 2.0 / 101));
@@ -103,7 +103,7 @@ TEST(SpeckleLaws, a_flat_lambert_bottom_has_rayleigh_amplitudes_and_exponential_
   ASSERT_GT(n, 8000);
   EXPECT_LT(distance_from_exponential(sample), 1.358 / std::sqrt(n));
   std::vector<double> louder = sample;
-  for (double& i : louder) i *= 1.1;  // 0.4 dB too loud: the test would see it
+  for (double& i : louder) i *= 1.1;  // 0.4 dB too loud: the test detects it
   EXPECT_GT(distance_from_exponential(louder), 1.95 / std::sqrt(n));
 }
 
@@ -127,7 +127,7 @@ TEST(SpeckleLaws, fixed_numbers_of_equal_patches_with_random_phases_have_2_less_
     options.amplitude = SurfaceAmplitude::random_phase;
     const Groups groups = make_groups(std::vector<int>(5000, n));
     for (options.seed = 1; options.seed <= 4; ++options.seed)
-      for (const Complex p : trace_groups(groups, options)) m.add(p);
+      for (const Complex p : pressure_of_groups(groups, options)) m.add(p);
     // The square's standard deviation is at most sqrt(20), that of the exponential law: 20 000 groups, three errors.
     EXPECT_NEAR(m.intensity / m.n, n, 3 * n / std::sqrt(m.n));
     EXPECT_NEAR(m.square_ratio(), 2 - 1.0 / n, n == 1 ? 1e-3 : 0.1) << n << " patches";
@@ -138,7 +138,7 @@ TEST(SpeckleLaws, complex_normal_amplitudes_are_rayleigh_even_from_a_single_patc
   std::vector<double> sample;
   EchoOptions options;
   const Groups groups = make_groups(std::vector<int>(5000, 1));
-  for (const Complex p : trace_groups(groups, options)) sample.push_back(std::norm(p));
+  for (const Complex p : pressure_of_groups(groups, options)) sample.push_back(std::norm(p));
   EXPECT_LT(distance_from_exponential(sample), 1.358 / std::sqrt(static_cast<double>(sample.size())));
 }
 
@@ -151,7 +151,7 @@ TEST(SpeckleLaws, poisson_numbers_of_patches_have_2_times_1_plus_1_over_their_me
     Moments m;
     for (unsigned look = 0; look < 5; ++look) {
       const Groups groups = make_groups(poisson_numbers(mean, 8000, 40 + look));
-      for (const Complex p : trace_groups(groups, {.seed = 1 + look})) m.add(p);
+      for (const Complex p : pressure_of_groups(groups, {.seed = 1 + look})) m.add(p);
     }
     const double fourth = 24 * (mean + 7 * std::pow(mean, 2) + 6 * std::pow(mean, 3) + std::pow(mean, 4));
     const double square = 2 * (mean + mean * mean), error = std::sqrt((fourth - square * square) / m.n) / square;
@@ -169,7 +169,7 @@ TEST(SpeckleLaws, rician_fraction_sets_mean_field_and_square_at_constant_power) 
     EchoOptions options;
     const Groups groups = make_groups(std::vector<int>(5000, 1));
     for (options.seed = 1; options.seed <= 4; ++options.seed)
-      for (const Complex p : trace_groups(groups, options, g)) m.add(p);
+      for (const Complex p : pressure_of_groups(groups, options, g)) m.add(p);
     EXPECT_LT(std::abs(m.field / m.n - std::sqrt(g)), 3 * std::sqrt((1 - g) / m.n) + 1e-3) << g;
     EXPECT_NEAR(m.intensity / m.n, 1, 3 * std::sqrt((1 - g * g) / m.n) + 1e-3) << g;
     EXPECT_NEAR(m.square / m.n, 2 - g * g, 3 * std::sqrt(20 * (1 - g * g) / m.n) + 1e-3) << g;

@@ -1,4 +1,4 @@
-// Calibrated targets: what single bodies of known shape must send back.
+// Calibrated targets: echoes of single bodies of known shape.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -87,8 +87,8 @@ constexpr PlateCase plate_cases[] = {{1, -3.70}, {2, -2.60}, {5, 12.76}, {10, 14
 
 }  // namespace
 
-// sigma = 2 pi mu a^2 / 3: -21.76 dB for mu = 1 / pi and a = 0.1 m. The promise is 0.2 dB.
-TEST(TargetLaws, sphere_of_lambert_facets_is_heard_with_two_thirds_pi_mu_a_squared) {
+// sigma = 2 pi mu a^2 / 3: -21.76 dB for mu = 1 / pi and a = 0.1 m. The stated accuracy is 0.2 dB.
+TEST(TargetLaws, sphere_of_lambert_facets_has_cross_section_two_thirds_pi_mu_a_squared) {
   const double closed_form = db_from_power(2 * pi * (1 / pi) * 0.01 / 3);
   EXPECT_NEAR(closed_form, -21.76, 0.005);
   EXPECT_NEAR(sphere_strength_db(0.1, 1 / pi, 2000), closed_form, 0.2);
@@ -142,7 +142,7 @@ TEST(TargetLaws, flat_plate_of_coherent_facets_goes_from_its_image_to_its_area_o
   }
 }
 
-// Random phases know no mirror: the plate's mean level is its Lambert cross-section mu A at every range. 400 seeds of
+// With random phases there is no specular reflection: the plate's mean level is its Lambert cross-section mu A at every range. 400 seeds of
 // an exponential intensity: 5 % or 0.2 dB, three of which are 0.65 dB.
 TEST(TargetLaws, flat_plate_of_random_amplitudes_has_the_level_of_its_area_at_every_range) {
   for (const double range : {1.0, 10.0}) {

@@ -23,7 +23,7 @@ TEST(CompareImages, finds_no_difference_between_equals) {
   EXPECT_NEAR(d.correlation, 1, 1e-12);
 }
 
-TEST(CompareImages, tells_gain_from_decorrelation) {
+TEST(CompareImages, distinguishes_gain_from_decorrelation) {
   const ImageDifference gain = compare_images(2 * speckle(1), speckle(1));
   EXPECT_NEAR(gain.mean_level_db, 6.0206, 1e-4);
   EXPECT_NEAR(gain.max_level_db, 6.0206, 1e-4);
@@ -35,7 +35,7 @@ TEST(CompareImages, tells_gain_from_decorrelation) {
   EXPECT_NEAR(other.mean_level_db, 0, 0.5);
 }
 
-TEST(CompareImages, refuses_what_cannot_be_compared) {
+TEST(CompareImages, refuses_images_that_cannot_be_compared) {
   EXPECT_THROW(compare_images(speckle(1), ComplexGrid::Zero(3, 3)), Error);
   EXPECT_THROW(compare_images(speckle(1), ComplexGrid::Zero(40, 50)), Error);
 }

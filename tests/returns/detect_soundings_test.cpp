@@ -72,7 +72,7 @@ TEST(DetectSoundings, stays_silent_below_the_noise_floor_and_its_threshold) {
   EXPECT_EQ(scene.detect({.noise_floor_db = 89}).size(), 0U);  // 100 < 89 + 11.4
 }
 
-TEST(DetectSoundings, takes_side_lobes_for_what_they_are) {
+TEST(DetectSoundings, rejects_side_lobes) {
   Scene scene;
   scene.mark(1, 25, 74);  // leakage at the range of the target in beam 2, 26 dB down
   scene.add(3.05, radians(-10), 0, 1);
@@ -80,20 +80,20 @@ TEST(DetectSoundings, takes_side_lobes_for_what_they_are) {
   EXPECT_EQ(scene.detect({.noise_floor_db = 40, .side_lobe_margin_db = 30}).size(), 3U);
 }
 
-TEST(DetectSoundings, gives_no_point_where_nothing_lies_in_the_beam) {
+TEST(DetectSoundings, gives_no_point_without_a_scatterer_in_the_beam) {
   Scene scene;
   scene.mark(0, 80, 100);  // no scatterer there
   EXPECT_EQ(scene.detect().size(), 2U);
 }
 
-// Beams 10 degrees wide and 2 degrees apart: both hear both scatterers, but each names its own.
+// Beams 10 degrees wide and 2 degrees apart: both receive both scatterers, but each reports its own.
 TEST(DetectSoundings, lets_neighbouring_beams_name_their_own_scatterers) {
   Scene scene;
   scene.ping.fan = make_fan(5, radians(10), radians(10), radians(40));  // 2 degrees apart
   scene.ping.pressure.setZero();
   scene.mark(2, 25, 100);
   scene.mark(3, 25, 99);
-  scene.add(3.05, scene.ping.fan.azimuth[3], 0, 6);  // beside the one ahead at the same range, and weaker
+  scene.add(3.05, scene.ping.fan.azimuth[3], 0, 6);  // next to the one ahead at the same range, and weaker
   scene.echoes.amplitude.back() = 0.5;
   const Soundings s = scene.detect();
   ASSERT_EQ(s.size(), 2U);
@@ -101,8 +101,8 @@ TEST(DetectSoundings, lets_neighbouring_beams_name_their_own_scatterers) {
   EXPECT_EQ(s.material[1], 6U);
 }
 
-// A line array hears cones: a beam steered up or down looks at cos(elevation) sin(azimuth).
-TEST(DetectSoundings, look_along_the_cone_of_a_beam_below_the_horizon) {
+// A line array receives from cones: a beam steered up or down is at u = cos(elevation) sin(azimuth).
+TEST(DetectSoundings, searches_along_the_cone_of_a_beam_below_the_horizon) {
   Scene scene;
   scene.ping.fan = make_fan(5, radians(50), radians(2), radians(40), radians(-30));
   scene.ping.pressure.setZero();
@@ -112,7 +112,7 @@ TEST(DetectSoundings, look_along_the_cone_of_a_beam_below_the_horizon) {
   EXPECT_EQ(scene.detect().size(), 1U);
 }
 
-// Two rows of a planar array, 4 degrees apart, and a target in each at one range and bearing: each row names its own.
+// Two rows of a planar array, 4 degrees apart, and a target in each at one range and bearing: each row reports its own.
 TEST(DetectSoundings, of_a_planar_array_name_scatterers_of_their_own_row) {
   Scene scene;
   scene.ping.fan = {{0, 0}, {radians(-2), radians(2)}, radians(2), radians(40), radians(2)};

@@ -29,7 +29,7 @@ SonarHead small_head() {
 }
 
 /// Echoes of surfels, put together by hand.
-struct Heard {
+struct SurfelSet {
   SceneCloud scene;
   Echoes echoes;
   std::vector<std::uint32_t> surfel;
@@ -55,31 +55,31 @@ struct Heard {
   }
 };
 
-/// Surfels of some parts all over the fan and a little beyond, some heard by a bounce too, in no order; `size` in radians.
-Heard random_echoes(unsigned seed, bool doppler = false, int surfels = 60, int parts = 5, double size = 0.02) {
+/// Surfels of several parts over the fan and a little beyond, some with bounced paths, in random order; `size` [rad].
+SurfelSet random_echoes(unsigned seed, bool doppler = false, int surfels = 60, int parts = 5, double size = 0.02) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> even(-1, 1);
   std::normal_distribution<double> normal;
-  Heard heard;
-  for (int s = 0; s < surfels; ++s) heard.add_surfel();
+  SurfelSet set;
+  for (int s = 0; s < surfels; ++s) set.add_surfel();
   for (int p = 0; p < parts; ++p)
-    for (std::uint32_t s = 0; s < heard.scene.size(); ++s) {
+    for (std::uint32_t s = 0; s < set.scene.size(); ++s) {
       std::mt19937 own(seed + s);
       const double range = 3 + 1.1 * even(own), azimuth = 0.4 * even(own), elevation = 0.2 * even(own);
-      heard.add(s, range + 0.01 * even(random), azimuth + size * even(random), elevation + size * even(random),
-                {normal(random), normal(random)});
-      if (s % 4 == 0) heard.add(s, range + 0.02, azimuth, 0.3, {normal(random), 0}, {0, 1});
-      if (s % 8 == 0) heard.add(s, range + 0.04, azimuth, 0.3, {normal(random), 0}, {1, 1});
+      set.add(s, range + 0.01 * even(random), azimuth + size * even(random), elevation + size * even(random),
+              {normal(random), normal(random)});
+      if (s % 4 == 0) set.add(s, range + 0.02, azimuth, 0.3, {normal(random), 0}, {0, 1});
+      if (s % 8 == 0) set.add(s, range + 0.04, azimuth, 0.3, {normal(random), 0}, {1, 1});
     }
   if (doppler)
-    for (std::size_t i = 0; i < heard.echoes.size(); ++i) heard.echoes.doppler.push_back(300 * even(random));
-  return heard;
+    for (std::size_t i = 0; i < set.echoes.size(); ++i) set.echoes.doppler.push_back(300 * even(random));
+  return set;
 }
 
 using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t>;
 
-/// The referee: every echo against every pixel, with the whole pulse and the array summed element by element (E63).
-std::map<Key, double> energies_at(const Heard& h, const SonarHead& head, std::size_t beam, std::size_t bin) {
+/// Reference: every echo in every pixel, with the whole pulse and the array summed element by element (E63).
+std::map<Key, double> energies_at(const SurfelSet& h, const SonarHead& head, std::size_t beam, std::size_t bin) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   const double u_beam = std::cos(head.fan.elevation[beam]) * std::sin(head.fan.azimuth[beam]);
   const bool rows = head.column || fan_rows(head.fan).size() > 1;
@@ -97,15 +97,15 @@ std::map<Key, double> energies_at(const Heard& h, const SonarHead& head, std::si
   return energies;
 }
 
-/// Compares every listed contributor of every pixel with the referee. The floor takes parts of contributors away: -120 dB
-/// of peaks that are at most some 10^2 in energy.
-void expect_as_referee(const Heard& heard, const SonarHead& head) {
+/// Compares every listed contributor of every pixel with the reference. The floor of -120 dB omits parts of
+/// contributors of at most some 10^2 in energy.
+void expect_as_referee(const SurfelSet& set, const SonarHead& head) {
   const ContributorOptions options{.per_pixel = 3, .floor_db = -120};
-  const Contributors c = heard.find(head, options);
+  const Contributors c = set.find(head, options);
   std::size_t checked = 0;
   for (std::size_t b = 0; b < c.beams; ++b)
     for (std::size_t n = 0; n < c.bins; n += 3) {
-      const auto energies = energies_at(heard, head, b, n);
+      const auto energies = energies_at(set, head, b, n);
       double total = 0;
       std::vector<std::pair<double, Key>> sorted;
       for (const auto& [key, energy] : energies) total += energy, sorted.emplace_back(energy, key);
@@ -144,7 +144,7 @@ TEST(FindContributors, agrees_with_every_echo_against_every_pixel) {
   for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_echoes(seed), small_head());
 }
 
-// So many parts so close together that a few directions stand for all of them.
+// Many parts close together, represented by a few directions.
 TEST(FindContributors, agrees_with_the_referee_for_surfels_of_many_parts) {
   expect_as_referee(random_echoes(10, false, 25, 50, 0.003), small_head());
   SonarHead head = small_head();
@@ -172,15 +172,15 @@ TEST(FindContributors, agrees_with_the_referee_for_rows_and_for_a_planar_array) 
   expect_as_referee(random_echoes(6), head);
 }
 
-// Elements two wavelengths apart hear a grating lobe at u = 0.5, as loud as the main lobe.
-TEST(FindContributors, hears_through_a_grating_lobe) {
+// Elements two wavelengths apart have a grating lobe at u = 0.5 as high as the main lobe.
+TEST(FindContributors, includes_grating_lobes) {
   SonarHead head = small_head();
   head.array = {2 * 1500 / 600e3, std::vector<double>(16, 1.0)};
   head.fan = make_fan(1, 0, radians(3), radians(30));
-  Heard heard;
-  heard.add(heard.add_surfel(), 3, std::asin(0.5), 0, 1);
-  heard.add(heard.add_surfel(), 3, std::asin(0.25), 0, 100);  // in a null
-  const Contributors c = heard.find(head, {.floor_db = -20});
+  SurfelSet set;
+  set.add(set.add_surfel(), 3, std::asin(0.5), 0, 1);
+  set.add(set.add_surfel(), 3, std::asin(0.25), 0, 100);  // in a null
+  const Contributors c = set.find(head, {.floor_db = -20});
   EXPECT_EQ(c.surfel[c.at(0, 100)], 0U);
 }
 
@@ -202,12 +202,12 @@ TEST(FindContributors, shares_of_a_pixel_add_up_to_one_when_all_are_listed) {
   }
 }
 
-TEST(FindContributors, a_single_target_is_named_where_it_is_heard_and_nowhere_else) {
-  Heard heard;
-  heard.add_surfel();
+TEST(FindContributors, a_single_target_is_listed_where_it_contributes_and_nowhere_else) {
+  SurfelSet set;
+  set.add_surfel();
   const SonarHead head = small_head();
-  heard.add(heard.add_surfel(), 3.005, head.fan.azimuth[7], radians(-5), {0, 2});
-  const Contributors c = heard.find(head);
+  set.add(set.add_surfel(), 3.005, head.fan.azimuth[7], radians(-5), {0, 2});
+  const Contributors c = set.find(head);
   const std::size_t at = c.at(7, 100);  // its centre is 3.005 m
   EXPECT_EQ(c.surfel[at], 1U);
   EXPECT_EQ(c.id[at], 101U);
@@ -221,12 +221,12 @@ TEST(FindContributors, a_single_target_is_named_where_it_is_heard_and_nowhere_el
   EXPECT_EQ(c.material[c.at(7, 120)], Contributors::no_material);
 }
 
-// Range and bearing cannot tell them apart: this is layover.
+// Range and bearing do not distinguish them: layover.
 TEST(FindContributors, two_targets_of_one_cell_at_different_elevations_are_both_listed) {
-  Heard heard;
-  heard.add(heard.add_surfel(), 3.005, 0, radians(10), 1);
-  heard.add(heard.add_surfel(), 3.005, 0, radians(-20), {0, 2});
-  const Contributors c = heard.find(small_head());
+  SurfelSet set;
+  set.add(set.add_surfel(), 3.005, 0, radians(10), 1);
+  set.add(set.add_surfel(), 3.005, 0, radians(-20), {0, 2});
+  const Contributors c = set.find(small_head());
   const std::size_t at = c.at(5, 100);
   EXPECT_EQ(c.surfel[at], 1U);
   EXPECT_EQ(c.surfel[at + 1], 0U);
@@ -238,22 +238,22 @@ TEST(FindContributors, two_targets_of_one_cell_at_different_elevations_are_both_
 
 // Four parts of the first surfel, each weaker than the only one of the second.
 TEST(FindContributors, parts_of_a_surfel_count_together) {
-  Heard heard;
-  heard.add_surfel(), heard.add_surfel();
-  for (int p = 0; p < 4; ++p) heard.add(0, 3.005, 0, 0, std::polar(1.0, 1.5 * p));
-  heard.add(1, 3.005, 0, 0, std::sqrt(3.0));
-  const Contributors c = heard.find(small_head());
+  SurfelSet set;
+  set.add_surfel(), set.add_surfel();
+  for (int p = 0; p < 4; ++p) set.add(0, 3.005, 0, 0, std::polar(1.0, 1.5 * p));
+  set.add(1, 3.005, 0, 0, std::sqrt(3.0));
+  const Contributors c = set.find(small_head());
   EXPECT_EQ(c.surfel[c.at(5, 100)], 0U);
   EXPECT_NEAR(c.share[c.at(5, 100)], 4.0 / 7, 1e-4);
 }
 
-TEST(FindContributors, ways_of_one_surfel_are_contributors_of_their_own) {
-  Heard heard;
-  heard.add_surfel();
-  heard.add(0, 3.005, 0, 0, 3);
-  heard.add(0, 3.005, 0, radians(30), 2, {0, 1});
-  heard.add(0, 3.005, 0, radians(31), 1, {1, 1});
-  const Contributors c = heard.find(small_head());
+TEST(FindContributors, paths_of_one_surfel_are_separate_contributors) {
+  SurfelSet set;
+  set.add_surfel();
+  set.add(0, 3.005, 0, 0, 3);
+  set.add(0, 3.005, 0, radians(30), 2, {0, 1});
+  set.add(0, 3.005, 0, radians(31), 1, {1, 1});
+  const Contributors c = set.find(small_head());
   const std::size_t at = c.at(5, 100);
   EXPECT_EQ(c.path[at], PathKind::direct);
   EXPECT_EQ(c.path[at + 1], PathKind::one_bounce);
@@ -264,16 +264,16 @@ TEST(FindContributors, ways_of_one_surfel_are_contributors_of_their_own) {
 
 // A sea bed of mud to port and rock to starboard: high beams (port) show mud.
 TEST(FindContributors, label_images_put_materials_at_their_bearing) {
-  Heard heard;
+  SurfelSet set;
   for (int i = 0; i < 81; ++i)
     for (int j = 0; j < 40; ++j) {
-      const std::uint32_t s = heard.add_surfel();
+      const std::uint32_t s = set.add_surfel();
       const double azimuth = radians(0.5) * (i - 40);
-      heard.scene.material[s] = azimuth > radians(5) ? 2 : 1;
-      heard.add(s, 2.5 + 0.02 * j, azimuth, radians(-20), 1);
+      set.scene.material[s] = azimuth > radians(5) ? 2 : 1;
+      set.add(s, 2.5 + 0.02 * j, azimuth, radians(-20), 1);
     }
   SonarHead head = small_head();
-  const Contributors c = heard.find(head);
+  const Contributors c = set.find(head);
   const auto materials = material_image(c);
   const auto ids = instance_image(c);
   for (int b = 0; b < 11; ++b) {
@@ -288,40 +288,40 @@ TEST(FindContributors, label_images_put_materials_at_their_bearing) {
 }
 
 TEST(FindContributors, does_not_depend_on_threads) {
-  const Heard heard = random_echoes(8);
-  const Contributors one = heard.find(small_head(), {.threads = 1});
+  const SurfelSet set = random_echoes(8);
+  const Contributors one = set.find(small_head(), {.threads = 1});
   for (const int threads : {2, 7}) {
-    const Contributors many = heard.find(small_head(), {.threads = threads});
+    const Contributors many = set.find(small_head(), {.threads = threads});
     EXPECT_EQ(one.surfel, many.surfel);
     EXPECT_EQ(one.share, many.share);
     EXPECT_EQ(one.elevation, many.elevation);
   }
 }
 
-TEST(FindContributors, of_silence_are_none) {
-  const Contributors c = Heard().find(small_head());
+TEST(FindContributors, of_no_echoes_are_none) {
+  const Contributors c = SurfelSet().find(small_head());
   EXPECT_EQ(c.beams, 11U);
   EXPECT_EQ(c.bins, 200U);
   for (const std::uint32_t s : c.surfel) EXPECT_EQ(s, Contributors::none);
 }
 
-TEST(FindContributors, refuses_what_does_not_fit) {
-  Heard heard = random_echoes(9);
+TEST(FindContributors, refuses_invalid_arguments) {
+  SurfelSet set = random_echoes(9);
   const SonarHead head = small_head();
-  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 0}); }),
+  EXPECT_EQ(error_of([&] { set.find(head, {.per_pixel = 0}); }),
             "find_contributors: per_pixel = 0, must be within 1 and 255");
-  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 256}); }),
+  EXPECT_EQ(error_of([&] { set.find(head, {.per_pixel = 256}); }),
             "find_contributors: per_pixel = 256, must be within 1 and 255");
-  EXPECT_EQ(error_of([&] { heard.find(head, {.floor_db = 0}); }),
+  EXPECT_EQ(error_of([&] { set.find(head, {.floor_db = 0}); }),
             "find_contributors: floor_db = 0 dB, must be within -200 and 0");
   // 11 x 200 pixels x (31 x 255 + 16) bytes
-  EXPECT_EQ(error_of([&] { heard.find(head, {.per_pixel = 255, .max_mib = 10}); }),
+  EXPECT_EQ(error_of([&] { set.find(head, {.per_pixel = 255, .max_mib = 10}); }),
             "find_contributors: 11 beams x 200 bins x 255 contributors take 17 MiB, must be at most 10; keep fewer "
             "contributors, or make the range gate shorter");
-  heard.echoes.amplitude[17] = std::nan("");
-  EXPECT_NE(error_of([&] { heard.find(head); }).find("echo 17 is not finite"), std::string::npos);
-  heard.surfel[3] = 60;
-  EXPECT_EQ(error_of([&] { heard.find(head); }), "find_contributors: surfel[3] = 60, but the scene has 60");
-  heard.surfel.pop_back();
-  EXPECT_NE(error_of([&] { heard.find(head); }).find("give one of each"), std::string::npos);
+  set.echoes.amplitude[17] = std::nan("");
+  EXPECT_NE(error_of([&] { set.find(head); }).find("echo 17 is not finite"), std::string::npos);
+  set.surfel[3] = 60;
+  EXPECT_EQ(error_of([&] { set.find(head); }), "find_contributors: surfel[3] = 60, but the scene has 60");
+  set.surfel.pop_back();
+  EXPECT_NE(error_of([&] { set.find(head); }).find("give one of each"), std::string::npos);
 }

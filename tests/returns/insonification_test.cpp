@@ -85,7 +85,7 @@ TEST(Insonification, twice_the_range_costs_12_db_and_absorption) {
   EXPECT_NEAR(near - far, 40 * std::log10(2) + 2 * alpha_db * 6, 1e-4);
 }
 
-// The parts of a surfel carry its area together, whatever their number.
+// The parts of a surfel share its area, whatever their number.
 TEST(Insonification, level_does_not_depend_on_the_splitting) {
   SceneCloud scene = target_at(7);
   scene.area[0] = 0.0025F;
@@ -95,7 +95,7 @@ TEST(Insonification, level_does_not_depend_on_the_splitting) {
 }
 
 // Half a beam spacing and 15 degrees of elevation off: the fan's pattern, the cone's, and -3 dB of the elevation pattern.
-TEST(Insonification, level_off_the_axes_holds_the_patterns) {
+TEST(Insonification, level_off_the_axes_includes_the_patterns) {
   const SonarHead head = small_head();
   const double azimuth = radians(20.0 / 21), elevation = radians(15);
   const double u = std::cos(elevation) * std::sin(azimuth), u_beam = std::sin(radians(40.0 / 21));
@@ -106,7 +106,7 @@ TEST(Insonification, level_off_the_axes_holds_the_patterns) {
   EXPECT_LT(beam_db, -0.2);
 }
 
-TEST(Insonification, of_a_planar_array_holds_the_response_of_the_best_row) {
+TEST(Insonification, of_a_planar_array_includes_the_response_of_the_best_row) {
   SonarHead head = small_head();
   head.fan = {{0, 0}, {radians(-5), radians(5)}, radians(3), radians(30), radians(6)};
   head.column = array_for_beam_width(radians(6), 1500 / 600e3, Shading::uniform, 0);
@@ -117,7 +117,7 @@ TEST(Insonification, of_a_planar_array_holds_the_response_of_the_best_row) {
 }
 
 // Inclined by 60 degrees, cos^2 of incidence is -6.02 dB.
-TEST(Insonification, tells_the_grazing_angle) {
+TEST(Insonification, reports_the_grazing_angle) {
   SceneCloud scene = target_at(7);
   scene.normal[0] = Eigen::Vector3f(-0.5F, 0, std::sqrt(0.75F));
   const Insonification map = map_of(scene);
@@ -125,8 +125,8 @@ TEST(Insonification, tells_the_grazing_angle) {
   EXPECT_NEAR(map.level_db[0], sonar_equation(7) + 20 * std::log10(0.5), 1e-4);
 }
 
-// A plate hides the one behind it; a third stands beside the fan, a fourth beyond the gate.
-TEST(Insonification, what_is_hidden_or_outside_has_no_hits) {
+// A plate hides the one behind it; a third is beside the fan, a fourth beyond the gate.
+TEST(Insonification, hidden_or_outside_surfels_have_no_hits) {
   SceneCloud scene = empty_scene();
   const auto add_plate = [&](double x, double y, double half) {
     for (double b = -half; b < half + 0.01; b += 0.05)
@@ -141,7 +141,7 @@ TEST(Insonification, what_is_hidden_or_outside_has_no_hits) {
   EXPECT_GT(beside, behind);
 }
 
-TEST(Insonification, what_stands_just_beside_the_fan_is_no_hit) {
+TEST(Insonification, surfels_just_beside_the_fan_are_no_hits) {
   const SonarHead head = small_head();
   const double edge = head.fan.azimuth.back() > 0 ? head.fan.azimuth.back() : head.fan.azimuth.front();
   EXPECT_EQ(map_of(target_at(7, edge + radians(0.5))).hits[0], 1U);
@@ -162,7 +162,7 @@ TEST(Insonification, pings_accumulate_hits_and_the_best) {
   EXPECT_FLOAT_EQ(map.range[0], 6);
 }
 
-TEST(Insonification, of_another_scene_is_refused_and_left_alone) {
+TEST(Insonification, of_another_scene_is_refused_and_unchanged) {
   Insonification map = map_of(target_at(7));
   SceneCloud other = target_at(7);
   add_surfel(other, {5, 0, 0}, {-1, 0, 0}, area);

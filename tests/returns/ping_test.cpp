@@ -26,7 +26,7 @@ TEST(LevelDb, is_rms_re_1_micropascal_and_finite_for_silence) {
 }
 
 // At 2.5 m: 40 log 2.5 + 2 * 0.3 * 2.5.
-TEST(RangeCompensatedLevel, takes_spreading_and_absorption_back_and_leaves_silence) {
+TEST(RangeCompensatedLevel, compensates_spreading_and_absorption_but_not_silence) {
   const Grid<float> level = range_compensated_level_db(small_ping(), 0.3);
   EXPECT_NEAR(level(0, 1), 154.011 + 40 * std::log10(2.5) + 1.5, 0.001);
   EXPECT_EQ(level(1, 2), -200);

@@ -59,7 +59,7 @@ TEST(Quantise, has_257_steps_of_sixteen_bits_in_one_of_eight) {
   EXPECT_EQ(fine(0, 2550), 65535);
 }
 
-TEST(Quantise, comes_back_within_half_a_step) {
+TEST(Quantise, is_inverted_within_half_a_step) {
   Grid<float> levels(1, 1000);
   for (Eigen::Index n = 0; n < levels.cols(); ++n) levels(0, n) = -154.9F + 0.2549F * static_cast<float>(n);
   const auto coarse = quantise_8(levels, window);

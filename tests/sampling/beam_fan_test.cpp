@@ -45,7 +45,7 @@ TEST(Sector, is_the_fan_and_a_beam_width_on_either_side) {
   EXPECT_NEAR(s.max_elevation, 0.05, 1e-12);
 }
 
-TEST(Sector, of_a_fan_that_looks_astern_crosses_the_seam) {
+TEST(Sector, of_a_fan_that_looks_astern_crosses_pi) {
   BeamFan fan{{3.0, 3.1, -3.1, -3.0}, {0, 0, 0, 0}, 0.05, 0.3};
   const Sector s = insonified_sector(fan, 0.3);
   EXPECT_NEAR(s.min_azimuth, 2.95, 1e-12);
@@ -83,7 +83,7 @@ TEST(BeamShares, of_beams_in_a_column_share_its_elevations) {
   EXPECT_NEAR(shares[3].min_azimuth, 0.05, 1e-12);
 }
 
-// Rows whose beams stand between those of the next: every direction of the sector belongs to one beam all the same.
+// Staggered rows: every direction of the sector still belongs to exactly one beam.
 TEST(BeamShares, of_staggered_rows_and_of_tables_tile_the_whole_sector) {
   BeamFan staggered{{}, {}, 0.02, 0.02}, table = staggered;
   for (int b = 0; b < 40; ++b) {

@@ -51,13 +51,13 @@ TEST(FindHoles, marks_the_bearing_and_range_of_a_small_hole_and_nothing_else) {
   EXPECT_EQ(mask(beam, static_cast<Eigen::Index>((range - gate.min_range) / gate.bin_size)), 1);
 }
 
-TEST(FindHoles, is_not_fooled_by_what_stands_behind_the_hole) {
+TEST(FindHoles, is_unaffected_by_a_surface_behind_the_hole) {
   SceneCloud scene;
   add_pierced_wall(scene, wall, 0, 2.5 * spacing);
   const std::size_t alone = holes_in(scene).holes.size();
   add_wall(scene, 8, 5, 3, spacing);
   const Holes holes = holes_in(scene);
-  EXPECT_GE(holes.holes.size(), alone);  // a rim gives way to what stands behind it
+  EXPECT_GE(holes.holes.size(), alone);  // rays at the rim hit the surface behind
   for (const Hole& hole : holes.holes) {
     EXPECT_LT(std::hypot(hole.azimuth, hole.elevation), 2.5 * spacing / wall);
     EXPECT_NEAR(hole.max_range, wall, 0.1);
@@ -70,7 +70,7 @@ TEST(FindHoles, takes_a_wide_opening_for_open_water) {
   EXPECT_EQ(holes_in(scene).holes.size(), 0u);
 }
 
-TEST(FindHoles, has_none_in_a_dense_plane_nor_round_it_nor_where_nothing_is) {
+TEST(FindHoles, finds_none_in_or_around_a_dense_plane_or_in_empty_water) {
   SceneCloud scene;
   EXPECT_EQ(holes_in(scene).holes.size(), 0u);
   EXPECT_EQ(holes_in(scene).directions, 60u * 200u);
@@ -82,7 +82,7 @@ TEST(FindHoles, has_none_in_a_dense_plane_nor_round_it_nor_where_nothing_is) {
   EXPECT_EQ(holes_in(bottom).holes.size(), 0u);
 }
 
-TEST(FindHoles, of_a_sparse_wall_are_as_many_as_the_rays_that_find_scatterers_calls_unknown) {
+TEST(FindHoles, of_a_sparse_wall_equal_the_unknown_rays_of_find_scatterers) {
   SceneCloud scene;
   add_wall(scene, wall, 4, 3, 0.1);
   for (float& area : scene.area) area *= 0.25f;  // footprints of half the size leave gaps between them

@@ -69,7 +69,7 @@ TEST(FindScatterers, does_not_change_when_world_and_head_turn_together) {
   }
   const Scatterers a = find_scatterers(scene, pose, wide_fan(), long_gate(), unsplit()).scatterers;
   const Scatterers b = find_scatterers(turned, turn * pose, wide_fan(), long_gate(), unsplit()).scatterers;
-  // Rounding of the turned points may decide a few borderline cases otherwise.
+  // Rounding of the rotated points may change a few borderline cases.
   std::vector<double> range(scene.size(), 0.0);
   for (std::size_t i = 0; i < a.size(); ++i) range[a.surfel[i]] = a.range[i];
   std::size_t both = 0;
@@ -95,7 +95,7 @@ TEST(FindScatterers, keeps_to_sector_and_gate) {
   ASSERT_GT(s.size(), 100u);
   for (std::size_t i = 0; i < s.size(); ++i) {
     ASSERT_NEAR(s.range[i], 6, 1e-4);
-    // Outermost beams at 17.5 degrees, a beam width more on either side.
+    // Outermost beams at 17.5 degrees plus one beam width.
     ASSERT_LE(std::abs(s.azimuth[i]), radians(19.5) + 1e-9);
     ASSERT_NEAR(s.elevation[i], radians(-15), radians(4) + 1e-9);
   }

@@ -1,4 +1,4 @@
-// KD-trees, raster and prepared scenes against the plain referee: the same bytes, at another cost.
+// KD-trees, raster and prepared scenes against brute force: the same bytes at different cost.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -102,7 +102,7 @@ constexpr SamplingKind kinds[] = {SamplingKind::surfels, SamplingKind::rays};
 
 }  // namespace
 
-TEST(Projection, changes_no_byte_of_what_is_seen) {
+TEST(Projection, changes_no_byte_of_the_result) {
   for (const Place& place : places())
     for (const SamplingKind kind : kinds) {
       const auto look = [&](Projection projection) {
@@ -135,7 +135,7 @@ TEST(Projection, chosen_automatically_is_the_raster_unless_most_surfels_are_wide
     return find_scatterers(scene, Pose::Identity(), wide_fan(), long_gate(), unsplit()).report.projection;
   };
   EXPECT_EQ(used(8), Projection::raster);
-  SceneCloud thick;  // 5000 surfels, each as wide as a hand before the eye
+  SceneCloud thick;  // each with a footprint of many degrees
   add_sphere(thick, {0, 0, 0}, 1, 5000, -1);
   for (float& a : thick.area) a = 0.1f;
   const BeamFan all_round = make_fan(90, 2 * pi, radians(4), radians(100));
@@ -186,7 +186,7 @@ TEST(PreparedScene, gives_the_same_bytes_for_any_number_of_threads_and_projectio
     }
 }
 
-TEST(PreparedScene, still_refuses_what_is_wrong_with_the_ping) {
+TEST(PreparedScene, refuses_invalid_pings) {
   SceneCloud scene;
   add_wall(scene, 5, 1, 1, 0.1);
   const PreparedScene prepared(scene);
@@ -199,7 +199,7 @@ TEST(PreparedScene, still_refuses_what_is_wrong_with_the_ping) {
   EXPECT_NE(message_of([&] { find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1}); }), "no error");
 }
 
-// Lambert's cross-section without mu. Four and sixteen times as many surfels, or rays, change it by less than 0.1 dB.
+// Lambert cross-section without mu: four and sixteen times as many surfels or rays change it by less than 0.1 dB.
 TEST(Level, does_not_depend_on_density_of_points_or_rays) {
   const auto level_db = [](double spacing, const SamplingOptions& options) {
     SceneCloud scene;
@@ -230,7 +230,7 @@ TEST(Level, does_not_depend_on_density_of_points_or_rays) {
   }
 }
 
-// The same, when one cloud is thinned to a quarter and a sixteenth of its surfels.
+// The same for a cloud thinned to a quarter and a sixteenth of its surfels.
 TEST(Level, is_kept_by_thinning) {
   SceneCloud scene;
   add_rectangle(scene, {2, -6, -2}, {12, 0, 0}, {0, 12, 0}, {0, 0, 1}, 0.03, 0.5);
@@ -261,8 +261,8 @@ TEST(Report, counts_surfels_too_large_for_4096_parts) {
   EXPECT_EQ(find_scatterers(scene, Pose::Identity(), wide_fan(), long_gate(), unsplit()).report.capped, 0u);
 }
 
-// Between +-20 degrees a wall 5 m away; without one, or beside it, is open water.
-TEST(Report, tells_a_hole_in_the_scan_from_open_water) {
+// Between +-20 degrees a wall 5 m away; without a wall, or beside it, there is open water.
+TEST(Report, distinguishes_a_hole_in_the_scan_from_open_water) {
   SceneCloud scene;
   add_wall(scene, 5, 3, 3, 0.1);
   const BeamFan fan = make_fan(40, radians(40), radians(0.5), radians(15));
@@ -276,7 +276,7 @@ TEST(Report, tells_a_hole_in_the_scan_from_open_water) {
   const SamplingReport hole = look();
   EXPECT_GT(hole.rays_missed, 3u);
   EXPECT_EQ(hole.rays_unknown, hole.rays_missed);
-  punch_hole(scene, 1);  // a window: its middle is open water
+  punch_hole(scene, 1);  // a window, whose middle counts as open water
   const SamplingReport window = look();
   EXPECT_GT(window.rays_missed, 10 * hole.rays_missed);
   EXPECT_LT(window.rays_unknown, window.rays_missed / 10);
@@ -284,8 +284,8 @@ TEST(Report, tells_a_hole_in_the_scan_from_open_water) {
   EXPECT_EQ(look().rays_unknown, 0u);
 }
 
-// A part's place, put together again from range, azimuth and elevation, lies in the plane of its surfel: ahead, astern,
-// overhead, below, close and far, within rounding.
+// The position of a part, recomputed from range, azimuth and elevation, lies in the plane of its surfel to rounding:
+// ahead, astern, above, below, near and far.
 TEST(Splitting, directions_of_parts_are_good_to_1e_12) {
   SceneCloud scene;
   for (const double range : {0.3, 3.0, 50.0}) add_sphere(scene, {0, 0, 0}, range, 200, -1);

@@ -46,7 +46,7 @@ TEST(RangeGaps, do_not_depend_on_the_sense_of_the_rays_and_fill_up_with_later_on
   EXPECT_EQ(up.cells, down.cells);
   EXPECT_EQ(up.empty, 8u);
   EXPECT_EQ(down.empty, 8u);
-  // There and back again, half a gap apart: each fills the other's gaps.
+  // Two interleaved sequences of hits, half a gap apart: each fills the gaps of the other.
   EXPECT_EQ(count_range_gaps(on_a_plane({1.05, 1.25, 1.45, 1.35, 1.15}), 0.1).empty, 0u);
 }
 
@@ -97,8 +97,8 @@ TEST(RangeGaps, of_a_wall_head_on_and_of_two_walls_are_none) {
   EXPECT_EQ(c.gaps.empty, 0u);
 }
 
-// Head and scene turned and moved together, the same rays for any number of threads, and no scatterers at all.
-TEST(RangeGaps, do_not_depend_on_threads_or_on_where_the_world_begins) {
+// Head and scene moved and rotated together, several numbers of threads, and no scatterers.
+TEST(RangeGaps, do_not_depend_on_threads_or_on_the_world_origin) {
   SceneCloud scene, moved;
   add_rectangle(scene, {2, -4, 0}, {20, 0, 0}, {0, 8, 0}, {0, 0, 1}, 0.1);
   add_rectangle(moved, {-96, -4, 7}, {20, 0, 0}, {0, 8, 0}, {0, 0, 1}, 0.1);

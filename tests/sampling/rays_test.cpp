@@ -43,7 +43,7 @@ TEST(Sampling, of_an_enclosing_sphere_fills_the_solid_angle_of_the_fan) {
   }
 }
 
-TEST(Rays, meet_a_plane_where_it_is_down_to_grazing_incidence) {
+TEST(Rays, hit_a_plane_at_its_range_down_to_grazing_incidence) {
   SceneCloud scene;
   add_rectangle(scene, {0.5, -10, 0}, {40, 0, 0}, {0, 20, 0}, {0, 0, 1}, 0.08, 0.5);
   const Sampling sampling = find_scatterers(
@@ -57,7 +57,7 @@ TEST(Rays, meet_a_plane_where_it_is_down_to_grazing_incidence) {
   EXPECT_LT(error[error.size() * 99 / 100], 1e-4);
 }
 
-TEST(Rays, see_the_front_of_two_walls_and_only_that) {
+TEST(Rays, hit_only_the_nearer_of_two_walls) {
   SceneCloud scene;
   add_wall(scene, 4, 5, 3, 0.05, 0.3);
   add_wall(scene, 6, 5, 3, 0.05, 0.3);
@@ -92,7 +92,7 @@ TEST(Rays, that_meet_a_back_just_before_a_face_are_blocked) {
   EXPECT_EQ(fate({surfel(5, 0.05f, true), surfel(5.1f, 0, false)}), RayOutcome::hit);
 }
 
-TEST(Sampling, hands_on_the_material_of_each_surfel) {
+TEST(Sampling, keeps_the_material_of_each_surfel) {
   SceneCloud scene;
   add_wall(scene, 4, 5, 3, 0.1);
   scene.materials = {{.name = "mud"}, {.name = "rock"}};
@@ -116,8 +116,8 @@ TEST(Rays, meet_the_facing_side_of_a_thin_plate) {
     ASSERT_NEAR(s.range[i] * std::cos(s.elevation[i]) * std::cos(s.azimuth[i]), 4, 1e-4);
 }
 
-// A plate ends at y = 0, half a spacing beyond its outermost centres. Discs of 1.2 spacings go on; echoes must not.
-TEST(Rays, that_pass_beside_a_surface_meet_what_stands_behind) {
+// A plate ends at y = 0, half a spacing beyond its outermost centres. Its discs of 1.2 spacings extend farther; echoes must not.
+TEST(Rays, that_miss_a_surface_at_its_edge_hit_the_one_behind) {
   constexpr double spacing = 0.1;
   for (const double jitter : {0.0, 0.3}) {
     SceneCloud scene;
@@ -165,7 +165,7 @@ TEST(Rays, by_kdtree_are_those_by_brute_force) {
 }
 
 TEST(Rays, give_the_mean_cross_section_that_surfels_give) {
-  // Sum of projected area times cosine: the Lambert cross-section of what is seen, without mu.
+  // Sum of projected area times cosine: the Lambert cross-section of the visible surface, without mu.
   SceneCloud scene;
   add_rectangle(scene, {2, -8, -2}, {14, 0, 0}, {0, 16, 0}, {0, 0, 1}, 0.06, 0.5);
   add_sphere(scene, {6, 0, -1}, 0.8, 4000);

@@ -18,7 +18,7 @@ std::vector<std::uint32_t> seen_of(const std::vector<Visibility>& visibility) {
 
 }  // namespace
 
-TEST(FindVisibility, sees_what_find_scatterers_sees) {
+TEST(FindVisibility, agrees_with_find_scatterers) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
   const Pose pose = at(0, 0, -3, 0, 10);
   const BeamFan fan = make_fan(91, radians(90), radians(1), radians(20));
@@ -40,7 +40,7 @@ TEST(FindVisibility, sees_what_find_scatterers_sees) {
   }
 }
 
-TEST(FindVisibility, surfels_not_asked_about_still_block) {
+TEST(FindVisibility, surfels_not_queried_still_occlude) {
   SceneCloud scene;
   add_surfel(scene, {10, 0, 0}, {-1, 0, 0}, 1e-4);
   add_wall(scene, 5, 1, 1, 0.1);

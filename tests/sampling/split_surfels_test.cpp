@@ -32,7 +32,7 @@ Vector3d world_position(const Scatterers& s, std::size_t i, const Pose& pose) {
 
 }  // namespace
 
-TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell) {
+TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell) {
   // At 45 degrees, range 10 m: a cell is 0.02 sqrt(2) m by 0.2 m, so 1 m^2 holds 176.8 cells (E17).
   const SplitOptions options{.scatterers_per_cell = 10, .range_resolution = 0.02, .beam_width = 0.02};
   EXPECT_EQ(parts_of(1, 10, std::sqrt(0.5), options), 1768u);
@@ -43,9 +43,9 @@ TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell) {
   EXPECT_EQ(parts_of(1, 10, 0.5, {.scatterers_per_cell = 0}), 1u);
 }
 
-// A planar array at range 10 m, beams of 0.02 rad each way: its cross-section is 0.2 x 0.2 m, at 45 degrees still longer
-// than the cell; a beam only 0.005 rad high cuts the cell to a quarter.
-TEST(Splitting, puts_the_wanted_number_of_parts_in_a_cell_of_a_planar_array) {
+// A planar array at range 10 m with beams of 0.02 rad both ways: the cross-section of 0.2 x 0.2 m at 45 degrees is
+// still longer than the cell; a beam of 0.005 rad in elevation reduces the cell to a quarter.
+TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell_of_a_planar_array) {
   SplitOptions options{.scatterers_per_cell = 10, .range_resolution = 0.02, .beam_width = 0.02, .row_width = 0.02};
   EXPECT_EQ(parts_of(1, 10, std::sqrt(0.5), options), 1768u);
   EXPECT_EQ(parts_of(0.1, 10, 1, options), 25u);

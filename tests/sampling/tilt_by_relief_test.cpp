@@ -13,7 +13,7 @@ namespace {
 const BeamFan fan = make_fan(64, radians(60), radians(1), radians(40));
 const RangeGate gate{0.1, 50, 0.01};
 
-/// A plate whose normal stands `incidence` [rad] off the way to a far head, with micro-relief on it.
+/// A plate with micro-relief whose normal is `incidence` [rad] off the direction to a distant head.
 SceneCloud rough_plate(double incidence, double relief_slope, bool oriented = true) {
   SceneCloud scene;
   scene.materials = {{"smooth"}, {"rough", 0.01, 0, relief_slope}};
@@ -53,7 +53,7 @@ double mean_square_cosine(double incidence, double slope) {
 }
 
 SamplingOptions split_into(double parts) {
-  // A cell at 1000 m is 17 m wide and, at normal incidence, 28 m long: many parts to a cell are some to a surfel.
+  // A cell at 1000 m is 17 m wide and, at normal incidence, 28 m long: many parts per cell are a few per surfel.
   SamplingOptions options;
   options.scatterers_per_cell = parts;
   options.range_resolution = 0.1;
@@ -98,8 +98,8 @@ TEST(TiltByRelief, leaves_smooth_materials_to_the_last_bit) {
   EXPECT_EQ(smooth.id, rough.id);
 }
 
-// Relief belongs to the place: a part that two splittings share has one facet, from wherever it is looked at.
-TEST(TiltByRelief, gives_a_place_one_facet_for_every_splitting) {
+// Relief is fixed in the world: a part common to two splittings has the same facet, seen from any pose.
+TEST(TiltByRelief, gives_a_position_the_same_facet_for_every_splitting) {
   const SceneCloud scene = rough_plate(0.5, 0.3);
   const Scatterers coarse = seen(scene, split_into(0)), fine = seen(scene, split_into(1e5));
   ASSERT_EQ(coarse.size(), scene.size());
@@ -120,7 +120,7 @@ TEST(TiltByRelief, belongs_to_the_world_and_not_to_the_head) {
   for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(rolled.cos_incidence[i], here.cos_incidence[i], 1e-5);
 }
 
-TEST(TiltByRelief, turns_surfaces_without_sides_towards_the_head) {
+TEST(TiltByRelief, turns_unoriented_surfaces_towards_the_head) {
   const Scatterers front = seen(rough_plate(0.5, 0.3), split_into(0));
   SceneCloud turned = rough_plate(0.5, 0.3, false);
   for (auto& n : turned.normal) n = -n;
@@ -130,14 +130,14 @@ TEST(TiltByRelief, turns_surfaces_without_sides_towards_the_head) {
   for (const float cosine : back.cos_incidence) ASSERT_GE(cosine, 0.0f);
 }
 
-TEST(TiltByRelief, gives_silence_where_a_facet_looks_away) {
+TEST(TiltByRelief, gives_no_area_where_a_facet_faces_away) {
   const Scatterers s = seen(rough_plate(radians(85), 0.5), split_into(0));
   std::size_t silent = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
     ASSERT_EQ(s.cos_incidence[i] == 0, s.projected_area[i] == 0);
     silent += s.cos_incidence[i] == 0;
   }
-  // Slope along the view of standard deviation 0.35 against tan 5 degrees = 0.087: 40 % look away.
+  // Slope along the view of standard deviation 0.35 against tan 5 degrees = 0.087: 40 % face away.
   EXPECT_NEAR(static_cast<double>(silent), 0.4 * static_cast<double>(s.size()), 0.12 * static_cast<double>(s.size()));
 }
 

@@ -1,4 +1,4 @@
-// Which surfels a head sees, on scenes whose shadows are known in closed form.
+// Visibility of surfels on scenes whose shadows are known in closed form.
 #include <algorithm>
 #include <set>
 
@@ -22,7 +22,7 @@ std::vector<bool> seen(const SceneCloud& scene, const Pose& pose, const BeamFan&
 
 }  // namespace
 
-TEST(Visibility, a_plane_at_grazing_incidence_hides_nothing_of_itself) {
+TEST(Visibility, a_plane_at_grazing_incidence_does_not_hide_itself) {
   SceneCloud scene;
   add_rectangle(scene, {1, -5, 0}, {30, 0, 0}, {0, 10, 0}, {0, 0, 1}, 0.1, 0.5);
   for (const double height : {2.0, 0.3, 0.05}) {
@@ -32,7 +32,7 @@ TEST(Visibility, a_plane_at_grazing_incidence_hides_nothing_of_itself) {
   }
 }
 
-TEST(Visibility, a_rough_plane_hides_little_of_itself) {
+TEST(Visibility, a_rough_plane_hides_little_of_its_own_area) {
   SceneCloud scene;
   add_rectangle(scene, {1, -5, 0}, {20, 0, 0}, {0, 10, 0}, {0, 0, 1}, 0.1, 0.4);
   std::mt19937 random(3);
@@ -42,7 +42,7 @@ TEST(Visibility, a_rough_plane_hides_little_of_itself) {
   EXPECT_GT(static_cast<double>(report.visible), 0.999 * static_cast<double>(report.in_gate));
 }
 
-TEST(Visibility, through_a_hole_in_a_wall_is_what_the_hole_frames) {
+TEST(Visibility, through_a_hole_in_a_wall_is_limited_by_its_outline) {
   constexpr double spacing = 0.05, near = 4, far = 8, hole = 0.5;
   SceneCloud scene;
   add_wall(scene, near, 3, 2, spacing, 0.4);
@@ -55,7 +55,7 @@ TEST(Visibility, through_a_hole_in_a_wall_is_what_the_hole_frames) {
   const auto visible = seen(scene, at(0, 0, 0));
   for (std::size_t i = 0; i < front; ++i) ASSERT_TRUE(visible[i]);
   for (std::size_t i = front; i < scene.size(); ++i) {
-    // How far inside the hole's edge, at the near wall, the way to this surfel passes.
+    // Distance from the edge of the hole at which the line of sight to this surfel crosses the near wall.
     const double inside = hole - std::max(std::abs(scene.point[i].y()), std::abs(scene.point[i].z())) * near / far;
     if (inside > 1.5 * spacing) {
       ASSERT_TRUE(visible[i]) << scene.point[i].transpose();
@@ -66,7 +66,7 @@ TEST(Visibility, through_a_hole_in_a_wall_is_what_the_hole_frames) {
   }
 }
 
-TEST(Visibility, a_pole_before_a_wall_throws_a_shadow_of_its_own_width) {
+TEST(Visibility, a_pole_before_a_wall_casts_a_shadow_of_its_own_width) {
   constexpr double spacing = 0.03, radius = 0.1, pole_x = 4, wall_x = 7;
   SceneCloud scene;
   for (int ring = 0; ring < 100; ++ring)
@@ -78,7 +78,7 @@ TEST(Visibility, a_pole_before_a_wall_throws_a_shadow_of_its_own_width) {
   const std::size_t pole = scene.size();
   add_wall(scene, wall_x, 1, 1, spacing, 0.4);
   const auto visible = seen(scene, at(0, 0, 0));
-  // The way to (7, y) passes the axis at distance 4 |y| / hypot(7, y).
+  // The line of sight to (7, y) passes the axis at distance 4 |y| / hypot(7, y).
   for (std::size_t i = pole; i < scene.size(); ++i) {
     const double y = scene.point[i].y(), distance = pole_x * std::abs(y) / std::hypot(wall_x, y);
     if (distance < radius) {
@@ -89,14 +89,14 @@ TEST(Visibility, a_pole_before_a_wall_throws_a_shadow_of_its_own_width) {
     }
   }
   for (std::size_t i = 0; i < pole; ++i) {
-    // Its limb, where a pole only 7 spacings thick is nearly edge-on, may hide itself.
+    // The limb of a pole only 7 spacings thick is nearly edge-on and may hide itself.
     const float cosine = -scene.normal[i].dot(scene.point[i].normalized());
     ASSERT_TRUE(visible[i] || cosine < 0.1f) << scene.point[i].transpose();
     ASSERT_TRUE(!visible[i] || cosine > 0) << scene.point[i].transpose();
   }
 }
 
-TEST(Visibility, a_sphere_over_a_plane_throws_its_geometric_shadow) {
+TEST(Visibility, a_sphere_over_a_plane_casts_its_geometric_shadow) {
   constexpr double spacing = 0.05, radius = 0.6;
   const Vector3d head(0, 0, 2), centre(5, 0, 1);
   SceneCloud scene;
@@ -160,8 +160,7 @@ TEST(Visibility, flipped_normals_of_an_unoriented_cloud_change_nothing) {
   EXPECT_EQ(seen(scene, at(0, 0, 0)), straight);
 }
 
-// The normal of a rough surface may show its disc edge-on; its core, half a spacing wide, hides what lies behind all the
-// same.
+// The disc of a rough surface may be seen edge-on; its core of half a spacing still hides the surfels behind.
 TEST(Visibility, behind_the_core_of_a_disc_seen_edge_on_is_hidden) {
   const auto surfel = [](float x, float y) {
     const Eigen::Vector3f place(x, y, 0);
@@ -173,7 +172,7 @@ TEST(Visibility, behind_the_core_of_a_disc_seen_edge_on_is_hidden) {
   EXPECT_FALSE(hides(surfel(12, 0), surfel(10, 0.07f)));  // farther away
 }
 
-TEST(Visibility, seen_edge_on_is_no_echo_and_no_division_by_zero) {
+TEST(Visibility, of_surfels_seen_edge_on_gives_no_echo_and_no_division_by_zero) {
   SceneCloud scene;
   add_rectangle(scene, {2, 0, -1}, {3, 0, 0}, {0, 0, 2}, {0, 1, 0}, 0.1);  // in the plane y = 0 of the head
   add_surfel(scene, {0, 0, 0}, {0, 0, 1}, 0.01);                           // at the head itself
@@ -184,7 +183,7 @@ TEST(Visibility, seen_edge_on_is_no_echo_and_no_division_by_zero) {
   }
 }
 
-TEST(Visibility, what_stands_nearer_than_the_gate_still_throws_a_shadow) {
+TEST(Visibility, surfels_nearer_than_the_gate_cast_shadows) {
   SceneCloud scene;
   add_wall(scene, 0.5, 2, 2, 0.05);
   add_wall(scene, 5, 2, 2, 0.05);

@@ -48,7 +48,7 @@ TEST(BuiltInScenes, have_the_areas_of_their_surfaces) {
   EXPECT_NEAR(area_of(make_built_in_scene("poles", {.points = 3000})), 24 + 3 * 2 * pi * 0.1 * 4, 0.05);
 }
 
-TEST(BuiltInScenes, lie_where_they_are_said_to) {
+TEST(BuiltInScenes, have_the_documented_extents) {
   const Bounds plane = bounds(make_built_in_scene("plane", {.points = 20000, .size = {40, 40}}));
   EXPECT_NEAR((plane.min - Vector3d(0, -20, 0)).norm(), 0, 0.3);
   EXPECT_NEAR((plane.max - Vector3d(40, 20, 0)).norm(), 0, 0.3);
@@ -91,7 +91,7 @@ TEST(Harbour, fills_its_box_under_water_and_faces_the_head) {
   EXPECT_NEAR(box.min.y(), -30, 0.5);
   EXPECT_NEAR(box.max.y(), 30, 0.5);
   EXPECT_LT(box.max.z(), 0);
-  EXPECT_GT(box.min.z(), -9.5);  // the wreck's keel lies in the bed
+  EXPECT_GT(box.min.z(), -9.5);  // the wreck's keel is below the bed
   std::vector<double> area(scene.materials.size(), 0.0), upward(scene.materials.size(), 0.0);
   for (std::size_t i = 0; i < scene.size(); ++i) {
     area[scene.material[i]] += scene.area[i];
@@ -99,7 +99,7 @@ TEST(Harbour, fills_its_box_under_water_and_faces_the_head) {
     ASSERT_TRUE(name != "sand" || scene.normal[i].z() > 0.5);
     ASSERT_TRUE(name != "concrete" || scene.normal[i].y() < 0);
   }
-  EXPECT_GT(area[0], 3600);  // a rippled bed is larger than its plan
+  EXPECT_GT(area[0], 3600);  // a rippled bed is larger than its projection
   EXPECT_LT(area[0], 3600 * 1.05);
   for (std::size_t m = 0; m < area.size(); ++m) EXPECT_GT(area[m], 0.5) << scene.materials[m].name;
   for (const Material& m : scene.materials) EXPECT_LT(m.lambert_mu, 1 / pi) << m.name;
@@ -113,7 +113,7 @@ TEST(BuiltInScenes, refuse_bad_options) {
   EXPECT_THAT(message_of("sphere", {.radius = -1}), HasSubstr("radius = -1 m"));
 }
 
-TEST(BuiltInScenes, come_in_batches_without_a_bit_of_difference) {
+TEST(BuiltInScenes, come_in_batches_bit_for_bit) {
   for (const std::string& name : built_in_scene_names()) {
     const BuiltInSceneOptions options{.points = 5000};
     const SceneCloud whole = make_built_in_scene(name, options);

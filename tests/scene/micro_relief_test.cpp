@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// tan^2 of the tilt, averaged over `count` random places of a plane 1000 wavelengths wide.
+/// Mean of tan^2 of the tilt over `count` random positions on a plane 1000 wavelengths wide.
 double mean_square_slope(const ReliefField& field, double rms_slope, const Vector3d& normal, int count) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> along(-25, 25);
@@ -44,7 +44,7 @@ SceneCloud rough_scene(double relief_slope) {
 
 }  // namespace
 
-// tan^2 scatters by about its mean: 200 000 independent places would leave 0.25 %, one standard deviation.
+// tan^2 scatters by about its mean: 200 000 independent positions give 0.25 %, one standard deviation.
 TEST(MicroRelief, mean_square_of_the_slope_is_that_of_the_material_on_every_plane_and_for_every_seed) {
   const Vector3d planes[] = {{0, 0, 1}, {1, 0, 0}, Vector3d(1, -2, 3).normalized()};
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -72,7 +72,7 @@ TEST(MicroRelief, slopes_have_no_preferred_direction_and_no_mean) {
   EXPECT_LT((variance - 0.5 * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.01);
 }
 
-// The height is that of the closed form: going round a closed path climbs as much as it descends.
+// The slopes are the gradient of a height: their integral over a closed path vanishes.
 TEST(MicroRelief, slopes_are_the_gradient_of_a_height) {
   const ReliefField field({3, 0.05});
   const Vector3d corners[] = {{0, 0, 0}, {0.03, 0, 0.01}, {0.02, 0.04, 0}, {0, 0, 0}};
@@ -89,7 +89,7 @@ TEST(MicroRelief, slopes_are_the_gradient_of_a_height) {
   EXPECT_LT(std::abs(climb), 1e-4 * way);
 }
 
-TEST(MicroRelief, is_bound_to_the_place_and_to_the_seed) {
+TEST(MicroRelief, depends_on_position_and_seed) {
   const ReliefField field({1, 0.05}), again({1, 0.05}), other({2, 0.05});
   const Vector3d place(12.3, -4.5, 6.7);
   EXPECT_EQ(field.gradient(place), again.gradient(place));
@@ -115,9 +115,9 @@ TEST(MicroRelief, is_smooth_a_thousand_kilometres_from_zero) {
   EXPECT_NEAR(square, 1.5, 0.1);
 }
 
-// With octaves of equal slope the slopes of places farther apart than the outer scale have nothing in common, those
-// much closer than the shortest wave everything, and the correlation falls in between.
-TEST(MicroRelief, forgets_within_the_outer_scale) {
+// With octaves of equal slope, slopes at positions farther apart than the outer scale are uncorrelated, those much
+// closer than the shortest wave fully correlated, and the correlation falls in between.
+TEST(MicroRelief, decorrelates_within_the_outer_scale) {
   const ReliefField field({4, 0.05});
   const auto correlation = [&](double distance) {
     std::mt19937_64 random(8);
@@ -136,7 +136,7 @@ TEST(MicroRelief, forgets_within_the_outer_scale) {
   EXPECT_GT(correlation(5e-3), 0.1);
   double far = 0;
   for (int i = 0; i < 10; ++i) far += correlation(1 + 0.37 * i) / 10;
-  EXPECT_NEAR(far, 0, 0.12);  // 30 waves: cosines of weights about 1/30 leave 0.13 at one distance, 0.04 over ten
+  EXPECT_NEAR(far, 0, 0.12);  // 30 cosines of weight 1/30: sd 0.13 at one distance, 0.04 over ten
 }
 
 TEST(MicroRelief, leaves_a_smooth_normal_and_gives_unit_length) {
@@ -146,7 +146,7 @@ TEST(MicroRelief, leaves_a_smooth_normal_and_gives_unit_length) {
   EXPECT_NEAR(tilted_normal(field, 0.7, {1, 2, 3}, normal).norm(), 1, 1e-15);
 }
 
-TEST(MicroRelief, is_absent_from_smooth_scenes_and_as_long_as_surfels_are_apart) {
+TEST(MicroRelief, is_absent_from_smooth_scenes_and_scales_with_the_surfel_spacing) {
   EXPECT_FALSE(relief_of(rough_scene(0), {}).has_value());
   EXPECT_FALSE(relief_of(SceneCloud{}, {}).has_value());
   const auto by_spacing = relief_of(rough_scene(0.1), {});
@@ -155,14 +155,14 @@ TEST(MicroRelief, is_absent_from_smooth_scenes_and_as_long_as_surfels_are_apart)
   EXPECT_LT((by_spacing->gradient({1, 2, 3}) - expected.gradient({1, 2, 3})).norm(), 1e-5);
 }
 
-TEST(MicroRelief, refuses_scales_and_octaves_without_a_wave) {
+TEST(MicroRelief, refuses_invalid_scales_and_octaves) {
   EXPECT_EQ(message_of({1, -0.1}), "ReliefField: relief.outer_scale = -0.1 m, must be finite and > 0");
   EXPECT_EQ(message_of({1, 0.1, 0}), "ReliefField: relief.octaves = 0, must be in 1 .. 10");
   EXPECT_EQ(message_of({1, 0.1, 11}), "ReliefField: relief.octaves = 11, must be in 1 .. 10");
   EXPECT_EQ(message_of({1, 0.1, 10}), "accepted");
 }
 
-TEST(Materials, that_no_surface_can_have_are_refused_with_their_number_and_rule) {
+TEST(Materials, with_impossible_values_are_refused_with_their_number_and_rule) {
   const auto message = [](const Material& material) -> std::string {
     SceneCloud scene;
     scene.materials = {material};

@@ -42,7 +42,7 @@ TEST(PreparedScene, blocks_hold_every_surfel_once_inside_their_balls) {
   EXPECT_THAT(times, testing::Each(1));
 }
 
-// 20 000 surfels on 10 000 m^2 or so: 128 of them fill a patch of 8 m across. Strays must not spoil that.
+// 20 000 surfels on about 10 000 m^2: 128 of them cover 8 m x 8 m, also if a few points are far away.
 TEST(PreparedScene, blocks_are_small_though_a_few_points_are_far_away) {
   const SceneCloud scene = harbour_with_strays();
   const PreparedScene prepared(scene);
@@ -66,7 +66,7 @@ TEST(PreparedScene, knows_the_largest_surfel) {
   EXPECT_EQ(PreparedScene(empty).largest_area(), 0);
 }
 
-TEST(PreparedScene, of_nothing_or_of_one_place_is_valid) {
+TEST(PreparedScene, may_be_empty_or_of_coincident_points) {
   const SceneCloud empty;
   EXPECT_TRUE(PreparedScene(empty).blocks().empty());
   SceneCloud heap;

@@ -57,14 +57,14 @@ TEST(ThinScene, leaves_surfels_as_far_apart_as_asked) {
     index.find_nearest(p, 2, near);
     ASSERT_GE(std::sqrt(near[1].squared_distance), least * (1 - 1e-5));
   }
-  // Nobody is left out in the cold: that would be a hole.
+  // Every removed surfel has a kept one nearby; otherwise there would be a hole.
   for (const Eigen::Vector3f& p : scene.point) {
     index.find_nearest(p, 1, near);
     ASSERT_LE(std::sqrt(near[0].squared_distance), least);
   }
 }
 
-TEST(ThinScene, leaves_the_rest_of_those_that_stay_as_it_was) {
+TEST(ThinScene, keeps_all_other_fields_of_kept_surfels) {
   const SceneCloud scene = dense_plane(), thinned = thin_scene(scene, 0.2);
   std::map<std::uint32_t, std::size_t> place;
   for (std::size_t i = 0; i < scene.size(); ++i) place[scene.id[i]] = i;
@@ -94,12 +94,12 @@ TEST(ThinScene, joins_neither_materials_nor_the_two_sides_of_a_plate) {
   scene.materials = {{.name = "mud"}, {.name = "rock"}};
   for (int i = 0; i < 4; ++i) add_surfel(scene, {0.001 * i, 0, 0}, {0, 0, i < 2 ? 1.0 : -1.0}, 1, i == 0 ? 0 : 1);
   EXPECT_THAT(area_by_id(thin_scene(scene, 1)), testing::SizeIs(3));
-  scene.normals_oriented = false;  // sides mean nothing
+  scene.normals_oriented = false;  // both sides reflect
   EXPECT_THAT(area_by_id(thin_scene(scene, 1)), testing::SizeIs(2));
   EXPECT_THAT(area_by_id(thin_scene(scene, 0.0001)), testing::SizeIs(4));
 }
 
-TEST(ThinScene, of_nothing_is_nothing_and_of_a_heap_is_one) {
+TEST(ThinScene, of_nothing_is_empty_and_of_coincident_points_is_one) {
   EXPECT_EQ(thin_scene({}, 1).size(), 0u);
   SceneCloud heap;
   for (int i = 0; i < 100; ++i) add_surfel(heap, {1e6, 2, 3}, {0, 0, 1}, 0.01);
