@@ -24,16 +24,16 @@ struct BeamSpectrumOptions {
 ///   S(fc + f_k) = step / (2 N beams) sum_beams sum_s |sum_n w(n) p(n + s L/2) exp(+2 pi i f_k step n)|^2,
 ///   w(n) = sin(pi (n + 1/2) / L),  f_k = k / (L step),  k = -L/2 .. L/2 - 1
 ///
-/// over half-overlapping segments s of L samples each (Welch 1967); the series is zero-padded at both ends. The squares of
-/// overlapping windows add up to one, so the sum of S / (L step) is the mean square pressure, mean |p|^2 / 2, for every
-/// segment length (Parseval, to rounding). The -3 dB resolution is 1.2 / (L step).
+/// over half-overlapping segments s of L samples each (Welch 1967); the series is zero-padded at both ends. The squares
+/// of overlapping windows add up to one, so the sum of S / (L step) is the mean square pressure, mean |p|^2 / 2, for
+/// every segment length (Parseval, to rounding). The -3 dB resolution is 1.2 / (L step).
 ///
 /// pressure   beams x samples [Pa], analytic, time dependence exp(-i omega t)
 /// beams      rows to average, at least one
 /// step_time  sampling interval [s], two-way time
 ///
-/// Throws Error(argument) if there is no beam or sample, a beam does not exist, step_time is not > 0, or the segment is odd
-/// or below 2.
+/// Throws Error(argument) if there is no beam or sample, a beam does not exist, step_time is not > 0, or the segment is
+/// odd or below 2.
 BeamSpectrum beam_spectrum(const ComplexGridF& pressure, std::span<const std::size_t> beams, double step_time,
                            const BeamSpectrumOptions& options = {});
 

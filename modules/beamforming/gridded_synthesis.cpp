@@ -9,11 +9,11 @@
 #include "beamforming/tile_lists_internal.hpp"
 #include "core/parallel.hpp"
 
-// Gridded synthesis (E13): a non-uniform FFT over the array, bin by bin, after Barnett, Magland and af Klinteberg (2019).
-//   1. gridding: each echo adds its pulse, cut at the tolerance, times the kernel (E60) to a grid over direction that is
-//      oversampled twice; in tiles of bins, each tile by one thread (grid_echoes, gridding_loops);
-//   2. transform: per bin an FFT turns the grid into element series, the adjoint (type-1) transform;
-//   3. deconvolution and shading: one real factor per element, 1 / kernel transform^2 for both directions (gridding_plan);
+// Gridded synthesis (E13): non-uniform FFTs over the array, bin by bin, after Barnett, Magland, af Klinteberg (2019).
+//   1. gridding: each echo adds its pulse, cut at the tolerance, times the kernel (E60) to a grid over direction with
+//      an oversampling factor of 2; in tiles of bins, each tile by one thread (grid_echoes, gridding_loops);
+//   2. transform: per bin an FFT turns the grid into element series (type 1);
+//   3. deconvolution and shading: one real factor per element, with 1 / (kernel transform)^2 for both transforms;
 //   4. transform back, and interpolation with the same kernel to the beam directions (type 2).
 // Cost: echoes x pulse samples x kernel width + bins x (grid log grid + beams x kernel width). No transform runs along
 // range: nothing wraps around, and errors are local in range. Kernel width and precision follow from the tolerance and
@@ -21,7 +21,7 @@
 namespace insonify {
 namespace {
 
-/// Returns the largest amplitude after absorption [Pa], which keeps single precision in range as a unit; 1 if all are 0.
+/// Returns the largest amplitude after absorption [Pa], the unit of gridding in single precision; 1 if all are 0.
 double largest(const Echoes& echoes, const Medium& medium, int threads) {
   constexpr std::size_t block = 4096;
   std::vector<double> most((echoes.size() + block - 1) / block, 0);

@@ -26,8 +26,7 @@ struct GriddingPlan {
   TimeAxis axis;
   double cut;  ///< pulses are cut where they fall below this fraction of their peak
   EchoShapes shapes;
-  bool
-      common_shape;  ///< absorption does not change the pulse shape: samples are polynomials of the offset from the bins
+  bool common_shape;  ///< absorption keeps the pulse shape: samples are polynomials of the offset from the bins
   GriddingKernel kernel;
   std::size_t grid, stride, tile_bins, margin = 0, tile_rows = 0;
   std::size_t grid_row;  ///< row stride of the grid; not a power of 2, to avoid cache conflicts

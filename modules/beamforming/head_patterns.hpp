@@ -6,7 +6,8 @@
 
 namespace insonify {
 
-/// Returns `options` with the patterns of `head` that direct_echoes must apply; synthesize applies the rest (E14, E56, E57).
+/// Returns `options` with the patterns of `head` that direct_echoes must apply; synthesize applies the rest (E14, E56,
+/// E57).
 ///
 ///   one row, no column        the two-way elevation pattern about the fan's elevation
 ///   a column                  the transmitter's elevation pattern, as wide as fan.elevation_width, about the middle

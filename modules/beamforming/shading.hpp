@@ -17,9 +17,9 @@ std::vector<double> shading_weights(Shading shading, std::size_t elements, doubl
 /// Returns weights of 1.
 std::vector<double> uniform_shading(std::size_t elements);
 
-/// Returns Taylor weights (E11) with nearly equal side lobes at `side_lobe_db` (negative, e.g. -30) over the first `nbar`
-/// of them, decaying beyond; sum = elements. Taylor (1955), sampled at the element positions.
-/// Throws Error unless elements >= 1, -80 <= side_lobe_db < -13.3 and nbar >= 2.
+/// Returns Taylor weights (E11) with nearly equal side lobes at `side_lobe_db` (negative, e.g. -30) over the first
+/// `nbar` of them, decaying beyond; sum = elements. Taylor (1955), sampled at the element positions. Throws Error
+/// unless elements >= 1, -80 <= side_lobe_db < -13.3 and nbar >= 2.
 std::vector<double> taylor_shading(std::size_t elements, double side_lobe_db, int nbar = 6);
 
 /// Returns Hamming weights (E31), 0.54 + 0.46 cos(2 pi x) at the element positions x = position / elements; sum =

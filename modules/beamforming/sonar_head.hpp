@@ -27,10 +27,11 @@ struct SonarHead {
 /// elements of `array`, or elements of `array` x those of `column` exceed 2^28 (4 GiB of complex numbers).
 void require_valid(const SonarHead& head, const char* who);
 
-/// Returns the directivity index [dB] of the beam straight ahead in isotropic noise, exact for omnidirectional elements: that of the
-/// line array (E34), or of all elements of the planar array, summed over pairs (E56):
+/// Returns the directivity index [dB] of the beam straight ahead in isotropic noise, exact for omnidirectional
+/// elements: that of the line array (E34), or of all elements of the planar array, summed over pairs (E56):
 ///   -10 log10( sum_ij w_i w_j sin(k d_ij) / (k d_ij) / (sum_i w_i)^2 )
-/// A large half-wavelength grid of N uniform elements approaches 10 log10(N pi / 2), since it receives from behind as well.
+/// A large half-wavelength grid of N uniform elements approaches 10 log10(N pi / 2), since it receives from behind as
+/// well.
 double directivity_index_db(const SonarHead& head, double wavelength);
 
 /// Returns the array gain [dB] against noise that is independent in every element: 10 log10((sum w)^2 / sum w^2) over

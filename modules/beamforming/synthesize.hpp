@@ -23,14 +23,14 @@ struct SynthesisOptions {
 ///                          B(u, v) = B_y(u - u_b) B_z(v - v_b), u_b = cos(elevation_b) sin(azimuth_b)
 ///   several rows, no column    the elevation pattern (E14) about the row's own elevation
 ///
-/// See with_patterns for the patterns that direct_echoes must have applied. `gridded`, `spectrum` and `element_exact` omit
-/// an echo from a row whose response is below tolerance / (10 sqrt(rows)) of that of the row nearest to it, which over all
-/// rows costs at most a tenth of the tolerance (relative L2 norm); `direct` omits none. `element_exact` makes no narrow-band
-/// far-field assumption: true delays per element, focused beams (element_series, beam_from_elements, E61, E62); its
-/// tolerance is within [1e-12, 0.1]. `incoherent` gives the root of the expected intensity (E65) as a real pressure: levels
-/// and detections apply to it, but such images add up by their squares, and phases have no meaning.
-/// Cost: that of the method for each row. The result does not depend on options.threads.
-/// Throws Error as the methods do, and if there are several rows or a column, but not one echoes.v per echo.
+/// See with_patterns for the patterns that direct_echoes must have applied. `gridded`, `spectrum` and `element_exact`
+/// omit an echo from a row whose response is below tolerance / (10 sqrt(rows)) of that of the row nearest to it, which
+/// over all rows costs at most a tenth of the tolerance (relative L2 norm); `direct` omits none. `element_exact` makes
+/// no narrow-band far-field assumption: true delays per element, focused beams (element_series, beam_from_elements,
+/// E61, E62); its tolerance is within [1e-12, 0.1]. `incoherent` gives the root of the expected intensity (E65) as a
+/// real pressure: levels and detections apply to it, but such images add up by their squares, and phases have no
+/// meaning. Cost: that of the method for each row. The result does not depend on options.threads. Throws Error as the
+/// methods do, and if there are several rows or a column, but not one echoes.v per echo.
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options = {});
 
@@ -40,9 +40,9 @@ ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium
 ///
 ///   P(b, n) = sum_i A_i B_b(u_i) G_i(2 r_n / c - delay_i)
 ///
-/// as a plain sum over echoes in double with uncut pulses: the reference for all other methods. G_i is the envelope of the
-/// echo with its absorption and, if echoes.doppler is given, its Doppler shift (E8, E54).
-/// Cost: echoes x beams x (elements + bins). Throws Error for an invalid head or medium, or a NaN in an echo.
+/// as a plain sum over echoes in double with uncut pulses: the reference for all other methods. G_i is the envelope of
+/// the echo with its absorption and, if echoes.doppler is given, its Doppler shift (E8, E54). Cost: echoes x beams x
+/// (elements + bins). Throws Error for an invalid head or medium, or a NaN in an echo.
 ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                               const SynthesisOptions& options = {});
 

@@ -13,17 +13,17 @@ struct NoiseOptions {
   int threads = 0;        ///< 0: all cores; the result does not depend on it
 };
 
-/// Returns noise that is independent in every element (thermal noise; isotropic noise on half-wavelength elements) formed
-/// into beams, beams x bins [Pa] (E41):
+/// Returns noise that is independent in every element (thermal noise; isotropic noise on half-wavelength elements)
+/// formed into beams, beams x bins [Pa] (E41):
 ///
 ///   p(b, n) = (1/N) sum_m w_m exp(-2 pi i (d/lambda)(m - (N-1)/2) u_b) x(m, n),   x = sum_k h_k xi(m, n + k)
 ///
-/// xi is complex normal, counted by (ping, element, bin); the receive filter h has unit energy and the shape of the pulse,
-/// or is the replica of a sweep. The level in a beam is the element level minus 10 log10(N^2 / sum w^2), and the noise of
-/// overlapping beams and of neighbouring bins is correlated. A planar array is formed over its columns first (E56), so
-/// beams of different rows are correlated as far as their column patterns overlap; rows of a head without a column have
-/// elements of their own. For a planar array this is thermal and self noise: isotropic noise is up to 2 dB weaker
-/// (directivity_index_db).
+/// xi is complex normal, counted by (ping, element, bin); the receive filter h has unit energy and the shape of the
+/// pulse, or is the replica of a sweep. The level in a beam is the element level minus 10 log10(N^2 / sum w^2), and the
+/// noise of overlapping beams and of neighbouring bins is correlated. A planar array is formed over its columns first
+/// (E56), so beams of different rows are correlated as far as their column patterns overlap; rows of a head without a
+/// column have elements of their own. For a planar array this is thermal and self noise: isotropic noise is up to 2 dB
+/// weaker (directivity_index_db).
 ///
 /// element_level_db   of one element in the pulse's band [dB re 1 uPa rms], e.g. thermal_noise_level_db
 /// Throws Error for an invalid head or medium, or a level that is not finite.

@@ -17,11 +17,11 @@ struct DetectionOptions {
   int threads = 0;                                             ///< 0: all cores
 };
 
-/// Returns the detections of a ping as points (E19). In each beam every local maximum along range that exceeds the noise
-/// floor by the threshold and is not a side lobe gives one sounding; with all_bins, every bin above a level does. The range
-/// is that of the bin; the direction is that of the strongest contributing scatterer within one bin length, searched in the
-/// beam's own share of the fan and then in its -3 dB width (in azimuth, and in elevation for a fan of several rows or a
-/// planar array). Samples without a contributor (side lobes) give no sounding.
+/// Returns the detections of a ping as points (E19). In each beam every local maximum along range that exceeds the
+/// noise floor by the threshold and is not a side lobe gives one sounding; with all_bins, every bin above a level does.
+/// The range is that of the bin; the direction is that of the strongest contributing scatterer within one bin length,
+/// searched in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in elevation for a fan of
+/// several rows or a planar array). Samples without a contributor (side lobes) give no sounding.
 ///
 /// scatterers, echoes   those the ping was synthesized from, index by index; throws Error if their numbers differ
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,

@@ -16,12 +16,12 @@
 // Finds the strongest contributors of every pixel (E63), a contributor being a surfel by one pair of legs:
 //   1. sort the echoes that reach the gate by surfel and legs into groups (surfel_arrivals);
 //   2. sample the pulse energy |A G|^2 of each echo on the bins it overlaps;
-//   3. write a group's energy in a beam as sum_k B^2(u_k - u_b) energy_k(n): one term per echo, or for many echoes close
-//      together one per Chebyshev node in u, since B^2 is band-limited (interpolation error 1e-6); whichever is cheaper;
+//   3. write a group's energy in a beam as sum_k B^2(u_k - u_b) energy_k(n): one term per echo or, if cheaper, one per
+//      Chebyshev node in u, since B^2 is band-limited (interpolation error 1e-6);
 //   4. for each beam within reach, add up the terms with tabulated B^2 and insert the group into the pixels' lists;
 //   5. convert energies to shares of the pixel's total.
-// Cost: terms x beams above the floor x bins per term, some 5 ns each; parallel over beams or rows. Groups are processed
-// in chunks of bounded memory.
+// Cost: terms x beams above the floor x bins per term, some 5 ns per echo and beam; parallel over beams or rows, in
+// chunks of groups of bounded memory.
 namespace insonify {
 namespace {
 

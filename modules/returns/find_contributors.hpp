@@ -29,22 +29,23 @@ struct ContributorOptions {
 ///
 ///   E(b, n) = sum_p |A_p|^2 |B_b(u_p, v_p)|^2 |G_p(2 r_n / c - delay_p)|^2
 ///
-/// over the echoes p of one surfel (all its parts) with one pair of legs out and back: the same surfel by way of a boundary
-/// is another contributor. A, B and G are those of the synthesis (E7, E10, E12, E14, E48, E56): spreading, scattering with
-/// the speckle amplitude of the patch, patterns, and frequency-dependent absorption. Phases between echoes are ignored:
-/// shares are those of expected energies for independent phases, and add up to 1 over all contributors. Noise and
-/// reverberation do not come from surfels and are not included.
+/// over the echoes p of one surfel (all its parts) with one pair of legs out and back: the same surfel by way of a
+/// boundary is another contributor. A, B and G are those of the synthesis (E7, E10, E12, E14, E48, E56): spreading,
+/// scattering with the speckle amplitude of the patch, patterns, and frequency-dependent absorption. Phases between
+/// echoes are ignored: shares are those of expected energies for independent phases, and add up to 1 over all
+/// contributors. Noise and reverberation do not come from surfels and are not included.
 ///
 /// scene     provides ids and materials
 /// echoes    all echoes of the scene's surfels, direct and by way of boundaries
-/// returns   beams x bins x per_pixel entries, strongest first, equal ones by ascending surfel and leg; elevation is that
-///           of the surfel's strongest echo with these legs
+/// returns   beams x bins x per_pixel entries, strongest first, equal ones by ascending surfel and leg; elevation is
+///           that of the surfel's strongest echo with these legs
 ///
 /// Accurate to 2e-5 of a contributor's own peak, except that parts of a contributor for which beam (or row of beams) or
-/// pulse is below floor_db of its peak may be omitted from list and total. Beams are those of the far field at the centre
-/// frequency, also if the synthesis was element-exact. Cost: echoes x beams above the floor, some 5 ns each; each row of a
-/// head with several rows weights all echoes again. Memory: 31 bytes per entry and 16 per pixel. Throws Error(argument) for
-/// invalid arguments, echoes that are not finite or lack v or surfel, and if the memory would exceed max_mib.
+/// pulse is below floor_db of its peak may be omitted from list and total. Beams are those of the far field at the
+/// centre frequency, also if the synthesis was element-exact. Cost: echoes x beams above the floor, some 5 ns each;
+/// each row of a head with several rows weights all echoes again. Memory: 31 bytes per entry and 16 per pixel. Throws
+/// Error(argument) for invalid arguments, echoes that are not finite or lack v or surfel, and if the memory would
+/// exceed max_mib.
 Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEchoes> echoes, const SonarHead& head,
                                const Medium& medium, const ContributorOptions& options = {});
 

@@ -31,15 +31,15 @@ struct InsonificationOptions {
   int threads = 0;  ///< 0: all cores
 };
 
-/// Adds the coverage of one ping. A surfel is insonified if a part of it is among `scatterers` (i.e. visible), inside the
-/// range gate and within a beam. Its level is that of all its parts together, without speckle, in the beam with the largest
-/// response to its first part (E64):
+/// Adds the coverage of one ping. A surfel is insonified if a part of it is among `scatterers` (i.e. visible), inside
+/// the range gate and within a beam. Its level is that of all its parts together, without speckle, in the beam with the
+/// largest response to its first part (E64):
 ///
 ///   10 log10( sum_p 1/2 <|A_p|^2> |B_b(u_p, v_p)|^2 exp(-4 a0 r_p) / (1 uPa)^2 )
 ///
-/// with the mean intensity <|A_p|^2> of the direct echo (E7; all patterns but the beam's), the beam's response B_b (E10, E56)
-/// and the absorption a0 at the centre frequency. For one part on a beam's axis this is SL - 2 TL + TS, TS = 10 log10
-/// sigma. It grows with the surfel's area, so it depends on the density of the cloud.
+/// with the mean intensity <|A_p|^2> of the direct echo (E7; all patterns but the beam's), the beam's response B_b
+/// (E10, E56) and the absorption a0 at the centre frequency. For one part on a beam's axis this is SL - 2 TL + TS, TS =
+/// 10 log10 sigma. It grows with the surfel's area, so it depends on the density of the cloud.
 ///
 /// map         empty, or a previous result for the same scene; unchanged if an error is thrown
 /// scatterers  visible patches of `scene`, as returned by find_scatterers

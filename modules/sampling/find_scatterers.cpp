@@ -17,10 +17,10 @@
 // Finds the visible patches of a scene (E16, E17):
 //   1. gate: transform surfels to head axes, keep those whose disc overlaps the sector and is within the far range
 //      (gate_surfels; a prepared scene visits only the blocks that overlap the region);
-//   2. project: find the surfels that cover a direction, by KD-trees over unit vectors (direction_index), one per octave
-//      of angular footprint, or by a raster with a depth buffer (direction_raster); both give the same result;
-//   3. decide: a surfel is hidden if a disc in front of it covers it (surfel_visibility), or a ray hits the front cluster
-//      of surfels that cover it (hit_rule, cast_rays);
+//   2. project: find the surfels that cover a direction, by KD-trees over unit vectors, one per octave of angular
+//      footprint (direction_index), or by a raster with a depth buffer (direction_raster), with the same result;
+//   3. decide: a surfel is hidden if a disc in front of it covers it (surfel_visibility); a ray hits the front cluster
+//      of the surfels that cover it (hit_rule, cast_rays);
 //   4. split visible surfels into parts, several per resolution cell (split_surfels);
 //   5. tilt the normals of rough materials by micro-relief (tilt_by_relief).
 // Cost: O(n) for the gate, O(m log m) for the m surfels inside by KD-trees, about O(m) by the raster; parallel.

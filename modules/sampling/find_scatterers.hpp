@@ -63,9 +63,10 @@ struct Sampling {
 /// Returns the patches of `scene` that are visible from a head at `world_from_head` within fan and gate (E16, E17), in
 /// head axes, with a report of the counts.
 ///
-/// Each surfel occludes exactly its footprint. Hit rule for rays: of the surfels whose footprint contains the direction,
-/// the front cluster counts, and the range is that of the tangent plane of its angularly nearest member. A surfel is
-/// visible unless the disc of another surfel covers it and lies in front of it by more than the roughness of a surface.
+/// Each surfel occludes exactly its footprint. Hit rule for rays: of the surfels whose footprint contains the
+/// direction, the front cluster counts, and the range is that of the tangent plane of its angularly nearest member. A
+/// surfel is visible unless the disc of another surfel covers it and lies in front of it by more than the roughness of
+/// a surface.
 ///
 /// Rays tile the insonified sector: the share of a beam ends at the midpoints to its neighbours or at the edge of the
 /// sector. The projected area of a ray is r^2 times its solid angle.
@@ -74,9 +75,9 @@ struct Sampling {
 /// visibility is still decided by the smooth surfels. The relief is fixed in the world, so a position keeps its slope
 /// from ping to ping and for every splitting.
 ///
-/// Without micro-relief the result depends on relative position only: translating world and head together gives the same
-/// scatterers (rotating them rotates the parts within their surfels). The result does not depend on `threads`. An empty
-/// view gives no scatterers. Throws Error for an invalid scene, fan, gate, pose or option.
+/// Without micro-relief the result depends on relative position only: translating world and head together gives the
+/// same scatterers (rotating them rotates the parts within their surfels). The result does not depend on `threads`. An
+/// empty view gives no scatterers. Throws Error for an invalid scene, fan, gate, pose or option.
 Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
                          const RangeGate& gate, const SamplingOptions& options = {});
 

@@ -49,11 +49,12 @@ enum class RayOutcome { missed, blocked, hit };  ///< blocked: by a surface that
 bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
                    std::span<const std::uint32_t> centres);
 
-/// Applies the hit rule (E16): of the surfels whose cone contains the ray, the front cluster counts, and the hit is on the
-/// tangent plane of its angularly nearest member. A cluster is skipped for the next one behind it if the ray passes beside
-/// it: the ray crosses no member's tangent plane within 0.71 spacing of the centre, and all centres lie within 90 degrees
-/// on one side. Cones thus close the gaps inside a surface without extending it at its edges. `candidates` must contain
-/// all these surfels and may contain more; it is used as scratch. front_only = false makes all surfels one cluster.
+/// Applies the hit rule (E16): of the surfels whose cone contains the ray, the front cluster counts, and the hit is on
+/// the tangent plane of its angularly nearest member. A cluster is skipped for the next one behind it if the ray passes
+/// beside it: the ray crosses no member's tangent plane within 0.71 spacing of the centre, and all centres lie within
+/// 90 degrees on one side. Cones thus close the gaps inside a surface without extending it at its edges. `candidates`
+/// must contain all these surfels and may contain more; it is used as scratch. front_only = false makes all surfels one
+/// cluster.
 RayOutcome hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
                        std::vector<std::uint32_t>& candidates, RayHit& hit);
 

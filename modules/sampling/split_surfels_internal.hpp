@@ -22,9 +22,9 @@ struct SplitOptions {
 ///   parts = ceil(scatterers_per_cell area / (length width)), 1 .. 4096
 ///   width = range beam_width, length = min(dr / sin(incidence), 2 sqrt(2 range dr))
 ///
-/// The second length is the extent of a plane at normal incidence within dr. For a planar array the cell is limited by the
-/// cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x range x
-/// the narrower of both widths.
+/// The second length is the extent of a plane at normal incidence within dr. For a planar array the cell is limited by
+/// the cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x
+/// range x the narrower of both widths.
 std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options);
 
 /// Returns the scatterers of the given surfels (indices in the scene), in order. Part 0 is at the surfel's centre; part

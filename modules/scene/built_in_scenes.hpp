@@ -22,7 +22,8 @@ struct BuiltInSceneOptions {
 /// Returns the names accepted by make_built_in_scene: harbour, plane, sphere, wall, poles.
 std::vector<std::string> built_in_scene_names();
 
-/// Returns a reproducible scene with outward normals, exact areas and materials, by stratified area-preserving sampling.
+/// Returns a reproducible scene with outward normals, exact areas and materials, by stratified, area-preserving
+/// sampling:
 ///   harbour  quay wall, pilings, rippled sea bed, wreck, pipe, calibration sphere; x 0..60, y -30..30, water
 ///            surface z = 0, sea bed near z = -8; a good pose is 0,0,-3, pitch 10 deg
 ///   plane    z = 0, x 0..size.x, y -size.y/2..size.y/2, normal up

@@ -8,8 +8,8 @@ struct ThinningOptions {
   double normal_angle = radians(30);  ///< largest angle between the normals of a surfel and its representative [rad]
 };
 
-/// Returns a sparser cloud of the same surfaces: a subset of the surfels with position, normal, material and id, each of
-/// which takes over the area of the removed surfels it represents.
+/// Returns a sparser cloud of the same surfaces: a subset of the surfels with position, normal, material and id, each
+/// of which takes over the area of the removed surfels it represents.
 ///
 /// The subset is a Poisson disc sample: no two kept surfels of the same material with similar normals are closer than
 /// 0.8 spacing, every removed surfel has a kept one of its material and orientation within that distance, and its area
@@ -19,9 +19,9 @@ struct ThinningOptions {
 /// spacing   target distance between surfels [m]; a few of them should fit into a resolution cell of the sonar
 /// returns   surfels in scene order; the area of each material is kept to rounding. Levels are kept within 0.1 dB as
 ///           long as the remaining cloud still resolves the shapes of the scene.
-/// Throws Error for an invalid scene, a spacing that is not positive or that divides the scene into more than 2^21 cells
-/// along an axis, or an angle outside 0 .. pi/2. Takes about 2 s per million surfels on one core, and 17 bytes per surfel
-/// plus 50 per kept one.
+/// Throws Error for an invalid scene, a spacing that is not positive or that divides the scene into more than 2^21
+/// cells along an axis, or an angle outside 0 .. pi/2. Takes about 2 s per million surfels on one core, and 17 bytes
+/// per surfel plus 50 per kept one.
 SceneCloud thin_scene(const SceneCloud& scene, double spacing, const ThinningOptions& options = {});
 
 }  // namespace insonify

@@ -31,8 +31,8 @@ double gradient_at(const SoundSpeedProfile& p, double z) {
   return (sound_speed_at(p, z + h) - sound_speed_at(p, z - h)) / (2 * h);
 }
 
-// The ray equations dx = cos ds, dz = sin ds, dslope = -cos(slope) c'/c ds, by Runge and Kutta with fixed steps, until x = `end`.
-// Steps that straddle a kink of the profile are of second order: they are kept small.
+// The ray equations dx = cos ds, dz = sin ds, dslope = -cos(slope) c'/c ds, by Runge and Kutta with fixed steps, until
+// x = `end`. Steps that straddle a kink of the profile are of second order: they are kept small.
 RayState march(const SoundSpeedProfile& p, double z, double slope, double end, int steps) {
   RayState s{0, z, slope, 0};
   const double h = end / steps;
@@ -225,7 +225,8 @@ TEST(FindEigenray, turns_in_a_duct) {
   const Eigenray axis = find_eigenray(duct, 20, 20, 100);
   EXPECT_NEAR(axis.travel_time / one_gradient_time(1480, 1480, 2, 100, 0), 1, 1e-12);
   EXPECT_NEAR(std::abs(axis.elevation), std::atan(2 * 100 / (2 * 1480.0)), 1e-12);
-  // Half a cycle of the steepest ray trapped in the duct is 2 sqrt(1520^2 - 1480^2) / 2 = 346.4 m: beyond that, several turns.
+  // Half a cycle of the steepest ray trapped in the duct is 2 sqrt(1520^2 - 1480^2) / 2 = 346.4 m: beyond that, several
+  // turns.
   const double half_cycle = 2 * std::sqrt(1520.0 * 1520 - 1480.0 * 1480) / 2;
   const Eigenray twice = find_eigenray(duct, 20, 20, 1.5 * half_cycle);
   EXPECT_NEAR(twice.travel_time / (2 * one_gradient_time(1480, 1480, 2, 0.75 * half_cycle, 0)), 1, 1e-12);

@@ -192,8 +192,8 @@ TEST(LinearFm, refuses_absorption_that_makes_it_grow) {
     EXPECT_THROW(echo_envelope(pulse, a, 50), Error);
 }
 
-// Range-Doppler coupling of a rising sweep: an approaching target, shifted up by f_d, appears f_d / k early; its peak falls
-// with the overlap that is left. Exact for the uniform window: (1 - |t|/T) at t = -f_d / k.
+// Range-Doppler coupling of a rising sweep: an approaching target, shifted up by f_d, appears f_d / k early; its peak
+// falls with the overlap that is left. Exact for the uniform window: (1 - |t|/T) at t = -f_d / k.
 TEST(LinearFm, doppler_moves_the_peak) {
   const Pulse pulse = sweep(200, ReplicaWindow::uniform);
   const double k = pulse.bandwidth / pulse.duration;

@@ -220,8 +220,8 @@ TEST(PlanarArray, gives_the_mirrored_image_of_a_mirrored_scene) {
   EXPECT_GT(relative_error(left, p), 0.1);
 }
 
-// Rows 10 degrees apart: narrow patterns of their own (most echoes are omitted from most rows), the column's side lobes,
-// and a scene entirely above all rows.
+// Rows 10 degrees apart: narrow patterns of their own (most echoes are omitted from most rows), the column's side
+// lobes, and a scene entirely above all rows.
 TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
   for (const SonarHead& head : {stacked_head(8, 4, radians(6)), stacked_head(8, 4), planar_head(8, 4)})
     for (const bool above : {false, true}) {

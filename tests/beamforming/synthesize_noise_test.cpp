@@ -60,8 +60,8 @@ TEST(SynthesizeNoise, of_overlapping_beams_is_correlated_by_the_array_response) 
   }
 }
 
-// Filtered white noise has the autocorrelation of the filter, here the pulse's envelope on the bins. 18 000 bins scatter
-// by 0.01.
+// Filtered white noise has the autocorrelation of the filter, here the pulse's envelope on the bins. 18 000 bins
+// scatter by 0.01.
 TEST(SynthesizeNoise, has_the_band_of_the_pulse) {
   SonarHead head = head_of(8, 1);
   head.gate.max_range = 100;

@@ -22,8 +22,8 @@ inline Medium clear_water() { return {speed, {}}; }
 /// A uniform half-wavelength array of 101 elements, 50.5 wavelengths long: 1 degree wide at broadside.
 inline LineArray one_degree_array() { return {wavelength / 2, std::vector<double>(101, 1.0)}; }
 
-/// A head with `array` and beams at these azimuths [rad]; patches up to 6 degrees beside them are insonified, beyond which a
-/// uniform beam has less than 2 % of its energy.
+/// A head with `array` and beams at these azimuths [rad]; patches up to 6 degrees beside them are insonified, beyond
+/// which a uniform beam has less than 2 % of its energy.
 inline SonarHead head_with(const LineArray& array, const std::vector<double>& azimuths, double bandwidth,
                            const RangeGate& gate) {
   SonarHead head;

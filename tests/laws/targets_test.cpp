@@ -142,8 +142,8 @@ TEST(TargetLaws, flat_plate_of_coherent_facets_goes_from_its_image_to_its_area_o
   }
 }
 
-// With random phases there is no specular reflection: the plate's mean level is its Lambert cross-section mu A at every range. 400 seeds of
-// an exponential intensity: 5 % or 0.2 dB, three of which are 0.65 dB.
+// With random phases there is no specular reflection: the plate's mean level is its Lambert cross-section mu A at every
+// range. 400 seeds of an exponential intensity: 5 % or 0.2 dB, three of which are 0.65 dB.
 TEST(TargetLaws, flat_plate_of_random_amplitudes_has_the_level_of_its_area_at_every_range) {
   for (const double range : {1.0, 10.0}) {
     SceneCloud plate = kirchhoff_plate(range, 0.0025);

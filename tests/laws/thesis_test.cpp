@@ -54,7 +54,8 @@ std::vector<double> repeated_azimuths() {
 
 }  // namespace
 
-// Eq. 5 and Table 2: the printed 0.0354 "dB/m" at 900 kHz has the digits of Fisher and Simmons' 0.03541 Np/m at 10 deg C.
+// Eq. 5 and Table 2: the printed 0.0354 "dB/m" at 900 kHz has the digits of Fisher and Simmons' 0.03541 Np/m at 10 deg
+// C.
 TEST(Thesis, absorption_of_0_0354_is_in_nepers) {
   const double db = absorption_db_per_m({}, 900e3, AbsorptionFormula::fisher_simmons);
   EXPECT_NEAR(db * nepers_per_db, printed_absorption, 5e-5);

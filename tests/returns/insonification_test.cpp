@@ -94,7 +94,8 @@ TEST(Insonification, level_does_not_depend_on_the_splitting) {
   EXPECT_NEAR(map_of(scene, small_head(), Pose::Identity(), 5000).level_db[0], map_of(scene).level_db[0], 0.02);
 }
 
-// Half a beam spacing and 15 degrees of elevation off: the fan's pattern, the cone's, and -3 dB of the elevation pattern.
+// Half a beam spacing and 15 degrees of elevation off: the fan's pattern, the cone's, and -3 dB of the elevation
+// pattern.
 TEST(Insonification, level_off_the_axes_includes_the_patterns) {
   const SonarHead head = small_head();
   const double azimuth = radians(20.0 / 21), elevation = radians(15);

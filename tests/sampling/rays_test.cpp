@@ -116,7 +116,8 @@ TEST(Rays, meet_the_facing_side_of_a_thin_plate) {
     ASSERT_NEAR(s.range[i] * std::cos(s.elevation[i]) * std::cos(s.azimuth[i]), 4, 1e-4);
 }
 
-// A plate ends at y = 0, half a spacing beyond its outermost centres. Its discs of 1.2 spacings extend farther; echoes must not.
+// A plate ends at y = 0, half a spacing beyond its outermost centres. Its discs of 1.2 spacings extend farther; echoes
+// must not.
 TEST(Rays, that_miss_a_surface_at_its_edge_hit_the_one_behind) {
   constexpr double spacing = 0.1;
   for (const double jitter : {0.0, 0.3}) {
