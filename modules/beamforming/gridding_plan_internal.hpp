@@ -33,10 +33,9 @@ struct GriddingPlan {
   double cycles_per_u, element_offset;
 
   PolynomialPieces<Real> columns, rows, rows_im;  ///< rows_im: of a sweep
-  bool sweep = false,
-       sweep_ends = false;  ///< sweep: common_shape of a linear FM pulse; sweep_ends: the rows include its ends
-  double half = 0;          ///< half length of the planned part of a pulse [s]
-  double pulse_energy = 0;  ///< energy of the planned pulse with unit peak [bins]
+  bool sweep = false, sweep_ends = false;         ///< linear FM pulses of common shape; the rows include their ends
+  double half = 0;                                ///< half length of the planned part of a pulse [s]
+  double pulse_energy = 0;                        ///< energy of the planned pulse with unit peak [bins]
 
   std::vector<Complex> offset_phase;    ///< exp(i element_offset 2 pi j / grid)
   std::vector<Complex> element;         ///< shading / deconvolution factor, by grid frequency; 0 without element
