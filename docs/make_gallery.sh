@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws every view of a built-in scene and writes docs/gallery.md: each picture beside the command that made it. No display.
+# Draws every view of a built-in scene and writes docs/gallery.md with each picture and its command. Needs no display.
 #   docs/make_gallery.sh [build/release/bin/insonify]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -18,7 +18,7 @@ insonify() { "$tool" "$@" -q >/dev/null; }
 
 # chapter TITLE TEXT
 chapter() { printf '\n## %s\n\n%s\n' "$1" "$2" >>"$page"; }
-# steps COMMAND...: what the next pictures are made from; each command is run and shown.
+# steps COMMAND...: runs and lists the commands that the next pictures need.
 steps() {
   printf '\n```\n' >>"$page"
   for command in "$@"; do
@@ -27,7 +27,7 @@ steps() {
   done
   printf '```\n' >>"$page"
 }
-# picture NAME WHAT COMMAND: runs the command, which writes NAME.png.
+# picture NAME CAPTION COMMAND: runs the command, which writes NAME.png.
 picture() {
   eval "$3"
   [[ $(stat -c %s "$1.png") -lt $most_bytes ]] || { echo "make_gallery.sh: $1.png is larger than $most_bytes bytes" >&2; exit 1; }
@@ -73,7 +73,7 @@ steps "printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,-4,-3,0,10,0\n
   "insonify merge track-* -o track"
 picture waterfall "Waterfall: the strongest beam of every ping, the newest on top." \
   "insonify image track --view waterfall --beam max --size 900x700 -o waterfall.png"
-printf '\n\`insonify image track --animate -o frames\` draws every ping with one scale of colours, for a film.\n' >>"$page"
+printf '\n`insonify image track --animate -o frames` draws every ping with a common colour scale, as frames of a film.\n' >>"$page"
 
 chapter "The head itself" "What its array does with a direction."
 picture pattern "Beam pattern." "insonify beampattern p900-45 --steer=-20 --size 900x500 -o pattern.png"
