@@ -32,7 +32,7 @@ struct HeadLines {
   std::array<Polyline, 2> body_rings;  ///< stern and front of a round body along x
 };
 
-/// The lines of a head with a body of length `size` [m] and axes twice as long.
+/// The lines of a head whose body has `size` [m]; its axes are twice as long.
 HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin, double size);
 
 /// The surfels, ascending, that the walls of the sector and the ends of the gate intersect: within 0.7 of their spacing

@@ -22,7 +22,7 @@ struct PickingWindow {
   Eigen::Matrix4d clip_from_scene;  ///< clip coordinates of a place relative to scene.origin
   Point2 at;                        ///< [pixels] from its lower left corner
   double width = 0, height = 0;
-  double focal_length = 1;  ///< 1 / (2 tan(view angle / 2)) in window heights, times the growth of surfels
+  double focal_length = 1;  ///< 1 / tan(view angle / 2), times the growth of surfels
 };
 
 /// The surfel whose square is frontmost at the place, or, if there is none, among those within two pixels; the first of
