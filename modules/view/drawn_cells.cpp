@@ -11,7 +11,7 @@ namespace insonify {
 namespace {
 
 constexpr int min_pixels = 240,
-              max_pixels = 8192;        // smaller pictures have no room for labels; larger ones exceed GL's frame buffers
+              max_pixels = 8192;  // smaller pictures have no room for labels; larger ones exceed GL's frame buffers
 constexpr std::size_t max_rows = 8192;  // of a patch: GL guarantees no larger textures
 constexpr double same_bearing = 1e-9;   // [rad]
 

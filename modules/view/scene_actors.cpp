@@ -175,7 +175,8 @@ void SceneActors::show_soundings(const Soundings& soundings) {
   p.sounding_arrays = point_arrays(p.sounding_places, std::vector<float>(soundings.size()));
   set_colours(p.sounding_arrays.colours, colour);
   set_points(p.soundings, p.sounding_arrays, counted(soundings.size()));
-  if (p.look.colour == SceneColour::level && !p.look.level_db.empty()) p.colour();  // surfels and soundings share one scale
+  if (p.look.colour == SceneColour::level && !p.look.level_db.empty())
+    p.colour();  // surfels and soundings share one scale
 }
 
 void SceneActors::show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate) {

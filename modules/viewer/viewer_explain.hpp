@@ -43,9 +43,9 @@ struct PixelFacts {
   std::vector<Contribution> contributions;  ///< strongest first; empty: none, or unknown
   bool contributions_known = false;
   double level_error_db = std::numeric_limits<double>::quiet_NaN();  ///< sampling error; NaN: unknown
-  bool unknown = false;                       ///< hole of the scan: surface may be missing here
-  std::optional<PixelVisibility> visibility;  ///< if there is a scene
-  std::string seen_material;                  ///< the commonest one of the visible surfels; empty: none visible
+  bool unknown = false;                                              ///< hole of the scan: surface may be missing here
+  std::optional<PixelVisibility> visibility;                         ///< if there is a scene
+  std::string seen_material;  ///< the commonest one of the visible surfels; empty: none visible
 };
 /// Throws Error(argument) if ping, beam or bin is not in the data.
 PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping, PixelPlace place);

@@ -13,7 +13,7 @@ namespace insonify {
 namespace {
 
 constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
-constexpr std::size_t sampled_pings = 16;      // for the common scale
+constexpr std::size_t sampled_pings = 16;     // for the common scale
 constexpr std::size_t longest_history = 600;  // pings in the waterfall
 
 // The levels of one beam over the pings, ending with the current one if there are too many.

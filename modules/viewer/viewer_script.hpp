@@ -11,10 +11,10 @@ struct ViewerEvent {
   enum class Kind { click, drag, key, select, wait, screenshot, quit };
   Kind kind = Kind::quit;
   ViewerPanelName panel = ViewerPanelName::fan;  ///< of click and drag
-  Point2 from, by;                               ///< [pixels] from the panel's lower left corner; `by`: displacement of drag
-  PixelPlace place;                              ///< of select
-  double seconds = 0;                            ///< of wait
-  std::string text;                              ///< name of the key, or file of the screenshot
+  Point2 from, by;     ///< [pixels] from the panel's lower left corner; `by`: displacement of drag
+  PixelPlace place;    ///< of select
+  double seconds = 0;  ///< of wait
+  std::string text;    ///< name of the key, or file of the screenshot
 };
 
 /// Parses events separated by semicolons or line ends; # starts a comment:

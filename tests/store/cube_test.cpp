@@ -185,7 +185,7 @@ TEST(CubeMaps, of_another_type_or_extent_are_refused) {
     H5Ldelete(file, "/unknown", H5P_DEFAULT);
     H5Lcreate_hard(file, "/pose", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown has another extent than /pressure");
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown differs in extent from /pressure");
 }
 
 TEST(Cube, keeps_the_row_width_of_a_planar_array) {
@@ -378,7 +378,7 @@ TEST(Cube, of_another_schema_names_both_versions) {
     H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
     H5Aclose(attribute);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: has cube schema 7, this insonify reads schema 1");
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: has cube schema 7, this version reads schema 1");
 }
 
 TEST(Cube, that_contradicts_itself_is_refused) {
@@ -391,7 +391,7 @@ TEST(Cube, that_contradicts_itself_is_refused) {
   };
   set("bin_size", 0.022);
   EXPECT_EQ(error_of_reading(path),
-            "content: cube.h5: /pressure has 46 bins, min_range, max_range and bin_size make 23");
+            "content: cube.h5: /pressure has 46 bins, but min_range, max_range and bin_size give 23");
   set("bin_size", -1);
   EXPECT_EQ(error_of_reading(path).substr(0, 17), "content: cube.h5:");
   {

@@ -75,7 +75,7 @@ TEST(Materials, refuse_intervals_that_overlap_or_hold_nothing) {
            "\n[[material]]\nname = \"y\"\nlambert_mu_db = -20\n" + second + "\n";
   };
   EXPECT_EQ(error_of_materials(two("to = 10", "from = 9.5")),
-            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; a number means one "
+            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong to one "
             "material");
   EXPECT_EQ(error_of_materials(two("from = 4", "from = 3\nto = 3")),
             "content: m.toml:9: from = 3 of 'y', must be below to = 3");
@@ -141,7 +141,7 @@ TEST(Materials, errors_name_line_key_and_remedy) {
   EXPECT_EQ(error_of_materials("schema = 1\n"), "content: m.toml:1: no [[material]] in the file");
   EXPECT_EQ(error_of_materials("schema = 1\nmaterial = [1]\n"),
             "content: m.toml:2: material must be a table: [[material]]");
-  EXPECT_EQ(error_of_materials("schema = 2\n"), "content: m.toml:1: schema = 2, this insonify reads schema 1");
+  EXPECT_EQ(error_of_materials("schema = 2\n"), "content: m.toml:1: schema = 2, this version reads schema 1");
   EXPECT_EQ(error_of_materials("[[material]]\n"), "content: m.toml:1: missing key 'schema'");
 }
 

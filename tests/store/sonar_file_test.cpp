@@ -99,7 +99,7 @@ TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
   EXPECT_EQ(numbers["centre_frequency_hz"].status, "user");
   EXPECT_EQ(numbers["elevation_shape"].value, "gaussian");
   EXPECT_EQ(numbers["elevation_shape"].status, "assumed");
-  EXPECT_EQ(numbers["side_lobe_db"].source, "not in the file: default of insonify");
+  EXPECT_EQ(numbers["side_lobe_db"].source, "omitted in the file: default of insonify");
 }
 
 // B = c / 2 dr with the nominal 1500 m/s: one inch is 29.53 kHz.
@@ -181,7 +181,7 @@ TEST(SonarFile, values_that_make_no_sonar_are_errors_with_line) {
 
 TEST(SonarFile, other_schemas_and_broken_toml_are_errors_with_line) {
   EXPECT_EQ(error_of_sonar(replaced(plain, "schema = 1", "schema = 2")),
-            "content: s.toml:1: schema = 2, this insonify reads schema 1");
+            "content: s.toml:1: schema = 2, this version reads schema 1");
   EXPECT_EQ(error_of_sonar(plain + "beams = = 3\n").substr(0, 19), "content: s.toml:12:");
   EXPECT_EQ(error_of_sonar(plain + "beams = 3\n").substr(0, 19), "content: s.toml:12:");  // given twice
 }
@@ -324,9 +324,9 @@ TEST(SonarFile, takes_a_table_of_beams) {
 
 TEST(SonarFile, refuses_widths_and_rows_that_make_no_array) {
   EXPECT_EQ(error_of_sonar(plain + "column_beam_width_deg = 0\n"),
-            "content: s.toml:12: column_beam_width_deg = 0.0, must be > 0; leave the key out if there is none");
+            "content: s.toml:12: column_beam_width_deg = 0.0, must be > 0; omit the key if there is none");
   EXPECT_EQ(error_of_sonar(plain + "transmit_width_deg = -4\n"),
-            "content: s.toml:12: transmit_width_deg = -4.0, must be > 0; leave the key out if there is none");
+            "content: s.toml:12: transmit_width_deg = -4.0, must be > 0; omit the key if there is none");
   EXPECT_EQ(
       error_of_sonar(plain + "transmit_width_deg = 400\n"),
       "content: s.toml:12: transmit_width_deg = 400 deg, must be > 0 and at most 360; leave it out for a transmitter "
