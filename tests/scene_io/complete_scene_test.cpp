@@ -181,7 +181,7 @@ TEST(Materials, labels_that_are_no_index_are_refused_unless_one_material_is_give
   for (const char* label : {"-1", "0.5", "70000", "nan"}) {
     const std::string path =
         write_file("a.csv", std::string("x,y,z,label\n0,0,0,0\n1,0,0,") + label + "\n0,1,0,0\n1,1,0,0\n");
-    expect_error(ErrorKind::content, {path, "a label is negative, above 65534 or no whole number"},
+    expect_error(ErrorKind::content, {path, "a label is negative, above 65534 or not an integer"},
                  [&] { load_scene(path); });
     LoadOptions options;
     options.material = 0;

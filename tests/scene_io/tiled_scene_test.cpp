@@ -246,7 +246,7 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   refuse(good.substr(0, 3000), {"cut off"});
   refuse(good + "x", {"longer"});
   refuse(with(8, 2), {"version 2", "update insonify"});
-  refuse(std::string(256, '\0') + good.substr(256), {"half written"});
+  refuse(std::string(256, '\0') + good.substr(256), {"is incomplete"});
   refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
   refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
   refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
