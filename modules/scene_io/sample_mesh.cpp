@@ -74,7 +74,7 @@ Winding examine_winding(const RawCloud& mesh, const std::vector<double>& area) {
   return winding;
 }
 
-/// Decides from the winding whether face normals are oriented, and notes it.
+/// True if the winding orients the face normals consistently; notes the result.
 bool winding_is_oriented(const RawCloud& mesh, const std::vector<double>& area, std::vector<std::string>& notes) {
   const Winding winding = examine_winding(mesh, area);
   if (100 * winding.against > winding.shared) {

@@ -14,7 +14,7 @@ using namespace insonify::test;
 
 namespace {
 
-/// Three surfels; the middle one was never heard.
+/// Three surfels; the middle one was never insonified.
 SceneCloud three_surfels(const Eigen::Vector3d& origin) {
   SceneCloud scene;
   scene.origin = origin;

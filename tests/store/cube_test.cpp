@@ -18,7 +18,7 @@ using namespace insonify;
 
 namespace {
 
-// 70 beams: more than one chunk of 64, the last one not full.
+// 70 beams: one full chunk of 64 and a partial one.
 Cube make_cube(std::size_t pings = 3, std::size_t beams = 70) {
   Cube cube;
   cube.sound_speed = 1489.8;
@@ -265,8 +265,7 @@ TEST(Cube, of_one_ping_and_one_beam_comes_back) {
   EXPECT_TRUE((back.pings[0].pressure == cube.pings[0].pressure).all());
 }
 
-// Memory that malloc hands out is filled with another byte each time: nothing uninitialised may reach the
-// file.
+// malloc fills memory with a different byte each time, which shows if uninitialised bytes reach the file.
 TEST(Cube, has_the_same_bytes_a_second_later_and_whatever_memory_held_before) {
   const Cube cube = make_cube();
   mallopt(M_PERTURB, 0x55);
@@ -301,7 +300,7 @@ TEST(Cube, has_the_documented_layout) {
   EXPECT_EQ(raw_number(file, "min_range"), 2);
 }
 
-// h5py and MATLAB take a compound {r, i} of two float32 for complex64.
+// h5py and MATLAB read a compound {r, i} of two float32 as complex64.
 TEST(Cube, keeps_pressure_as_compound_r_i_of_float32_in_chunks_of_one_ping) {
   const Cube cube = make_cube();
   const RawFile file(write(cube));

@@ -190,7 +190,7 @@ TEST(SonarFile, every_preset_survives_being_written_and_read_bit_for_bit) {
   for (const auto& sonar : list_sonars()) expect_same_bits(load(sonar_as_toml(sonar.spec)).spec, sonar.spec);
 }
 
-// Every angle that came from degrees has degrees that lead back to it, whatever the last bit.
+// Every angle read from degrees is written as degrees that read back to the same bits.
 TEST(SonarFile, random_angles_and_numbers_survive_bit_for_bit) {
   SonarSpec spec = load(plain).spec;
   for (std::uint64_t i = 0; i < 300; ++i) {
@@ -212,7 +212,7 @@ TEST(SonarFile, random_angles_and_numbers_survive_bit_for_bit) {
   }
 }
 
-// shading says nothing new when it is what side_lobe_db alone means: Taylor below 0, else uniform.
+// shading is redundant if it follows from side_lobe_db: Taylor below 0, else uniform.
 TEST(SonarFile, shading_is_kept_and_written_only_if_side_lobe_db_does_not_say_it) {
   for (const double side_lobe_db : {-30.0, 0.0})
     for (const Shading shading : {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev}) {
@@ -384,7 +384,7 @@ TEST(SetSonarValue, sets_every_key_that_files_know) {
   set_sonar_value(s, "azimuths_deg", "-1,0,1");
   EXPECT_EQ(s.azimuths.size(), 3u);
   EXPECT_EQ(s.beams, 3u);
-  set_sonar_value(s, "beams", "16");  // an even fan again
+  set_sonar_value(s, "beams", "16");  // evenly spaced again
   EXPECT_TRUE(s.azimuths.empty());
   EXPECT_EQ(s.beams, 16u);
   set_sonar_value(s, "elevations_deg", "-1,1");

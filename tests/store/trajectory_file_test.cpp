@@ -23,7 +23,7 @@ TEST(TrajectoryFile, reads_yaw_pitch_and_roll_in_degrees) {
 }
 
 TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
-  // Half a right angle about z is (0, 0, sin 45, cos 45) for yaw 90.
+  // The quaternion of yaw 90 degrees is (0, 0, sin 45, cos 45).
   const auto t = load_trajectory(
       own_file("t.csv", "qw,qx,qy,qz,time_s,x_m,y_m,z_m\n0.7071,0,0,0.7071,0,1,2,3\n-0.7071,0,0,-0.7071,1,1,2,3\n"));
   const Pose port = pose_from_yaw_pitch_roll({1, 2, 3}, pi / 2, 0, 0);

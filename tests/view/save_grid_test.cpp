@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, removed at its end.
+/// A folder for each test, removed at its end.
 class SavedForVtk : public testing::Test {
  protected:
   SavedForVtk()

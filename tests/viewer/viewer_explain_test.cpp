@@ -1,4 +1,4 @@
-// What is said about a sample, and what is highlighted for it.
+// Explanation of a sample, and the surfels highlighted for it.
 #include "viewer/viewer_explain.hpp"
 
 #include <cmath>
@@ -75,7 +75,7 @@ TEST(ExplainPixel, without_contributors_what_is_seen_there_is_highlighted) {
 
 TEST(ExplainPixel, says_what_casts_the_shadow_and_how_near_it_stands) {
   auto made = three_targets();
-  // A screen of 40 x 40 surfels before the far target, at half its range.
+  // A screen of 40 x 40 surfels in front of the far target, at half its range.
   const Pose& pose = made.data.pings[0].world_from_head;
   const double range = 6;
   for (int i = -20; i < 20; ++i)
