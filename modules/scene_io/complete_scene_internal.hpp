@@ -5,7 +5,7 @@
 #include "scene_io/load_scene.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
-// Private to scene_io: from a raw cloud to a scene that can be simulated.
+// Private to scene_io: conversion of a raw cloud to a scene.
 namespace insonify {
 
 /// Throws Error(argument) for invalid options. `who` names the caller.

@@ -9,7 +9,7 @@
 #include "scene/scene_cloud.hpp"
 #include "scene_io/number_type_internal.hpp"
 
-// Private to scene_io: a cloud as rows of packed little-endian numbers, the body of binary PLY and PCD alike.
+// Private to scene_io: a cloud as rows of packed little-endian numbers, the data section of binary PLY and PCD.
 namespace insonify {
 
 struct PackedRows {

@@ -14,7 +14,7 @@
 #include "scene_io/load_scene.hpp"
 #include "scene_io/number_type_internal.hpp"
 
-// Private to scene_io: what the readers hand to complete_scene and describe_file.
+// Private to scene_io: output of the readers, input of complete_scene and describe_file.
 namespace insonify {
 
 /// Contents of save_scene's comment lines, so that a prepared scene reads back unchanged.

@@ -8,7 +8,7 @@
 
 #include "scene_io/raw_cloud_internal.hpp"
 
-// Private to scene_io: clouds that are read row by row, however large.
+// Private to scene_io: clouds of any size, read in batches of rows.
 namespace insonify {
 
 /// Layout of the rows of an uncompressed binary cloud file.

@@ -8,7 +8,7 @@
 
 #include "scene_io/tile_file_internal.hpp"
 
-// Private to scene_io: putting more surfels in order of place than memory holds.
+// Private to scene_io: external sorting of surfels by position.
 namespace insonify {
 
 /// One surfel before it is stored in a tile.

@@ -80,7 +80,7 @@ TEST(TiledPing, relief_and_gate_are_those_of_the_whole_scene) {
   expect_same_ping(scene, harbour_pose(), {Water{}}, {}, 0.6);
 }
 
-TEST(TiledPing, multipath_hears_the_same_from_all_sides) {
+TEST(TiledPing, multipath_is_the_same_from_all_sides) {
   Environment environment{Water{}};
   environment.surface = SeaSurface{.rms_height = 0.0};
   environment.bottom = FlatBottom{.height = -8.5};

@@ -109,7 +109,7 @@ TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
   EXPECT_NE(error_of_materials(with("nan")).find("m.toml:4: lambert_mu_db = nan dB, must be"), std::string::npos);
 }
 
-TEST(Materials, by_label_stand_at_their_label_and_gaps_are_filled) {
+TEST(Materials, by_label_have_their_label_as_index_and_gaps_are_filled) {
   const auto list = load_materials(own_file("m.toml",
                                             "schema = 1\n[[material]]\nname = \"b\"\nlabel = 3\nlambert_mu_db = -20\n"
                                             "[[material]]\nname = \"a\"\nlabel = 1\nlambert_mu_db = -10\n"));

@@ -343,7 +343,7 @@ TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
   EXPECT_EQ(error_of_sonar("seed = 3\n[sonar]\nschema = 1\n"), "content: s.toml:2: missing key 'centre_frequency_hz'");
 }
 
-TEST(SetSonarValue, sets_every_key_that_files_know) {
+TEST(SetSonarValue, sets_every_key_of_files) {
   SonarSpec s = load(plain).spec;
   set_sonar_value(s, "centre_frequency_hz", "700e3");
   set_sonar_value(s, "range_resolution_m", "0.01");

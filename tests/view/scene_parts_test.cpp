@@ -196,7 +196,7 @@ TEST(HeadLines, reach_from_the_first_range_to_the_last) {
 
 // The sector of a level fan 4 m above a floor: between the cones 10 degrees below (and above) the horizon, the sides at
 // 45 degrees, and 15 m of range.
-TEST(FootprintOutline, stands_where_the_walls_meet_the_floor) {
+TEST(FootprintOutline, lies_where_the_walls_meet_the_floor) {
   const SceneCloud scene = floor_of(400, 0.1);
   const SceneHead head = head_at(pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(20), 0));
   const std::vector<std::uint32_t> outline = footprint_outline(scene, head);

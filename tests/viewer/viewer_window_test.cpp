@@ -133,7 +133,7 @@ TEST_F(Window, a_drag_is_no_click) {
   EXPECT_TRUE(said_.empty());
 }
 
-TEST_F(Window, a_click_on_a_target_in_3d_selects_where_it_is_heard) {
+TEST_F(Window, a_click_on_a_target_in_3d_selects_its_sample) {
   open();
   for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
     const auto at = window_->pixel_of_point(target->position);
@@ -208,7 +208,7 @@ TEST_F(Window, playing_moves_on_by_itself) {
   EXPECT_FALSE(window_->state().playing);
 }
 
-TEST_F(Window, quits_when_told_to) {
+TEST_F(Window, quits_on_request) {
   ViewerOptions options;
   options.events = parse_viewer_script("key q; key Up");
   open(options);
