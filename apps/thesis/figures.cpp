@@ -167,7 +167,8 @@ void draw_series(Figures& figures, const Simulated& s, const ComplexGrid& column
   fmt::print("| level of a peak | {:.1g} dB off SL - 2TL + TS at most |\n", off_db);
 }
 
-/// Figures 17, 19 and 21: the slice, the beam pattern about the scatterer in the middle, and the positions of the others.
+/// Figures 17, 19 and 21: the slice, the beam pattern about the scatterer in the middle, and the positions of the
+/// others.
 void draw_slice(Figures& figures, const Simulated& s, const std::string& name) {
   const std::size_t centre = s.which.period * (s.which.beams / 2 / s.which.period) + 25;
   const std::size_t scatterer = centre * s.which.rays + 10;

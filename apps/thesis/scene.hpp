@@ -56,14 +56,16 @@ Echoes select(const Echoes& echoes, Keep keep) {
   return kept;
 }
 
-/// Uniform array of the length whose continuous line has the thesis' beam width: L = 0.442946 lambda / sin(0.05).
-/// 144 elements a sixteenth of a wavelength apart approximate the line; 18 elements half a wavelength apart are a real array.
+/// Uniform array of the length whose continuous line has the thesis' beam width: L = 0.442946 lambda / sin(0.05). 144
+/// elements a sixteenth of a wavelength apart approximate the line; 18 elements half a wavelength apart are a real
+/// array.
 LineArray aperture(std::size_t elements);
 
 /// The sonar: beams over the whole field of view, and a gate around the object.
 SonarHead make_sonar(std::size_t beams, std::size_t elements = 144, double bin_size = 1e-3);
 
-/// The series of each column alone, before beamforming, computed as in the thesis by spectrum and FFT: columns x bins [Pa].
+/// The series of each column alone, before beamforming, computed as in the thesis by spectrum and FFT: columns x bins
+/// [Pa].
 ComplexGrid column_series(const Echoes& echoes, const Case& which, const SonarHead& head);
 
 /// The highest sample of a series near `range` [m], and the vertex of the parabola through it and its neighbours.

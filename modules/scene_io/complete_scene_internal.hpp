@@ -18,16 +18,16 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options);
 /// Points that are not finite match no other.
 std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points);
 
-/// Unit normals of the points listed in `wanted`, from the plane fitted to the `neighbours` nearest points (PCL); the sign
-/// is arbitrary, NaN where no plane can be fitted. Does not depend on `threads`.
+/// Unit normals of the points listed in `wanted`, from the plane fitted to the `neighbours` nearest points (PCL); the
+/// sign is arbitrary, NaN where no plane can be fitted. Does not depend on `threads`.
 std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
                                               const std::vector<std::uint32_t>& wanted, int neighbours, int threads);
 
 /// Gives every point of `raw` a unit normal, drops points without one, and reports the changes.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
-/// Scales usable normals to unit length unless save_scene wrote them (`prepared`). Returns the number whose length was off
-/// by more than 1e-3.
+/// Scales usable normals to unit length unless save_scene wrote them (`prepared`). Returns the number whose length was
+/// off by more than 1e-3.
 std::size_t renormalise(std::vector<Eigen::Vector3f>& normals, bool prepared);
 /// True if the normal is finite and not zero.
 bool usable_normal(const Eigen::Vector3f& normal);

@@ -30,7 +30,8 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
 /// The comment lines of a scene, without "comment " or "# ".
 std::vector<std::string> tag_lines(const SceneCloud& scene);
 
-/// A cloud or mesh as in its file, columns identified by name, before cleaning and completion. Absent columns are empty.
+/// A cloud or mesh as in its file, columns identified by name, before cleaning and completion. Absent columns are
+/// empty.
 struct RawCloud {
   std::string path, format;
   std::vector<FileDescription::Field> fields;
@@ -82,8 +83,9 @@ struct ReadOptions {
 /// ReadOptions for `options`; labels are not read if all surfels get one material.
 ReadOptions read_options(const LoadOptions& options);
 
-/// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and scales
-/// its viewpoint. Throws Error(content) if x, y, z or the requested material field is missing, or no point is finite.
+/// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
+/// scales its viewpoint. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
+/// finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.

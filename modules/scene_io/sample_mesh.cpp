@@ -106,8 +106,8 @@ std::size_t surfels_wanted(double total_area, double spacing) {
 }
 
 /// Barycentric coordinates of a surfel in its triangle. `along` in [0, 1) is stratified by the caller, the other
-/// coordinate advances by the golden ratio, so that successive surfels stay apart; jitter breaks the lattice. The square
-/// root makes the density uniform.
+/// coordinate advances by the golden ratio, so that successive surfels stay apart; jitter breaks the lattice. The
+/// square root makes the density uniform.
 Vector3d weights_at(double along, std::size_t sample, double jitter, double samples_here) {
   const double walk =
       static_cast<double>(sample) * (std::numbers::phi - 1) + jitter / std::sqrt(std::max(1.0, samples_here));
@@ -116,8 +116,8 @@ Vector3d weights_at(double along, std::size_t sample, double jitter, double samp
   return {1 - height, height * (1 - across), height * across};
 }
 
-/// The interpolated vertex normal if all three are on the same side of the face, else the face normal on the side of their
-/// sum.
+/// The interpolated vertex normal if all three are on the same side of the face, else the face normal on the side of
+/// their sum.
 Vector3d normal_at(const RawCloud& mesh, std::size_t t, const Vector3d& weights) {
   const Vector3d face = corners_of(mesh, t).cross().normalized();
   if (mesh.normal.empty()) return face;

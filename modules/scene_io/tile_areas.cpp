@@ -19,7 +19,8 @@ constexpr double halo_spacings = 10;  // the 64 nearest neighbours on a plane li
 
 Vector3d centre_of(const TileEntry& tile) { return Eigen::Map<const Vector3d>(tile.centre); }
 
-// Largest distance to neighbours of a tile's surfels, from their spacing if they filled the disc of the bounding sphere.
+// Largest distance to neighbours of a tile's surfels, from their spacing if they filled the disc of the bounding
+// sphere.
 double halo_of(const TileEntry& tile) {
   return halo_spacings * tile.radius * std::sqrt(pi / static_cast<double>(tile.count));
 }

@@ -50,7 +50,8 @@ void for_each_record(const RecordFile& file, Segment segment, const PlaceSort& s
   }
 }
 
-// Groups runs of cells with at most `most` records in total, or single cells with more; also returns the group of each cell.
+// Groups runs of cells with at most `most` records in total, or single cells with more; also returns the group of each
+// cell.
 std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, std::size_t most,
                                 std::array<std::uint32_t, cells>& part_of_cell) {
   std::vector<Segment> parts;

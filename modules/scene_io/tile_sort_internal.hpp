@@ -45,8 +45,8 @@ struct PlaceSort {
   std::function<void(std::uint64_t)> moved = [](auto) {};  ///< receives the number of records just read or written
 };
 
-/// Passes all records to `take` in groups of neighbours; within a group they keep the order of appending. Records at one
-/// place are in one group, unless there are more than `most`. Needs twice the disk space of the file.
+/// Passes all records to `take` in groups of neighbours; within a group they keep the order of appending. Records at
+/// one place are in one group, unless there are more than `most`. Needs twice the disk space of the file.
 void sort_by_place(std::unique_ptr<RecordFile> file, const PlaceSort& sort);
 
 }  // namespace insonify

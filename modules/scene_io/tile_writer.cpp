@@ -59,8 +59,8 @@ std::size_t drop_duplicates(std::vector<TileRecord>& group, bool wide) {
   return dropped;
 }
 
-/// Bisects the bounding box of the records across its longest side until each part holds at most `most`: dense regions get
-/// small tiles, and distant clusters are separated first.
+/// Bisects the bounding box of the records across its longest side until each part holds at most `most`: dense regions
+/// get small tiles, and distant clusters are separated first.
 void divide(std::span<TileRecord> records, std::size_t most, std::vector<std::span<TileRecord>>& parts) {
   while (records.size() > most) {
     Vector3d low = place_of(records[0]), high = low;

@@ -32,16 +32,16 @@ struct TileReport {
 };
 
 /// Writes a .tiles file from batches of surfels in bounded memory. Surfels are kept in an unnamed temporary file in the
-/// output's folder (48 bytes each, temporarily twice); finish() sorts them by position and then renames the output. Before
-/// that, and after any failure, no file of that name exists and nothing else is left behind.
+/// output's folder (48 bytes each, temporarily twice); finish() sorts them by position and then renames the output.
+/// Before that, and after any failure, no file of that name exists and nothing else is left behind.
 class TileWriter {
  public:
   /// Throws Error(argument) for an invalid option, Error(file) if the folder is not writable.
   explicit TileWriter(const std::string& path, const TileWriterOptions& options = {});
   ~TileWriter();
 
-  /// Adds a batch. Batches may differ in origin; material indices refer to the writer's materials. Throws as require_valid,
-  /// and Error(content) for more than 2^32 - 1 surfels in total.
+  /// Adds a batch. Batches may differ in origin; material indices refer to the writer's materials. Throws as
+  /// require_valid, and Error(content) for more than 2^32 - 1 surfels in total.
   void add(const SceneCloud& batch);
   /// The same with positions in double [m], relative to the writer's origin, instead of batch.point.
   void add(const SceneCloud& batch, std::span<const Eigen::Vector3d> places);

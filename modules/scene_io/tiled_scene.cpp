@@ -87,7 +87,8 @@ void copy_to(std::vector<T>& to, std::size_t first, const char* from, std::size_
   if (count > 0) std::memcpy(static_cast<void*>(to.data() + first), from, count * sizeof(T));
 }
 
-/// Unpacks the surfels of one tile into `scene` from index `first` on; `shift` is the offset from the file's origin to the scene's.
+/// Unpacks the surfels of one tile into `scene` from index `first` on; `shift` is the offset from the file's origin to
+/// the scene's.
 void unpack(const TileEntry& tile, const std::vector<char>& bytes, const Vector3d& shift, std::size_t first,
             SceneCloud& scene) {
   const std::size_t n = tile.count;

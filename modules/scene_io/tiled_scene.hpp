@@ -33,8 +33,8 @@ struct TileSelection {
   double bytes_to_load() const { return 64.0 * static_cast<double>(surfels); }
 };
 
-/// A prepared scene on disk, written by TileWriter, of which only the tiles near a head are read, so that scenes can be far
-/// larger than memory. Opening reads the directory, 80 bytes per tile of at most 4096 surfels.
+/// A prepared scene on disk, written by TileWriter, of which only the tiles near a head are read, so that scenes can be
+/// far larger than memory. Opening reads the directory, 80 bytes per tile of at most 4096 surfels.
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = ping_region(tiled.info().whole, head, pose, environment, options);
@@ -42,8 +42,8 @@ struct TileSelection {
 ///   simulate_ping(part, head, pose, environment, options);  // the same bytes as of the whole scene
 class TiledScene {
  public:
-  /// Throws Error(file) if the file is missing or unreadable; Error(content) if it is not a .tiles file, truncated, damaged,
-  /// incomplete or of a newer version.
+  /// Throws Error(file) if the file is missing or unreadable; Error(content) if it is not a .tiles file, truncated,
+  /// damaged, incomplete or of a newer version.
   explicit TiledScene(const std::string& path);
   ~TiledScene();
   TiledScene(TiledScene&&) noexcept;
@@ -54,12 +54,12 @@ class TiledScene {
   TileSelection select(const InsonifiedRegion& region) const;
   TileSelection select_all() const;
 
-  /// The surfels of the selected tiles by ascending id, with the ids and order of the whole scene, and part_of set. Scenes
-  /// that extend less than 2000 m from their origin keep it, and every point its bits; for wider ones the cloud's origin is a
-  /// multiple of 256 m near the region, and points are accurate to 2e-4 m within 2000 m of it, whatever the size of the
-  /// scene. Does not depend on `threads`.
-  /// memory   limit for loading [bytes]; 0: the available memory. Throws Error(runtime) if more is needed, before anything
-  ///          is read; Error(content) if a tile is damaged.
+  /// The surfels of the selected tiles by ascending id, with the ids and order of the whole scene, and part_of set.
+  /// Scenes that extend less than 2000 m from their origin keep it, and every point its bits; for wider ones the
+  /// cloud's origin is a multiple of 256 m near the region, and points are accurate to 2e-4 m within 2000 m of it,
+  /// whatever the size of the scene. Does not depend on `threads`.
+  /// memory   limit for loading [bytes]; 0: the available memory. Throws Error(runtime) if more is needed, before
+  ///          anything is read; Error(content) if a tile is damaged.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;
 
   /// Centres of the tiles (world, [m]).

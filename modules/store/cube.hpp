@@ -21,17 +21,18 @@ struct Cube {
   std::string insonify_version;
 };
 
-/// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth and /elevation
-/// [rad], /pose (pings x 4 x 4, world_from_head, row-major), /time [s], /ping (numbers) and the root attributes schema, the
-/// members above, beam_width, elevation_width (of a planar array also row_width) [rad], min_range, max_range, bin_size [m].
-/// Layers are written as /layers/NAME with the extent of /pressure; so are, if the pings have them, /level_error_db
-/// (float32) and /unknown (uint8). The attribute expected_level marks expected levels. Byte-identical for identical input
-/// (no timestamps). Written to a temporary name, then renamed. Throws Error(argument) if there are no pings or they differ
-/// in fan, gate, extent, layers, maps or expected_level; Error(file) if it cannot write.
+/// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth and
+/// /elevation [rad], /pose (pings x 4 x 4, world_from_head, row-major), /time [s], /ping (numbers) and the root
+/// attributes schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad],
+/// min_range, max_range, bin_size [m]. Layers are written as /layers/NAME with the extent of /pressure; so are, if the
+/// pings have them, /level_error_db (float32) and /unknown (uint8). The attribute expected_level marks expected levels.
+/// Byte-identical for identical input (no timestamps). Written to a temporary name, then renamed. Throws
+/// Error(argument) if there are no pings or they differ in fan, gate, extent, layers, maps or expected_level;
+/// Error(file) if it cannot write.
 void write_cube(const std::string& path, const Cube& cube);
 
-/// Reads what write_cube wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not a cube, has another
-/// schema or lacks a dataset or attribute, naming it.
+/// Reads what write_cube wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not a cube, has
+/// another schema or lacks a dataset or attribute, naming it.
 Cube read_cube(const std::string& path);
 
 }  // namespace insonify

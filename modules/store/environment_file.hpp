@@ -8,9 +8,9 @@ namespace insonify {
 
 /// Reads an environment from TOML: tables [water], [surface], [bottom], [volume], [wind], [noise] with the keys of
 /// environment_key_names, and [profile] with the lists depth_m and sound_speed. Each table enables its part of the
-/// environment; omitted keys keep their defaults. Other tables of a run.toml (recognised by its key insonify_version) are
-/// ignored. Unknown tables or keys and values of the wrong type are errors with file, line and the nearest known name.
-/// Throws Error(file) or Error(content).
+/// environment; omitted keys keep their defaults. Other tables of a run.toml (recognised by its key insonify_version)
+/// are ignored. Unknown tables or keys and values of the wrong type are errors with file, line and the nearest known
+/// name. Throws Error(file) or Error(content).
 Environment load_environment(const std::string& path);
 
 /// Sets one value from text: section "water", key "temperature_c", ... Consistency is checked by require_valid only.

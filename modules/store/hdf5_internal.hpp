@@ -63,7 +63,8 @@ using Extent = std::vector<hsize_t>;
 /// Creates a file without timestamps: same input, same bytes.
 Handle create_file(const Place& place, const std::string& name);
 
-/// Opens an existing file for reading. Throws Error(file) if it is missing or a folder, Error(content) if it is not HDF5.
+/// Opens an existing file for reading. Throws Error(file) if it is missing or a folder, Error(content) if it is not
+/// HDF5.
 Handle open_file(const Place& place);
 
 /// Creates a dataset without timestamps, with its unit as attribute "units"; chunked if `chunk` is not empty.

@@ -21,9 +21,9 @@ struct SonarFile {
   std::vector<SonarNumber> numbers;
 };
 
-/// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table
-/// {value, status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B = 1500
-/// m/s / 2 dr) is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg: with
+/// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table {value,
+/// status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B = 1500 m/s /
+/// 2 dr) is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg: with
 /// azimuths_deg one elevation per beam, without it a row of beams at each elevation. `numbers` also lists a derived
 /// bandwidth and the defaults of omitted keys. Unknown or missing keys, wrong types and invalid values are errors with
 /// file, line and remedy. Throws Error(file) or Error(content).
@@ -40,13 +40,13 @@ std::vector<SonarFile> list_sonars();
 /// else the source tree. Throws Error(file) if none exists, or if INSONIFY_DATA names no such folder.
 std::string data_folder();
 
-/// The spec as TOML text, the table [sonar] of run.toml. Reads back bit for bit if its angles came from degrees (a file,
-/// set_sonar_value); an angle computed in radians may change in its last bit.
+/// The spec as TOML text, the table [sonar] of run.toml. Reads back bit for bit if its angles came from degrees (a
+/// file, set_sonar_value); an angle computed in radians may change in its last bit.
 std::string sonar_as_toml(const SonarSpec& spec);
 
-/// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Consistency is checked by
-/// make_head, so that keys may be set in any order. Throws Error(argument) naming the nearest key, or the value and its
-/// type.
+/// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Consistency is
+/// checked by make_head, so that keys may be set in any order. Throws Error(argument) naming the nearest key, or the
+/// value and its type.
 void set_sonar_value(SonarSpec& spec, const std::string& key, const std::string& value);
 
 }  // namespace insonify

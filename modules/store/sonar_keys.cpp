@@ -53,8 +53,8 @@ const NumberKey* find_number_key(const std::string& key) {
   return nullptr;
 }
 
-// The degrees with the shortest text that read back to the same radians. They exist for every angle read from a file; an
-// angle computed in radians may be off by its last bit.
+// The degrees with the shortest text that read back to the same radians. They exist for every angle read from a file;
+// an angle computed in radians may be off by its last bit.
 double degrees_of(double angle) {
   const double straight = degrees(angle);
   for (int digits = 6; digits <= 17; ++digits) {

@@ -15,8 +15,8 @@ struct AxisTicks {
 /// Ticks at round values in [low, high], at most about `most` of them.
 AxisTicks round_ticks(double low, double high, double most);
 
-/// Ticks of a logarithmic axis, `low` and `high` being decimal logarithms: powers of ten, every second or third of them if
-/// there are many; 1, 2 and 5 times powers of ten if the axis spans less than two decades.
+/// Ticks of a logarithmic axis, `low` and `high` being decimal logarithms: powers of ten, every second or third of them
+/// if there are many; 1, 2 and 5 times powers of ten if the axis spans less than two decades.
 AxisTicks decade_ticks(double low, double high, double most);
 
 /// A frame with ticks and labels outside and grid lines inside.

@@ -30,15 +30,15 @@ constexpr double grid_opacity = 0.3;
 /// Maps bearing [rad] and range [m] to a place in the picture.
 using PlaneProjection = std::function<Point2(double bearing, double range)>;
 
-/// An off-screen picture. Coordinates are pixels from its lower left corner, or from an origin within it, so that several
-/// drawings can share one picture. Lines and edges of cells are smoothed by four samples per pixel; a pixel inside one
-/// cell has exactly that cell's colour.
+/// An off-screen picture. Coordinates are pixels from its lower left corner, or from an origin within it, so that
+/// several drawings can share one picture. Lines and edges of cells are smoothed by four samples per pixel; a pixel
+/// inside one cell has exactly that cell's colour.
 class Canvas {
  public:
   Canvas(const PictureOptions& options, const char* who);
 
-  /// Draws into a renderer of the caller's window and sets its camera to show options.width x options.height pixels. The
-  /// drawing follows when that camera moves. save_png does not apply to such a canvas.
+  /// Draws into a renderer of the caller's window and sets its camera to show options.width x options.height pixels.
+  /// The drawing follows when that camera moves. save_png does not apply to such a canvas.
   Canvas(vtkRenderer* renderer, const PictureOptions& options, const char* who);
 
   /// Sets the place in the picture of (0, 0) for everything added later; whole pixels.
@@ -58,7 +58,8 @@ class Canvas {
   /// All texts added so far, in picture coordinates.
   const std::vector<PlacedText>& texts() const { return texts_; }
 
-  /// Renders and writes a PNG. Throws Error(runtime) if VTK reported an error, Error(file) if the file cannot be written.
+  /// Renders and writes a PNG. Throws Error(runtime) if VTK reported an error, Error(file) if the file cannot be
+  /// written.
   void save_png(const std::string& path, const VtkMessages& messages);
 
  private:

@@ -30,8 +30,8 @@ struct ColourScale {
 /// levels are equal, a value that maps them to the lowest colour.
 double automatic_max_db(const Grid<float>& level_db, double window_db);
 
-/// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a window
-/// that is not positive, or max_db <= min_db.
+/// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a
+/// window that is not positive, or max_db <= min_db.
 ColourScale colour_scale(const Grid<float>& level_db, const PictureOptions& options, const char* who);
 
 }  // namespace insonify

@@ -112,8 +112,8 @@ std::vector<double> cell_edges(const std::vector<double>& bearing, double gap, d
   return edges;
 }
 
-// Largest difference of bearings within one cell. Beams of a regular grid of rows have equal bearings; with staggered rows
-// or an unordered table, each cell spans half a beam width.
+// Largest difference of bearings within one cell. Beams of a regular grid of rows have equal bearings; with staggered
+// rows or an unordered table, each cell spans half a beam width.
 double cell_reach(const BeamFan& fan, const std::vector<double>& ascending_bearing) {
   std::size_t distinct = 1;
   for (std::size_t i = 1; i < ascending_bearing.size(); ++i)

@@ -15,12 +15,12 @@ void require_picture_size(const PictureOptions& options, const char* who);
 /// pixels.
 void require_drawable(const LevelImage& image, const PictureOptions& options, const char* who);
 
-/// The beams of an image ordered by bearing, as adjacent cells.
-/// A bearing is -azimuth [rad], positive to starboard. The circle is cut at its widest gap, so that fans across the stern
-/// and full scans stay in one piece; bearings then ascend and may lie outside [-pi, pi]. Beam b fills
-/// [edges[b], edges[b+1]]: edges are halfway between neighbours, the outermost half a spacing beyond; a single beam is as
-/// wide as fan.beam_width (2 degrees if that is 0). Beams of one bearing share a cell, which shows the strongest of them
-/// at each range; if a fan of several elevations is not a regular grid, beams within half a beam width share a cell.
+/// The beams of an image ordered by bearing, as adjacent cells. A bearing is -azimuth [rad], positive to starboard. The
+/// circle is cut at its widest gap, so that fans across the stern and full scans stay in one piece; bearings then
+/// ascend and may lie outside [-pi, pi]. Beam b fills [edges[b], edges[b+1]]: edges are halfway between neighbours, the
+/// outermost half a spacing beyond; a single beam is as wide as fan.beam_width (2 degrees if that is 0). Beams of one
+/// bearing share a cell, which shows the strongest of them at each range; if a fan of several elevations is not a
+/// regular grid, beams within half a beam width share a cell.
 struct BeamCells {
   std::vector<double> edges;   ///< beams + 1, ascending [rad]
   Grid<float> level_db;        ///< beams x bins
@@ -44,8 +44,8 @@ struct CellPatch {
   double columns = 0;             ///< max_range as a column index; below level_db.cols() if the last group is partial
 };
 
-/// The cells of a fan drawn at pixels_per_metre: bins are combined where there are more than two per pixel of radius, and
-/// beams near the apex where they are narrower than half a pixel. Together the patches cover the whole fan.
+/// The cells of a fan drawn at pixels_per_metre: bins are combined where there are more than two per pixel of radius,
+/// and beams near the apex where they are narrower than half a pixel. Together the patches cover the whole fan.
 std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate, double pixels_per_metre);
 
 /// The same for a rectangle of width x height pixels.

@@ -34,9 +34,9 @@ struct LineChart {
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
 };
 
-/// Draws frame, grid, labels, titles and lines, and a legend above the frame in as many rows as the names need. Labels of
-/// points that would cover each other are omitted. Only size and dark of the options are used; the caller has checked the
-/// size. File errors as show_fan.
+/// Draws frame, grid, labels, titles and lines, and a legend above the frame in as many rows as the names need. Labels
+/// of points that would cover each other are omitted. Only size and dark of the options are used; the caller has
+/// checked the size. File errors as show_fan.
 void draw_line_chart(const LineChart& chart, const PictureOptions& options, const char* who,
                      const std::string& png_path);
 

@@ -13,18 +13,18 @@ struct SampleField {
   Grid<float> values;  ///< beams x bins
 };
 
-/// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges of
-/// its beam (halfway to its neighbours, as in show_fan) and of its bin, at the elevation of its row, with corners in the
-/// world [m, double]. A fan of several elevations gives one file per row, by ascending elevation: path.vts becomes
-/// path_row_000.vts, path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value of
-/// each field. Returns the names of the files, which are written under temporary names and renamed. Throws Error(argument)
-/// for an invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name; Error(file) if it
-/// cannot write.
+/// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges
+/// of its beam (halfway to its neighbours, as in show_fan) and of its bin, at the elevation of its row, with corners in
+/// the world [m, double]. A fan of several elevations gives one file per row, by ascending elevation: path.vts becomes
+/// path_row_000.vts, path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value
+/// of each field. Returns the names of the files, which are written under temporary names and renamed. Throws
+/// Error(argument) for an invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name;
+/// Error(file) if it cannot write.
 std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                                        const std::vector<SampleField>& fields, const Pose& world_from_head);
 
-/// Writes samples as a regular VTK image (.vti): one cell per sample, beam number along x (from 0) and range along y [m],
-/// with the values of the cube bit for bit. Throws as save_fan_grid.
+/// Writes samples as a regular VTK image (.vti): one cell per sample, beam number along x (from 0) and range along y
+/// [m], with the values of the cube bit for bit. Throws as save_fan_grid.
 void save_sample_image(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                        const std::vector<SampleField>& fields);
 

@@ -16,9 +16,9 @@ struct LineSet {
   std::vector<Field> fields;
 };
 
-/// Writes lines as VTK polydata (.vtp), points in double, fields as cell data. Written to a temporary name, then renamed.
-/// Throws Error(argument) for a line of fewer than two points or a field without exactly one value per line, Error(file)
-/// if it cannot write.
+/// Writes lines as VTK polydata (.vtp), points in double, fields as cell data. Written to a temporary name, then
+/// renamed. Throws Error(argument) for a line of fewer than two points or a field without exactly one value per line,
+/// Error(file) if it cannot write.
 void save_lines(const std::string& path, const LineSet& lines);
 
 }  // namespace insonify

@@ -22,7 +22,8 @@ struct SceneAxes {
   std::vector<AxisLabel> labels;  ///< of one axis by ascending value, then its name
 };
 
-/// The axes of a box as seen in `view`. Labels are world coordinates [m]. An axis along the line of sight gets no labels.
+/// The axes of a box as seen in `view`. Labels are world coordinates [m]. An axis along the line of sight gets no
+/// labels.
 SceneAxes lay_out_axes(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& scene_origin, const CameraView& view);
 
 /// Places labels in the part `frame` of a picture that shows `view`: numbers beside their ticks, names beyond them, far

@@ -45,11 +45,11 @@ ViewAxes preset_axes(const SceneLook& look, ScenePreset preset) {
   return view_axes(downwards(Vector3d(0.64, 0.77, 0).normalized(), 32), up);
 }
 
-// The nearest position from which all points lie within the window, `open_x` and `open_y` being the tangents of half its
-// view angles.
+// The nearest position from which all points lie within the window, `open_x` and `open_y` being the tangents of half
+// its view angles.
 Vector3d fitting_position(const std::vector<Vector3d>& points, const ViewAxes& axes, double open_x, double open_y) {
-  // A point is inside if its offset to the right is at most its distance times open_x. This gives two bounds on the lateral
-  // position of the camera, whose gap closes as it moves nearer; likewise upwards.
+  // A point is inside if its offset to the right is at most its distance times open_x. This gives two bounds on the
+  // lateral position of the camera, whose gap closes as it moves nearer; likewise upwards.
   double left = -1e300, right = 1e300, low = -1e300, high = 1e300, nearest = 1e300;
   for (const Vector3d& point : points) {
     const double x = axes.right.dot(point), y = axes.up.dot(point), z = axes.forward.dot(point);

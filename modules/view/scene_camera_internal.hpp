@@ -17,13 +17,13 @@ struct CameraView {
   Eigen::Vector3d forward() const { return (focal_point - position).normalized(); }
 };
 
-/// The points that a picture of a scene should show: up to 20 000 of the surfels, relative to scene.origin. With a head,
-/// those within its range gate, or all if there are none.
+/// The points that a picture of a scene should show: up to 20 000 of the surfels, relative to scene.origin. With a
+/// head, those within its range gate, or all if there are none.
 std::vector<Eigen::Vector3d> points_of_interest(const SceneCloud& scene, const SceneLook& look);
 
-/// The requested camera. A preset is placed as near as possible with all `points` (not empty) inside the window of width x
-/// height pixels, leaving `margin` pixels on every side. Throws Error(argument) if only one of position and focal point is
-/// given, they are not finite, or they coincide.
+/// The requested camera. A preset is placed as near as possible with all `points` (not empty) inside the window of
+/// width x height pixels, leaving `margin` pixels on every side. Throws Error(argument) if only one of position and
+/// focal point is given, they are not finite, or they coincide.
 CameraView place_view(const SceneCloud& scene, const SceneLook& look, const SceneCamera& camera,
                       const std::vector<Eigen::Vector3d>& points, double width, double height, double margin,
                       const char* who);

@@ -12,8 +12,8 @@ namespace insonify {
 /// Points of a line, relative to scene.origin [m].
 using Polyline = std::vector<Eigen::Vector3d>;
 
-/// The solid angle of a fan in head axes. The circle is cut at its widest gap, so that a fan across the stern stays in one
-/// piece; azimuths may then lie outside [-pi, pi].
+/// The solid angle of a fan in head axes. The circle is cut at its widest gap, so that a fan across the stern stays in
+/// one piece; azimuths may then lie outside [-pi, pi].
 struct FanSector {
   double low_azimuth = 0, high_azimuth = 0;      ///< edges: half a beam spacing beyond the outermost beams [rad]
   double first_azimuth = 0, last_azimuth = 0;    ///< of the outermost beams: starboard, port

@@ -86,7 +86,8 @@ void SquareMapper::SetMapperShaderParameters(vtkOpenGLHelper& helper, vtkRendere
   set("pixels_per_metre", growth * pixels);
   set("min_pixels", min_pixels);
   set("max_pixels", max_pixels);
-  // Depth in clip space is a w + depth_offset; move it nearer by the fraction `lift` of the distance, at the same pixel.
+  // Depth in clip space is a w + depth_offset; move it nearer by the fraction `lift` of the distance, at the same
+  // pixel.
   set("lift", lift < 1 ? depth_offset * lift / (1 - lift) : 0);
   set("in_front", lift < 1 ? 0 : 0.999);
 }

@@ -49,8 +49,8 @@ std::span<const float> sides_of(const PointCloudArrays& arrays);
 /// Overwrites the colours, one per point, and marks them as changed.
 void set_colours(vtkUnsignedCharArray* to, std::span<const Rgb> colour);
 
-/// An actor that draws the points listed in `drawn`. Actors may share arrays: the points are then stored, and uploaded to
-/// GL, only once.
+/// An actor that draws the points listed in `drawn`. Actors may share arrays: the points are then stored, and uploaded
+/// to GL, only once.
 vtkSmartPointer<vtkActor> point_actor(const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
 
 /// Makes an actor of point_actor draw other points, of the same or other arrays.

@@ -64,19 +64,19 @@ struct SceneLook {
   std::size_t most_surfels = 2'000'000;  ///< larger scenes are thinned evenly; 0: draw all
 };
 
-/// Draws a scene in perspective into a PNG, without an X server: surfels as squares of their own size, with colour bar or
-/// legend, axes and title. Colours of height, material and visibility are shaded by the normals; those of levels and angles
-/// are exactly the colours of the bar. World z points up in the picture (`top`: world y).
+/// Draws a scene in perspective into a PNG, without an X server: surfels as squares of their own size, with colour bar
+/// or legend, axes and title. Colours of height, material and visibility are shaded by the normals; those of levels and
+/// angles are exactly the colours of the bar. World z points up in the picture (`top`: world y).
 ///
 /// options.colour_map, min_db, max_db and window_db apply to levels; heights and angles use viridis. Of scenes above
-/// look.most_surfels a subset chosen by the ids alone is drawn, with larger squares to close the gaps. Positions are drawn
-/// relative to scene.origin: a scene in UTM coordinates looks the same as at zero. Two renderings on one machine have the
-/// same bytes.
+/// look.most_surfels a subset chosen by the ids alone is drawn, with larger squares to close the gaps. Positions are
+/// drawn relative to scene.origin: a scene in UTM coordinates looks the same as at zero. Two renderings on one machine
+/// have the same bytes.
 ///
 /// Written to a temporary name, then renamed. Throws Error(content) for a scene without surfels; Error(argument) if
-/// level_db or visibility have another length than the scene, a highlighted surfel is not in it, the colour is grazing or
-/// incidence without a head or visibility without `visibility`, only one of the camera's points is given, point_size is not
-/// positive, or, as show_fan, for picture options; Error(runtime) and Error(file) as show_fan.
+/// level_db or visibility have another length than the scene, a highlighted surfel is not in it, the colour is grazing
+/// or incidence without a head or visibility without `visibility`, only one of the camera's points is given, point_size
+/// is not positive, or, as show_fan, for picture options; Error(runtime) and Error(file) as show_fan.
 void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                 const std::string& png_path);
 

@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// During its lifetime, collects what VTK would print to stderr and lets only one thread draw, because VTK's text renderer
-/// and message window exist once per process.
+/// During its lifetime, collects what VTK would print to stderr and lets only one thread draw, because VTK's text
+/// renderer and message window exist once per process.
 class VtkMessages {
  public:
   VtkMessages();

@@ -21,14 +21,15 @@ struct ViewerOptions {
 bool has_display();
 
 /// Opens the viewer on the desktop and returns when the user or an event closes it. Panels of a run: the fan in true
-/// geometry, the scene in 3-D with the head and the returns, the levels of a beam, a waterfall of it (one ping: the levels
-/// across all beams), and an explanation of the selected sample. To inspect: the scene coloured by visibility.
-/// Keys: viewer_keys. Throws Error(runtime), with the remedy, without a display; as require_viewable; Error(argument) for a
-/// window smaller than 800 x 600 or larger than 8192 pixels in either direction, or a start outside the data's extent.
+/// geometry, the scene in 3-D with the head and the returns, the levels of a beam, a waterfall of it (one ping: the
+/// levels across all beams), and an explanation of the selected sample. To inspect: the scene coloured by visibility.
+/// Keys: viewer_keys. Throws Error(runtime), with the remedy, without a display; as require_viewable; Error(argument)
+/// for a window smaller than 800 x 600 or larger than 8192 pixels in either direction, or a start outside the data's
+/// extent.
 void show_viewer(const ViewerData& data, const ViewerOptions& options);
 
-/// The same window without a display: draws off-screen, plays the events, and writes the final state as PNG. File errors as
-/// show_fan.
+/// The same window without a display: draws off-screen, plays the events, and writes the final state as PNG. File
+/// errors as show_fan.
 void draw_viewer(const ViewerData& data, const ViewerOptions& options, const std::string& png_path);
 
 }  // namespace insonify

@@ -21,8 +21,8 @@ struct Contribution {
   PathKind path = PathKind::direct;
 };
 
-/// Visibility from the head of the surfels at a sample's place: within its beam's share of the fan, and within half a surfel
-/// of its range bin.
+/// Visibility from the head of the surfels at a sample's place: within its beam's share of the fan, and within half a
+/// surfel of its range bin.
 struct PixelVisibility {
   std::vector<std::uint32_t> seen, hidden;  ///< surfels, by index in the scene
   std::size_t turned_away = 0;
@@ -56,8 +56,8 @@ std::string explain_pixel(const PixelFacts& facts);
 /// Surfels to highlight for a sample: its contributors, or, if unknown, the visible surfels at its place.
 std::vector<std::uint32_t> surfels_behind(const PixelFacts& facts);
 
-/// The sample that contains a point of the world: its beam (nearest in azimuth, then in elevation) and its bin. None outside
-/// fan and gate.
+/// The sample that contains a point of the world: its beam (nearest in azimuth, then in elevation) and its bin. None
+/// outside fan and gate.
 std::optional<PixelPlace> place_of(const Ping& ping, const Eigen::Vector3d& world_position);
 
 }  // namespace insonify

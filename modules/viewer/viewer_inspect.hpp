@@ -21,8 +21,8 @@ HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate&
 /// The view in sentences, one per line, with the corresponding option --pose.
 std::string explain_view(const HeadView& view, const ViewerState& state);
 
-/// Description of one surfel: material, id, position, area, range, bearing (positive to starboard), incidence, visibility.
-/// Throws Error(argument) if it is not in the scene.
+/// Description of one surfel: material, id, position, area, range, bearing (positive to starboard), incidence,
+/// visibility. Throws Error(argument) if it is not in the scene.
 std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const HeadPlace& head, std::uint32_t surfel);
 
 }  // namespace insonify

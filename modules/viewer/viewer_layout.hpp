@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// Boxes of the panels, in pixels from the lower left corner of the window. Absent panels are empty; the others tile the
-/// window.
+/// Boxes of the panels, in pixels from the lower left corner of the window. Absent panels are empty; the others tile
+/// the window.
 struct ViewerLayout {
   int font_size = 0;
   Box fan;      ///< the ping in true geometry
@@ -23,8 +23,8 @@ struct ViewerLayout {
 enum class ViewerPanelName { fan, scene, ascan, history, facts, status };
 const Box& box_of(const ViewerLayout& layout, ViewerPanelName name);
 
-/// Layout of a window of width x height pixels; `with_scene` adds the 3-D panel. Throws Error(argument) for a window smaller
-/// than 800 x 600 or larger than 8192 pixels in either direction.
+/// Layout of a window of width x height pixels; `with_scene` adds the 3-D panel. Throws Error(argument) for a window
+/// smaller than 800 x 600 or larger than 8192 pixels in either direction.
 ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, bool with_scene);
 
 /// The panel at a place in the window.

@@ -17,8 +17,9 @@ class ViewerScene {
   /// `data` and `panel` must outlive it.
   ViewerScene(const ViewerData& data, ViewerPanel& panel, const ViewerState& state, const PictureOptions& options);
 
-  /// Updates the panel to a state. `view` is the visibility from the head, or null; `max_db` the brightest range-compensated
-  /// level of the returns, which are always range compensated so that near and far ones are comparable.
+  /// Updates the panel to a state. `view` is the visibility from the head, or null; `max_db` the brightest
+  /// range-compensated level of the returns, which are always range compensated so that near and far ones are
+  /// comparable.
   void update(const ViewerState& state, const HeadView* view, double max_db);
   void highlight(const std::vector<std::uint32_t>& surfels);
   /// Draws title and colour key on an emptied upper layer.

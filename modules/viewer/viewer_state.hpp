@@ -86,8 +86,8 @@ std::vector<ViewerKey> viewer_keys(ViewerMode mode);
 /// The table as text, one row per line.
 std::string viewer_help(ViewerMode mode);
 
-/// The state after a key press. `key` is its X name ("a", "Left", "bracketleft", "space"), preceded by "shift+" for keys
-/// other than characters. Keys of pcl_viewer have the same meaning as there. Unknown keys change nothing.
+/// The state after a key press. `key` is its X name ("a", "Left", "bracketleft", "space"), preceded by "shift+" for
+/// keys other than characters. Keys of pcl_viewer have the same meaning as there. Unknown keys change nothing.
 KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExtent& extent);
 
 /// Selects a sample, or adds a point to an active measurement; a third point starts a new one.

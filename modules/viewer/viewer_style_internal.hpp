@@ -11,8 +11,8 @@ namespace insonify {
 /// Camera motion that the mouse controls in a panel.
 enum class PanelMotion { none, slide, turn };
 
-/// Mouse and keys of the viewer: drags rotate the scene and pan the fan, the wheel zooms both; clicks without motion and all
-/// keys are passed to the window. VTK's own keys are disabled.
+/// Mouse and keys of the viewer: drags rotate the scene and pan the fan, the wheel zooms both; clicks without motion
+/// and all keys are passed to the window. VTK's own keys are disabled.
 class ViewerStyle : public vtkInteractorStyleTrackballCamera {
  public:
   static ViewerStyle* New();

@@ -89,7 +89,8 @@ void ViewerWindow::open(const ViewerOptions& options) {
     window_ = vtkSmartPointer<vtkRenderWindow>::New();
     interactor_ = vtkSmartPointer<vtkRenderWindowInteractor>::New();
   }
-  // Multisampling smooths the edges of pictures; on a screen it would take most of the frame time of a software renderer.
+  // Multisampling smooths the edges of pictures; on a screen it would take most of the frame time of a software
+  // renderer.
   window_->SetMultiSamples(screen_ == ViewerScreen::off_screen ? samples_per_pixel : 0);
   window_->SetDPI(72);  // one point of text is one pixel
   window_->SetSize(options.width, options.height);

@@ -75,8 +75,8 @@ TEST(Materials, refuse_intervals_that_overlap_or_hold_nothing) {
            "\n[[material]]\nname = \"y\"\nlambert_mu_db = -20\n" + second + "\n";
   };
   EXPECT_EQ(error_of_materials(two("to = 10", "from = 9.5")),
-            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong to one "
-            "material");
+            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong "
+            "to one material");
   EXPECT_EQ(error_of_materials(two("from = 4", "from = 3\nto = 3")),
             "content: m.toml:9: from = 3 of 'y', must be below to = 3");
   EXPECT_EQ(error_of_materials(two("from = nan", "")), "content: m.toml:5: from = nan of 'x', must be below to = inf");

@@ -1,4 +1,5 @@
-// Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left behind.
+// Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left
+// behind.
 #include <string>
 
 #include "tool/tool_runner.hpp"

@@ -6,7 +6,8 @@
 
 namespace insonify::test {
 
-/// A virtual X server, stopped by the destructor; the name is empty if Xvfb is not installed. Throws if it does not answer.
+/// A virtual X server, stopped by the destructor; the name is empty if Xvfb is not installed. Throws if it does not
+/// answer.
 class VirtualDisplay {
  public:
   VirtualDisplay();
