@@ -53,7 +53,7 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
     problems.push_back(share(raw.not_finite, file.points, "points") + " are not finite: will be dropped");
   if (file.duplicates > 0 && raw.triangle.empty()) {
     problems.push_back(share(file.duplicates, file.points, "points") +
-                       " stand where an earlier one does: will be dropped");
+                       " coincide with an earlier one: will be dropped");
   }
   if (raw.bad_triangles > 0) {
     problems.push_back(share(raw.bad_triangles, file.triangles, "polygons") +

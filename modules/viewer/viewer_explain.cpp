@@ -145,7 +145,7 @@ std::string visibility_lines(const PixelVisibility& visibility, const std::strin
   if (!seen_material.empty()) text += " (" + seen_material + ")";
   text += text_of(",\n  %zu hidden, %zu turned away\n", visibility.hidden.size(), visibility.turned_away);
   if (visibility.occluder_range)
-    text += text_of("Shadow: hidden by what stands at %.3f m\n", *visibility.occluder_range);
+    text += text_of("Shadow: occluded by a surfel at %.3f m\n", *visibility.occluder_range);
   return text;
 }
 

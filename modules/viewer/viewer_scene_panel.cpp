@@ -53,7 +53,7 @@ const char* colour_text(SceneColour colour) {
     case SceneColour::material:
       return "material";
     case SceneColour::visibility:
-      return "what the head sees";
+      return "visibility";
     case SceneColour::level:
       return "level";
     case SceneColour::grazing:
@@ -144,7 +144,7 @@ void ViewerScene::draw_key(const PictureOptions& options, const ViewerState& sta
   Canvas canvas = fresh_canvas(panel_.marks, options, false);
   const int font = options.font_size;
   PictureOptions titled = options;
-  titled.title = std::string(own_ ? "Returns (the scene is not there)" : "Scene") + " by " +
+  titled.title = std::string(own_ ? "Returns (scene missing)" : "Scene") + " by " +
                  colour_text(actors_->look().colour) + (data_.returns.size() > 0 && !own_ ? ", returns by level" : "");
   const auto title = place_title(titled);
   if (title) canvas.add_text(*title);
