@@ -98,7 +98,7 @@ TEST_F(InsonifyView, a_run_whose_scene_is_gone_is_shown_without_it) {
   std::filesystem::remove(path("targets.ply"));
   const ToolResult result = run("view out --screenshot a.png");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("targets.ply: the scene of the run is not there"));
+  EXPECT_THAT(result.err, HasSubstr("targets.ply: the scene of the run is missing"));
 }
 
 TEST_F(InsonifyView, shows_the_returns_of_a_run) {
