@@ -1,4 +1,4 @@
-// The first ping through the API: a scene, a sonar, a pose; out come levels and points.
+// The first ping through the API: from a scene, a sonar and a pose to levels and points.
 #include <iostream>
 
 #include "core/units.hpp"
@@ -9,10 +9,10 @@
 int main() {
   using namespace insonify;
 
-  // The scene: a harbour of 100 000 surfels; your own comes from load_scene("reef.pcd").
+  // The scene: a harbour of 100 000 surfels; load_scene("reef.pcd") loads your own.
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 100000});
 
-  // The sonar: a preset, here cut to 20 m, in water of 8 deg C.
+  // The sonar: a preset limited to 20 m, in water of 8 deg C.
   const Water water{.temperature_c = 8};
   SonarSpec spec = find_sonar("p900-45").spec;
   spec.max_range = 20;

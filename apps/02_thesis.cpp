@@ -1,6 +1,6 @@
-// The simulation of A. Rascon's thesis, done again: its figures 13 to 21 and its Table 4 (docs/thesis.md).
+// Reproduces figures 13 to 21 and Table 4 of A. Rascon's thesis (docs/thesis.md).
 //   02_thesis FOLDER [--quick | --figures]
-// --quick: small pictures, and run times of the smallest case alone. --figures: no run times.
+// --quick: small pictures, and run times of the smallest case only. --figures: no run times.
 #include <exception>
 #include <filesystem>
 #include <iostream>

@@ -1,4 +1,4 @@
-// Many pings of one scene: prepared once, pinged along a track, kept in one cube.
+// Many pings of one scene: prepare it once, ping along a track, store all pings in one cube.
 #include <iostream>
 
 #include "core/units.hpp"
@@ -11,7 +11,7 @@
 int main(int argc, char** argv) {
   using namespace insonify;
 
-  // The scene, checked and sorted into blocks once: a ping then looks only at what its fan reaches.
+  // The scene is checked and sorted into blocks once; a ping then tests only the blocks within reach of its fan.
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 100000});
   const PreparedScene prepared(scene);
 
@@ -21,26 +21,26 @@ int main(int argc, char** argv) {
   spec.beams = 64;
   const SonarHead head = make_head(spec, sound_speed(environment.water));
 
-  // Eight pings along the quay, half a second apart; what was heard of each surfel adds up in a map.
+  // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel.
   Cube cube;
   cube.sonar = head.name;
-  Insonification heard;
+  Insonification insonified;
   for (int k = 0; k < 8; ++k) {
     SimulationOptions options;
     options.ping = k;
     options.time = 0.5 * k;
     const Pose pose = pose_from_yaw_pitch_roll({1.5 * k, 2, -3}, radians(20), radians(15), 0);
     const SimulatedPing result = simulate_ping(prepared, head, pose, environment, options);
-    add_ping(heard, scene, result.scatterers, head, result.medium);
+    add_ping(insonified, scene, result.scatterers, head, result.medium);
     std::cout << "ping " << k << ": " << result.soundings.size() << " soundings\n";
     cube.pings.push_back(result.ping);
     cube.sound_speed = result.medium.sound_speed;
     cube.absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db;
   }
   std::size_t surfels = 0;
-  for (const auto hits : heard.hits) surfels += hits > 0;
-  std::cout << surfels << " of " << scene.size() << " surfels were heard\n";
+  for (const auto hits : insonified.hits) surfels += hits > 0;
+  std::cout << surfels << " of " << scene.size() << " surfels were insonified\n";
 
-  // With a name, the cube is written: insonify image CUBE --view waterfall -o waterfall.png
+  // With a file name, write the cube; to draw it: insonify image CUBE --view waterfall -o waterfall.png
   if (argc > 1) write_cube(argv[1], cube);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures error against run time on this machine and writes docs/accuracy.md with its pictures. For numbers worth keeping
-# the machine must have nothing else to do.
+# Measures error against run time on this machine and writes docs/accuracy.md with its pictures. The numbers are only
+# meaningful on an otherwise idle machine.
 #   docs/make_accuracy.sh [build/release/bin/insonify] [options of `insonify accuracy`, e.g. --full | --from RUN]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -9,7 +9,7 @@ tool=${1:-build/release/bin/insonify}
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-if [[ "${1:-}" == --from ]]; then  # a run made before
+if [[ "${1:-}" == --from ]]; then    # an earlier run
   ln -s "$(realpath "$2")" "$work/run"
   shift 2
 else
@@ -54,30 +54,30 @@ cat <<TEXT
 Made by [docs/make_accuracy.sh](make_accuracy.sh) from one run of \`insonify accuracy${*:+ $*}\`; do not edit. Raw numbers:
 [sweep.csv](images/accuracy/sweep.csv), [sampling.csv](images/accuracy/sampling.csv).
 
-$(field cpu), $(field cores) cores, load average $(field load_average) when it began; $(field compiler), \`$(field flags)\`; commit $(field commit), version
-$(field insonify_version), $(field threads) threads, seed $(field seed). Times hang on the machine and on what else it does; ratios do less.
+$(field cpu), $(field cores) cores, load average $(field load_average) when it started; $(field compiler), \`$(field flags)\`; commit $(field commit), version
+$(field insonify_version), $(field threads) threads, seed $(field seed). Absolute times depend on the machine and its load; ratios are more robust.
 
 ## How it is measured
 
-- **Error**: relative L2 norm of the difference to the direct sum in double, over all bins of \`checked_beams\` evenly picked beams (both ends of the fan
-  among them), all echoes included. **Local error**: the same for the worst eighth of the range axis, relative to that eighth's own level.
-- **The referee's own error** (rows \`direct\`): against the same sum in long double with compensated sums, on at most 2000 echoes, 4 beams and 64
-  bins. It is $(awk -F, '$1 == "direct" && $9 > w { w = $9 } END { printf "%.1e", w }' "$sweep") at worst, so errors below 1e-13 are not told apart from it.
-- **Time**: wall time, median of five after one run to warm up, fewest and most in brackets; at least two for what takes long (column \`repeats\`). Plans
-  (FFTW: ESTIMATE) are made once per head and stand apart in \`plan_seconds\`. Direct sums are timed on \`timed_scatterers\` evenly picked echoes and
-  scaled up in proportion: their cost is the same for every echo.
-- **Echoes**: complex normal, evenly over fan and gate; 600 kHz, 30 kHz band, bins of 0.44 c/2B unless said otherwise.
+- **Error**: relative L2 norm of the difference from the direct sum in double, over all bins of \`checked_beams\` evenly spaced beams (including both ends of the fan)
+  and all echoes. **Local error**: the same for the worst eighth of the range axis, relative to that eighth's own level.
+- **Error of the reference** (rows \`direct\`): against the same sum in long double with compensated summation, on at most 2000 echoes, 4 beams and 64
+  bins. It is $(awk -F, '$1 == "direct" && $9 > w { w = $9 } END { printf "%.1e", w }' "$sweep") at most, so smaller errors cannot be resolved.
+- **Time**: wall time, median of five runs after a warm-up, minimum and maximum in brackets; at least two runs of slow methods (column \`repeats\`). Plans
+  (FFTW: ESTIMATE) are made once per head and listed separately in \`plan_seconds\`. Direct sums are timed on \`timed_scatterers\` evenly spaced echoes and
+  scaled linearly, since their cost is the same for every echo.
+- **Echoes**: complex normal amplitudes, uniform over fan and gate; 600 kHz, 30 kHz band, bins of 0.44 c/2B unless stated otherwise.
 
 ## Methods
 
 | method | what it is |
 |---|---|
-| gridded | the product's default: pulses gridded with a spreading kernel (E60), one FFT per bin; few echoes are summed directly instead, pulses cut and the pattern exact |
-| direct | the plain sum over echoes, beams, elements and all bins: the referee, not made to be fast |
-| windowed-direct | the direct sum as a careful programmer would write it: pulses cut at the tolerance, the pattern from a table. The competitor that counts |
-| spectrum | sums of spectra, one FFT per beam (on 4 beams, scaled up) |
-| nearest-bin | delays rounded to bins, carrier phase kept: wrong for good |
-| pattern-cut | beams hear nothing beyond K null widths: wrong for good |
+| gridded | the default: pulses gridded with a spreading kernel (E60), one FFT per bin; few echoes are summed directly instead, with truncated pulses and the exact pattern |
+| direct | the plain sum over echoes, beams, elements and all bins: the reference, not optimised |
+| windowed-direct | an optimised direct sum: pulses truncated at the tolerance, the pattern from a table. The relevant competitor |
+| spectrum | sum of spectra, one FFT per beam (timed on 4 beams, scaled) |
+| nearest-bin | delays rounded to bins, carrier phase kept: the error cannot be reduced |
+| pattern-cut | pattern truncated at K null widths: the error falls slowly with K |
 
 ![Error against run time](images/accuracy/work_precision.png)
 
@@ -89,8 +89,8 @@ cat <<TEXT
 
 ## How much faster
 
-Gridded at a tolerance of 1e-6 against the direct sums; 512 beams, 2000 bins. Last column: slowest against fastest run and the other way round. Against
-direct, 150 times is demanded at 50 000 echoes, and 400 times at 500 000 (\`--full\`).
+The gridded method at a tolerance of 1e-6 compared with the direct sums; 512 beams, 2000 bins. Last column: range of the ratio over fastest and slowest runs. The required
+ratio to direct is 150 at 50 000 echoes and 400 at 500 000 (\`--full\`).
 
 | echoes | against | its time | gridded | ratio | spread |
 |---|---|---|---|---|---|
@@ -101,11 +101,11 @@ cat <<TEXT
 $(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
   $(at["sweep"]) == "scaling" { t[$(at["timed_scatterers"]) == $(at["scatterers"])] = $(at["seconds"]); part = $(at["timed_scatterers"]); n = $(at["scatterers"]) < part ? n : $(at["scatterers"]) }
   $(at["sweep"]) == "scaling" && $(at["timed_scatterers"]) < $(at["scatterers"]) { k = $(at["timed_scatterers"]) }
-  END { if (1 in t) printf "Is the scaling up right? Direct with %d echoes: %.3g s scaled up from %d, %.3g s timed whole.", n, t[0], k, t[1] }' "$sweep")
+  END { if (1 in t) printf "Check of the linear scaling: direct with %d echoes: %.3g s scaled from %d, %.3g s measured.", n, t[0], k, t[1] }' "$sweep")
 
-**Where it loses**: up to some hundred echoes the transforms of all bins they touch would cost more than the sum itself, and the product sums directly with the exact
-pattern. The rows with ratios below 1 say what is left. Much of
-the ratio against direct is direct's own doing: it evaluates every pulse in every bin and the pattern element by element.
+**Where it is slower**: up to some hundred echoes the transforms of all touched bins would cost more than the sum itself, so the default sums directly with the exact
+pattern. The rows with ratios below 1 show the remaining overhead. Much of
+the ratio to direct is due to direct itself, which evaluates every pulse in every bin and the pattern element by element.
 
 ![Run time against scatterers](images/accuracy/crossover.png)
 
@@ -115,12 +115,12 @@ TEXT
 rows "$sweep" 'c("sweep") == "threads"' 'print "| " c("threads"), c("tolerance"), span() " |"'
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
   $(at["sweep"]) == "threads" { t[$(at["tolerance"]), $(at["threads"])] = $(at["seconds"]); seen[$(at["tolerance"])] = 1 }
-  END { printf "\n"; for (k in seen) if ((k, 2) in t) printf "The second core gains %.2f x at %s.  ", t[k, 1] / t[k, 2], k; printf "\n" }' "$sweep"
+  END { printf "\n"; for (k in seen) if ((k, 2) in t) printf "Speed-up by the second core: %.2f x at %s.  ", t[k, 1] / t[k, 2], k; printf "\n" }' "$sweep"
 cat <<TEXT
 
-## The promise
+## Does the error stay within the tolerance?
 
-Worst over all images of the sweep: 1 to $(awk -F, '$3 + 0 > m { m = $3 + 0 } END { printf "%d", m }' "$sweep") echoes, 1 to $(awk -F, '$4 + 0 > m { m = $4 + 0 } END { printf "%d", m }' "$sweep") beams, prime numbers of bins, bands of 3 to 300 kHz, absorption of order 0 to 2, dynamic ranges of 0
+Maximum over all images of the sweep: 1 to $(awk -F, '$3 + 0 > m { m = $3 + 0 } END { printf "%d", m }' "$sweep") echoes, 1 to $(awk -F, '$4 + 0 > m { m = $4 + 0 } END { printf "%d", m }' "$sweep") beams, prime numbers of bins, bands of 3 to 300 kHz, absorption of order 0 to 2, dynamic ranges of 0
 to 150 dB.
 
 | tolerance | images | worst error | worst error / tolerance | worst local error | worst local error / tolerance |
@@ -133,14 +133,14 @@ cat <<TEXT
 
 ![Promise](images/accuracy/promise.png)
 
-The error is local: what is near and loud does not disturb what is far and weak. A transform over the whole range axis does.
+The error is local: strong near echoes do not degrade weak far ones, as they do with a transform over the whole range axis.
 
 ![Local error](images/accuracy/local_error.png)
 
-Absorption that changes over the band (100 kHz about 600 kHz, 60 dB over the gate): what is left out if it is taken at the centre frequency (order 0) or with
-its slope (order 1).
+Absorption that varies over the band (100 kHz about 600 kHz, 60 dB over the gate): error if it is modelled as constant (order 0) or with
+its slope only (order 1).
 
-| absorption has order | taken to order | error |
+| order of the absorption | order modelled | error |
 |---|---|---|
 TEXT
 rows "$sweep" 'c("method") == "absorption-order"' 'print "| " c("absorption_order"), c("parameter"), c("error") " |"'
@@ -148,8 +148,8 @@ cat <<TEXT
 
 ## Sampling
 
-Before any speckle, how far is the mean level of a flat bottom off for a given number of rays or surfels? Independent random rays: the root of their number.
-The product's rays are jittered in equal parts of elevation and do better. Surfels are as good as the cloud is dense; splitting them makes speckle right, not the
+Error of the mean level of a flat bottom, without speckle, for a given number of rays or surfels. With independent random rays it falls with the root of their number.
+The default rays are jittered within equal intervals of elevation and converge faster. The accuracy of surfels follows the density of the cloud; splitting them corrects the speckle, not the
 mean.
 
 ![Sampling error](images/accuracy/sampling.png)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws every view of a built-in scene and writes docs/gallery.md: each picture beside the command that made it. No display.
+# Draws every view of a built-in scene and writes docs/gallery.md with each picture and its command. Needs no display.
 #   docs/make_gallery.sh [build/release/bin/insonify]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -18,7 +18,7 @@ insonify() { "$tool" "$@" -q >/dev/null; }
 
 # chapter TITLE TEXT
 chapter() { printf '\n## %s\n\n%s\n' "$1" "$2" >>"$page"; }
-# steps COMMAND...: what the next pictures are made from; each command is run and shown.
+# steps COMMAND...: runs and lists the commands that the next pictures need.
 steps() {
   printf '\n```\n' >>"$page"
   for command in "$@"; do
@@ -27,7 +27,7 @@ steps() {
   done
   printf '```\n' >>"$page"
 }
-# picture NAME WHAT COMMAND: runs the command, which writes NAME.png.
+# picture NAME CAPTION COMMAND: runs the command, which writes NAME.png.
 picture() {
   eval "$3"
   [[ $(stat -c %s "$1.png") -lt $most_bytes ]] || { echo "make_gallery.sh: $1.png is larger than $most_bytes bytes" >&2; exit 1; }
@@ -38,44 +38,44 @@ picture() {
 cat >"$page" <<'PAGE'
 # Gallery
 
-Every view, with the command that made it, on the built-in harbour. `docs/make_gallery.sh` makes this page and its pictures.
+Every view of the built-in harbour, with its command. `docs/make_gallery.sh` generates this page and its pictures.
 PAGE
 
-chapter "One ping" "The harbour has a quay to port, pilings to starboard, a wreck and a pipe ahead. A 256-beam head of 900 kHz, three metres down and nose down by ten degrees, looks at the sea bed before the wreck."
+chapter "One ping" "The harbour has a quay to port, pilings to starboard, a wreck and a pipe ahead. A 256-beam head of 900 kHz, at a depth of three metres and pitched ten degrees down, looks at the sea bed in front of the wreck."
 steps "insonify make-scene harbour -o harbour.ply --points 200000" \
   "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --keep contributors,mask -o ping"
-picture fan "The fan in its true geometry, starboard on the right; the three loudest maxima named." \
+picture fan "The fan in its true geometry, starboard on the right; the three strongest maxima are named." \
   "insonify image ping --annotate 3 --size 900x700 -o fan.png"
-picture rect "Bearing against range, dark." "insonify image ping --view rect --dark --colormap viridis --size 900x700 -o rect.png"
+picture rect "Bearing against range, dark theme." "insonify image ping --view rect --dark --colormap viridis --size 900x700 -o rect.png"
 picture ascan "One beam: level against range." "insonify image ping --view ascan --beam 140 --size 900x500 -o ascan.png"
-picture spectrum "Power spectrum of all beams, and that of the pulse." "insonify image ping --view spectrum --size 900x500 -o spectrum.png"
-picture panels "All of it on one page." "insonify image ping --view panels --size 1200x900 -o panels.png"
+picture spectrum "Power spectra of all beams and of the pulse." "insonify image ping --view spectrum --size 900x500 -o spectrum.png"
+picture panels "Summary of the ping on one page." "insonify image ping --view panels --size 1200x900 -o panels.png"
 picture scene "The returns in the scene, with head and fan." "insonify image ping --view scene --size 1000x750 -o scene.png"
 picture viewer "The viewer (insonify view ping): a click on a pixel names the surfels behind it." \
   "insonify view ping --beam 140 --size 1400x900 --screenshot viewer.png"
 
-chapter "Before the ping" "What a head would see of a scene, before anything is simulated."
-picture inspect "Seen, in shadow, turned away, outside of the fan, and holes of the scan. The outline is the fan's elevation width; beyond it the head still hears a little." \
+chapter "Before the ping" "Visibility of a scene from a head, without simulating a ping."
+picture inspect "Visible, shadowed, back-facing and outside surfels, and holes of the scan. The outline is the fan's elevation width; beyond it the pattern is weak but not zero." \
   "insonify image harbour.ply --view scene --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --size 1000x750 -o inspect.png"
 picture normals "Materials and normals of the scene." "insonify image harbour.ply --view scene --colour material --normals --camera iso --size 1000x750 -o normals.png"
 
-chapter "Speckle, and the level behind it" "The expected level has no speckle: what the mean over many pings would be."
+chapter "Speckle, and the level behind it" "The expected level has no speckle: it is the mean over many realisations."
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --method incoherent -o mean"
 picture expected "Expected level." "insonify image mean --size 900x700 -o expected.png"
 
-chapter "With the sea around it" "Echoes by way of surface and bottom, alone."
+chapter "With the sea around it" "Echoes via surface and bottom only."
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --range 2:20 --multipath --layers --set surface.height_m=0 -o sea"
 picture multipath "The multipath layer." "insonify image sea --layer multipath --raw --size 900x700 -o multipath.png"
 
-chapter "Many pings" "A head that moves towards the quay, ping by ping, and the pings in one run."
+chapter "Many pings" "A head moves towards the quay; its pings are merged into one run."
 steps "printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,-4,-3,0,10,0\n24,12,4,-3,20,10,0\n' > track.csv" \
   "for t in \$(seq 0 1 23); do insonify ping harbour.ply --sonar p900-45 --set sonar.beams=64 --trajectory track.csv --time \$t --range 2:20 --no-picture -o track-\$(printf %02d \$t); done" \
   "insonify merge track-* -o track"
 picture waterfall "Waterfall: the strongest beam of every ping, the newest on top." \
   "insonify image track --view waterfall --beam max --size 900x700 -o waterfall.png"
-printf '\n\`insonify image track --animate -o frames\` draws every ping with one scale of colours, for a film.\n' >>"$page"
+printf '\n`insonify image track --animate -o frames` draws every ping with a common colour scale, as frames of a film.\n' >>"$page"
 
-chapter "The head itself" "What its array does with a direction."
+chapter "The head itself" "The directional response of its array."
 picture pattern "Beam pattern." "insonify beampattern p900-45 --steer=-20 --size 900x500 -o pattern.png"
 
 sed -i "s#$work/##g" "$page"

@@ -45,7 +45,7 @@ LineChart bearing_chart(double limit_deg, const std::string& title) {
   return chart;
 }
 
-/// One of the thesis' cases with all that its figures show.
+/// One of the thesis' cases with the data of its figures.
 struct Simulated {
   Case which;
   Scatterers object;
@@ -80,7 +80,7 @@ class Figures {
     draw_line_chart(chart, picture_, "02_thesis", path(name));
   }
   void image(const std::string& name, const std::string& title, const SonarHead& head, const ComplexGrid& pressure) {
-    // Ten bins, 1 cm, to one cell: their mean intensity.
+    // Average the intensity of ten bins, 1 cm, per cell.
     constexpr Eigen::Index together = 10;
     Grid<float> level(pressure.rows(), pressure.cols() / together);
     for (Eigen::Index b = 0; b < level.rows(); ++b)
@@ -121,7 +121,7 @@ void draw_object(Figures& figures, const Simulated& s, const std::string& name) 
 
 LineChart time_chart(const SonarHead& head, const ComplexGrid& series, std::size_t row) {
   LineChart chart;
-  const double ms = 2e3 / speed_of_sound;  // per metre, there and back
+  const double ms = 2e3 / speed_of_sound;  // per metre, two way
   chart.low_x = ms * head.gate.min_range, chart.high_x = ms * head.gate.max_range;
   chart.low_y = 90, chart.high_y = 160;
   chart.x_title = "Time since transmission [ms]";
@@ -133,7 +133,7 @@ LineChart time_chart(const SonarHead& head, const ComplexGrid& series, std::size
   return chart;
 }
 
-/// Figures 14 and 15: the middle column heard alone, and the beam that looks there; prints how far the peaks are from
+/// Figures 14 and 15: the middle column alone, and the beam in its direction; prints the deviations of the peaks from
 /// 2 r / c and from the sonar equation.
 void draw_series(Figures& figures, const Simulated& s, const ComplexGrid& columns) {
   constexpr std::size_t middle = 25;
@@ -167,7 +167,8 @@ void draw_series(Figures& figures, const Simulated& s, const ComplexGrid& column
   fmt::print("| level of a peak | {:.1g} dB off SL - 2TL + TS at most |\n", off_db);
 }
 
-/// Figures 17, 19 and 21: the slice, the beam pattern about the scatterer at the middle, and where the others stand.
+/// Figures 17, 19 and 21: the slice, the beam pattern about the scatterer in the middle, and the positions of the
+/// others.
 void draw_slice(Figures& figures, const Simulated& s, const std::string& name) {
   const std::size_t centre = s.which.period * (s.which.beams / 2 / s.which.period) + 25;
   const std::size_t scatterer = centre * s.which.rays + 10;
@@ -197,7 +198,7 @@ void draw_slice(Figures& figures, const Simulated& s, const std::string& name) {
   fmt::print("| {} beams, one scatterer alone | {:.1g} off B at most |\n", s.which.beams, worst);
 }
 
-/// The thesis' "grating lobes" go when the repeated columns go; fan and array stay.
+/// Shows that the thesis' "grating lobes" vanish without the repeated columns, with the same fan and array.
 void draw_ghosts(Figures& figures, const Simulated& s) {
   const Echoes once = select(s.echoes, [&](std::size_t i) { return i / s.which.rays / s.which.period == 2; });
   const ComplexGrid beams = synthesize_direct(once, s.head, medium());
@@ -211,7 +212,7 @@ void draw_ghosts(Figures& figures, const Simulated& s) {
   figures.chart("ghosts", chart);
 }
 
-/// True grating lobes: one target, heard by elements 1.5 wavelengths apart and by a continuous line of that length.
+/// True grating lobes: one target received by elements 1.5 wavelengths apart and by a continuous line of that length.
 void draw_grating_lobes(Figures& figures) {
   constexpr double limit_deg = 80, target = radians(-10), pitch = 1.5;
   SonarHead head = make_sonar(641);

@@ -15,8 +15,8 @@
 namespace insonify::thesis {
 namespace {
 
-/// The thesis' order of work as a plain loop in one thread: rays into columns, columns into beams (eq. 21 to 37 put
-/// right). It needs all rays of a column to have one azimuth, which no captured scene has.
+/// The thesis' order of computation as a plain loop in one thread: rays into columns, columns into beams (eq. 21 to 37,
+/// corrected). It requires all rays of a column to have one azimuth, which never holds for a captured scene.
 ComplexGrid plain_loop(const Echoes& echoes, const Case& which, const SonarHead& head) {
   const std::size_t bins = head.gate.bins();
   const double wavelength = speed_of_sound / head.pulse.centre_frequency;
@@ -42,7 +42,7 @@ struct Timing {
   ComplexGrid pressure;
 };
 
-/// The first run warms caches and is not counted; no more runs are begun after ten seconds.
+/// Times `runs` runs after a warm-up; no run starts after ten seconds.
 Timing time_runs(int runs, const std::function<ComplexGrid()>& run) {
   Timing timing{{}, 0, run()};
   std::vector<double> seconds;

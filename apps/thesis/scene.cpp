@@ -70,7 +70,7 @@ SonarHead make_sonar(std::size_t beams, std::size_t elements, double bin_size) {
 ComplexGrid column_series(const Echoes& echoes, const Case& which, const SonarHead& head) {
   ComplexGrid series(which.beams, head.gate.bins());
   SonarHead alone = head;
-  alone.array = {head.array.spacing, {1}};  // one element hears all directions alike
+  alone.array = {head.array.spacing, {1}};  // one element is omnidirectional
   for (std::size_t column = 0; column < which.beams; ++column) {
     alone.fan.azimuth = {head.fan.azimuth[column]};
     alone.fan.elevation = {0};

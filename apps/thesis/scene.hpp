@@ -9,7 +9,7 @@
 
 // The simulation of chapter IV of A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval
 // Postgraduate School). The thesis describes its object in one sentence, "a matrix of diagonal lines in range-angle
-// space", equally separated, extending 1.5 m; ranges and period below are a reconstruction that gives its pictures.
+// space", equally separated, extending 1.5 m; ranges and period below are a reconstruction that reproduces its figures.
 namespace insonify::thesis {
 
 constexpr double speed_of_sound = 1500;        ///< [m/s]
@@ -21,7 +21,7 @@ constexpr double first_range = 1.5;            ///< of the object [m]
 constexpr double object_depth = 1.5;           ///< [m]
 constexpr double printed_absorption = 0.0354;  ///< "dB/m at 900 kHz"
 
-/// Table 2. The spectrum of eq. 22 (put right) is exp(-(f - fc)^2 pi^2 / b^2) with b = 295 kHz: -3 dB width 110.6 kHz.
+/// Table 2. The corrected spectrum of eq. 22 is exp(-(f - fc)^2 pi^2 / b^2) with b = 295 kHz: -3 dB width 110.6 kHz.
 Pulse table_2_pulse();
 
 /// 1500 m/s, absorption of sea water of 10 deg C by Francois and Garrison (E3).
@@ -31,10 +31,10 @@ Medium medium();
 struct Case {
   std::size_t beams = 51;
   std::size_t rays = 21;
-  std::size_t period = 51;  ///< columns after which the diagonal lines begin again
+  std::size_t period = 51;  ///< columns after which the diagonal lines repeat
 };
 
-/// The object: scatterer column x rays + ray.
+/// The object; the scatterer of a ray has index column x rays + ray.
 Scatterers make_object(const Case& which);
 
 /// Range [m] of ray 11 in column 26, where the thesis cuts its slices.
@@ -56,17 +56,19 @@ Echoes select(const Echoes& echoes, Keep keep) {
   return kept;
 }
 
-/// Uniform array of the length whose continuous line has the thesis' beam width: L = 0.442946 lambda / sin(0.05).
-/// 144 elements, a sixteenth of a wavelength apart, stand for the line; 18 are an array as built, half a wavelength.
+/// Uniform array of the length whose continuous line has the thesis' beam width: L = 0.442946 lambda / sin(0.05). 144
+/// elements a sixteenth of a wavelength apart approximate the line; 18 elements half a wavelength apart are a real
+/// array.
 LineArray aperture(std::size_t elements);
 
-/// The sonar: beams from edge to edge of the field of view, a gate around the object.
+/// The sonar: beams over the whole field of view, and a gate around the object.
 SonarHead make_sonar(std::size_t beams, std::size_t elements = 144, double bin_size = 1e-3);
 
-/// Every column heard alone, before beams are formed: columns x bins [Pa]. In the thesis' way: spectrum, then FFT.
+/// The series of each column alone, before beamforming, computed as in the thesis by spectrum and FFT: columns x bins
+/// [Pa].
 ComplexGrid column_series(const Echoes& echoes, const Case& which, const SonarHead& head);
 
-/// The highest sample of a series near `range` [m], and the top of the parabola through it and the levels beside it.
+/// The highest sample of a series near `range` [m], and the vertex of the parabola through it and its neighbours.
 struct Peak {
   double sample_range = 0;  ///< [m]
   double range = 0;         ///< [m]

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The cube of a run that was finished: everything of it appears at once, its manifest included.
+// Reads the cube of a complete run; runs appear atomically, including the manifest.
 std::string finished_cube(const std::string& target) {
   if (!fs::is_directory(target)) return target;
   for (const auto& entry : fs::directory_iterator(target))
@@ -33,7 +33,7 @@ std::string finished_cube(const std::string& target) {
   return cube.string();
 }
 
-// True if the contributors' surfels are those of the scene, as their ids say.
+// True if the ids of the contributors match the scene.
 bool belong_together(const Contributors& list, const SceneCloud& scene) {
   const std::size_t step = 1 + list.surfel.size() / 10000;
   for (std::size_t i = 0; i < list.surfel.size(); i += step)
@@ -53,7 +53,7 @@ void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
   } else if (options.path.empty() || !fs::exists(options.path)) {
     view.notes.push_back(options.path.empty()
                              ? "the run does not say what its scene was: give it with --scene for the 3-D panel"
-                             : options.path + ": the scene of the run is not there: give it with --scene");
+                             : options.path + ": the scene of the run is missing: give it with --scene");
     return;
   }
   LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
@@ -66,7 +66,7 @@ void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
   view.data.scene = std::move(loaded.scene);
 }
 
-// The loudest sample of a beam, range compensated (E20): what stands out in the picture.
+// The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
 PixelPlace loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
   const Ping& ping = data.pings[ping_index];
   const Grid<float> level = range_compensated_level_db(ping, data.absorption_db_per_m);

@@ -13,7 +13,7 @@
 namespace insonify::viewer {
 namespace {
 
-// Everything that can be wrong without reading the data.
+// Checks the command line before reading data.
 ViewerOptions options_of(const ViewerCommand& command) {
   ViewerOptions options;
   std::tie(options.width, options.height) = tool::parse_size(command.size);

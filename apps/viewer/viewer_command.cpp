@@ -14,7 +14,7 @@ std::string footer() {
          viewer_help(ViewerMode::inspect) +
          "\nExamples:\n"
          "  insonify view out                                    a run: fan, 3-D, A-scan, explanation of samples\n"
-         "  insonify view harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0   what the head sees, before any ping\n"
+         "  insonify view harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0   visibility from a head, without a ping\n"
          "  insonify view out --screenshot viewer.png            the same picture without a display\n"
          "\nExit codes: 0 ok, 1 run-time failure (no display), 2 usage, 3 bad content, 4 file missing or unwritable.";
 }

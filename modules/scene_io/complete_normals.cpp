@@ -13,12 +13,12 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Turns the normal so that it looks at the viewpoint (both relative to one origin).
+/// The normal with the sign that faces the viewpoint (point and viewpoint relative to the same origin).
 Vector3f facing(const Vector3f& normal, const Vector3f& point, const Eigen::Vector3d& viewpoint) {
   return normal.cast<double>().dot(viewpoint - point.cast<double>()) < 0 ? Vector3f(-normal) : normal;
 }
 
-/// Estimates the normals listed in `bad` and gives each the sign of the good normals around it.
+/// Estimates the normals listed in `bad`, with the sign of the valid normals around them.
 void repair(RawCloud& raw, const std::vector<std::uint32_t>& bad, const LoadOptions& options) {
   const std::vector<Vector3f> estimates = estimate_normals(raw.point, bad, options.normal_neighbours, options.threads);
   const SceneIndex index(raw.point);
@@ -38,7 +38,7 @@ void repair(RawCloud& raw, const std::vector<std::uint32_t>& bad, const LoadOpti
   for (std::size_t b = 0; b < bad.size(); ++b) raw.normal[bad[b]] = repaired[b];
 }
 
-/// Turns all normals towards the viewpoint.
+/// Orients all normals towards the viewpoint.
 void face_viewpoint(RawCloud& raw, LoadedScene& result) {
   const Eigen::Vector3d viewpoint = *raw.viewpoint - raw.origin;
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
@@ -48,7 +48,7 @@ void face_viewpoint(RawCloud& raw, LoadedScene& result) {
   result.scene.normals_oriented = true;
 }
 
-/// Estimates all normals; orients them to the viewpoint if there is one.
+/// Estimates all normals and orients them towards the viewpoint if there is one.
 void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   std::vector<std::uint32_t> all(raw.point.size());
   std::iota(all.begin(), all.end(), 0u);
@@ -60,13 +60,13 @@ void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result
     return;
   }
   result.report.notes.push_back(
-      "no normals in the file and no viewpoint known: the estimated normals have no sides, so both sides of "
+      "no normals in the file and no viewpoint known: the estimated normals are not oriented, so both sides of "
       "every "
       "surface reflect; give the viewpoint of the capture to orient them" +
       std::string(raw.height > 1 ? " (an organised cloud in camera axes was seen from 0,0,0)" : ""));
 }
 
-/// A viewpoint that most normals of the file turn away from tells of inward or unoriented normals.
+/// Notes if most normals of the file face away from the viewpoint, which suggests inward or unoriented normals.
 void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
   if (!raw.viewpoint) return;
   std::size_t away = 0;
@@ -116,7 +116,7 @@ void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& re
       compare_with_viewpoint(raw, result);
   }
 
-  // What still has no normal cannot reflect.
+  // Drop points that still have no normal; they cannot reflect.
   std::vector<std::uint32_t> keep;
   keep.reserve(raw.point.size());
   for (std::size_t i = 0; i < raw.point.size(); ++i) {

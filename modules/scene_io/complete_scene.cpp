@@ -19,9 +19,9 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
   column.resize(keep.size());
 }
 
-/// Drops points that are not finite, and those at the place of an earlier one.
+/// Drops points that are not finite or coincide with an earlier point.
 void drop_unusable(RawCloud& raw, LoadReport& report) {
-  // A file that save_scene wrote has been searched already.
+  // Files written by save_scene contain no duplicates.
   const bool search = !raw.tags.prepared;
   if (!search && raw.not_finite == 0) return;
   std::vector<std::uint32_t> first(raw.point.size());
@@ -56,7 +56,7 @@ bool unique(const std::vector<std::uint32_t>& ids) {
   return true;
 }
 
-/// Ids of the file if they are unique, else the row numbers in the file: dropping a point renumbers no other.
+/// Uses the file's ids if they are unique, else its row numbers, so that dropping a point renumbers no other.
 void complete_ids(RawCloud& raw, LoadReport& report) {
   if (!raw.id.empty() && !unique(raw.id)) {
     report.notes.push_back("the ids in the file are not unique: renumbered by row");
@@ -67,7 +67,7 @@ void complete_ids(RawCloud& raw, LoadReport& report) {
   std::iota(raw.id.begin(), raw.id.end(), 0u);
 }
 
-/// Areas of the file where they are usable, else Voronoi areas (E15).
+/// Uses the file's areas where valid, else Voronoi areas (E15).
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   const auto bad = [](float area) { return !(std::isfinite(area) && area >= 0); };
   const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));
@@ -84,7 +84,7 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
   }
 }
 
-/// Gives every surfel the material with this index.
+/// Assigns one material to all surfels.
 void give_one_material(std::uint16_t index, SceneCloud& scene) {
   if (scene.materials.empty()) scene.materials = {Material{}};
   if (index >= scene.materials.size()) {
@@ -94,7 +94,7 @@ void give_one_material(std::uint16_t index, SceneCloud& scene) {
   scene.material.assign(scene.point.size(), index);
 }
 
-/// Surfels whose number lies in no interval get a material of their own, and are counted.
+/// Assigns an extra material to surfels whose value lies in no interval, and counts them.
 void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScene& result) {
   SceneCloud& scene = result.scene;
   const auto outsiders = std::count(scene.material.begin(), scene.material.end(), no_label);
@@ -109,7 +109,7 @@ void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScen
                                 " intervals: their Lambert coefficient is the default, -27 dB");
 }
 
-/// Intervals must hold a number, name a material that is given, and not overlap.
+/// Refuses intervals that are empty, refer to no given material, or overlap.
 void check_intervals(const LoadOptions& options, const char* who) {
   const std::vector<MaterialInterval>& intervals = options.material_field.intervals;
   for (std::size_t i = 0; i < intervals.size(); ++i) {
@@ -126,7 +126,7 @@ void check_intervals(const LoadOptions& options, const char* who) {
       const MaterialInterval& b = intervals[j];
       if (a.from < b.to && b.from < a.to) {
         fail(ErrorKind::argument, who, ": material_field.intervals[", j, "] = ", b.from, " .. ", b.to, " and [", i,
-             "] = ", a.from, " .. ", a.to, " overlap, a number must mean one material");
+             "] = ", a.from, " .. ", a.to, " overlap; each value must belong to one material");
       }
     }
   }
@@ -143,7 +143,7 @@ LoadReport begin_report(const RawCloud& raw) {
   return report;
 }
 
-/// Typical distance between neighbours [m]: of a cloud by its surfels, of a mesh by its vertices.
+/// Typical spacing [m]: of a cloud from its surfels, of a mesh from its vertices.
 double typical_spacing(const RawCloud& raw, std::vector<float> areas) {
   if (!raw.triangle.empty()) {
     const double total = static_cast<double>(areas.front()) * static_cast<double>(areas.size());
@@ -187,7 +187,7 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     first[i] = i;
     if (!points[i].allFinite()) continue;
-    // Adding zero makes -0 the same as 0; the products mix all bits (Fibonacci hashing).
+    // Adding zero maps -0 to 0; the products mix all bits (Fibonacci hashing).
     const auto bits = [&](int axis) { return std::uint64_t{std::bit_cast<std::uint32_t>(points[i][axis] + 0.0f)}; };
     std::uint64_t hash = (bits(0) | bits(1) << 32) * 0x9e3779b97f4a7c15ull;
     hash = ((hash ^ hash >> 29) + bits(2)) * 0xbf58476d1ce4e5b9ull;
@@ -210,7 +210,7 @@ void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedS
   const std::uint16_t largest = *std::max_element(labels.begin(), labels.end());
   if (largest == no_label) {
     fail(ErrorKind::content, raw.path,
-         ": a label is negative, above 65534 or no whole number; labels are indices of "
+         ": a label is negative, above 65534 or not an integer; labels are indices of "
          "materials from 0: correct them, give one material for all, or map intervals of field '",
          raw.label_field, "' to materials");
   }

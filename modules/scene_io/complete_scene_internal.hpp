@@ -5,45 +5,45 @@
 #include "scene_io/load_scene.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
-// Private to scene_io: from a raw cloud to a scene that can be simulated.
+// Private to scene_io: conversion of a raw cloud to a scene.
 namespace insonify {
 
-/// Throws Error(argument) for options that no file could satisfy. `who` names the caller.
+/// Throws Error(argument) for invalid options. `who` names the caller.
 void check_options(const LoadOptions& options, const char* who);
 
-/// Cleans, completes, counts: everything load_scene does after reading.
+/// Cleans and completes a raw cloud and counts the changes: everything load_scene does after reading.
 LoadedScene complete_scene(RawCloud raw, const LoadOptions& options);
 
-/// For each point the first index with exactly the same coordinates (its own, if there is none before it).
-/// Points that are not finite are never the same.
+/// For each point the first index with exactly the same coordinates (its own if there is no earlier one).
+/// Points that are not finite match no other.
 std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points);
 
-/// Unit normals of the points listed in `wanted`, from the plane through the `neighbours` nearest points
-/// (PCL); sign undetermined, NaN where no plane can be fitted. Does not depend on `threads`.
+/// Unit normals of the points listed in `wanted`, from the plane fitted to the `neighbours` nearest points (PCL); the
+/// sign is arbitrary, NaN where no plane can be fitted. Does not depend on `threads`.
 std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
                                               const std::vector<std::uint32_t>& wanted, int neighbours, int threads);
 
-/// Gives every point of `raw` a unit normal, drops points that get none, and reports.
+/// Gives every point of `raw` a unit normal, drops points without one, and reports the changes.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
-/// Scales usable normals of another length to 1; those that save_scene wrote (`prepared`) stay as they are. Returns how
-/// many were off by more than 1e-3.
+/// Scales usable normals to unit length unless save_scene wrote them (`prepared`). Returns the number whose length was
+/// off by more than 1e-3.
 std::size_t renormalise(std::vector<Eigen::Vector3f>& normals, bool prepared);
-/// True if it has a direction.
+/// True if the normal is finite and not zero.
 bool usable_normal(const Eigen::Vector3f& normal);
 
-/// The table of materials: the caller's, the file's, or a default one per label; the labels in result.scene.material
-/// become indices into it.
+/// Sets the table of materials: the caller's, the file's, or a default material per label. Converts the labels in
+/// result.scene.material to indices into it.
 void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
 /// Drops all points not listed in `keep` (ascending).
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep);
 
-/// Replaces the mesh by surfels: points, normals, areas, labels and ids of result.scene, with their report.
+/// Samples a mesh: fills points, normals, areas, labels and ids of result.scene, and the report.
 void sample_mesh(const RawCloud& mesh, const LoadOptions& options, LoadedScene& result);
 
-/// Sentences on what is doubtful about the coordinates: units, precision. `spacing` [m] is typical of the
-/// cloud; `unit` is what has been applied already.
+/// Warnings about doubtful coordinates: units, precision. `spacing` is the typical spacing of the cloud [m]; `unit` has
+/// been applied already.
 std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, double unit);
 
 /// "12 of 3400 points (0.4 %)".

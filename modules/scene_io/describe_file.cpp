@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_queries = 20000;
 
-/// Finite points, each place once.
+/// The finite points without duplicates.
 std::vector<Eigen::Vector3f> distinct_points(const RawCloud& raw, std::size_t& duplicates) {
   const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
   std::vector<Eigen::Vector3f> distinct;
@@ -28,7 +28,7 @@ std::vector<Eigen::Vector3f> distinct_points(const RawCloud& raw, std::size_t& d
   return distinct;
 }
 
-/// Median distance to the nearest neighbour, asked at up to 20 000 points spread over the cloud.
+/// Median distance to the nearest neighbour of up to 20 000 points spread over the cloud.
 double median_spacing(const std::vector<Eigen::Vector3f>& points) {
   if (points.size() < 2) return 0;
   const SceneIndex index(points);
@@ -45,7 +45,7 @@ double median_spacing(const std::vector<Eigen::Vector3f>& points) {
   return distance[queries / 2];
 }
 
-/// What load_scene would drop, repair or assume.
+/// Lists what load_scene would drop, repair or assume.
 void add_problems(const RawCloud& raw, FileDescription& file) {
   std::vector<std::string>& problems = file.problems;
   problems = raw.notes;
@@ -53,7 +53,7 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
     problems.push_back(share(raw.not_finite, file.points, "points") + " are not finite: will be dropped");
   if (file.duplicates > 0 && raw.triangle.empty()) {
     problems.push_back(share(file.duplicates, file.points, "points") +
-                       " stand where an earlier one does: will be dropped");
+                       " coincide with an earlier one: will be dropped");
   }
   if (raw.bad_triangles > 0) {
     problems.push_back(share(raw.bad_triangles, file.triangles, "polygons") +
@@ -62,9 +62,9 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
   if (!file.has_normals && raw.triangle.empty()) {
     problems.push_back(raw.viewpoint
                            ? "no normals: will be estimated, towards the viewpoint in the file"
-                           : "no normals and no viewpoint: estimated normals will have no sides; give a viewpoint");
+                           : "no normals and no viewpoint: estimated normals will not be oriented; give a viewpoint");
   }
-  if (!raw.tags.oriented) problems.push_back("the normals have no sides: both sides will reflect");
+  if (!raw.tags.oriented) problems.push_back("the normals are not oriented: both sides will reflect");
   for (std::string& doubt : doubts_about(raw, file.median_spacing, 1)) problems.push_back(std::move(doubt));
 }
 

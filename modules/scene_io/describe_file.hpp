@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// What is in a cloud or mesh file, without preparing it.
+/// Contents of a cloud or mesh file before preparation.
 struct FileDescription {
   struct Field {
     std::string name, type;  ///< e.g. "x", "float32"
@@ -17,13 +17,13 @@ struct FileDescription {
   std::size_t width = 0, height = 0;  ///< height > 1: organised
   std::vector<Field> fields;
   Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of finite points [file units]
-  double median_spacing = 0;                                                     ///< nearest neighbours [file units]
+  double median_spacing = 0;                                                     ///< of nearest neighbours [file units]
   bool has_normals = false, has_area = false, has_materials = false;
   std::optional<Eigen::Vector3d> viewpoint;
-  std::vector<std::string> problems;  ///< what is wrong or doubtful, with a remedy each
+  std::vector<std::string> problems;  ///< defects and doubts, each with a remedy
 };
 
-/// Throws like load_scene.
+/// Describes a file. Throws as load_scene.
 FileDescription describe_file(const std::string& path);
 
 }  // namespace insonify

@@ -22,8 +22,8 @@ std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, doubl
   const Eigen::Vector3d extent = raw.box.max - raw.box.min;
   const double diagonal = extent.norm();
 
-  // A scan in millimetres has metres between its points and looks as large as a city, yet is not flat:
-  // surveys of that size are a few per cent as high as wide. Coarse surveys in metres get a milder sentence.
+  // A scan in millimetres read as metres has a spacing of metres and the size of a city, but is not flat, whereas the
+  // height of surveys of that size is a few per cent of their width. Coarse surveys in metres get a milder note.
   if (spacing > 0.5 && diagonal > 100) {
     const bool flat = extent.minCoeff() < 0.05 * diagonal;
     doubts.push_back(
@@ -38,7 +38,7 @@ std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, doubl
                               1000 * unit, " for kilometres)"));
   }
 
-  // What float32 rounds away, half a unit in the last place.
+  // Rounding error of float32, half a unit in the last place.
   const double farthest = std::max(raw.box.max.cwiseAbs().maxCoeff(), raw.box.min.cwiseAbs().maxCoeff());
   const double step = farthest > 0 ? std::exp2(std::floor(std::log2(farthest / unit)) - 23) * unit : 0;
   if (raw.float_coordinates && (farthest > 1e5 || (farthest > 1000 && step > 0.1 * spacing))) {
@@ -51,7 +51,7 @@ std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, doubl
     doubts.push_back(sentence("the scene reaches ", far_from_origin / 1000,
                               " km from its middle, where float32 steps are ",
                               1000 * std::exp2(std::floor(std::log2(far_from_origin)) - 23),
-                              " mm: stray points? Cut out the part of interest"));
+                              " mm: stray points? Crop the cloud to the part of interest"));
   }
   return doubts;
 }

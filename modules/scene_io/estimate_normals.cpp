@@ -25,7 +25,7 @@ std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>
   pcl::PointCloud<pcl::Normal> found;
   estimation.compute(found);
 
-  // PCL's closed-form eigenvector is a unit vector within a few ulp only.
+  // Normalise, since PCL's closed-form eigenvector has unit length only to a few ulp.
   std::vector<Eigen::Vector3f> normals(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Eigen::Vector3f n = found[i].getNormalVector3fMap();

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// Where a column stands in a row.
+// Position of a column within a row.
 struct Column {
   NumberType type = NumberType::float32;
   std::size_t offset = 0;
@@ -24,7 +24,7 @@ Column find_column(const PlyHeader& header, const std::string& name) {
     if (property.name == name) return column;
     column.offset += size_of(property.type);
   }
-  fail(ErrorKind::content, header.path, ": has no column '", name, "', so it holds no returns of insonify");
+  fail(ErrorKind::content, header.path, ": has no column '", name, "', so it was not written by save_soundings");
 }
 
 }  // namespace
@@ -34,12 +34,13 @@ Soundings load_soundings(const std::string& path) {
   const PlyHeader header = probe_ply(path);
   const PlyElement& vertex = header.vertex();
   if (header.encoding != "binary_little_endian" || vertex.has_list() || &vertex != &header.elements.front())
-    fail(ErrorKind::content, path, ": is no binary little-endian PLY of points, so it holds no returns of insonify");
+    fail(ErrorKind::content, path,
+         ": is not a binary little-endian PLY of points, so it was not written by save_soundings");
   std::size_t stride = 0;
   for (const PlyProperty& property : vertex.properties) stride += size_of(property.type);
   const std::string bytes = read_whole_file(path);
   if (bytes.size() < header.end + stride * vertex.count)
-    fail(ErrorKind::content, path, ": cut off: holds less than the ", vertex.count, " points that it announces");
+    fail(ErrorKind::content, path, ": cut off: holds fewer than the ", vertex.count, " points that it announces");
 
   const auto each_row = [&](const std::string& name, auto&& take) {
     const Column column = find_column(header, name);

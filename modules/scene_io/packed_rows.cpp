@@ -94,12 +94,12 @@ PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudForm
   for (const char* name : {"hits", "material", "id"}) rows.columns.push_back({prefix + name, NumberType::uint32});
   rows.write_row = [&scene, &map, wide](std::size_t i, char* out) {
     constexpr float never_insonified = std::numeric_limits<float>::quiet_NaN();
-    const bool heard = map.hits[i] > 0;
+    const bool insonified = map.hits[i] > 0;
     put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
     for (const float n : scene.normal[i]) put(out, n);
-    put(out, heard ? map.level_db[i] : never_insonified);
-    put(out, heard ? static_cast<float>(degrees(map.grazing_angle[i])) : never_insonified);
-    put(out, heard ? map.range[i] : never_insonified);
+    put(out, insonified ? map.level_db[i] : never_insonified);
+    put(out, insonified ? static_cast<float>(degrees(map.grazing_angle[i])) : never_insonified);
+    put(out, insonified ? map.range[i] : never_insonified);
     put(out, map.hits[i]);
     put(out, std::uint32_t{scene.material[i]});
     put(out, scene.id[i]);

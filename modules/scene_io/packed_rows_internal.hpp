@@ -9,7 +9,7 @@
 #include "scene/scene_cloud.hpp"
 #include "scene_io/number_type_internal.hpp"
 
-// Private to scene_io: a cloud as rows of packed little-endian numbers, the body of binary PLY and PCD alike.
+// Private to scene_io: a cloud as rows of packed little-endian numbers, the data section of binary PLY and PCD.
 namespace insonify {
 
 struct PackedRows {
@@ -29,7 +29,7 @@ struct PackedRows {
   }
 };
 
-/// Copies a number to `out` and moves it on.
+/// Copies a number to `out` and advances `out`.
 template <typename T>
 void put(char*& out, T value) {
   std::memcpy(out, &value, sizeof(T));
@@ -44,8 +44,8 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
 enum class CloudFormat { ply, pcd };
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
 
-/// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where nothing was
-/// heard), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
+/// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where never
+/// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
 PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
 
 }  // namespace insonify

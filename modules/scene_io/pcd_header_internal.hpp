@@ -5,7 +5,7 @@
 
 namespace insonify {
 
-/// Header of a binary PCD up to and with its DATA line (PCL writes it); comments stand as "# " lines.
+/// Header of a binary PCD, including its DATA line (written by PCL); comments become "# " lines.
 std::string pcd_header(const PackedRows& rows);
 
 }  // namespace insonify

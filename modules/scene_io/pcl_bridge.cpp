@@ -52,7 +52,7 @@ RawCloud raw_from(const pcl::PCLPointCloud2& cloud, const LoadOptions& options) 
   return raw;
 }
 
-/// A typed cloud carries the pose of its sensor; the identity means unknown.
+/// Reads a typed cloud and its sensor pose; the identity means unknown.
 template <typename Point>
 LoadedScene from_typed(const pcl::PointCloud<Point>& cloud, const LoadOptions& options) {
   check_options(options, "from_pcl");

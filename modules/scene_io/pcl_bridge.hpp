@@ -9,14 +9,14 @@
 
 namespace insonify {
 
-/// In-memory doors for PCL programs. All behave as load_scene does after reading: clean, complete, count.
+/// Scenes from PCL clouds and meshes in memory: cleaned, completed and counted like files of load_scene.
 LoadedScene from_pcl(const pcl::PointCloud<pcl::PointNormal>& cloud, const LoadOptions& options = {});
 LoadedScene from_pcl(const pcl::PointCloud<pcl::PointXYZ>& cloud, const LoadOptions& options = {});
 LoadedScene from_pcl(const pcl::PCLPointCloud2& cloud, const LoadOptions& options = {});
 LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options = {});
 
 /// Soundings as a PCL cloud with fields x y z level_db range azimuth elevation (float32) and ping beam bin material
-/// (uint32). PCL is float: world coordinates far from zero lose digits.
+/// (uint32). Coordinates are float in PCL: those far from zero lose precision.
 pcl::PCLPointCloud2 to_pcl(const Soundings& soundings);
 
 /// Scene points and normals, world coordinates in float.

@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// While it lives, PCL prints nothing.
+/// Suppresses PCL's output during its lifetime.
 class QuietPcl {
  public:
   QuietPcl() : before_(pcl::console::getVerbosityLevel()) { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
@@ -18,8 +18,8 @@ class QuietPcl {
   pcl::console::VERBOSITY_LEVEL before_;
 };
 
-/// The rows of a PCL cloud, which must outlive the table; `raw` gets its fields, width and height. Throws
-/// Error(content) naming raw.path if the blob's sizes contradict each other.
+/// The rows of a PCL cloud, which must outlive the table; sets fields, width and height of `raw`. Throws Error(content)
+/// naming raw.path if the cloud's sizes are inconsistent.
 RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw);
 
 }  // namespace insonify

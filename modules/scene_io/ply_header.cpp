@@ -75,7 +75,7 @@ PlyHeader read_header(const std::string& path) {
        header.lines, " lines; copy or export the file again");
 }
 
-/// Bytes announced against bytes held; of a list at least its count is there.
+/// Compares the announced size with the file's; each list holds at least its count.
 void check_binary(const PlyHeader& header) {
   std::size_t left = file_size_of(header.path) - header.end;
   for (const PlyElement& element : header.elements) {

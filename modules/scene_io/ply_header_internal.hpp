@@ -30,14 +30,14 @@ struct PlyHeader {
   std::string path, encoding;  ///< ascii, binary_little_endian or binary_big_endian
   std::vector<PlyElement> elements;
   SceneTags tags;
-  std::size_t end = 0;    ///< [bytes] where the data begins
-  std::size_t lines = 0;  ///< in the header
+  std::size_t end = 0;    ///< offset of the data [bytes]
+  std::size_t lines = 0;  ///< number of header lines
 
   const PlyElement& vertex() const;
 };
 
-/// Reads the header and holds what it announces against the file, before PCL reads the data. Throws Error(content) if
-/// the file is not a PLY, is cut off, names no vertices or unknown types, or (ascii) holds a row PCL would misread.
+/// Reads the header and checks the file against it, before PCL reads the data. Throws Error(content) if the file is not
+/// a PLY, is truncated, has no vertices or unknown types, or (ascii) holds a row that PCL would misread.
 PlyHeader probe_ply(const std::string& path);
 
 }  // namespace insonify

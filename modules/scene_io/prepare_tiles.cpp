@@ -15,9 +15,9 @@ namespace {
 using Eigen::Vector3d, Eigen::Vector3f;
 
 constexpr std::size_t batch_rows = 1 << 18;
-constexpr double first_pass = 0.15, both_passes = 0.35;  // of the progress
+constexpr double first_pass = 0.15, both_passes = 0.35;  // completed fractions
 
-/// What both passes know of the file.
+/// Data of the file shared by both passes.
 struct Survey {
   RowFile file;
   ReadOptions reading;
@@ -28,7 +28,7 @@ struct Survey {
   bool labels = false;
 };
 
-/// Rows from `first` on as they are in the file.
+/// A batch of rows as in the file.
 struct Batch {
   RawCloud raw;
   std::vector<Vector3d> places;
@@ -50,7 +50,7 @@ void report_progress(const PrepareTilesOptions& options, double part) {
   if (options.progress) options.progress(part);
 }
 
-/// First pass: box, labels, and what is there at all.
+/// First pass: finds the bounding box, the labels and the columns present.
 void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
   RawCloud& whole = survey.whole;
   std::int64_t last_id = -1;
@@ -78,9 +78,9 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
          " points, none with finite coordinates); export the cloud again");
 }
 
-/// The materials, and of each label the index into them.
+/// Sets the materials and returns the material index of each label.
 std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOptions& options, LoadedScene& result) {
-  // The labels that occur stand for all surfels that bear them.
+  // Complete the materials with one surfel per label that occurs.
   std::vector<std::uint16_t> labels;
   for (std::size_t label = 0; label < survey.label_count.size(); ++label)
     if (survey.label_count[label] > 0) labels.push_back(static_cast<std::uint16_t>(label));
@@ -98,7 +98,7 @@ std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOption
   return index;
 }
 
-/// The usable surfels of a batch; counts the others.
+/// The usable surfels of a batch; counts the dropped ones.
 SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, const std::vector<std::uint16_t>& material,
                       std::vector<Vector3d>& places, LoadedScene& result) {
   RawCloud& raw = batch.raw;
@@ -137,7 +137,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   if (!survey.normals)
     fail(ErrorKind::content, whole.path, ": has no normals, and ", survey.file.rows, " points (more than ",
          options.whole_points,
-         ") are prepared in batches, which cannot find any: compute normals first, or run "
+         ") are prepared in batches, which cannot estimate them: compute normals first, or run "
          "`insonify prepare` with a .ply output, not .tiles, if memory holds the cloud");
   survey.reading.origin = whole.origin = origin_of(whole.box, whole.tags, options.load.unit);
 

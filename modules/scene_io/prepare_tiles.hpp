@@ -10,25 +10,25 @@ namespace insonify {
 
 struct PrepareTilesOptions {
   LoadOptions load;
-  std::size_t whole_points = 10'000'000;      ///< binary clouds of more points are never held in memory
-  std::size_t memory = 256 << 20;             ///< [bytes] that sorting may take
-  std::function<void(double)> progress = {};  ///< told the part that is done, 0..1; may throw to give up
+  std::size_t whole_points = 10'000'000;      ///< binary clouds with more points are streamed
+  std::size_t memory = 256 << 20;             ///< memory for sorting [bytes]
+  std::function<void(double)> progress = {};  ///< receives the completed fraction, 0..1; may throw to cancel
 };
 
 struct PreparedTiles {
   LoadReport report;
   TileReport tiles;
   bool normals_oriented = true;
-  bool streamed = false;  ///< read in batches, and never held in memory
+  bool streamed = false;  ///< read in batches
 };
 
-/// Prepares a cloud or mesh as a .tiles file. Files that load_scene can complete as a whole hold the same surfels then:
-/// those of at most `whole_points` points, and meshes, text and compressed files of any size. Binary PLY and uncompressed
-/// binary PCD of more points are read twice in batches of rows, with four things done otherwise: points whose normal is
-/// zero or NaN are dropped, not repaired; areas that are missing are found a few tiles at a time (so are all if some are
-/// negative or NaN); ids that do not ascend become row numbers; the side of normals is not held against a viewpoint.
-/// Everything is counted in the report. Throws as load_scene and TileWriter; Error(content) for a cloud to be read in
-/// batches that has no normals.
+/// Prepares a cloud or mesh as a .tiles file. Files of at most `whole_points` points, and meshes, text and compressed
+/// files of any size, are loaded whole and give the surfels of load_scene. Larger binary PLY and uncompressed binary
+/// PCD files are read twice in batches of rows, with four differences: points whose normal is zero or NaN are dropped,
+/// not repaired; missing areas are estimated a few tiles at a time (all areas, if some are negative or NaN); ids that
+/// do not ascend are replaced by row numbers; the orientation of normals is not compared with a viewpoint. The report
+/// counts all changes. Throws as load_scene and TileWriter; Error(content) for a cloud without normals that must be
+/// read in batches.
 PreparedTiles prepare_tiles(const std::string& path, const std::string& output,
                             const PrepareTilesOptions& options = {});
 

@@ -14,10 +14,10 @@
 #include "scene_io/load_scene.hpp"
 #include "scene_io/number_type_internal.hpp"
 
-// Private to scene_io: what the readers hand to complete_scene and describe_file.
+// Private to scene_io: output of the readers, input of complete_scene and describe_file.
 namespace insonify {
 
-/// What save_scene notes in comment lines, so that a prepared scene comes back as it was.
+/// Contents of save_scene's comment lines, so that a prepared scene reads back unchanged.
 struct SceneTags {
   bool prepared = false;  ///< written by save_scene: clean, complete, unique
   bool oriented = true;
@@ -25,12 +25,13 @@ struct SceneTags {
   std::vector<Material> materials;
 };
 
-/// Takes in a comment line (without its "comment " or "# ") if it is one of ours; `path` for messages.
+/// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
 void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
 /// The comment lines of a scene, without "comment " or "# ".
 std::vector<std::string> tag_lines(const SceneCloud& scene);
 
-/// A file as it is, columns found by name, nothing dropped or estimated yet. Absent columns are empty.
+/// A cloud or mesh as in its file, columns identified by name, before cleaning and completion. Absent columns are
+/// empty.
 struct RawCloud {
   std::string path, format;
   std::vector<FileDescription::Field> fields;
@@ -41,8 +42,8 @@ struct RawCloud {
   std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite
   std::vector<Eigen::Vector3f> normal;
   std::vector<float> area;           ///< [m^2]
-  std::vector<std::uint16_t> label;  ///< no_label where the number is no index, or in no interval
-  std::string label_field;           ///< where the labels come from, as the file calls it
+  std::vector<std::uint16_t> label;  ///< no_label where the number is not an index, or in no interval
+  std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
@@ -53,46 +54,47 @@ struct RawCloud {
   std::vector<std::string> notes;
 };
 constexpr std::uint16_t no_label = 65535;
-constexpr double farthest_coordinate = 1e9;  ///< [m]; beyond it a coordinate is a mark for "no data"
+constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
 
-/// Rows of packed numbers in memory.
+/// A table of packed rows in memory.
 struct RowTable {
   struct Column {
     std::string name;
     NumberType type = NumberType::float64;
-    std::size_t offset = 0;  ///< [bytes] in a row
+    std::size_t offset = 0;  ///< within a row [bytes]
   };
   std::vector<Column> columns;
   std::size_t rows = 0, stride = 0;
   const char* bytes = nullptr;
-  std::shared_ptr<const void> owner;  ///< of the bytes, unless they outlive the table
+  std::shared_ptr<const void> owner;  ///< owner of the bytes, unless they outlive the table
 };
 
-/// Table of doubles, row by row, one column per name.
+/// Table of doubles in row-major order, one column per name.
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers);
 
 struct ReadOptions {
   double unit = 1;  ///< metres per unit of the file
   int threads = 0;
-  MaterialField material_field{};           ///< where labels come from
-  std::optional<Eigen::Vector3d> origin{};  ///< [m] of a batch of a larger cloud, which may hold no usable point
+  MaterialField material_field{};  ///< source of the labels
+  std::optional<Eigen::Vector3d>
+      origin{};  ///< [m], of the whole cloud if this is a batch, which may then hold no usable point
 };
 
-/// What to read of a file for `options`: nothing of its labels if all surfels get one material.
+/// ReadOptions for `options`; labels are not read if all surfels get one material.
 ReadOptions read_options(const LoadOptions& options);
 
-/// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, found by name.
-/// Raw's viewpoint is scaled too. Throws Error(content) if x, y or z or the material field asked for is missing, or no
-/// point is finite.
+/// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
+/// scales its viewpoint. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
+/// finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
-/// Where a cloud of this box and these tags has its origin: the one noted, else the middle in whole metres.
+/// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
 Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit);
 
-/// Coordinates of the rows in double [m], relative to options.origin; NaN where they are not usable.
+/// Coordinates of the rows in double [m], relative to options.origin; NaN where unusable.
 std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::string& path, const ReadOptions& options);
 
-/// Appends polygon corners as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
+/// Appends a polygon as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
 void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options);

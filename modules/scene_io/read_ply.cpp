@@ -55,7 +55,7 @@ class PlyTaker {
  private:
   void set_vertices(std::size_t rows) {
     if (rows >= std::numeric_limits<std::uint32_t>::max()) {
-      fail(ErrorKind::content, raw_.path, ": holds ", rows, " points, at most 4294967294 can be numbered; split it");
+      fail(ErrorKind::content, raw_.path, ": holds ", rows, " points, must be at most 4294967294; split it");
     }
     cloud_.width = static_cast<pcl::uindex_t>(rows);
   }

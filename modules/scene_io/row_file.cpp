@@ -10,7 +10,7 @@ namespace insonify {
 namespace {
 
 std::optional<RowFile> find_ply_rows(const std::string& path) {
-  // Text is checked line by line when it is read.
+  // Text files are checked line by line when read.
   if (read_beginning(path, 64).find("format ascii") != std::string::npos) return std::nullopt;
   const PlyHeader header = probe_ply(path);
   if (header.encoding == "ascii") return std::nullopt;

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t block_rows = 1 << 16;
 
-/// A field's name without its case and CloudCompare's prefix "scalar_", blanks as CloudCompare writes them.
+/// A field's name in lower case without CloudCompare's prefix "scalar_", and with blanks as CloudCompare writes them.
 std::string plain_name(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return c == ' ' ? '_' : static_cast<char>(std::tolower(c)); });
   return name.rfind("scalar_", 0) == 0 ? name.substr(7) : name;
 }
 
-/// Column whose plain name is one of `names`, the first of them that is there; null if none.
+/// The first column whose plain name is among `names`, in the order of `names`; null if none.
 const RowTable::Column* find_column(const RowTable& table, std::initializer_list<std::string> names) {
   for (const std::string& name : names) {
     for (const RowTable::Column& column : table.columns) {
@@ -84,7 +84,7 @@ bool usable(const Eigen::Vector3d& position) {
   return position.allFinite() && position.cwiseAbs().maxCoeff() <= farthest_coordinate;
 }
 
-/// Box and count of the usable points; the origin: the middle of the box in whole metres, or the one noted.
+/// Finds bounding box, number of usable points, and origin.
 void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
   const std::size_t blocks = (table.rows + block_rows - 1) / block_rows;
   std::vector<Bounds> boxes(blocks);
@@ -122,7 +122,7 @@ std::uint16_t label_from(double number) {
                                                                           : no_label;
 }
 
-/// The material of the interval that holds `number`, no_label if none does; intervals do not overlap.
+/// The material of the interval that contains `number`, no_label if none does; intervals do not overlap.
 std::uint16_t label_from(double number, const std::vector<MaterialInterval>& intervals) {
   if (intervals.empty()) return label_from(number);
   for (const MaterialInterval& interval : intervals) {
@@ -131,7 +131,7 @@ std::uint16_t label_from(double number, const std::vector<MaterialInterval>& int
   return no_label;
 }
 
-/// True if every number of the column is a whole one that fits 32 bits.
+/// True if every number of the column is an integer that fits 32 bits.
 bool holds_ids(const RowTable& table, const RowTable::Column& column, int threads) {
   std::atomic<bool> good{true};
   for_each_block(table, threads, [&](std::size_t, std::size_t rows, const char* bytes) {
@@ -179,7 +179,7 @@ RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<dou
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options) {
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1) {
-    fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, at most 4294967294 can be numbered; split it");
+    fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");
   }
   const Columns found = find_columns(table, raw.path, options.material_field.name);
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
@@ -199,7 +199,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   const bool ids = found.id && holds_ids(table, *found.id, options.threads);
   if (ids) raw.id.resize(table.rows);
   if (found.id && !ids)
-    raw.notes.push_back("field '" + found.id->name + "' holds no whole 32-bit numbers: ids renumbered");
+    raw.notes.push_back("field '" + found.id->name + "' does not hold 32-bit integers: ids renumbered");
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;

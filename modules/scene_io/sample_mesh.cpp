@@ -36,9 +36,9 @@ double usable_area(const Triangle& t) {
   return twice > 1e-6 * longest2 && std::isfinite(twice) ? 0.5 * twice : 0;
 }
 
-/// What the shared edges say about the winding.
+/// Consistency of the winding over shared edges.
 struct Winding {
-  std::size_t shared = 0, against = 0, border = 0;  ///< edges; against: run through twice in one direction
+  std::size_t shared = 0, against = 0, border = 0;  ///< edges; against: traversed twice in the same direction
   double volume6 = 0;                               ///< six times the signed volume of a closed mesh
 };
 
@@ -74,23 +74,23 @@ Winding examine_winding(const RawCloud& mesh, const std::vector<double>& area) {
   return winding;
 }
 
-/// Decides from the winding whether face normals have a side, and notes it.
-bool winding_has_sides(const RawCloud& mesh, const std::vector<double>& area, std::vector<std::string>& notes) {
+/// True if the winding orients the face normals consistently; notes the result.
+bool winding_is_oriented(const RawCloud& mesh, const std::vector<double>& area, std::vector<std::string>& notes) {
   const Winding winding = examine_winding(mesh, area);
   if (100 * winding.against > winding.shared) {
-    notes.push_back("the triangles are wound inconsistently (" +
-                    share(winding.against, winding.shared, "shared edges") +
-                    "): their normals have no sides, so both sides reflect; orient the mesh, or give the viewpoint of "
-                    "the capture");
+    notes.push_back(
+        "the triangles are wound inconsistently (" + share(winding.against, winding.shared, "shared edges") +
+        "): their normals are not oriented, so both sides reflect; orient the mesh, or give the viewpoint of "
+        "the capture");
     return false;
   }
   if (winding.shared == 0 && mesh.triangle.size() > 1) {
-    notes.push_back("the triangles share no edges: their winding cannot be checked and is taken as it is");
+    notes.push_back("the triangles share no edges: their winding cannot be checked and is assumed to be right");
   }
   if (winding.shared > 0 && winding.border == 0 && winding.volume6 < 0) {
     notes.push_back(
-        "the mesh is closed and its normals point inwards: right for a tank seen from inside; else turn "
-        "the faces round");
+        "the mesh is closed and its normals point inwards: right for a tank seen from inside; else flip "
+        "the faces");
   }
   return true;
 }
@@ -105,9 +105,9 @@ std::size_t surfels_wanted(double total_area, double spacing) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
 }
 
-/// Where in its triangle a surfel lies: weights of the corners. `along` in [0, 1) is stratified by the
-/// caller, the other coordinate walks by the golden ratio, so that neighbours in the sequence keep apart;
-/// jitter breaks the lattice. The square root keeps the density even.
+/// Barycentric coordinates of a surfel in its triangle. `along` in [0, 1) is stratified by the caller, the other
+/// coordinate advances by the golden ratio, so that successive surfels stay apart; jitter breaks the lattice. The
+/// square root makes the density uniform.
 Vector3d weights_at(double along, std::size_t sample, double jitter, double samples_here) {
   const double walk =
       static_cast<double>(sample) * (std::numbers::phi - 1) + jitter / std::sqrt(std::max(1.0, samples_here));
@@ -116,8 +116,8 @@ Vector3d weights_at(double along, std::size_t sample, double jitter, double samp
   return {1 - height, height * (1 - across), height * across};
 }
 
-/// Vertex normals if all three agree with the face on its side, else the face normal on the side of their
-/// sum.
+/// The interpolated vertex normal if all three are on the same side of the face, else the face normal on the side of
+/// their sum.
 Vector3d normal_at(const RawCloud& mesh, std::size_t t, const Vector3d& weights) {
   const Vector3d face = corners_of(mesh, t).cross().normalized();
   if (mesh.normal.empty()) return face;
@@ -135,9 +135,9 @@ Vector3d normal_at(const RawCloud& mesh, std::size_t t, const Vector3d& weights)
   return blended.dot(face) < 0 ? Vector3d(-face) : face;
 }
 
-/// The running sum of the areas is what surfels are dealt out along.
+/// Areas of the triangles and their cumulative sum, along which surfels are distributed.
 struct Surface {
-  std::vector<double> area, end;  ///< of each triangle [m^2]; end: sum up to and with it
+  std::vector<double> area, end;  ///< of each triangle [m^2]; end: cumulative sum including it
   double total() const { return end.back(); }
 };
 
@@ -152,8 +152,7 @@ Surface measure(const RawCloud& mesh, int threads) {
   return surface;
 }
 
-/// Puts surfel i of scene.size() into the i-th of so many equal parts of the running area, at random inside
-/// it.
+/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area.
 void place_surfel(const RawCloud& mesh, const Surface& surface, std::uint64_t seed, std::size_t i, SceneCloud& scene) {
   const double part = surface.total() / static_cast<double>(scene.size());
   const auto random = random_uniform(seed, RandomStage::mesh_points, {.first = i});
@@ -183,7 +182,7 @@ void sample_mesh(const RawCloud& mesh, const LoadOptions& options, LoadedScene& 
          " have no area; export the mesh again");
   }
 
-  // One surfel in each of `count` equal parts of the running area: exact total, no triangle favoured.
+  // One surfel in each of `count` equal intervals of the cumulative area: exact total, no bias between triangles.
   SceneCloud& scene = result.scene;
   const std::size_t count = surfels_wanted(surface.total(), options.mesh_spacing);
   scene.point.resize(count);
@@ -196,8 +195,8 @@ void sample_mesh(const RawCloud& mesh, const LoadOptions& options, LoadedScene& 
     for (std::size_t i = first; i < last; ++i) place_surfel(mesh, surface, options.seed, i, scene);
   });
 
-  // Sides: the file's normals, else the winding, else the viewpoint.
-  scene.normals_oriented = !mesh.normal.empty() || winding_has_sides(mesh, surface.area, result.report.notes);
+  // Orientation: from the file's normals, else the winding, else the viewpoint.
+  scene.normals_oriented = !mesh.normal.empty() || winding_is_oriented(mesh, surface.area, result.report.notes);
   if (scene.normals_oriented || !options.viewpoint) return;
   const Vector3d viewpoint = *options.viewpoint - mesh.origin;
   for (std::size_t i = 0; i < count; ++i) {

@@ -14,7 +14,7 @@
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/pcd_header_internal.hpp"
 
-static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers in memory order");
 
 namespace insonify {
 namespace {
@@ -35,7 +35,7 @@ std::string ply_header(const PackedRows& rows) {
   return header + "end_header\n";
 }
 
-/// Writes header and rows to a temporary name beside `path`, then renames; leaves nothing behind on failure.
+/// Writes header and rows to a temporary file, then renames it to `path`; leaves nothing behind on failure.
 void write_file(const std::string& path, const std::string& header, const PackedRows& rows, const char* who) {
   const std::string temporary = path + ".tmp" + std::to_string(getpid());
   errno = 0;
@@ -72,7 +72,8 @@ CloudFormat format_of(const std::string& path, const char* who) {
 void save_scene(const std::string& path, const SceneCloud& scene) {
   const CloudFormat format = format_of(path, "save_scene");
   require_valid(scene, "save_scene");
-  if (scene.size() == 0) fail(ErrorKind::content, "save_scene: ", path, ": the scene is empty, must hold a surfel");
+  if (scene.size() == 0)
+    fail(ErrorKind::content, "save_scene: ", path, ": the scene is empty, must hold at least one surfel");
   if (format == CloudFormat::pcd) {
     const Bounds box = bounds(scene);
     const double farthest = std::max(box.max.cwiseAbs().maxCoeff(), box.min.cwiseAbs().maxCoeff());

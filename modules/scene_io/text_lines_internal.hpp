@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// Walks through a text line by line; line ends \n and \r\n.
+/// Iterates over the lines of a text; line ends are \n or \r\n.
 class LineReader {
  public:
   explicit LineReader(std::string_view text, std::size_t lines_before = 0) : rest_(text), number_(lines_before) {}
@@ -32,14 +32,14 @@ class LineReader {
     }
     return false;
   }
-  std::size_t number() const { return number_; }  ///< of the line last given, from 1
+  std::size_t number() const { return number_; }  ///< of the current line, from 1
 
  private:
   std::string_view rest_;
   std::size_t number_;
 };
 
-/// Takes the next word off the front of `rest`; empty at the end.
+/// Removes the next word from the front of `rest` and returns it; empty at the end.
 inline std::string_view take_word(std::string_view& rest) {
   const std::size_t begin = std::min(rest.find_first_not_of(" \t"), rest.size());
   rest.remove_prefix(begin);
@@ -63,17 +63,17 @@ bool to_number(std::string_view word, T& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Part of a line fit for a message: at most 60 characters, control characters as '?'.
+/// Excerpt of a line for a message: at most 60 characters, control characters as '?'.
 std::string shown(std::string_view line);
 
-/// A column of a row of text: one number, or a list of them behind their count.
+/// A column of a text row: one number, or a list of numbers preceded by its length.
 struct TextColumn {
   NumberType type = NumberType::float64;
   bool is_list = false;
 };
 
-/// Refuses what PCL 1.13 reads without a word as NaN, 0 or another number: words that are no number or do not fit
-/// their type, short, long and blank rows. Throws Error(content) naming `path`, the line and, as `what`, the rows.
+/// Refuses rows that PCL 1.13 silently misreads: words that are not numbers or do not fit their type; short, long and
+/// blank rows. Throws Error(content) naming `path`, the line and the kind of rows, `what`.
 void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<TextColumn>& columns,
                        const std::string& what, const std::string& path);
 

@@ -15,11 +15,12 @@ namespace {
 using Eigen::Vector3d, Eigen::Vector3f;
 
 constexpr std::size_t tiles_at_once = 32;
-constexpr double halo_spacings = 10;  // the 64 nearest of a flat neighbourhood stand within 5
+constexpr double halo_spacings = 10;  // the 64 nearest neighbours on a plane lie within 5
 
 Vector3d centre_of(const TileEntry& tile) { return Eigen::Map<const Vector3d>(tile.centre); }
 
-// How far the neighbours of a tile's surfels may stand: spacings if they filled the ball's disc.
+// Largest distance to neighbours of a tile's surfels, from their spacing if they filled the disc of the bounding
+// sphere.
 double halo_of(const TileEntry& tile) {
   return halo_spacings * tile.radius * std::sqrt(pi / static_cast<double>(tile.count));
 }
@@ -28,7 +29,7 @@ struct Points {
   std::vector<Vector3f> point, normal;
 };
 
-// Appends a tile's points, relative to `middle`.
+// Appends a tile's points relative to `middle`.
 void append(const BinaryFile& file, const TileEntry& tile, const Vector3d& middle, Points& all) {
   const std::size_t first = all.point.size(), n = tile.count;
   all.point.resize(first + n);
@@ -40,7 +41,7 @@ void append(const BinaryFile& file, const TileEntry& tile, const Vector3d& middl
   for (std::size_t i = first; i < first + n; ++i) all.point[i] = (all.point[i].cast<double>() + offset).cast<float>();
 }
 
-// Appends the tiles outside [begin, end) that reach into the halo of those inside.
+// Appends the tiles outside [begin, end) that intersect the halo of those inside.
 void append_halo(const BinaryFile& file, const std::vector<TileEntry>& tiles, std::size_t begin, std::size_t end,
                  const Vector3d& middle, Points& all) {
   for (std::size_t t = 0; t < tiles.size(); ++t) {
@@ -54,7 +55,7 @@ void append_halo(const BinaryFile& file, const std::vector<TileEntry>& tiles, st
   }
 }
 
-// Puts areas in their place in the file, and what follows from them into `tile`.
+// Writes areas to the file and updates `tile`.
 void write_areas(BinaryFile& file, std::span<const float> areas, TileEntry& tile) {
   std::vector<char> bytes(tile.count * surfel_bytes);
   file.read(tile.offset, bytes);

@@ -9,15 +9,15 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t chunk = 1 << 15;        // records read or written at once
-constexpr std::uint32_t cells_per_axis = 16;  // of one division
+constexpr std::uint32_t cells_per_axis = 16;  // of one subdivision
 constexpr std::size_t cells = 4096;
 
 using Place = Eigen::Map<const Eigen::Vector3d>;
 
-// Spreads four bits to every third place.
+// Spreads four bits to every third bit.
 std::uint32_t every_third(std::uint32_t v) { return (v & 1) | (v & 2) << 2 | (v & 4) << 4 | (v & 8) << 6; }
 
-// Cubes over a box, numbered along a Morton curve: cells with neighbouring numbers stand together.
+// Cubic cells over a box, numbered along a Morton curve, so that cells with adjacent numbers are neighbours.
 struct Cells {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);
 
@@ -36,7 +36,7 @@ struct Cells {
   }
 };
 
-// Records of a file that belong together.
+// A range of records of a file.
 struct Segment {
   std::uint64_t first = 0, count = 0;
 };
@@ -50,7 +50,8 @@ void for_each_record(const RecordFile& file, Segment segment, const PlaceSort& s
   }
 }
 
-// Runs of cells with at most `most` records in all, or one cell with more; and the run of each cell.
+// Groups runs of cells with at most `most` records in total, or single cells with more; also returns the group of each
+// cell.
 std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, std::size_t most,
                                 std::array<std::uint32_t, cells>& part_of_cell) {
   std::vector<Segment> parts;
@@ -63,7 +64,7 @@ std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, 
   return parts;
 }
 
-// Copies a segment into `to`, each record to its part, keeping their order.
+// Copies a segment into `to`, each record to its group, preserving order.
 void distribute(const RecordFile& from, Segment segment, const Cells& grid, const PlaceSort& sort,
                 const std::array<std::uint32_t, cells>& part_of_cell, std::vector<Segment> parts, RecordFile& to) {
   const std::size_t room = std::max<std::size_t>(16, std::min(chunk, sort.most / parts.size()));
@@ -86,7 +87,7 @@ void visit(std::shared_ptr<const RecordFile> file, Segment segment, const PlaceS
   Cells grid;
   if (segment.count > sort.most)
     for_each_record(*file, segment, sort, [&](const TileRecord& record) { grid.enclose(record); });
-  if (segment.count <= sort.most || !(grid.extent() > 0)) {  // fits, or cannot be divided
+  if (segment.count <= sort.most || !(grid.extent() > 0)) {  // fits in memory, or cannot be divided
     for (std::uint64_t done = 0; done < segment.count; done += sort.most) {
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(sort.most, segment.count - done));
       std::vector<TileRecord> group = file->read(segment.first + done, count);
@@ -101,7 +102,7 @@ void visit(std::shared_ptr<const RecordFile> file, Segment segment, const PlaceS
   const std::vector<Segment> parts = plan_parts(counts, sort.most, part_of_cell);
   const auto divided = std::make_shared<RecordFile>(file->path());
   distribute(*file, segment, grid, sort, part_of_cell, parts, *divided);
-  file.reset();  // the last user of a file gives its space back
+  file.reset();  // releases the disk space after the last use
   for (const Segment& part : parts) visit(divided, part, sort);
 }
 

@@ -8,10 +8,10 @@
 
 #include "scene_io/tile_file_internal.hpp"
 
-// Private to scene_io: putting more surfels in order of place than memory holds.
+// Private to scene_io: external sorting of surfels by position.
 namespace insonify {
 
-/// One surfel on its way into a tile.
+/// One surfel before it is stored in a tile.
 struct TileRecord {
   double place[3];  ///< [m], relative to the file's origin
   float normal[3];
@@ -21,10 +21,10 @@ struct TileRecord {
 };
 static_assert(sizeof(TileRecord) == 48);
 
-/// Records in a nameless file, written through a buffer.
+/// Records in an unnamed temporary file with buffered writing.
 class RecordFile {
  public:
-  /// In the folder of `path`.
+  /// Creates the file in the folder of `path`.
   explicit RecordFile(const std::string& path) : file_(path, BinaryFile::Mode::nameless) {}
   void append(const TileRecord& record);
   void flush();
@@ -40,13 +40,13 @@ class RecordFile {
 };
 
 struct PlaceSort {
-  std::size_t most = 0;                                    ///< records in one group, which memory must hold
-  std::function<void(std::vector<TileRecord>&)> take;      ///< gets every record once, in groups that stand together
-  std::function<void(std::uint64_t)> moved = [](auto) {};  ///< told how many records were just read or written
+  std::size_t most = 0;                                    ///< records in one group, which must fit in memory
+  std::function<void(std::vector<TileRecord>&)> take;      ///< receives every record once, in groups of neighbours
+  std::function<void(std::uint64_t)> moved = [](auto) {};  ///< receives the number of records just read or written
 };
 
-/// Hands all records over in groups of neighbours; within a group they come in the order in which they were appended.
-/// Records at one place are in one group, unless there are more than `most`. Takes twice the file's space on the disk.
+/// Passes all records to `take` in groups of neighbours; within a group they keep the order of appending. Records at
+/// one place are in one group, unless there are more than `most`. Needs twice the disk space of the file.
 void sort_by_place(std::unique_ptr<RecordFile> file, const PlaceSort& sort);
 
 }  // namespace insonify

@@ -23,11 +23,11 @@ using Eigen::Vector3d, Eigen::Vector3f;
 constexpr double farthest_narrow = 2000;       // [m] from the origin; float32 steps are 0.12 mm there
 constexpr std::size_t bytes_per_record = 160;  // while a group is sorted and written
 constexpr std::size_t least_memory = 1 << 20;  // [bytes]
-constexpr double moves_of_a_record = 5;        // read and written, about, from adding to its tile
+constexpr double moves_of_a_record = 5;        // approximate number of reads and writes of a record
 
 Vector3d place_of(const TileRecord& record) { return Eigen::Map<const Vector3d>(record.place); }
 
-/// A file under a temporary name, which it loses unless it is given its own.
+/// A file under a temporary name, deleted unless it is renamed.
 struct PendingTiles {
   std::string target, temporary;
   BinaryFile file;
@@ -44,9 +44,9 @@ struct PendingTiles {
   }
 };
 
-/// Of records at one place keeps the first; returns how many were dropped.
+/// Keeps the first of records at one position; returns the number dropped.
 std::size_t drop_duplicates(std::vector<TileRecord>& group, bool wide) {
-  // In single precision, as load_scene compares them.
+  // Compare in single precision, like load_scene.
   const Vector3d middle = wide ? place_of(group[group.size() / 2]) : Vector3d::Zero();
   std::vector<Vector3f> points;
   for (const TileRecord& r : group) points.push_back((place_of(r) - middle).cast<float>());
@@ -59,8 +59,8 @@ std::size_t drop_duplicates(std::vector<TileRecord>& group, bool wide) {
   return dropped;
 }
 
-/// Halves the box of the records across its longest side until at most `most` are in each: dense places get small tiles,
-/// and what stands far apart is apart at once.
+/// Bisects the bounding box of the records across its longest side until each part holds at most `most`: dense regions
+/// get small tiles, and distant clusters are separated first.
 void divide(std::span<TileRecord> records, std::size_t most, std::vector<std::span<TileRecord>>& parts) {
   while (records.size() > most) {
     Vector3d low = place_of(records[0]), high = low;
@@ -70,7 +70,7 @@ void divide(std::span<TileRecord> records, std::size_t most, std::vector<std::sp
     }
     int axis = 0;
     const double side = (high - low).maxCoeff(&axis), middle = low[axis] + side / 2;
-    auto second = records.begin() + static_cast<std::ptrdiff_t>(most);  // all at one place
+    auto second = records.begin() + static_cast<std::ptrdiff_t>(most);  // all at one position
     if (middle > low[axis] && middle < high[axis])
       second = std::partition(records.begin(), records.end(), [&](const auto& r) { return r.place[axis] < middle; });
     const auto count = static_cast<std::size_t>(second - records.begin());
@@ -80,7 +80,7 @@ void divide(std::span<TileRecord> records, std::size_t most, std::vector<std::sp
   parts.push_back(records);
 }
 
-/// The records of one tile as bytes, by ascending id; fills in all of `tile` but its offset.
+/// The records of one tile as bytes, by ascending id; sets all of `tile` except its offset.
 std::vector<char> pack_tile(std::span<TileRecord> records, bool wide, TileEntry& tile) {
   std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   Vector3d low = place_of(records[0]), high = low;
@@ -107,7 +107,7 @@ std::vector<char> pack_tile(std::span<TileRecord> records, bool wide, TileEntry&
   }
   Eigen::Map<Vector3d>(tile.reference) = reference;
   Eigen::Map<Vector3d>(tile.centre) = centre;
-  // Points may move by the rounding of another origin when they are loaded.
+  // Points may move by rounding to another origin when they are loaded.
   tile.radius = static_cast<float>(radius * (1 + 1e-6) + (wide ? 1e-3 : 1e-6));
   tile.count = static_cast<std::uint32_t>(n);
   tile.checksum = checksum(bytes);
@@ -130,7 +130,7 @@ struct TileWriter::State {
   void report_progress(double part) const {
     if (options.progress) options.progress(std::clamp(part, 0.0, 1.0));
   }
-  /// Group of neighbours -> tiles in the file.
+  /// Writes a group of neighbours as tiles.
   void write_group(std::vector<TileRecord>& group, BinaryFile& file);
   void write_tail(BinaryFile& file);
 };
@@ -141,7 +141,7 @@ TileWriter::TileWriter(const std::string& path, const TileWriterOptions& options
   for (const Material& material : options.materials) require_valid(material, "TileWriter");
   std::error_code ignored;
   if (path.empty() || std::filesystem::is_directory(path, ignored))
-    fail(ErrorKind::file, path.empty() ? "\"\"" : path, ": is not the name of a file that can be written");
+    fail(ErrorKind::file, path.empty() ? "\"\"" : path, ": is not a valid name for an output file");
   state_->path = path;
   state_->options = options;
   state_->waiting = std::make_unique<RecordFile>(path);
@@ -161,10 +161,9 @@ void TileWriter::add(const SceneCloud& batch, std::span<const Vector3d> places) 
   if (!s.waiting) fail(ErrorKind::argument, "TileWriter: add() after finish(), make another writer");
   require_valid(batch, "TileWriter");
   if (places.size() != batch.size())
-    fail(ErrorKind::argument, "TileWriter: ", places.size(), " places for ", batch.size(),
-         " surfels, must be one each");
+    fail(ErrorKind::argument, "TileWriter: ", places.size(), " places for ", batch.size(), " surfels, must be as many");
   if (s.waiting->size() + batch.size() > std::numeric_limits<std::uint32_t>::max())
-    fail(ErrorKind::content, s.path, ": more than 4294967295 surfels cannot be numbered; divide the scene");
+    fail(ErrorKind::content, s.path, ": more than 4294967295 surfels; divide the scene");
   for (std::size_t i = 0; i < batch.size(); ++i) {
     if (batch.material[i] >= s.options.materials.size())
       fail(ErrorKind::content, "TileWriter: batch.material[", i, "] = ", batch.material[i],

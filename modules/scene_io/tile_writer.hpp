@@ -17,12 +17,12 @@ struct TileWriterOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; points are stored relative to it
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;
-  bool drop_duplicates = false;            ///< of surfels at exactly one place keep the first
-  bool estimate_areas = false;             ///< take the areas given for nothing and find them from the neighbours (E15)
-  std::size_t tile_surfels = 4096;         ///< at most, in one tile
-  std::size_t memory = 256 << 20;          ///< [bytes] that sorting may take; at least 1 MiB is used
+  bool drop_duplicates = false;            ///< keep only the first of surfels at one position
+  bool estimate_areas = false;             ///< ignore given areas and estimate them from the neighbours (E15)
+  std::size_t tile_surfels = 4096;         ///< largest number in one tile
+  std::size_t memory = 256 << 20;          ///< memory for sorting [bytes]; at least 1 MiB is used
   int threads = 0;                         ///< 0: all cores; the file does not depend on it
-  std::function<void(double)> progress{};  ///< told the part of finish() that is done, 0..1; may throw to give up
+  std::function<void(double)> progress{};  ///< receives the completed fraction of finish(), 0..1; may throw to cancel
 };
 
 struct TileReport {
@@ -31,22 +31,22 @@ struct TileReport {
   double total_area = 0;  ///< [m^2]
 };
 
-/// Writes a .tiles file from batches of surfels, in bounded memory however many there are. They wait in a nameless file
-/// beside the output (48 bytes each, for a while twice) and are put in order of place by finish(), which then gives the
-/// file its name: before that, and after any failure, nothing stands under it and nothing is left behind.
+/// Writes a .tiles file from batches of surfels in bounded memory. Surfels are kept in an unnamed temporary file in the
+/// output's folder (48 bytes each, temporarily twice); finish() sorts them by position and then renames the output.
+/// Before that, and after any failure, no file of that name exists and nothing else is left behind.
 class TileWriter {
  public:
-  /// Throws Error(argument) for an option that makes no sense, Error(file) if the folder cannot be written.
+  /// Throws Error(argument) for an invalid option, Error(file) if the folder is not writable.
   explicit TileWriter(const std::string& path, const TileWriterOptions& options = {});
   ~TileWriter();
 
-  /// Batches may differ in origin, not in their materials: an index means the writer's. Throws as require_valid, and
-  /// Error(content) for more than 2^32 - 1 surfels in all.
+  /// Adds a batch. Batches may differ in origin; material indices refer to the writer's materials. Throws as
+  /// require_valid, and Error(content) for more than 2^32 - 1 surfels in total.
   void add(const SceneCloud& batch);
-  /// The same with places given in double [m], relative to the writer's origin, instead of batch.point.
+  /// The same with positions in double [m], relative to the writer's origin, instead of batch.point.
   void add(const SceneCloud& batch, std::span<const Eigen::Vector3d> places);
 
-  /// Once, at the end. Throws Error(file) if the file cannot be written.
+  /// Completes the file; call it once. Throws Error(file) if the file cannot be written.
   TileReport finish();
 
  private:
@@ -54,7 +54,7 @@ class TileWriter {
   std::unique_ptr<State> state_;
 };
 
-/// All of a scene as a .tiles file, with its origin and materials.
+/// Writes a whole scene as a .tiles file, with its origin and materials.
 TileReport save_tiles(const std::string& path, const SceneCloud& scene, TileWriterOptions options = {});
 
 }  // namespace insonify

@@ -20,7 +20,7 @@ constexpr double origin_step = 256;  // [m]
 
 Vector3d vector_of(const double (&xyz)[3]) { return {xyz[0], xyz[1], xyz[2]}; }
 
-/// The header, if it is one that can be read and fits the file.
+/// Reads the header and checks it against the file.
 TileHeader read_header(const BinaryFile& file) {
   const std::string& path = file.path();
   TileHeader header{};
@@ -29,7 +29,7 @@ TileHeader read_header(const BinaryFile& file) {
   file.read(0, bytes_in(header).first(first));
   const auto magic = std::span(header.magic);
   if (std::all_of(magic.begin(), magic.end(), [](char c) { return c == 0; }))
-    fail(ErrorKind::content, path, ": only half written: its header is empty; make the file again");
+    fail(ErrorKind::content, path, ": is incomplete: its header is empty; make the file again");
   if (std::memcmp(header.magic, tile_magic, sizeof(tile_magic)) != 0)
     fail(ErrorKind::content, path, ": not a .tiles file: expected 'insotile' in its first bytes, found ",
          what_it_looks_like(path));
@@ -37,7 +37,7 @@ TileHeader read_header(const BinaryFile& file) {
     fail(ErrorKind::content, path, ": cut off: the header takes ", sizeof(header), " bytes, the file holds ", held,
          "; copy or make the file again");
   if (header.version > tile_version)
-    fail(ErrorKind::content, path, ": is of version ", header.version, " of the format, this insonify reads up to ",
+    fail(ErrorKind::content, path, ": is of version ", header.version, " of the format, this version reads up to ",
          tile_version, "; update insonify, or prepare the scene with this one");
   if (header.header_checksum != checksum(bytes_in(header).first(offsetof(TileHeader, header_checksum))))
     fail(ErrorKind::content, path, ": the header is damaged: its checksum is wrong; copy or make the file again");
@@ -62,7 +62,7 @@ TiledSceneInfo info_of(const TileHeader& h, const std::string& path) {
   return info;
 }
 
-/// Moves values[order[k]] to place k.
+/// Moves values[order[k]] to index k.
 template <typename T>
 void permute(std::vector<T>& values, const std::vector<std::uint64_t>& order) {
   std::vector<T> sorted(values.size());
@@ -87,7 +87,8 @@ void copy_to(std::vector<T>& to, std::size_t first, const char* from, std::size_
   if (count > 0) std::memcpy(static_cast<void*>(to.data() + first), from, count * sizeof(T));
 }
 
-/// The surfels of one tile from `first` on; points relative to the origin of `scene`, which is `shift` from the file's.
+/// Unpacks the surfels of one tile into `scene` from index `first` on; `shift` is the offset from the file's origin to
+/// the scene's.
 void unpack(const TileEntry& tile, const std::vector<char>& bytes, const Vector3d& shift, std::size_t first,
             SceneCloud& scene) {
   const std::size_t n = tile.count;

@@ -16,11 +16,11 @@ namespace {
 constexpr std::int64_t contributor_schema = 1;
 const std::string content = "contributors";
 constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name{"/share", ""},
-    surface_of_name{"/elevation", "rad"}, material_name{"/material", ""}, path_name{"/path", ""},
+    elevations_name{"/elevation", "rad"}, material_name{"/material", ""}, path_name{"/path", ""},
     material_image_name{"/material_image", ""}, instance_image_name{"/instance_image", ""},
     names_name{"/material_names", ""};
 
-/// Numbers of a type in the file (little endian) or here.
+/// HDF5 type of a number in the file (little-endian) or in memory.
 template <typename Number>
 hid_t type_of(bool in_file) {
   if constexpr (std::is_same_v<Number, float>) return in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT;
@@ -41,7 +41,7 @@ void read_numbers(const Place& place, hid_t file, const DatasetName& name, const
                   std::vector<Number>& numbers) {
   const Handle dataset = open_dataset(place, file, name);
   if (extent_of(place, dataset, name.path, 3) != extent)
-    fail(place.kind, place.path, ": ", name.path, " has another extent than ", surfel_name.path);
+    fail(place.kind, place.path, ": ", name.path, " differs in extent from ", surfel_name.path);
   numbers.resize(extent[0] * extent[1] * extent[2]);
   place.checked(H5Dread(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), name.path);
 }
@@ -84,7 +84,7 @@ void require_ours(const Place& place, hid_t file) {
          "\"");
   const std::int64_t schema = read_integer(place, file, "schema");
   if (schema != contributor_schema)
-    fail(place.kind, place.path, ": has contributor schema ", schema, ", this insonify reads schema ",
+    fail(place.kind, place.path, ": has contributor schema ", schema, ", this version reads schema ",
          contributor_schema);
 }
 
@@ -112,7 +112,7 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
   write_numbers(place, file, surfel_name, lists, c.surfel.data());
   write_numbers(place, file, id_name, lists, c.id.data());
   write_numbers(place, file, share_name, lists, c.share.data());
-  write_numbers(place, file, surface_of_name, lists, c.elevation.data());
+  write_numbers(place, file, elevations_name, lists, c.elevation.data());
   write_numbers(place, file, material_name, lists, c.material.data());
   static_assert(sizeof(PathKind) == 1);
   write_numbers(place, file, path_name, lists, reinterpret_cast<const std::uint8_t*>(c.path.data()));
@@ -135,7 +135,7 @@ NamedContributors read_contributor_file(const std::string& path) {
   read_numbers(place, file, surfel_name, extent, c.surfel);
   read_numbers(place, file, id_name, extent, c.id);
   read_numbers(place, file, share_name, extent, c.share);
-  read_numbers(place, file, surface_of_name, extent, c.elevation);
+  read_numbers(place, file, elevations_name, extent, c.elevation);
   read_numbers(place, file, material_name, extent, c.material);
   std::vector<std::uint8_t> kinds;
   read_numbers(place, file, path_name, extent, kinds);

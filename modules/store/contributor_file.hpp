@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// Contributors as they stand in contributors.h5, with the names of the scene's materials by index.
+/// The contents of contributors.h5: contributors, and the names of the scene's materials by index.
 struct NamedContributors {
   Contributors contributors;
   std::vector<std::string> materials;
@@ -14,14 +14,14 @@ struct NamedContributors {
 
 /// Writes /surfel, /id (uint32), /share, /elevation (float32), /material (uint16) and /path (uint8) as beams x bins x
 /// per_pixel, the label images /material_image (uint16) and /instance_image (uint32) as beams x bins, /material_names
-/// (text), and as root attributes schema, content "contributors" and paths, what the numbers of /path mean. Where there is
-/// no contributor, surfel, id and instance are 4294967295 and material is 65535. Byte-identical for identical input.
-/// Written to a temporary name, then renamed. Throws Error(argument) for contributors that are not valid or of a material
-/// without a name, Error(file) if it cannot write.
+/// (text), and the root attributes schema, content "contributors" and paths, the meaning of the numbers of /path.
+/// Unused entries have surfel, id and instance 4294967295 and material 65535. Byte-identical for identical input.
+/// Written to a temporary name, then renamed. Throws Error(argument) for invalid contributors or a material without a
+/// name, Error(file) if it cannot write.
 void write_contributor_file(const std::string& path, const NamedContributors& named);
 
-/// What write_contributor_file was given, bit for bit. Throws Error(file) if missing, Error(content) if it is not such a
-/// file, has another schema or lacks a part, naming it.
+/// Reads what write_contributor_file wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not
+/// such a file, has another schema or lacks a dataset, naming it.
 NamedContributors read_contributor_file(const std::string& path);
 
 }  // namespace insonify

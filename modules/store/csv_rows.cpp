@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Cuts a line at its commas into `fields` (kept from line to line: a table may have millions).
+// Splits a line at its commas into `fields` (reused from line to line: a table may have millions).
 void cut_fields(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   for (std::size_t begin = 0; begin <= line.size();) {
@@ -30,13 +30,13 @@ bool holds(const CsvColumns& columns, std::string_view name) {
   return std::find(columns.begin(), columns.end(), name) != columns.end();
 }
 
-/// What the header says: which layout, and for each field which of its columns.
+/// The layout of a file, and for each field the index of its column.
 struct Header {
   std::size_t layout = 0;
   std::vector<std::size_t> columns;
 };
 
-// The layout that has most of the fields.
+// The layout that shares the most columns with `fields`.
 std::size_t nearest_layout(std::span<const CsvColumns> layouts, const std::vector<std::string_view>& fields) {
   const auto shared = [&](const CsvColumns& layout) {
     return std::count_if(fields.begin(), fields.end(), [&](std::string_view field) { return holds(layout, field); });
@@ -55,7 +55,7 @@ Header read_header(std::span<const CsvColumns> layouts, const std::vector<std::s
       const std::string nearest = nearest_word(std::string(*field), known);
       place.fail_here("unknown column '", *field, "'", nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
     }
-    if (std::find(fields.begin(), field, *field) != field) place.fail_here("column '", *field, "' stands there twice");
+    if (std::find(fields.begin(), field, *field) != field) place.fail_here("column '", *field, "' occurs twice");
   }
   Header header{nearest_layout(layouts, fields), {}};
   const CsvColumns& layout = layouts[header.layout];
@@ -63,7 +63,7 @@ Header read_header(std::span<const CsvColumns> layouts, const std::vector<std::s
     if (std::find(fields.begin(), fields.end(), column) == fields.end())
       place.fail_here("missing column '", column, "'");
   for (const std::string_view field : fields) {
-    if (!holds(layout, field)) place.fail_here("column '", field, "' does not go with '", layout.back(), "'");
+    if (!holds(layout, field)) place.fail_here("column '", field, "' cannot be combined with '", layout.back(), "'");
     header.columns.push_back(static_cast<std::size_t>(std::find(layout.begin(), layout.end(), field) - layout.begin()));
   }
   return header;

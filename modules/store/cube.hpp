@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// One or many pings of one sonar as they stand in cube.h5.
+/// The contents of cube.h5: one or more pings of one sonar.
 struct Cube {
   std::vector<Ping> pings;         ///< all with the same fan and gate
   double sound_speed = 0;          ///< [m/s]
@@ -21,19 +21,18 @@ struct Cube {
   std::string insonify_version;
 };
 
-/// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth
-/// and /elevation [rad], /pose (pings x 4 x 4, world_from_head, row by row), /time [s], /ping (numbers) and,
-/// as root attributes, schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad], min_range, max_range,
-/// bin_size [m]. Byte-identical for identical input (no timestamps). Written to a temporary name, then
-/// renamed. Layers of the pings stand beside as /layers/NAME, laid out like /pressure; so do, where the pings have them,
-/// /level_error_db (float32) and /unknown (uint8). Of expected levels the attribute expected_level says so. Throws
-/// Error(argument) if there is no ping or they differ in fan, gate, extent, layers, maps or expected_level; Error(file)
-/// if it cannot write.
+/// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth and
+/// /elevation [rad], /pose (pings x 4 x 4, world_from_head, row-major), /time [s], /ping (numbers) and the root
+/// attributes schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad],
+/// min_range, max_range, bin_size [m]. Layers are written as /layers/NAME with the extent of /pressure; so are, if the
+/// pings have them, /level_error_db (float32) and /unknown (uint8). The attribute expected_level marks expected levels.
+/// Byte-identical for identical input (no timestamps). Written to a temporary name, then renamed. Throws
+/// Error(argument) if there are no pings or they differ in fan, gate, extent, layers, maps or expected_level;
+/// Error(file) if it cannot write.
 void write_cube(const std::string& path, const Cube& cube);
 
-/// Every field of what write_cube was given, bit for bit.
-/// Throws Error(file) if missing, Error(content) if it is not a cube, has another schema or lacks a part,
-/// naming it.
+/// Reads what write_cube wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not a cube, has
+/// another schema or lacks a dataset or attribute, naming it.
 Cube read_cube(const std::string& path);
 
 }  // namespace insonify

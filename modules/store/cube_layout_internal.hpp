@@ -3,21 +3,21 @@
 
 namespace insonify {
 
-/// Version of the layout of cube.h5; raised when a reader of the old one would go wrong.
+/// Version of the layout of cube.h5, raised when readers of the previous one would fail.
 constexpr std::int64_t cube_schema = 1;
 
-/// Place of a dataset in the file and its unit, kept in its attribute "units" ("": none).
+/// Path of a dataset in the file, and its unit for the attribute "units" ("": none).
 struct DatasetName {
   const char* path;
   const char* unit;
 };
 constexpr DatasetName pressure_name{"/pressure", "Pa"};
-/// Group of the layers, each a dataset like /pressure; absent if none were kept.
+/// Group of the layers, each a dataset like /pressure; absent without layers.
 constexpr const char* layers_group = "/layers";
-/// Optional maps like /pressure, of one real number per cell.
+/// Optional maps of the extent of /pressure, one real number per cell.
 constexpr DatasetName level_error_name{"/level_error_db", "dB"};
 constexpr DatasetName unknown_name{"/unknown", ""};
-/// Root attribute of a cube whose pressures are roots of expected intensities; absent from all others.
+/// Root attribute that marks a cube whose pressures are roots of expected intensities.
 constexpr const char* expected_level_attribute = "expected_level";
 constexpr const char* expected_level_text = "expected level, no speckle";
 constexpr DatasetName range_name{"/range", "m"};

@@ -15,7 +15,7 @@
 namespace insonify {
 namespace {
 
-/// A key of the file: how a number goes in, and how it comes out if there is one.
+/// A numeric key of the file, with setter and getter; the getter returns nothing if the part is absent.
 struct NumberKey {
   const char* section;
   const char* key;
@@ -28,7 +28,7 @@ NumberKey water_key(const char* key, double Water::*field) {
           [field](const Environment& e) { return e.water.*field; }};
 }
 
-/// A number of a part of the environment that need not be there: setting it makes the part present.
+/// A number of an optional part of the environment; setting it makes the part present.
 template <typename Part, typename Field>
 NumberKey part_key(const char* section, const char* key, std::optional<Part> Environment::*part, Field Part::*field) {
   return {section, key,
@@ -47,7 +47,7 @@ NumberKey plain_key(const char* section, const char* key, std::optional<double> 
           [field](const Environment& e) { return e.*field; }};
 }
 
-/// The Lambert coefficient stands in files as 10 log10.
+/// The Lambert coefficient is stored in files as 10 log10.
 NumberKey bottom_mu_key() {
   NumberKey mu = part_key("bottom", "lambert_mu_db", &Environment::bottom, &FlatBottom::lambert_mu);
   mu.set = [set = mu.set](Environment& e, double x) { set(e, power_from_db(x)); };
@@ -96,7 +96,7 @@ constexpr AbsorptionName absorption_names[] = {{"francois-garrison", AbsorptionF
                                                {"fisher-simmons", AbsorptionFormula::fisher_simmons},
                                                {"ainslie-mccolm", AbsorptionFormula::ainslie_mccolm}};
 
-/// The formula called `name`; Error(argument) listing the names.
+/// The formula called `name`. Throws Error(argument) listing the known names.
 template <typename Names, typename Formula>
 void set_formula(const Names& names, const std::string& key, const std::string& name, Formula& formula) {
   std::string known;
@@ -128,7 +128,7 @@ void set_formula_key(Environment& e, const std::string& name, const std::string&
     set_formula(absorption_names, name, value, e.absorption_formula);
 }
 
-/// Error(argument) unless the key exists: with the nearest key, or the sections there are.
+/// Throws Error(argument), with the nearest key or all known ones, unless the key exists.
 void require_known(const std::string& name) {
   const std::vector<std::string> known = environment_key_names();
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -200,7 +200,7 @@ void read_table(const std::string& path, const std::string& section, const TomlV
     for (std::size_t k = 0; k < table.keys.size(); ++k) read_key(path, section, table.keys[k], table.items[k], e);
 }
 
-/// What else stands in the run.toml of a run, which is known by its version.
+/// True for the other contents of a run.toml, which is recognised by its version.
 bool is_of_run(const TomlValue& document, std::size_t item) {
   const std::string& key = document.keys[item];
   return document.find("insonify_version") &&

@@ -6,19 +6,19 @@
 
 namespace insonify {
 
-/// Reads an environment from TOML: tables [water], [surface], [bottom], [volume], [wind], [noise] with the keys that
-/// environment_key_names lists, and [profile] with the lists depth_m and sound_speed. What a file does not mention keeps
-/// its default; a table that is there makes its part of the environment present. Of the run.toml of a run (it has a key
-/// insonify_version) everything else is passed over. Unknown tables, keys and values of a wrong kind are errors with
-/// file, line and the nearest known name. Throws Error(file) or Error(content).
+/// Reads an environment from TOML: tables [water], [surface], [bottom], [volume], [wind], [noise] with the keys of
+/// environment_key_names, and [profile] with the lists depth_m and sound_speed. Each table enables its part of the
+/// environment; omitted keys keep their defaults. Other tables of a run.toml (recognised by its key insonify_version)
+/// are ignored. Unknown tables or keys and values of the wrong type are errors with file, line and the nearest known
+/// name. Throws Error(file) or Error(content).
 Environment load_environment(const std::string& path);
 
-/// Sets one value from text: section "water", key "temperature_c", ... Whether the whole makes sense is for
-/// require_valid to say. Error(argument) names the nearest section or key, or the value and its kind.
+/// Sets one value from text: section "water", key "temperature_c", ... Consistency is checked by require_valid only.
+/// Throws Error(argument) naming the nearest section or key, or the value and its type.
 void set_environment_value(Environment& environment, const std::string& section, const std::string& key,
                            const std::string& value);
 
-/// The environment as TOML tables, only those that are present; reads back the same (lambert_mu_db to its last bit).
+/// The parts present in the environment as TOML tables, which read back identically (lambert_mu_db to its last bit).
 std::string environment_as_toml(const Environment& environment);
 
 /// All keys as "section.key", in the order of files.

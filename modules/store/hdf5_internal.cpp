@@ -5,7 +5,7 @@
 namespace insonify::hdf5 {
 namespace {
 
-// H5Ewalk visits the innermost function first: its words are the cause.
+// H5Ewalk visits the innermost function first, which reports the cause.
 herr_t take_first_reason(unsigned n, const H5E_error2_t* error, void* reason) {
   if (n == 0 && error->desc) *static_cast<std::string*>(reason) = error->desc;
   return 0;
@@ -115,7 +115,7 @@ std::uint64_t read_unsigned(const Place& place, hid_t where, const char* name) {
   return read_scalar<std::uint64_t>(place, where, name, H5T_NATIVE_UINT64);
 }
 
-// Text of fixed length (as other programs write it) or of variable length.
+// Reads text of fixed length (as other programs write it) or of variable length.
 std::string read_text(const Place& place, hid_t where, const char* name) {
   const Handle attribute = open_attribute(place, where, name);
   const Handle stored(place.checked(H5Aget_type(attribute), name), H5Tclose);
@@ -151,7 +151,6 @@ Handle open_file(const Place& place) {
   return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
 }
 
-// A dataset without timestamps; with `chunk` if not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk) {
   const Handle space(
@@ -161,7 +160,7 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
   if (!chunk.empty()) {
     place.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
     place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
-                  name.path);  // no chance bytes in edge chunks
+                  name.path);  // no undefined bytes in edge chunks
   }
   Handle dataset(
       place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),

@@ -11,7 +11,7 @@
 
 namespace insonify::hdf5 {
 
-/// Keeps HDF5 from printing its error stack while it lives; failures become Error instead.
+/// Suppresses HDF5's error output during its lifetime; failures become Error instead.
 class QuietErrors {
  public:
   QuietErrors();
@@ -24,15 +24,14 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
-/// The file an operation works on, and what a failure means: Error(file) when writing, Error(content) when
-/// reading.
+/// The file of an operation, and the kind of its errors: file when writing, content when reading.
 struct Place {
   std::string path;
   ErrorKind kind;
 
-  /// Throws Error "path: what: reason given by HDF5".
+  /// Throws Error "path: what: HDF5's reason".
   [[noreturn]] void fail_here(const std::string& what) const;
-  /// Returns what HDF5 returned unless it is negative, the sign of failure.
+  /// Returns `status` unless it is negative, which indicates failure.
   template <typename Status>
   Status checked(Status status, const std::string& what) const {
     if (status < 0) fail_here(what);
@@ -40,7 +39,7 @@ struct Place {
   }
 };
 
-/// Owns one HDF5 identifier and closes it.
+/// Owns an HDF5 identifier and closes it.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -51,7 +50,7 @@ class Handle {
     if (id_ >= 0) close_(id_);
   }
   operator hid_t() const { return id_; }
-  /// Closes now; negative on failure.
+  /// Closes the identifier; returns a negative number on failure.
   herr_t close() { return close_(std::exchange(id_, H5I_INVALID_HID)); }
 
  private:
@@ -61,35 +60,36 @@ class Handle {
 
 using Extent = std::vector<hsize_t>;
 
-/// A new file without timestamps: same input, same bytes.
+/// Creates a file without timestamps: same input, same bytes.
 Handle create_file(const Place& place, const std::string& name);
 
-/// An existing file, to be read. Throws Error(file) if it is missing or a folder, Error(content) if it is no HDF5.
+/// Opens an existing file for reading. Throws Error(file) if it is missing or a folder, Error(content) if it is not
+/// HDF5.
 Handle open_file(const Place& place);
 
-/// A dataset without timestamps, with its unit as attribute "units"; with `chunk` if not empty.
+/// Creates a dataset without timestamps, with its unit as attribute "units"; chunked if `chunk` is not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {});
 
-/// Throws Error(content) if it is missing.
+/// Opens a dataset; throws Error(content) if it is missing.
 Handle open_dataset(const Place& place, hid_t file, const DatasetName& name);
 
-/// complex<float> as h5py knows it: compound {r, i}; little endian in files.
+/// The type of complex<float> as in h5py: compound {r, i} of `real_type`.
 Handle complex_type(const Place& place, hid_t real_type);
 
-/// A dataset's extent; Error(content) if it has not `rank` dimensions.
+/// The extent of a dataset; throws Error(content) unless it has `rank` dimensions.
 Extent extent_of(const Place& place, hid_t dataset, const std::string& name, std::size_t rank);
 
-/// The whole of `extent` but for its first dimension, at index `first` of it.
+/// Selects index `first` of the first dimension and everything of the others.
 Handle select_row(const Place& place, hid_t dataset, const Extent& extent, hsize_t first);
 
-/// Attributes of one value each. Names are part of the file format.
+/// Write an attribute with a single value.
 void write_attribute(const Place& place, hid_t where, const char* name, double value);
 void write_attribute(const Place& place, hid_t where, const char* name, std::int64_t value);
 void write_attribute(const Place& place, hid_t where, const char* name, std::uint64_t value);
 void write_attribute(const Place& place, hid_t where, const char* name, const std::string& value);
 
-/// Throw Error(content) naming the attribute if it is missing or of another type.
+/// Read an attribute; throw Error(content) naming it if it is missing or of another type.
 double read_number(const Place& place, hid_t where, const char* name);
 std::int64_t read_integer(const Place& place, hid_t where, const char* name);
 std::uint64_t read_unsigned(const Place& place, hid_t where, const char* name);

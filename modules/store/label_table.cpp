@@ -16,7 +16,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Without the quotes around it; a doubled quote inside them means one.
+// Removes surrounding quotes; doubled quotes inside them become single.
 std::string unquoted(const std::string& text) {
   if (text.size() < 2 || text.front() != '"' || text.back() != '"') return text;
   std::string plain;
@@ -70,7 +70,7 @@ std::vector<Label> load_labels(const std::string& path) {
       place.fail_here("header is '", line, "', must be bearing_deg,range_m,text");
     }
   }
-  if (labels.empty()) fail(ErrorKind::content, path, ": has no labels, must have a header and one label at least");
+  if (labels.empty()) fail(ErrorKind::content, path, ": has no labels, must have a header and at least one label");
   return labels;
 }
 

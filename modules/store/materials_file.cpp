@@ -12,9 +12,9 @@ namespace {
 
 constexpr int materials_schema = 1;
 constexpr double steepest_relief = 1;
-constexpr double highest_mu_db = -4.97;  // 1/pi, rounded as it is written in tables
+constexpr double highest_mu_db = -4.97;  // 1/pi, rounded as in published tables
 
-// A surface that sends back more than it receives is refused; -inf is a silent one.
+// The Lambert coefficient; values above 1/pi, which violate energy conservation, are refused; -inf means no echo.
 double lambert_mu_of(const std::string& path, const TomlValue& entry) {
   const double mu_db = toml_number(path, entry, "lambert_mu_db");
   if (!(mu_db <= highest_mu_db))
@@ -57,7 +57,7 @@ SourcedMaterial read_material(const std::string& path, const TomlValue& entry, s
   return result;
 }
 
-/// The interval of a material that has one; [from, to) must not share a number with one listed before.
+/// Adds the interval of a material that has one; [from, to) must not overlap earlier ones.
 void read_interval(const std::string& path, const TomlValue& entry, const SourcedMaterial& of, MaterialTable& table) {
   MaterialInterval next;
   const TomlValue *from = entry.find("from"), *to = entry.find("to");
@@ -71,11 +71,11 @@ void read_interval(const std::string& path, const TomlValue& entry, const Source
   for (const MaterialInterval& other : table.field.intervals)
     if (next.from < other.to && other.from < next.to)
       fail_in_file(path, line, "interval ", next.from, " .. ", next.to, " of '", of.material.name, "' overlaps ",
-                   other.from, " .. ", other.to, ", listed before; a number means one material");
+                   other.from, " .. ", other.to, ", listed before; each value must belong to one material");
   table.field.intervals.push_back(next);
 }
 
-/// Refuses a name or label that stands in the table already.
+/// Refuses a name or label that is already in the table.
 void require_new(const std::string& path, int line, const SourcedMaterial& next, const MaterialTable& table) {
   for (const SourcedMaterial& other : table.materials) {
     if (other.material.name == next.material.name)
@@ -92,7 +92,7 @@ MaterialTable load_materials(const std::string& path) {
   const TomlValue document = load_toml(path);
   require_known_keys(path, document, {"schema", "field", "material"});
   if (const double schema = toml_number(path, document, "schema"); schema != materials_schema)
-    fail_in_file(path, document.find("schema")->line, "schema = ", schema, ", this insonify reads schema ",
+    fail_in_file(path, document.find("schema")->line, "schema = ", schema, ", this version reads schema ",
                  materials_schema);
   const TomlValue* list = document.find("material");
   if (!list || list->kind != TomlValue::Kind::array || list->items.empty())

@@ -7,26 +7,26 @@
 
 namespace insonify {
 
-/// A material with the origin of its number.
+/// A material with the source of its values.
 struct SourcedMaterial {
   Material material;
-  int label = 0;  ///< the label in a cloud that means this material
+  int label = 0;  ///< label of this material in a cloud
   std::string status, source;
 };
 
-/// A file of materials, and how the points of a cloud say which of them they are of.
+/// A file of materials, and the rule that assigns them to the points of a cloud.
 struct MaterialTable {
   std::vector<SourcedMaterial> materials;
-  MaterialField field;  ///< its intervals name materials by label, the index in materials_by_label
+  MaterialField field;  ///< intervals refer to materials by label, the index in materials_by_label
 };
 
 /// Reads a table of materials from TOML: [[material]] name, lambert_mu_db, coherent_fraction (0), relief_slope (0),
-/// label (its place), status, source. `field` at the top names the scalar field that holds the labels; or each material
-/// gives the half-open interval of values that mean it, `from` (included) and `to` (not included), of which one may be
-/// left out. Unknown keys, overlapping intervals and numbers that no surface can have are errors with file and line.
+/// label (its position), status, source. The top-level key `field` names the scalar field that holds the labels;
+/// alternatively each material has a half-open interval of field values, `from` (included) to `to` (excluded), one of
+/// which may be omitted. Unknown keys, overlapping intervals and unphysical values are errors with file and line.
 MaterialTable load_materials(const std::string& path);
 
-/// Materials ordered so that index = label; gaps are filled by Material{} named "unlabelled".
+/// The materials with index = label; gaps hold a default Material named "unlabelled".
 std::vector<Material> materials_by_label(const MaterialTable& table);
 
 }  // namespace insonify

@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-// What makes two cubes one sonar's.
+// Refuses cubes of different sonars, fans, gates, pulses or sound speeds.
 void require_alike(const NamedCube& one, const NamedCube& first) {
   const auto refuse = [&](const auto&... difference) {
     fail(ErrorKind::content, one.name, ": ", difference..., " in ", first.name,

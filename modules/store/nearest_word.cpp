@@ -6,7 +6,7 @@
 namespace insonify {
 namespace {
 
-// Levenshtein distance with one row of the table.
+// Levenshtein distance, keeping one row of the table.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -4,8 +4,8 @@
 
 namespace insonify {
 
-/// "Did you mean": the entry of `known` nearest to `word` by edit distance, or "" if none is within a third
-/// of its length (at least 2).
+/// Suggestion for a misspelt word: the entry of `known` nearest to `word` by edit distance, or "" if none is within a
+/// third of its length (at least 2).
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace insonify

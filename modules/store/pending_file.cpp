@@ -23,7 +23,7 @@ PendingFile::PendingFile(const std::string& path) : target_(path), temporary_(si
   if (!parent.empty() && !fs::is_directory(parent, ignored))
     fail(ErrorKind::file, path, ": folder ", parent.string(), " does not exist; create it first");
   if (path.empty() || fs::is_directory(path, ignored))
-    fail(ErrorKind::file, path.empty() ? "\"\"" : path, ": is not the name of a file that can be written");
+    fail(ErrorKind::file, path.empty() ? "\"\"" : path, ": is not a valid name for an output file");
 }
 
 PendingFile::~PendingFile() {

@@ -3,10 +3,10 @@
 
 namespace insonify {
 
-/// Name of a hidden sibling of `path` for work in progress, e.g. "runs/.out.tmp-4711".
+/// Name of a temporary hidden file beside `path`, e.g. "runs/.out.tmp-4711".
 std::string sibling_name(const std::string& path, const char* suffix);
 
-/// A file that is written under a temporary name; commit() renames it, otherwise the destructor removes it.
+/// A file written under a temporary name; commit() renames it, otherwise the destructor removes it.
 class PendingFile {
  public:
   /// Throws Error(file) if the folder of `path` does not exist or `path` is a folder.

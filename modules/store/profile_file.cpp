@@ -13,7 +13,7 @@ using Row = std::span<const double>;
 const std::array<CsvColumns, 2> layouts = {CsvColumns{"depth_m", "sound_speed"},
                                            CsvColumns{"depth_m", "temperature_c", "salinity_psu"}};
 
-// Sound speed of a row of temperature and salinity.
+// Sound speed of a row with temperature and salinity.
 double speed_of_water(const Row& row, const FilePlace& place) {
   const double depth = row[0], temperature_c = row[1], salinity_psu = row[2];
   if (!(depth >= 0)) place.fail_here("depth_m = ", depth, " m, must be >= 0 (it is positive down)");
@@ -30,7 +30,7 @@ double speed_of_water(const Row& row, const FilePlace& place) {
 
 void append(SoundSpeedProfile& profile, double depth, double speed, bool given, const FilePlace& place) {
   if (!profile.depth.empty() && !(depth > profile.depth.back()))
-    place.fail_here("depth_m = ", depth, " m, must be deeper than the line before it, ", profile.depth.back(), " m");
+    place.fail_here("depth_m = ", depth, " m, must be deeper than the previous line, ", profile.depth.back(), " m");
   if (!(speed >= 1300 && speed <= 1700))
     place.fail_here(given ? "sound_speed = " : "sound speed of temperature_c and salinity_psu = ", speed,
                     " m/s, must be within 1300 and 1700 m/s");
@@ -48,7 +48,7 @@ SoundSpeedProfile load_sound_speed_profile(const std::string& path) {
       append(profile, row[0], given ? row[1] : speed_of_water(row, place), given, place);
     };
   });
-  if (profile.depth.empty()) fail(ErrorKind::content, path, ": has a header only, must have one entry at least");
+  if (profile.depth.empty()) fail(ErrorKind::content, path, ": has a header only, must have at least one entry");
   return profile;
 }
 

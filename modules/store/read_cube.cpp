@@ -14,10 +14,10 @@ void require_schema(const Place& place, hid_t file) {
     fail(place.kind, place.path, ": is not a cube of insonify: attribute 'schema' is missing");
   const std::int64_t schema = read_integer(place, file, "schema");
   if (schema != cube_schema)
-    fail(place.kind, place.path, ": has cube schema ", schema, ", this insonify reads schema ", cube_schema);
+    fail(place.kind, place.path, ": has cube schema ", schema, ", this version reads schema ", cube_schema);
 }
 
-// The whole of a dataset that must have this extent.
+// Reads a whole dataset, which must have the expected extent.
 template <typename T>
 std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name, const Extent& expected, hid_t type) {
   const Handle dataset = open_dataset(place, file, name);
@@ -34,7 +34,7 @@ std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name,
   return result;
 }
 
-// What all pings share. Bad numbers in a file are the file's fault.
+// Reads fan and gate, common to all pings; invalid values are errors of the file.
 Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
   Ping ping;
   ping.fan.azimuth = read_all<double>(place, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
@@ -51,13 +51,13 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
     fail(place.kind, place.path, ": ", error.what());
   }
   if (ping.gate.bins() != extent[2])
-    fail(place.kind, place.path, ": /pressure has ", extent[2], " bins, min_range, max_range and bin_size make ",
+    fail(place.kind, place.path, ": /pressure has ", extent[2], " bins, but min_range, max_range and bin_size give ",
          ping.gate.bins());
   read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
   return ping;
 }
 
-// Reads one image per ping, of numbers of `type`, to where `part` says.
+// Reads one image per ping, with values of `type`, into the member selected by `part`.
 template <typename Part>
 void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::vector<Ping>& pings,
                  Part part) {
@@ -78,7 +78,7 @@ void require_complex(const Place& place, hid_t dataset, const std::string& name)
     fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
 }
 
-// Names of the layers in the order in which they were written.
+// Names of the layers in the order of writing.
 std::vector<std::string> layer_names(const Place& place, hid_t file) {
   std::vector<std::string> names;
   if (H5Lexists(file, layers_group, H5P_DEFAULT) <= 0) return names;
@@ -93,7 +93,7 @@ std::vector<std::string> layer_names(const Place& place, hid_t file) {
 
 void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
   if (extent_of(place, dataset, name, 3) != extent)
-    fail(place.kind, place.path, ": ", name, " has another extent than /pressure");
+    fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
 }
 
 void read_layers(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
@@ -109,7 +109,7 @@ void read_layers(const Place& place, hid_t file, const Extent& extent, std::vect
   }
 }
 
-// A map that need not be there, to the member of each ping that holds it.
+// Reads an optional map into a member of each ping.
 template <typename Map>
 void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
               std::vector<Ping>& pings, Map Ping::*map) {

@@ -23,7 +23,7 @@ std::string without_trailing_slash(const std::string& path) {
   return clean.string();
 }
 
-// --force must not cost a user a folder of his own: only a run, or nothing, is replaced.
+// True if --force may replace the folder: only empty folders and earlier runs.
 bool may_be_replaced(const fs::path& folder) {
   constexpr std::array marks = {"manifest.json", "run.toml", "cube.h5", "sweep.csv"};
   std::error_code ignored;
@@ -47,7 +47,7 @@ void require_free(const std::string& target, bool force) {
 
 RunDirectory::RunDirectory(const std::string& path, bool force) : target_(without_trailing_slash(path)), force_(force) {
   if (target_.empty() || target_ == "." || target_ == "/" || fs::path(target_).filename() == "..")
-    fail(ErrorKind::file, "\"", path, "\": is not the name of a folder that can be made");
+    fail(ErrorKind::file, "\"", path, "\": is not a valid name for a new folder");
   require_free(target_, force);
   const fs::path parent = fs::path(target_).parent_path();
   std::error_code error;
@@ -55,7 +55,8 @@ RunDirectory::RunDirectory(const std::string& path, bool force) : target_(withou
     fail(ErrorKind::file, target_, ": folder ", parent.string(), " does not exist; create it first");
   temporary_ = sibling_name(target_, "tmp");
   fs::remove_all(temporary_, error);
-  if (!fs::create_directory(temporary_, error)) fail(ErrorKind::file, target_, ": cannot be made: ", error.message());
+  if (!fs::create_directory(temporary_, error))
+    fail(ErrorKind::file, target_, ": cannot be created: ", error.message());
 }
 
 RunDirectory::~RunDirectory() {
@@ -78,7 +79,7 @@ void RunDirectory::commit() {
   fs::rename(temporary_, target_, error);
   if (error) {
     if (replace) fs::rename(old, target_, ignored);
-    fail(ErrorKind::file, target_, ": cannot be made: ", error.message());
+    fail(ErrorKind::file, target_, ": cannot be created: ", error.message());
   }
   committed_ = true;
   if (replace) fs::remove_all(old, ignored);

@@ -3,13 +3,13 @@
 
 namespace insonify {
 
-/// A folder that appears complete or not at all: files are written into a temporary sibling, which commit()
-/// renames. If commit() is never called (an error, Ctrl-C), the destructor removes the temporary folder.
+/// An output folder created atomically: files are written into a temporary folder beside it, which commit() renames.
+/// If commit() is never called (an error, Ctrl-C), the destructor removes the temporary folder.
 class RunDirectory {
  public:
-  /// Throws Error(file) if `path` exists and `force` is false, or its parent is missing or cannot be written.
-  /// With force, an existing folder must be empty or an earlier run (it holds manifest.json, run.toml,
-  /// cube.h5 or sweep.csv): a mistyped --force must not delete anything else.
+  /// Throws Error(file) if `path` exists and `force` is false, or its parent is missing or not writable.
+  /// With force, an existing folder must be empty or an earlier run (it holds manifest.json, run.toml, cube.h5 or
+  /// sweep.csv), so that a mistyped --force deletes nothing else.
   RunDirectory(const std::string& path, bool force);
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
@@ -17,8 +17,8 @@ class RunDirectory {
 
   /// Path of a file while the run is being written.
   std::string file(const std::string& name) const;
-  /// Puts the folder in its place; with force, an old one is replaced (and kept until the new one stands).
-  /// Throws Error(file) if that fails, or if another program made `path` meanwhile and `force` is false.
+  /// Renames the folder to its final name; with force it replaces an old one, which is kept until then.
+  /// Throws Error(file) if that fails, or if another program has created `path` and `force` is false.
   void commit();
 
  private:
@@ -28,7 +28,7 @@ class RunDirectory {
 
 /// Writes a text file under a temporary name, then renames it. Throws Error(file).
 void write_text_file(const std::string& path, const std::string& text);
-/// Throws Error(file) naming the path.
+/// The contents of a text file. Throws Error(file) naming the path.
 std::string read_text_file(const std::string& path);
 
 }  // namespace insonify

@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// Scatterers from another program: places, cross-sections and complex amplitudes.
+/// Scatterers from another program: positions, cross-sections and complex amplitudes.
 struct ScattererTable {
   Scatterers scatterers;                 ///< range, azimuth, elevation, id = line order
   std::vector<double> sigma;             ///< backscattering cross-section [m^2]

@@ -34,7 +34,7 @@ SonarValue value_of(const std::string& path, const std::string& key, const TomlV
   fail_in_file(path, value.line, key, " must be a number, text or list, or a table {value, status, source}");
 }
 
-// A key of the file, plain or with its origin, goes into the spec and into the list of numbers.
+// Reads a key, plain or with its source, into the spec and the list of numbers.
 void read_key(SonarFile& file, const std::string& key, const TomlValue& entry) {
   SonarNumber number{key, "", "user", ""};
   const TomlValue* value = &entry;
@@ -61,7 +61,7 @@ void read_key(SonarFile& file, const std::string& key, const TomlValue& entry) {
         {"bandwidth_hz", toml_text_of(file.spec.bandwidth), "derived", "1500 m/s / (2 range_resolution_m)"});
 }
 
-// What a file may leave out and what it then means is part of what a reader of the numbers wants to know.
+// Lists the default of an omitted key among the numbers.
 void note_default(SonarFile& file, const std::string& key) {
   if (key == "shading")
     file.numbers.push_back(
@@ -70,7 +70,7 @@ void note_default(SonarFile& file, const std::string& key) {
   if (key != "side_lobe_db" && key != "elevation_deg" && key != "elevation_shape") return;
   std::string text = sonar_key_text(file.spec, key).value_or("");
   text.erase(std::remove(text.begin(), text.end(), '"'), text.end());
-  file.numbers.push_back({key, text, "assumed", "not in the file: default of insonify"});
+  file.numbers.push_back({key, text, "assumed", "omitted in the file: default of insonify"});
 }
 
 void require_complete(const std::string& path, const TomlValue& table) {
@@ -91,7 +91,7 @@ void require_complete(const std::string& path, const TomlValue& table) {
   }
 }
 
-// require_valid names the key that breaks a rule ("path: key = value, must be ..."); add its line.
+// Adds the line number to errors of require_valid, which name the key ("path: key = value, must be ...").
 void require_valid_in_file(const SonarFile& file, const TomlValue& table) {
   try {
     require_valid(file.spec, "sonar");
@@ -104,7 +104,7 @@ void require_valid_in_file(const SonarFile& file, const TomlValue& table) {
   }
 }
 
-// The text of a --set as a value: a number, a list of numbers, or else text.
+// Parses the text of a --set: a number, a list of numbers, or else text.
 SonarValue value_from_text(const std::string& text) {
   std::string bare = text;
   std::replace_if(
@@ -128,7 +128,7 @@ SonarValue value_from_text(const std::string& text) {
 
 SonarFile load_sonar_file(const std::string& path) {
   const TomlValue document = load_toml(path);
-  // A run.toml keeps its sonar in a table of its own.
+  // A run.toml holds its sonar in the table [sonar].
   const TomlValue* section = document.find("sonar");
   const TomlValue& table = section && section->kind == TomlValue::Kind::table ? *section : document;
 
@@ -136,7 +136,7 @@ SonarFile load_sonar_file(const std::string& path) {
   known.insert(known.end(), {"schema", "name", "description"});
   require_known_keys(path, table, known);
   if (const double schema = toml_number(path, table, "schema"); schema != sonar_schema)
-    fail_in_file(path, table.find("schema")->line, "schema = ", schema, ", this insonify reads schema ", sonar_schema);
+    fail_in_file(path, table.find("schema")->line, "schema = ", schema, ", this version reads schema ", sonar_schema);
   require_complete(path, table);
 
   SonarFile file;

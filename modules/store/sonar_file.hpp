@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// One number of a sonar file and where it comes from.
+/// One value of a sonar file with its source.
 struct SonarNumber {
   std::string key;     ///< e.g. "centre_frequency_hz"
   std::string value;   ///< as text
@@ -21,33 +21,32 @@ struct SonarFile {
   std::vector<SonarNumber> numbers;
 };
 
-/// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table
-/// {value, status, source}; plain ones have status "user". Of bandwidth_hz and range_resolution_m (B = 1500
-/// m/s / 2 dr) one is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg:
-/// with azimuths_deg a table of beams, without it a row of beams at each elevation. `numbers` also lists a
-/// derived bandwidth and the defaults of what was left out. Unknown or missing keys, wrong types and values
-/// that make no sonar are errors with file, line and remedy. Throws Error(file) or Error(content).
+/// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table {value,
+/// status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B = 1500 m/s /
+/// 2 dr) is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg: with
+/// azimuths_deg one elevation per beam, without it a row of beams at each elevation. `numbers` also lists a derived
+/// bandwidth and the defaults of omitted keys. Unknown or missing keys, wrong types and invalid values are errors with
+/// file, line and remedy. Throws Error(file) or Error(content).
 SonarFile load_sonar_file(const std::string& path);
 
-/// A preset by name ("oculus-m750d") from the sonar folder, or a file by path (ends in .toml). Unknown names
-/// are Error(argument) with the nearest known ones.
+/// A preset by name ("oculus-m750d") from the sonar folder, or a file by path (ending in .toml). Throws Error(argument)
+/// with the nearest known names for unknown ones.
 SonarFile find_sonar(const std::string& name_or_path);
 
 /// All presets, sorted by name.
 std::vector<SonarFile> list_sonars();
 
-/// Folder of data files: INSONIFY_DATA if set in the environment, else beside the program, else where
-/// installed, else the source tree. Throws Error(file) if none exists, or if INSONIFY_DATA names no such
-/// folder.
+/// Folder of data files: the environment variable INSONIFY_DATA if set, else beside the program, else where installed,
+/// else the source tree. Throws Error(file) if none exists, or if INSONIFY_DATA names no such folder.
 std::string data_folder();
 
-/// The spec as TOML text, as it stands in run.toml under [sonar]. Reads back bit for bit if its angles came
-/// from degrees (a file, set_sonar_value); an angle computed in radians may change its last bit.
+/// The spec as TOML text, the table [sonar] of run.toml. Reads back bit for bit if its angles came from degrees (a
+/// file, set_sonar_value); an angle computed in radians may change in its last bit.
 std::string sonar_as_toml(const SonarSpec& spec);
 
-/// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Whether the
-/// whole makes a sonar is checked by make_head, so that keys may be set in any order. Error(argument) names
-/// the nearest key, or the value and its type.
+/// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Consistency is
+/// checked by make_head, so that keys may be set in any order. Throws Error(argument) naming the nearest key, or the
+/// value and its type.
 void set_sonar_value(SonarSpec& spec, const std::string& key, const std::string& value);
 
 }  // namespace insonify

@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-// Keys that hold one number of the spec as it is, or in degrees.
+// A key that holds one number of the spec, possibly in degrees.
 struct NumberKey {
   const char* name;
   double SonarSpec::*field;
@@ -44,7 +44,7 @@ constexpr std::array pulse_shapes = {PulseShape::gaussian, PulseShape::linear_fm
 constexpr std::array replica_windows = {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming};
 constexpr std::array shadings = {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev};
 
-// Widths of parts that a sonar may lack: nought in the spec.
+// Optional widths; zero in the spec if absent.
 bool is_optional_width(const std::string& key) { return key == "column_beam_width_deg" || key == "transmit_width_deg"; }
 
 const NumberKey* find_number_key(const std::string& key) {
@@ -53,8 +53,8 @@ const NumberKey* find_number_key(const std::string& key) {
   return nullptr;
 }
 
-// Degrees that read back to the very same radians; the shortest text of the nearest ones. Every angle that
-// came from a file has them; one that was computed in radians may be off by its last bit.
+// The degrees with the shortest text that read back to the same radians. They exist for every angle read from a file;
+// an angle computed in radians may be off by its last bit.
 double degrees_of(double angle) {
   const double straight = degrees(angle);
   for (int digits = 6; digits <= 17; ++digits) {
@@ -82,7 +82,7 @@ double number_of(const std::string& key, const SonarValue& value) {
   return *number;
 }
 
-// Back to an even fan: the elevations of a table go with its azimuths, those of rows stay.
+// Returns to an evenly spaced fan: drops azimuths and the elevations that belong to them, but keeps those of rows.
 void drop_table(SonarSpec& spec) {
   if (spec.azimuths.empty()) return;
   spec.azimuths.clear();
@@ -137,15 +137,15 @@ void set_shading(SonarSpec& spec, const SonarValue& value) {
   fail_value("shading", value, "taylor, uniform, hamming or chebyshev");
 }
 
-// What side_lobe_db alone says about the shading need not be said again.
+// True if the shading follows from side_lobe_db alone.
 bool is_default_shading(const SonarSpec& spec) {
   SonarSpec plain = spec;
   plain.shading.reset();
   return shading_of(spec) == shading_of(plain);
 }
 
-// Beams at given places: the field of view takes in half a mean spacing beyond the outermost ones, as an even
-// fan does, and at least one beam width.
+// Field of view of beams at given azimuths: it extends half a mean spacing beyond the outermost beams, as in an evenly
+// spaced fan, and is at least one beam width.
 double field_of_view_of(const std::vector<double>& azimuths, double beam_width) {
   const auto [low, high] = std::minmax_element(azimuths.begin(), azimuths.end());
   const double n = static_cast<double>(azimuths.size());
@@ -172,7 +172,7 @@ std::string text_of_angles(const std::vector<double>& angles) {
   return toml_text_of(list);
 }
 
-// The shortest digits that give the same bits back; no exponent for numbers of everyday size.
+// The fewest digits that read back to the same bits; no exponent for numbers of ordinary size.
 std::string text_of_number(double value) {
   const double size = std::abs(value);
   const bool everyday = value == 0 || (size >= 1e-5 && size < 1e15);
@@ -205,7 +205,7 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
     spec.*(number->field) = number->in_degrees ? radians(x) : x;
     if (key == "field_of_view_deg") drop_table(spec);
     if (key == "elevation_deg") spec.elevations.clear();
-    if (is_optional_width(key) && !(x > 0)) fail_value(key, value, "> 0; leave the key out if there is none");
+    if (is_optional_width(key) && !(x > 0)) fail_value(key, value, "> 0; omit the key if there is none");
   } else if (key == "range_resolution_m") {
     const double resolution = number_of(key, value);
     if (!(resolution > 0)) fail_value(key, value, "> 0");

@@ -37,7 +37,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// The names that contain the word ("oculus" means six presets), else the one nearest by spelling.
+// The names that contain the word ("oculus" matches six presets), else the nearest one by spelling.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const std::string wanted = lower_case(word);
   std::string list;
@@ -55,7 +55,7 @@ std::string data_folder() {
       fail(ErrorKind::file, "INSONIFY_DATA = ", chosen, ": is not a folder with sonars/ in it");
     return chosen;
   }
-  // Beside the program: an installed one has ../share/insonify, one in build/<preset>/bin the source tree.
+  // An installed program has ../share/insonify beside it, one in build/<preset>/bin the source tree.
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const fs::path& folder : {program / "../share/insonify", program / "../../../data",

@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// A TOML document as the rest of this module sees it: plain values that know their line.
+/// A value of a TOML document with its line number.
 struct TomlValue {
   enum class Kind { boolean, integer, number, text, array, table, date };
   Kind kind = Kind::table;
@@ -22,7 +22,7 @@ struct TomlValue {
   const TomlValue* find(const std::string& key) const;
 };
 
-/// Throws Error(file) if missing, Error(content) "path:line: ..." if it is not TOML.
+/// Reads a TOML document. Throws Error(file) if missing, Error(content) "path:line: ..." if it is not TOML.
 TomlValue load_toml(const std::string& path);
 
 /// Throws Error(content) "path:line: ...".
@@ -34,7 +34,7 @@ template <typename... Parts>
 /// Throws Error(content) at the first key of `table` that is not in `known`, with the nearest known one.
 void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known);
 
-/// The text or number of a key; Error(content) with line if it is missing or of another type.
+/// The text or number of a key; throws Error(content) with the line if it is missing or of another type.
 std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key);
 double toml_number(const std::string& path, const TomlValue& table, const std::string& key);
 

@@ -39,14 +39,14 @@ Trajectory load_trajectory(const std::string& path) {
   read_csv(path, layouts, [&](std::size_t layout) {
     return [&trajectory, layout](Row row, const FilePlace& place) {
       if (!trajectory.time.empty() && !(row[0] > trajectory.time.back()))
-        place.fail_here("time_s = ", row[0], " s, must be later than the line before it, ", trajectory.time.back(),
+        place.fail_here("time_s = ", row[0], " s, must be later than the previous line, ", trajectory.time.back(),
                         " s");
       trajectory.time.push_back(row[0]);
       trajectory.pose.push_back(layout == 0 ? pose_from_quaternion(row, place) : pose_from_angles(row, place));
     };
   });
   if (trajectory.time.size() < 2)
-    fail(ErrorKind::content, path, ": has ", trajectory.time.size(), " entries, must have two at least");
+    fail(ErrorKind::content, path, ": has ", trajectory.time.size(), " entries, must have at least two");
   return trajectory;
 }
 

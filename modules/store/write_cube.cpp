@@ -14,7 +14,7 @@ using namespace hdf5;
 
 namespace {
 
-// All pings must have the layers of the first, in the same order and extent.
+// Refuses pings whose layers differ from the first ping's in name, order or extent.
 void require_same_layers(const Ping& ping, const Ping& first, const std::string& path) {
   const auto fits = [&](const Layer& layer, const Layer& like) {
     return layer.name == like.name && layer.pressure.rows() == first.pressure.rows() &&
@@ -25,7 +25,7 @@ void require_same_layers(const Ping& ping, const Ping& first, const std::string&
          first.number, "; keep the same ones in every ping");
 }
 
-// All pings must have the maps of the first, in full extent.
+// Refuses pings whose maps differ from the first ping's in presence or extent.
 void require_same_maps(const Ping& ping, const Ping& first, const std::string& path) {
   const auto require = [&](const auto& map, const auto& like, const char* name) {
     const bool fits =
@@ -42,7 +42,7 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
          " is an expected level; write it to a cube of its own");
 }
 
-// All pings must fit one set of axes.
+// Refuses pings that cannot share one set of axes.
 void require_writable(const Cube& cube, const std::string& path) {
   if (cube.pings.empty()) fail(ErrorKind::argument, "write_cube: ", path, ": no pings, must be at least one");
   const Ping& first = cube.pings.front();
@@ -72,13 +72,13 @@ void write_numbers(const Place& place, hid_t file, const DatasetName& name, cons
   place.checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name.path);
 }
 
-// Chunks of one ping, all bins and up to 64 beams, fewer if that were more than 64 MiB.
+// Chunks hold one ping, all bins and up to 64 beams, fewer if that exceeds 64 MiB.
 hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
   const hsize_t bytes_per_beam = bins * sizeof(std::complex<float>);
   return std::clamp<hsize_t>((hsize_t{64} << 20) / bytes_per_beam, 1, std::min<hsize_t>(beams, 64));
 }
 
-// The numbers of an image, in the file or here.
+// HDF5 type of an image's values in the file or in memory.
 template <typename Number>
 Handle type_of(const Place& place, bool in_file) {
   if constexpr (std::is_same_v<Number, std::complex<float>>)
@@ -88,7 +88,7 @@ Handle type_of(const Place& place, bool in_file) {
   return {place.checked(H5Tcopy(type), "type"), H5Tclose};
 }
 
-// One image per ping: the pressure, or the layer or map `part` says.
+// Writes one image per ping: the pressure, layer or map selected by `part`.
 template <typename Part>
 void write_images(const Place& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings, Part part) {
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();

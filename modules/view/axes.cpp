@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-// In font sizes: length of a tick, from the frame to its label, from the label to the title.
+// In font sizes: length of a tick, distance from the frame to its label and from the label to the title.
 constexpr double tick = 0.4, to_label = 0.6, to_title = 0.25;
 
 double line_height(int font_size) { return text_size("0", font_size).height; }

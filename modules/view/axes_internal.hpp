@@ -6,17 +6,17 @@
 
 namespace insonify {
 
-/// Values along an axis and what is written at them.
+/// Tick values of an axis and their labels.
 struct AxisTicks {
   std::vector<double> at;
   std::vector<std::string> labels;
 };
 
-/// Round values in [low, high], about `most` of them at most.
+/// Ticks at round values in [low, high], at most about `most` of them.
 AxisTicks round_ticks(double low, double high, double most);
 
-/// The same for an axis of logarithms: `low` and `high` are decimal logarithms. Powers of ten, every second or third of
-/// them if there are many; 1, 2 and 5 times powers of ten if the axis spans less than two.
+/// Ticks of a logarithmic axis, `low` and `high` being decimal logarithms: powers of ten, every second or third of them
+/// if there are many; 1, 2 and 5 times powers of ten if the axis spans less than two decades.
 AxisTicks decade_ticks(double low, double high, double most);
 
 /// A frame with ticks and labels outside and grid lines inside.
@@ -30,7 +30,7 @@ struct Axes {
   Path outline() const;
 };
 
-/// Pixels that labels and title of an axis need below the frame, and left of it.
+/// Space that labels and title of an axis need below the frame, and left of it [pixels].
 double room_below(int font_size);
 double room_left(const AxisTicks& ticks, int font_size);
 

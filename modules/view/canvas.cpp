@@ -27,7 +27,7 @@ namespace {
 constexpr int samples_per_pixel = 4;
 constexpr double cells_height = 0, lines_height = 1, eye_height = 10;  // above the picture plane
 
-// Actor that shows its own colours, unlit.
+// An actor in its own colours, without lighting.
 vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(shape);
@@ -38,7 +38,7 @@ vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
   return actor;
 }
 
-// Points taken four by four as the corners of quads, seen from the origin.
+// Quads from successive groups of four corners, relative to the origin.
 vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, Point2 origin, double height) {
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(static_cast<vtkIdType>(corners.size()));
@@ -54,8 +54,7 @@ vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, Point2 origin, dou
   return shape;
 }
 
-// Levels as colours, one pixel per cell, bins across. VTK would turn an image of one column on its side, so
-// there are two at least.
+// Levels as colours, one pixel per cell, bins across. VTK rotates an image of one column, so there are at least two.
 vtkNew<vtkImageData> coloured(const Grid<float>& level_db, const ColourScale& scale) {
   const Eigen::Index columns = std::max<Eigen::Index>(2, level_db.cols());
   vtkNew<vtkImageData> image;
@@ -73,7 +72,7 @@ vtkNew<vtkImageData> coloured(const Grid<float>& level_db, const ColourScale& sc
   return image;
 }
 
-// Half width of a line at point i of a path, as a vector across it; corners are mitred.
+// Vector across a path at point i whose length is half the line width; corners are mitred.
 Point2 half_width_at(const Path& path, std::size_t i, double half_width) {
   const bool closed = path.front().x == path.back().x && path.front().y == path.back().y;
   const std::size_t last = path.size() - 1;
@@ -100,7 +99,7 @@ Canvas::Canvas(vtkRenderer* renderer, const PictureOptions& options, const char*
     : who_(who), width_(options.width), height_(options.height), theme_(theme(options.dark)), renderer_(renderer) {
   renderer_->SetBackground(theme_.background.data());
 
-  // One unit of the plane is one pixel.
+  // Scale the plane to one unit per pixel.
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(width_ / 2.0, height_ / 2.0, 0);
@@ -122,7 +121,7 @@ Canvas::Canvas(const PictureOptions& options, const char* who)
 void Canvas::set_origin(Point2 origin) { origin_ = {std::round(origin.x), std::round(origin.y)}; }
 
 // Cells are drawn as one texture, a texel per cell, on a mesh with one column of quads per beam. Along a quad
-// the range is linear and the beam is constant, so every cell has its true place and edges, and a picture of
+// the range is linear and the beam constant, so every cell has its true place and edges, and a picture of
 // millions of cells costs a few hundred polygons and one upload.
 void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
                        const PlaneProjection& projection, double largest_step) {
@@ -199,7 +198,7 @@ void Canvas::add_text(const PlacedText& asked) {
     property->SetBackgroundColor(theme_.background[0], theme_.background[1], theme_.background[2]);
     property->SetBackgroundOpacity(0.65);
   }
-  // Anchored where its first letter stands, on whole pixels, where letters are sharp.
+  // Anchor the text at its first letter on whole pixels, which keeps letters sharp.
   if (window_)
     actor->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
   else  // the camera may move
@@ -211,7 +210,7 @@ void Canvas::add_text(const PlacedText& asked) {
 }
 
 void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width) {
-  // The 256 colours themselves, as a patch of one beam whose range runs along the bar.
+  // The 256 colours form a patch of one beam whose range runs along the bar.
   vtkNew<vtkImageData> colours;
   colours->SetDimensions(256, 1, 1);
   colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

@@ -23,25 +23,25 @@ struct Theme {
 };
 Theme theme(bool dark);
 
-/// Thin lines over the data: seen on dark cells and bright ones, yet not in the way.
+/// Thin lines over the data, visible on dark and bright cells.
 constexpr Colour grid_colour = {0.8, 0.83, 0.86};
 constexpr double grid_opacity = 0.3;
 
-/// Where bearing [rad] and range [m] go.
+/// Maps bearing [rad] and range [m] to a place in the picture.
 using PlaneProjection = std::function<Point2(double bearing, double range)>;
 
-/// An off-screen picture, drawn in pixels from its lower left corner, or from an origin within it, so that several
-/// drawings share one picture. Lines and edges of cells are smoothed by four samples per pixel; a pixel inside one cell
-/// has exactly that cell's colour.
+/// An off-screen picture. Coordinates are pixels from its lower left corner, or from an origin within it, so that
+/// several drawings can share one picture. Lines and edges of cells are smoothed by four samples per pixel; a pixel
+/// inside one cell has exactly that cell's colour.
 class Canvas {
  public:
   Canvas(const PictureOptions& options, const char* who);
 
-  /// Draws into a renderer of somebody else's window: options.width x options.height pixels, which its camera is made to
-  /// show. Everything follows when that camera moves. save_png is not for such a canvas.
+  /// Draws into a renderer of the caller's window and sets its camera to show options.width x options.height pixels.
+  /// The drawing follows when that camera moves. save_png does not apply to such a canvas.
   Canvas(vtkRenderer* renderer, const PictureOptions& options, const char* who);
 
-  /// Where (0, 0) of all that is added from now on lies in the picture; whole pixels.
+  /// Sets the place in the picture of (0, 0) for everything added later; whole pixels.
   void set_origin(Point2 origin);
   Point2 origin() const { return origin_; }
 
@@ -55,10 +55,11 @@ class Canvas {
   vtkRenderer* renderer() { return renderer_; }
   const char* who() const { return who_; }
   const Theme& colours() const { return theme_; }
-  /// All texts so far, where they stand in the picture.
+  /// All texts added so far, in picture coordinates.
   const std::vector<PlacedText>& texts() const { return texts_; }
 
-  /// Draws all of it and writes it as PNG. Throws Error(runtime) if VTK has complained, and Error(file).
+  /// Renders and writes a PNG. Throws Error(runtime) if VTK reported an error, Error(file) if the file cannot be
+  /// written.
   void save_png(const std::string& path, const VtkMessages& messages);
 
  private:
@@ -70,7 +71,7 @@ class Canvas {
   Point2 origin_;
   Theme theme_;
   std::vector<PlacedText> texts_;
-  vtkSmartPointer<EglWindow> window_;  ///< its own, or none
+  vtkSmartPointer<EglWindow> window_;  ///< null if the caller owns the window
   vtkSmartPointer<vtkRenderer> renderer_;
 };
 

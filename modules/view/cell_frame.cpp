@@ -5,7 +5,7 @@ namespace insonify {
 
 CellFrame lay_out_cell_frame(const CellAxis& across, const CellAxis& up, const ColourScale& scale,
                              const std::string& unit, const PictureOptions& options) {
-  // The cells take what title, labels and colour bar leave.
+  // The cells fill the space left by title, labels and colour bar.
   CellFrame frame;
   frame.font_size = font_size_for(options);
   frame.title = place_title(options);

@@ -13,10 +13,10 @@ namespace insonify {
 struct CellAxis {
   double low = 0, high = 1;
   std::string title;
-  std::function<AxisTicks(double pixels)> ticks;  ///< for so many pixels
+  std::function<AxisTicks(double pixels)> ticks;  ///< ticks for an axis of this length
 };
 
-/// Where everything about a rectangle of cells goes: axes at the left and below, colour bar at the right, title on top.
+/// Layout of a rectangle of cells: axes at the left and below, colour bar at the right, title on top.
 struct CellFrame {
   Axes axes;
   ColourBar bar;
@@ -26,7 +26,7 @@ struct CellFrame {
 CellFrame lay_out_cell_frame(const CellAxis& across, const CellAxis& up, const ColourScale& scale,
                              const std::string& unit, const PictureOptions& options);
 
-/// Grid lines over the cells, and all the rest around them.
+/// Draws grid lines over the cells, and axes, colour bar and title around them.
 void draw_cell_frame(Canvas& canvas, const CellFrame& frame, const ColourScale& scale);
 
 }  // namespace insonify

@@ -7,7 +7,7 @@
 namespace insonify {
 namespace {
 
-// Values of the labels: as many as stand `spacing` pixels apart, at round levels.
+// Values of the labels: round levels, at least `spacing` pixels apart.
 struct LevelTicks {
   double step;
   std::vector<double> at_db;

@@ -7,22 +7,21 @@
 
 namespace insonify {
 
-/// Where a colour bar, its ticks and its texts go: upright with labels on the right, or lying with labels
-/// below.
+/// Layout of a colour bar, its ticks and texts: vertical with labels on the right, or horizontal with labels below.
 struct ColourBar {
   Box bar;
   bool lying = false;
   std::vector<Path> ticks;
   std::vector<PlacedText> texts;  ///< labels, and the unit as title
 
-  Box outer() const;  ///< the bar and everything around it
+  Box outer() const;  ///< bounding box of bar, ticks and texts
 };
 
-/// Upright bar whose outer box ends at `right` and whose bar reaches from `bottom` to `top`.
+/// A vertical bar from `bottom` to `top` whose outer box ends at `right`.
 ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double right,
                              double bottom, double top);
 
-/// Lying bar from `left` to `right` whose outer box stands on `bottom`.
+/// A horizontal bar from `left` to `right` whose outer box begins at `bottom`.
 ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left, double right,
                            double bottom);
 

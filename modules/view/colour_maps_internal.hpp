@@ -15,8 +15,8 @@ using ColourTable = std::array<Rgb, 256>;
 /// The 256 entries of a named map, lowest level first. Throws Error(argument) that lists the names.
 ColourTable colour_table(const std::string& name, const char* who);
 
-/// Levels to colours: 256 equal steps from min_db to max_db; levels outside take the first or the last
-/// colour, levels that are not a number the first.
+/// Maps levels to colours in 256 equal steps from min_db to max_db; levels outside get the first or last colour, NaN
+/// the first.
 struct ColourScale {
   ColourTable table;
   double min_db = 0;
@@ -26,12 +26,12 @@ struct ColourScale {
   Rgb colour(double level_db) const { return table[index(level_db)]; }
 };
 
-/// The 99.9 % quantile of the levels above the lowest one (the floor of empty samples does not count), rounded up to
-/// 5 dB. If no level stands out, one that puts all of them into the lowest colour.
+/// The 99.9 % quantile of the levels above the lowest one (which is that of empty samples), rounded up to 5 dB. If all
+/// levels are equal, a value that maps them to the lowest colour.
 double automatic_max_db(const Grid<float>& level_db, double window_db);
 
-/// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a window
-/// that is not positive, or max_db <= min_db.
+/// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a
+/// window that is not positive, or max_db <= min_db.
 ColourScale colour_scale(const Grid<float>& level_db, const PictureOptions& options, const char* who);
 
 }  // namespace insonify

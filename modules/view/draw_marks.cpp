@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr Colour ring_colour = {0.35, 0.88, 1.0}, halo_colour = {0.03, 0.05, 0.08};  // seen on every colour map
+constexpr Colour ring_colour = {0.35, 0.88, 1.0}, halo_colour = {0.03, 0.05, 0.08};  // visible on every colour map
 constexpr double ring_radius = 0.45;                                                 // in font sizes
 
 Path ring(Point2 centre, double radius) {
@@ -33,7 +33,7 @@ bool is_free(const Box& box, const MarkRoom& room) {
   return true;
 }
 
-/// A name and the end of the line that leads to it.
+/// A name and the end of its leader line.
 struct PlacedName {
   PlacedText text;
   double distance;  ///< from the ring [font sizes]

@@ -5,19 +5,19 @@
 
 namespace insonify {
 
-/// Where marks may go and where not.
+/// Space available for marks.
 struct MarkRoom {
-  Box box;                 ///< names stay within
-  std::vector<Box> taken;  ///< and off these
+  Box box;                 ///< contains all names
+  std::vector<Box> taken;  ///< not to be covered by names
   int font_size = 0;
   PlaneProjection at;
 };
 
-/// Marks inside a sector; their bearings are turned by whole circles to lie within [low, high].
+/// The marks inside a sector, with whole turns added to their bearings so that they lie within [low, high].
 std::vector<Mark> marks_within(const std::vector<Mark>& marks, double low, double high, const RangeGate& gate);
 
-/// Draws a ring at each mark and its name beside it, at the nearest place where it covers no ring and no other text, with
-/// a line between the two if they are apart. A name that finds no place is left out, the last ones first.
+/// Draws a ring at each mark and its name at the nearest place where it covers no ring and no other text, with a leader
+/// line if the two are apart. Names without a free place are omitted; earlier marks have priority.
 void draw_marks(Canvas& canvas, const std::vector<Mark>& marks, MarkRoom room);
 
 }  // namespace insonify

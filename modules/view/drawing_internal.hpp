@@ -13,10 +13,10 @@
 
 namespace insonify {
 
-/// The drawings without their files. Each fills options.width x options.height pixels from the canvas's origin, so that
-/// several can share one picture. The caller has checked image and size, and keeps VtkMessages alive. Error(argument) for
-/// limits of levels that contradict each other, in the name of canvas.who(). Fans and charts give back where they
-/// lie, from the origin.
+/// Draw onto a canvas without writing a file. Each drawing fills options.width x options.height pixels from the
+/// canvas's origin, so that several can share one picture. The caller has checked image and size, and keeps VtkMessages
+/// alive. Throw Error(argument), in the name of canvas.who(), for contradictory level limits. Fans and charts return
+/// their layout relative to the origin.
 FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions& options);
 void draw_rect(Canvas& canvas, const LevelImage& image, const PictureOptions& options);
 void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOptions& options);

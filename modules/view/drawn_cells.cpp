@@ -11,11 +11,11 @@ namespace insonify {
 namespace {
 
 constexpr int min_pixels = 240,
-              max_pixels = 8192;        // below, labels have no room; above, GL has no frame buffer
-constexpr std::size_t max_rows = 8192;  // of a patch: GL has no larger textures everywhere
+              max_pixels = 8192;  // smaller pictures have no room for labels; larger ones exceed GL's frame buffers
+constexpr std::size_t max_rows = 8192;  // of a patch: GL guarantees no larger textures
 constexpr double same_bearing = 1e-9;   // [rad]
 
-// Mean power of a block of levels; a level that is not a number counts as no power.
+// Mean power of a block of levels; NaN counts as zero power.
 template <typename Block>
 float mean_power_db(const Block& level_db) {
   double power = 0;
@@ -48,7 +48,7 @@ Grid<float> combine(const Grid<float>& level_db, Eigen::Index first_column, Eige
   return combined;
 }
 
-// How many neighbours to combine so that a group is at least half a pixel long.
+// Number of neighbours to combine so that a group is at least half a pixel long.
 Eigen::Index bins_per_group(double bin_pixels) {
   return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(0.5 / bin_pixels - 1e-9)));
 }
@@ -64,11 +64,11 @@ CellPatch make_patch(const BeamCells& cells, const RangeGate& gate, Eigen::Index
   return patch;
 }
 
-// Beams in the order of bearing along the circle, cut in its widest gap.
+// Beams ordered by bearing along the circle, which is cut at its widest gap.
 struct OrderedBearings {
   std::vector<std::size_t> beam;
   std::vector<double> bearing;  // ascending, unwrapped
-  double gap = 0;               // the widest one, where the circle was cut
+  double gap = 0;               // the widest gap, where the circle was cut
 };
 OrderedBearings order_bearings(const BeamFan& fan) {
   const std::size_t n = fan.beams();
@@ -80,7 +80,7 @@ OrderedBearings order_bearings(const BeamFan& fan) {
   std::stable_sort(ordered.beam.begin(), ordered.beam.end(),
                    [&](std::size_t a, std::size_t b) { return bearing[a] < bearing[b]; });
 
-  // The gap after the last beam, across the stern, wins a tie: then nothing turns.
+  // Of equal gaps take the one after the last beam, across the stern, which rotates nothing.
   const auto& order = ordered.beam;
   std::size_t first = 0;
   ordered.gap = bearing[order.front()] + 2 * pi - bearing[order.back()];
@@ -94,7 +94,7 @@ OrderedBearings order_bearings(const BeamFan& fan) {
   for (std::size_t i = 0; i < first; ++i) bearing[order[i]] += 2 * pi;
   std::rotate(ordered.beam.begin(), ordered.beam.begin() + static_cast<std::ptrdiff_t>(first), ordered.beam.end());
 
-  // A fan that lies wholly beyond the stern is turned back.
+  // Bring a fan that lies wholly across the stern back by a whole turn.
   const double middle = (bearing[ordered.beam.front()] + bearing[ordered.beam.back()]) / 2;
   const double turn = middle > pi + same_bearing ? -2 * pi : 0;
   for (const std::size_t b : ordered.beam) ordered.bearing.push_back(bearing[b] + turn);
@@ -112,8 +112,8 @@ std::vector<double> cell_edges(const std::vector<double>& bearing, double gap, d
   return edges;
 }
 
-// How far apart bearings of one cell may be. A grid of rows has its beams one above another; of rows that are staggered,
-// or of a table without order, each cell takes in half a beam width.
+// Largest difference of bearings within one cell. Beams of a regular grid of rows have equal bearings; with staggered
+// rows or an unordered table, each cell spans half a beam width.
 double cell_reach(const BeamFan& fan, const std::vector<double>& ascending_bearing) {
   std::size_t distinct = 1;
   for (std::size_t i = 1; i < ascending_bearing.size(); ++i)
@@ -186,7 +186,7 @@ std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate
   const Eigen::Index bins = bins_per_group(gate.bin_size * pixels_per_metre);
   const double width_per_metre = cells.mean_width() * pixels_per_metre;  // of a beam, in pixels
 
-  // From the outer arc inwards: each ring reaches down to where its groups of beams become too narrow.
+  // From the outer arc inwards, each ring extends to the range where its groups of beams become too narrow.
   std::vector<CellPatch> patches;
   std::size_t group = 1;
   while (beams / group > max_rows) group *= 2;

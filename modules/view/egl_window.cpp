@@ -12,12 +12,12 @@
 namespace insonify {
 namespace {
 
-// GLEW is built for GLX and reports that there is no X display, after it has loaded every GL function.
+// GLEW is built for GLX: it loads every GL function, then reports that there is no X display.
 constexpr GLenum glew_no_glx_display = 4;
 
 [[noreturn]] void no_gl(const char* who, const char* step) {
   fail(ErrorKind::runtime, who, ": no off-screen OpenGL (", step, " failed, EGL error ", eglGetError(),
-       "); install libegl1 and libgl1-mesa-dri (Debian, Ubuntu), which draw in software and need no screen");
+       "); install libegl1 and libgl1-mesa-dri (Debian, Ubuntu), which render in software without a screen");
 }
 
 EGLDisplay surfaceless_display() {
@@ -36,7 +36,7 @@ EglWindow::EglWindow() { SetOffScreenRendering(1); }
 EglWindow::~EglWindow() {
   if (context_ != EGL_NO_CONTEXT) Finalize();
   if (display_ == EGL_NO_DISPLAY) return;
-  // The display itself belongs to the whole process and stays: ending it would end other people's contexts.
+  // The display belongs to the whole process: terminating it would destroy other contexts.
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
   if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
@@ -71,7 +71,7 @@ void EglWindow::open(const char* who) {
   context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version);
   if (context_ == EGL_NO_CONTEXT) no_gl(who, "eglCreateContext for OpenGL 3.2");
 
-  // VTK draws into its own frame buffer; this surface only has to exist.
+  // VTK renders into its own frame buffer; this surface only has to exist.
   const EGLint surface_size[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
   surface_ = eglCreatePbufferSurface(display_, config, surface_size);
   if (surface_ == EGL_NO_SURFACE) no_gl(who, "eglCreatePbufferSurface");
@@ -94,7 +94,7 @@ void EglWindow::OpenGLInitContext() {
   float line_widths[2] = {1, 1};
   glGetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, line_widths);
   MaximumHardwareLineWidth = line_widths[1];
-  // Shade every sample of a pixel on its own: cells down to half a pixel count in the pixel's colour, and a
+  // Shade every sample of a pixel separately: cells down to half a pixel contribute to the pixel's colour, and a
   // pixel inside one cell keeps that cell's colour exactly.
   if (MultiSamples > 1 && glMinSampleShading) {
     glEnable(GL_SAMPLE_SHADING);

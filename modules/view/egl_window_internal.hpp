@@ -5,14 +5,14 @@
 
 namespace insonify {
 
-/// A VTK render window without a screen: surfaceless EGL (Mesa), so neither an X server nor DISPLAY is
-/// needed. Debian's VTK 9.1 itself knows only X windows and aborts the program when there is no display.
+/// A VTK render window without a screen: surfaceless EGL (Mesa), which needs neither an X server nor DISPLAY.
+/// Debian's VTK 9.1 supports only X windows and aborts the program if there is no display.
 class EglWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static EglWindow* New();
   vtkTypeMacro(EglWindow, vtkGenericOpenGLRenderWindow);
 
-  /// Makes the GL context. Throws Error(runtime) with the remedy if there is none to be had.
+  /// Creates the GL context. Throws Error(runtime) with the remedy if that fails.
   void open(const char* who);
 
   void MakeCurrent() override;

@@ -9,9 +9,9 @@
 namespace insonify {
 namespace {
 
-constexpr double narrow_gap = radians(40);  // behind a fan: too narrow for labels, so they go onto the picture
+constexpr double narrow_gap = radians(40);  // behind a fan: too narrow for range labels, which then go onto the image
 
-// Everything that hangs on the fan, with the apex at (0, 0), for one trial scale.
+// The labels attached to the fan for one trial scale, with the apex at (0, 0).
 struct Trial {
   std::vector<double> rings, spokes;
   std::vector<PlacedText> texts;
@@ -58,15 +58,15 @@ bool touches_sector(const FanOutline& fan, double scale, const Box& box) {
 
 Box grown(const Box& box, double by) { return {box.left - by, box.right + by, box.bottom - by, box.top + by}; }
 
-// Moves a label from `foot` along a unit vector until its box just clears `pad` from the line across that
-// vector.
+// Moves a label from `foot` along a unit vector until its box keeps a distance of `pad` from the line through `foot`
+// across that vector.
 void push_out(PlacedText& label, Point2 foot, Point2 outwards, double pad) {
   const TextSize& size = label.extent;
   const double reach = pad + std::abs(outwards.x) * size.width / 2 + std::abs(outwards.y) * size.height / 2;
   label.centre = {foot.x + reach * outwards.x, foot.y + reach * outwards.y};
 }
 
-// Adds a label unless it overlaps one that is there already.
+// Adds a label unless it overlaps an earlier one.
 bool add_if_free(std::vector<PlacedText>& texts, const PlacedText& label, double gap) {
   const Box box = grown(label.box(), gap);
   for (const PlacedText& other : texts)
@@ -89,7 +89,7 @@ void add_bearings(Trial& trial, const FanOutline& fan, double scale, int font) {
   }
 }
 
-// Range labels outside the starboard edge, or on the picture if the fan leaves no room behind itself.
+// Range labels outside the starboard edge, or on the image if there is no room behind the fan.
 void add_ranges(Trial& trial, const FanOutline& fan, double scale, int font) {
   const bool on_picture = 2 * pi - (fan.high - fan.low) < narrow_gap;
   const double spoke = trial.spokes.size() > 1 ? trial.spokes[1] - trial.spokes[0] : radians(30);
@@ -123,8 +123,8 @@ Trial try_scale(const FanOutline& fan, double scale, int font) {
   return trial;
 }
 
-// Largest scale at which the fan and its labels fit into the room. Which labels there are depends on the
-// scale, so the answer is a scale that was tried and fits, found by halving.
+// Largest scale at which the fan and its labels fit into the room, by bisection. The set of labels depends on the
+// scale, so the result is a scale that was tried and fits.
 double fitting_scale(const FanOutline& fan, const Box& room, int font) {
   const Box sector = sector_box(fan);
   double fits = 0, too_large = std::min(room.width() / sector.width(), room.height() / sector.height());
@@ -173,7 +173,7 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   layout.font_size = font;
   layout.title = place_title(options);
 
-  // Two candidates: the bar at the right, or below.
+  // Try the bar at the right and below.
   const double margin = font;
   const double top = (layout.title ? layout.title->box().bottom : options.height) - margin;
   const double right = options.width - margin;
@@ -187,7 +187,7 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   layout.colour_bar = lie ? lying : upright;
   layout.pixels_per_metre = lie ? scale_above : scale_beside;
 
-  // Centre what hangs on the fan in its room.
+  // Centre the fan with its labels in the room.
   const Box room = lie ? above : beside;
   Trial trial = try_scale(fan, layout.pixels_per_metre, font);
   layout.apex = {(room.left + room.right - trial.extent.left - trial.extent.right) / 2,

@@ -8,14 +8,13 @@
 
 namespace insonify {
 
-/// The part of the plane that a fan fills: bearings [rad] positive to starboard, ranges [m].
+/// The sector of the plane that a fan fills: bearings [rad] positive to starboard, ranges [m].
 struct FanOutline {
   double low = 0, high = 0;  ///< bearings
   double min_range = 0, max_range = 0;
 };
 
-/// Where everything of a fan picture goes. Forward is up and starboard right: this is the flip of the head
-/// axes (y to port) and the only place of it.
+/// Layout of a fan picture. Forward is up and starboard right: the flip of the head axes (y to port) is made only here.
 struct FanLayout {
   Point2 apex;  ///< the head
   double pixels_per_metre = 1;
@@ -30,20 +29,20 @@ struct FanLayout {
   Point2 at(double bearing, double range) const;
 };
 
-/// Size of ordinary text for a picture of so many pixels.
+/// Size of ordinary text for a picture of width x height pixels.
 int font_size_for(int width, int height);
 
-/// The one asked for, or that for the size of the picture.
+/// options.font_size, or the size for the picture if that is 0.
 int font_size_for(const PictureOptions& options);
 
 /// Width of thin lines beside text of that size [pixels].
 double line_width_for(int font_size);
 
-/// The title, centred at the top of the picture and made to fit; none if it is empty.
+/// The title, centred at the top of the picture and fitted to its width; none if it is empty.
 std::optional<PlacedText> place_title(const PictureOptions& options);
 
-/// Fits the fan and its labels into the picture, as large as it goes, with the colour bar where it costs
-/// less: at the right or below. No two texts overlap, and none leaves the picture.
+/// Fits the fan and its labels into the picture as large as possible, with the colour bar at the right or below,
+/// whichever leaves more space. Texts neither overlap nor leave the picture.
 FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
                       const std::string& unit);
 

@@ -12,7 +12,7 @@
 namespace insonify {
 namespace {
 
-// Usual places on Debian, Fedora, Arch and by hand; VTK needs the file, not the name.
+// Usual paths on Debian, Fedora, Arch and of manual installations; VTK needs the file, not the name.
 constexpr const char* font_files[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                       "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
                                       "/usr/share/fonts/dejavu/DejaVuSans.ttf",

@@ -5,11 +5,11 @@
 
 namespace insonify {
 
-/// Gives the property the product's font: DejaVu Sans where it is found, else a font near to it, else the one
-/// that VTK has built in (which lacks Greek: see readable_text).
+/// Sets the font: DejaVu Sans if installed, else a similar one, else VTK's built-in font (which lacks Greek: see
+/// readable_text).
 void set_font(vtkTextProperty* property, int font_size);
 
-/// The text itself, or, if only VTK's built-in font is there, the text with µ written as u.
+/// The text, with µ written as u if only VTK's built-in font is available.
 std::string readable_text(const std::string& text);
 
 }  // namespace insonify

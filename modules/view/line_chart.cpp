@@ -38,14 +38,14 @@ Colour line_colour(std::size_t number, bool dark) {
   return dark ? on_black[number % 8] : on_white[number % 8];
 }
 
-// The line itself is number 0.
+// All lines, the first one being the chart's own.
 std::vector<ChartLine> all_lines(const LineChart& chart) {
   std::vector<ChartLine> lines{{chart.x, chart.y, chart.name, chart.style, chart.labels}};
   lines.insert(lines.end(), chart.more.begin(), chart.more.end());
   return lines;
 }
 
-// From here on, a logarithmic axis is a linear one of logarithms.
+// Replaces logarithmic axes by linear axes of logarithms.
 LineChart with_logarithms_taken(LineChart chart) {
   const auto take = [](double& value) { value = std::log10(value); };
   const auto take_all = [&](std::vector<double>& values) { std::for_each(values.begin(), values.end(), take); };
@@ -76,7 +76,7 @@ void add_plot(vtkChartXY& chart, const ChartLine& line, const Colour& colour, do
   }
 }
 
-// The chart shows only the lines; frame, labels and titles are ours, as in the other pictures.
+// VTK's chart draws only the lines; frame, labels and titles are drawn as in the other pictures.
 void add_chart(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& lines, bool dark, double width) {
   vtkNew<vtkChartXY> chart;
   const Box& frame = axes.frame;
@@ -105,11 +105,11 @@ void add_chart(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& l
   canvas.renderer()->AddActor(actor);
 }
 
-// In font sizes: of the legend's samples, from there to the name, from there to the next.
+// In font sizes: length of a legend sample, distance to its name, distance to the next sample.
 constexpr double sample = 2.0, to_name = 0.5, to_next = 1.6;
 constexpr double legend_row = 1.6;
 
-// Which lines stand in which row of the legend, so that each fits into `width`.
+// Distributes the lines over rows of the legend so that each row fits into `width`.
 std::vector<std::vector<std::size_t>> legend_rows(const std::vector<ChartLine>& lines, int font, double width) {
   std::vector<std::vector<std::size_t>> rows;
   double used = 0;
@@ -139,7 +139,7 @@ void add_legend_sample(Canvas& canvas, const ChartLine& line, const Colour& colo
     canvas.add_lines({stroke(0, 1)}, line_width, colour, 1);
 }
 
-// Samples and names in rows, the first one's middle half a row below `top`; a name too long for a row is made to fit.
+// Samples and names in rows, the first centred half a row below `top`; names too long for a row are fitted.
 void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, double line_width, int font,
                 const Box& frame, double top) {
   double height = top + 0.5 * legend_row * font;
@@ -157,7 +157,7 @@ void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, 
   }
 }
 
-// Labels beside the points they belong to: to the right and above, or where there is room.
+// Labels beside their points: to the upper right, or where there is room.
 void add_point_labels(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& lines, int font) {
   std::vector<Box> taken;
   const double away = 0.7 * font;
@@ -182,7 +182,7 @@ void add_point_labels(Canvas& canvas, const Axes& axes, const std::vector<ChartL
     }
 }
 
-// The frame is what title and labels leave.
+// The frame fills the space left by title and labels.
 Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double title_bottom) {
   const int font = font_size_for(options);
   const double bottom = 0.8 * font + room_below(font), top = title_bottom - font;
@@ -202,7 +202,7 @@ Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double 
 }  // namespace
 
 Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOptions& options) {
-  // Find a place for everything, then draw it.
+  // Lay out everything, then draw it.
   const LineChart chart = with_logarithms_taken(asked);
   PictureOptions titled = options;
   titled.title = chart.title;

@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Levels of one ping, ready to be drawn.
+/// Levels of one ping for drawing.
 struct LevelImage {
   BeamFan fan;
   RangeGate gate;
@@ -17,7 +17,7 @@ struct LevelImage {
   std::string unit;      ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
 };
 
-/// A place in a picture that is marked with a small cross-hair and, if there is room, named.
+/// A place in a picture marked with a ring and, if there is room, its name.
 struct Mark {
   double bearing = 0;  ///< [rad], positive to starboard
   double range = 0;    ///< [m]
@@ -33,8 +33,8 @@ struct PictureOptions {
                                                              ///< lowest, rounded up to 5
   double window_db = 45;
   bool dark = false;          ///< dark background
-  int font_size = 0;          ///< of ordinary text [pixels]; 0: by the size of the picture
-  std::vector<Mark> marks{};  ///< drawn by show_fan, show_rect and show_panels; those outside the image are left out
+  int font_size = 0;          ///< of ordinary text [pixels]; 0: chosen from the picture size
+  std::vector<Mark> marks{};  ///< drawn by show_fan, show_rect and show_panels; those outside the image are omitted
 };
 
 /// Names accepted as colour_map.

@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// Places in a picture are in pixels from its lower left corner.
+/// A place in a picture [pixels from its lower left corner].
 struct Point2 {
   double x = 0;
   double y = 0;
@@ -25,7 +25,7 @@ struct Box {
   }
 };
 
-/// A line of text by its middle. It is measured once, when it is made.
+/// A line of text given by its centre. Its extent is measured once, by the constructor.
 struct PlacedText {
   PlacedText(std::string line, Point2 middle, int size, bool reads_upwards = false)
       : text(std::move(line)), centre(middle), font_size(size), turned(reads_upwards), extent(text_size(text, size)) {}
@@ -34,8 +34,8 @@ struct PlacedText {
   Point2 centre;
   int font_size;
   bool turned;            ///< reads upwards
-  bool on_plate = false;  ///< on a half transparent plate, to be readable on the data
-  TextSize extent;        ///< before it is turned
+  bool on_plate = false;  ///< on a semi-transparent plate, for legibility on the data
+  TextSize extent;        ///< before rotation
 
   Box box() const {
     const double x = (turned ? extent.height : extent.width) / 2, y = (turned ? extent.width : extent.height) / 2;

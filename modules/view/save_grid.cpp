@@ -37,7 +37,7 @@ void require_fields(const BeamFan& fan, const RangeGate& gate, const std::vector
   }
 }
 
-/// The part of an image that one row of beams heard.
+/// The part of an image that belongs to one row of beams.
 LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>& values, const FanRow& row) {
   LevelImage part{{{}, {}, fan.beam_width, fan.elevation_width, 0}, gate, {}, {}};
   part.level_db.resize(static_cast<Eigen::Index>(row.beams.size()), values.cols());
@@ -49,7 +49,7 @@ LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>&
   return part;
 }
 
-/// An array of cells with ranges fastest.
+/// Cell data, ranges varying fastest.
 vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const Grid<float>& values) {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetName(name.c_str());
@@ -58,7 +58,7 @@ vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const Grid<fl
   return array;
 }
 
-/// Corners of the cells, ranges fastest, then bearings.
+/// Corners of the cells, ranges varying fastest, then bearings.
 vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, double elevation, const RangeGate& gate,
                                    const Pose& world_from_head) {
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -116,7 +116,7 @@ void save_sample_image(const std::string& path, const BeamFan& fan, const RangeG
   image->SetDimensions(static_cast<int>(fan.beams()) + 1, static_cast<int>(gate.bins()) + 1, 1);
   image->SetOrigin(0, gate.min_range, 0);
   image->SetSpacing(1, gate.bin_size, 1);
-  // Cells have beams fastest.
+  // Cells are ordered with beams varying fastest.
   for (const SampleField& field : fields)
     image->GetCellData()->AddArray(cell_array(field.name, field.values.transpose()));
   image->GetCellData()->SetActiveScalars(fields.front().name.c_str());

@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// Lines through space with numbers, structure of arrays.
+/// Polylines in space with scalar fields, as a structure of arrays.
 struct LineSet {
   std::vector<std::vector<Eigen::Vector3d>> points;  ///< of each line, world [m]
   struct Field {
@@ -16,8 +16,8 @@ struct LineSet {
   std::vector<Field> fields;
 };
 
-/// Writes lines as VTK polydata (.vtp), points in double, fields as cell data. Written to a temporary name, then renamed.
-/// Throws Error(argument) for a line of less than two points or a field with another number of values than there are lines,
+/// Writes lines as VTK polydata (.vtp), points in double, fields as cell data. Written to a temporary name, then
+/// renamed. Throws Error(argument) for a line of fewer than two points or a field without exactly one value per line,
 /// Error(file) if it cannot write.
 void save_lines(const std::string& path, const LineSet& lines);
 

@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// Writes a data set as one of VTK's XML files, compressed, under a temporary name that is then renamed.
+/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed.
 inline void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who) {
   const VtkMessages messages;
   writer.SetInputData(data);
@@ -18,7 +18,7 @@ inline void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string&
   writer.EncodeAppendedDataOff();
   writer.SetCompressorTypeToZLib();
   writer.WriteToOutputStringOn();
-  if (!writer.Write()) fail(ErrorKind::runtime, who, ": VTK could not make ", path);
+  if (!writer.Write()) fail(ErrorKind::runtime, who, ": VTK cannot write ", path);
   messages.throw_first_error(who);
   const std::string bytes = writer.GetOutputString();
   write_file_atomically(path, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), who);

@@ -17,7 +17,7 @@ namespace insonify {
 
 constexpr Rgb hole_rgb = {222, 45, 38};
 
-/// What SceneActors holds.
+/// The data of SceneActors.
 struct SceneActors::Parts {
   Parts(const SceneCloud& cloud, SceneLook wanted, const PictureOptions& picture, const char* name)
       : scene(cloud), look(std::move(wanted)), options(picture), who(name) {}
@@ -27,11 +27,11 @@ struct SceneActors::Parts {
   PictureOptions options;
   const char* who;
   SceneKey key;
-  std::vector<Eigen::Vector3d> interest;  // what the camera looks at
+  std::vector<Eigen::Vector3d> interest;  // framed by the camera
 
-  // Surfels: both details share their arrays.
+  // Surfels; both levels of detail share their arrays.
   PointCloudArrays surfels;
-  std::vector<std::uint32_t> drawn;  // at `still`
+  std::vector<std::uint32_t> drawn;  // at detail `still`
   std::size_t moving_drawn = 0;
   vtkSmartPointer<vtkActor> still, moving, footprint, marks;
 
@@ -53,7 +53,7 @@ struct SceneActors::Parts {
             normals.Get(), head_axes[0].Get(), head_axes[1].Get(), head_axes[2].Get()};
   }
   double thin() const { return line_width_for(font_size_for(options)); }
-  Eigen::AlignedBox3d box() const;  // of the interest, and of the axes
+  Eigen::AlignedBox3d box() const;  // of `interest` and of the axes
 
   void make_surfels();
   void make_lines();

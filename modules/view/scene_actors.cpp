@@ -27,7 +27,7 @@ std::vector<std::uint32_t> counted(std::size_t count) {
   return numbers;
 }
 
-// Points of one colour that share the arrays of others.
+// Points of a single colour that share arrays with another actor.
 vtkSmartPointer<vtkActor> plain_points(const PointCloudArrays& arrays, const Colour& colour, double min_pixels,
                                        double lift) {
   vtkSmartPointer<vtkActor> actor = point_actor(arrays, {});
@@ -78,7 +78,7 @@ void SceneActors::Parts::colour() {
   set_colours(surfels.colours, colours.colour);
 }
 
-// Thinned surfels grow so that they cover what all would.
+// Enlarges thinned surfels so that they cover the area of all.
 void SceneActors::Parts::grow() {
   const auto growth = [&](std::size_t count) {
     return look.point_size * std::sqrt(static_cast<double>(scene.size()) / static_cast<double>(count));
@@ -175,7 +175,8 @@ void SceneActors::show_soundings(const Soundings& soundings) {
   p.sounding_arrays = point_arrays(p.sounding_places, std::vector<float>(soundings.size()));
   set_colours(p.sounding_arrays.colours, colour);
   set_points(p.soundings, p.sounding_arrays, counted(soundings.size()));
-  if (p.look.colour == SceneColour::level && !p.look.level_db.empty()) p.colour();  // they share one scale
+  if (p.look.colour == SceneColour::level && !p.look.level_db.empty())
+    p.colour();  // surfels and soundings share one scale
 }
 
 void SceneActors::show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate) {

@@ -14,15 +14,15 @@
 
 namespace insonify {
 
-/// How many surfels are drawn. A subset is chosen by the surfels' ids alone, and its surfels grow to close the gaps.
+/// Level of detail. A subset of the surfels is chosen by their ids alone and drawn larger to close the gaps.
 enum class SceneDetail {
   still,  ///< at most SceneLook::most_surfels
-  moving  ///< at most 200 000: for as long as the user turns the scene
+  moving  ///< at most 200 000, while the user turns the scene
 };
 
-/// A scene in a VTK renderer: built once, changed in place. Positions in the renderer are relative to scene.origin
+/// A scene in a VTK renderer, built once and changed in place. Positions in the renderer are relative to scene.origin
 /// (world position = origin + renderer position). The scene is not copied: it must outlive the actors and not move.
-/// No function renders: the owner of the window does. Not for several threads.
+/// No function renders; the owner of the window does. Not thread-safe.
 class SceneActors {
  public:
   /// Throws as show_scene for an unusable look. `who` names the caller in errors.
@@ -31,20 +31,20 @@ class SceneActors {
   SceneActors(const SceneActors&) = delete;
   SceneActors& operator=(const SceneActors&) = delete;
 
-  /// Adds everything to a renderer, once; remove_from takes it out again.
+  /// Adds all actors to a renderer; remove_from removes them.
   void add_to(vtkRenderer* renderer);
   void remove_from(vtkRenderer* renderer);
 
-  /// Colours the surfels anew. Throws as show_scene if what the colour shows is not known.
+  /// Recolours the surfels. Throws as show_scene if the data of that colour are missing.
   void set_colour(SceneColour colour);
-  void set_levels(std::vector<float> level_db, const std::string& unit);  ///< per surfel; also colours if shown
-  void set_visibility(std::vector<Visibility> visibility);                ///< per surfel; also colours if shown
+  void set_levels(std::vector<float> level_db, const std::string& unit);  ///< per surfel; recolours if shown
+  void set_visibility(std::vector<Visibility> visibility);                ///< per surfel; recolours if shown
   void set_level_range(double min_db, double max_db);                     ///< of the level colours; NaN: automatic
   void set_colour_map(const std::string& name);                           ///< of the level colours
 
-  void highlight(std::span<const std::uint32_t> surfels);       ///< replaces what was highlighted
-  void show_soundings(const Soundings& soundings);              ///< replaces what was shown; empty: none
-  void show_holes(const std::vector<Eigen::Vector3d>& places);  ///< world [m]; replaces what was shown
+  void highlight(std::span<const std::uint32_t> surfels);       ///< replaces the highlighted surfels
+  void show_soundings(const Soundings& soundings);              ///< replaces the soundings; empty: none
+  void show_holes(const std::vector<Eigen::Vector3d>& places);  ///< world [m]; replaces the holes
   void show_normals(bool on);
   void show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate);
   void hide_head();
@@ -53,25 +53,25 @@ class SceneActors {
   void set_point_size(double point_size);  ///< as SceneLook::point_size
   double point_size() const;
 
-  /// Edges, ticks and labels of the axes on the side turned away from the camera: call it after the camera has moved.
+  /// Updates edges, ticks and labels of the axes, on the far side from the camera; call it after the camera has moved.
   void update_axes(vtkRenderer* renderer);
-  /// The same without labels, which it gives back for the caller to place.
+  /// The same, but returns the labels for the caller to place.
   std::vector<AxisLabel> turn_axes(vtkRenderer* renderer);
   void show_axes(bool on);
 
-  /// Puts the renderer's camera where `camera` says, fitted to the renderer's aspect, and its clipping range.
+  /// Sets the renderer's camera, fitted to the renderer's aspect ratio, and its clipping range.
   void place_camera(vtkRenderer* renderer, const SceneCamera& camera) const;
 
   /// The renderer's camera.
   static CameraView view(vtkRenderer* renderer);
 
-  /// The surfel drawn frontmost at a place in the window [pixels from its lower left corner]; none: nothing there
-  /// within two pixels. Only surfels drawn at `still` detail are found.
+  /// The frontmost surfel within two pixels of a place in the window [pixels from its lower left corner], if any. Only
+  /// surfels drawn at `still` detail are found.
   std::optional<std::uint32_t> surfel_at(vtkRenderer* renderer, double x, double y) const;
 
   const SceneLook& look() const;
-  const SceneKey& key() const;                    ///< of the surfels' colours
-  std::optional<SceneKey> soundings_key() const;  ///< of the soundings', if they need one of their own
+  const SceneKey& key() const;                    ///< for the surfels' colours
+  std::optional<SceneKey> soundings_key() const;  ///< for the soundings, if their colours differ
 
  private:
   struct Parts;

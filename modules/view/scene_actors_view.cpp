@@ -1,4 +1,4 @@
-// How the actors of a scene are looked at: camera, axes, picking.
+// View-dependent part of SceneActors: camera, axes, picking.
 #include <algorithm>
 #include <cmath>
 
@@ -74,7 +74,7 @@ void SceneActors::place_camera(vtkRenderer* renderer, const SceneCamera& camera)
   };
   CameraView view = place(p.interest, 0.04 * narrow);
 
-  // Which edges carry the axes depends on the view; then they and their labels find room in it.
+  // The view determines which edges carry the axes; the labels are then placed in it.
   if (p.axes_shown) {
     std::vector<Eigen::Vector3d> points = p.interest;
     double widest = 0;

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double along_view = 0.96;    // cosine above which the camera looks along an axis
+constexpr double along_view = 0.96;    // cosine above which an axis is along the line of sight
 constexpr double tick_length = 0.015;  // of the diagonal
 
 // An edge of the box that carries the values of one axis.
@@ -19,11 +19,11 @@ struct AxisEdge {
   Vector3d outward;
 };
 
-// Of the two floor edges along `axis`, the one that the camera sees in front.
+// Of the two floor edges along `axis`, the one nearer to the camera.
 AxisEdge floor_edge(const Eigen::AlignedBox3d& box, int axis, const CameraView& view) {
   const int other = 1 - axis;
   const double looks = view.position[other] - box.center()[other] - view.forward()[other] * 1e-9;
-  // From straight above, the edge at the foot of the picture, or at its left.
+  // From straight above, take the edge at the bottom or left of the picture.
   const bool from_above = std::abs(view.forward().z()) > along_view;
   const bool at_high = !from_above && looks > 0;
   AxisEdge edge{axis, box.min(), box.min(), Vector3d::Zero()};
@@ -33,7 +33,7 @@ AxisEdge floor_edge(const Eigen::AlignedBox3d& box, int axis, const CameraView& 
   return edge;
 }
 
-// Of the four upright edges, the leftmost in the picture.
+// Of the four vertical edges, the leftmost in the picture.
 AxisEdge upright_edge(const Eigen::AlignedBox3d& box, const CameraView& view) {
   AxisEdge best;
   double leftmost = 1e300;
@@ -48,7 +48,7 @@ AxisEdge upright_edge(const Eigen::AlignedBox3d& box, const CameraView& view) {
   return best;
 }
 
-// Step of ticks: five or so along the longest side, the same for x and y.
+// Step of ticks: about five along the longest side, the same for x and y.
 double tick_step(double length) { return round_step(std::max(length, 1e-6) / 6); }
 
 void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin, double tick) {
@@ -67,7 +67,7 @@ void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin,
   axes.labels.push_back({std::string(1, "xyz"[axis]) + " [m]", middle + tick * edge.outward, edge.outward, true});
 }
 
-// A label on its way out from its place.
+// A label that can be moved outwards from its place.
 class OutwardText {
  public:
   OutwardText(const AxisLabel& label, const CameraView& view, const Box& frame, int font_size)
@@ -83,7 +83,7 @@ class OutwardText {
   }
   bool visible() const { return visible_; }
   const PlacedText& text() const { return text_; }
-  // Puts it so many pixels away from its place.
+  // Moves it to `away` pixels from its place.
   void put(double away) {
     text_.centre = {start_.x + outward_.x * (text_.extent.width / 2 + away),
                     start_.y + outward_.y * (text_.extent.height / 2 + away)};
@@ -105,7 +105,7 @@ bool has_room(const Box& box, const Box& frame, const std::vector<PlacedText>& t
 
 std::vector<PlacedText> place_labels(const std::vector<AxisLabel>& labels, const CameraView& view, const Box& frame,
                                      int font_size) {
-  constexpr double farthest = 6;  // font sizes that a name may move out
+  constexpr double farthest = 6;  // largest outward move of a name, in font sizes
   std::vector<PlacedText> placed;
   for (const bool names : {false, true})
     for (const AxisLabel& label : labels) {

@@ -23,7 +23,7 @@ ViewAxes view_axes(const Vector3d& forward, const Vector3d& up) {
   return {right, right.cross(forward), forward};
 }
 
-// Forward of the head in the horizontal plane; of one that looks straight up or down, what is ahead in its picture.
+// Forward direction of the head in the horizontal plane; for a vertical one, the upward direction of its picture.
 Vector3d heading(const SceneLook& look) {
   if (!look.head) return Vector3d::UnitX();
   const auto turn = look.head->world_from_head.linear();
@@ -32,7 +32,7 @@ Vector3d heading(const SceneLook& look) {
   return Vector3d(ahead.x(), ahead.y(), 0).normalized();
 }
 
-// Direction in which a preset looks, and what is up in its picture.
+// View direction of a preset and the upward direction of its picture.
 ViewAxes preset_axes(const SceneLook& look, ScenePreset preset) {
   const Vector3d up = Vector3d::UnitZ(), ahead = heading(look);
   const auto downwards = [&](const Vector3d& level, double angle_deg) {
@@ -45,10 +45,11 @@ ViewAxes preset_axes(const SceneLook& look, ScenePreset preset) {
   return view_axes(downwards(Vector3d(0.64, 0.77, 0).normalized(), 32), up);
 }
 
-// The nearest position along `axes` from which all points lie within the half openings of a window.
+// The nearest position from which all points lie within the window, `open_x` and `open_y` being the tangents of half
+// its view angles.
 Vector3d fitting_position(const std::vector<Vector3d>& points, const ViewAxes& axes, double open_x, double open_y) {
-  // A point is inside if its offset to the right is at most its distance times the opening: two bounds on the place of
-  // the camera across, whose gap closes as it moves nearer; the same upwards.
+  // A point is inside if its offset to the right is at most its distance times open_x. This gives two bounds on the
+  // lateral position of the camera, whose gap closes as it moves nearer; likewise upwards.
   double left = -1e300, right = 1e300, low = -1e300, high = 1e300, nearest = 1e300;
   for (const Vector3d& point : points) {
     const double x = axes.right.dot(point), y = axes.up.dot(point), z = axes.forward.dot(point);
@@ -56,7 +57,7 @@ Vector3d fitting_position(const std::vector<Vector3d>& points, const ViewAxes& a
     low = std::max(low, y - open_y * z), high = std::min(high, y + open_y * z);
     nearest = std::min(nearest, z);
   }
-  // A lone point is looked at from a metre.
+  // A single point is viewed from a distance of one metre.
   const double z = std::min({(right - left) / (2 * open_x), (high - low) / (2 * open_y), nearest - 1e-3});
   const double at = points.size() == 1 ? z - 1 : z;
   return (left + right) / 2 * axes.right + (low + high) / 2 * axes.up + at * axes.forward;
@@ -89,7 +90,7 @@ CameraView place_view(const SceneCloud& scene, const SceneLook& look, const Scen
     const Vector3d along = *camera.focal_point - *camera.position;
     if (!(along.norm() > 0) || !along.allFinite() || !camera.position->allFinite())
       fail(ErrorKind::argument, who, ": look.camera looks from (", camera.position->transpose(), ") to (",
-           camera.focal_point->transpose(), ") m, must be finite and two places");
+           camera.focal_point->transpose(), ") m, must be finite and distinct");
     view.position = *camera.position - scene.origin;
     view.focal_point = *camera.focal_point - scene.origin;
     const bool upright = std::hypot(along.x(), along.y()) < 1e-6 * along.norm();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t block = 1 << 16;
 
-// Ten colours that differ for most eyes, the first for the commonest material.
+// Ten colours distinguishable with most colour-vision deficiencies, the first for the commonest material.
 constexpr Rgb material_colours[] = {{203, 180, 135}, {86, 140, 185}, {214, 104, 74},  {104, 160, 92},  {150, 116, 176},
                                     {222, 170, 50},  {60, 165, 160}, {206, 122, 160}, {128, 128, 128}, {140, 96, 66}};
 constexpr std::size_t most_entries = 10;  // of a legend
@@ -25,13 +25,13 @@ constexpr VisibilityColour visibility_colours[] = {{Visibility::seen, "seen", {2
                                                    {Visibility::hidden, "hidden: in shadow", {42, 66, 138}},
                                                    {Visibility::turned_away, "turned away", {140, 92, 58}},
                                                    {Visibility::outside, "outside the fan or gate", {172, 174, 178}},
-                                                   {Visibility::not_asked, "not asked", {205, 207, 210}}};
+                                                   {Visibility::not_asked, "not evaluated", {205, 207, 210}}};
 
-// Light from behind, starboard and above, for a head that looks along x: faces differ in brightness, and ripples show.
+// Light from behind, starboard and above for a head along x: faces differ in brightness and ripples become visible.
 const Eigen::Vector3f to_light = Eigen::Vector3f(-0.45F, -0.42F, 0.79F).normalized();
 
-// Part of its colour that a surface shows, from 0.4 where light grazes it to 1.1 where it is full. Backs get less, but
-// not so little that a room seen from outside is black.
+// Brightness of a surface, from 0.4 at grazing light to 1.1 at full light. Back faces are darker, but a room seen from
+// outside is not black.
 float light_on(const SceneCloud& scene, std::size_t i) {
   const float cosine = scene.normal[i].dot(to_light);
   if (!scene.normals_oriented) return 0.4F + 0.7F * std::abs(cosine);
@@ -54,7 +54,7 @@ std::vector<Rgb> per_surfel(const SceneCloud& scene, ColourOf&& colour_of) {
   return colour;
 }
 
-// Heights from low to high but for a thousandth at either end, which stray points may fill.
+// Heights from low to high without a thousandth at either end, which may be stray points.
 ColourScale height_scale(const SceneCloud& scene) {
   const std::size_t step = 1 + scene.size() / 200000;
   std::vector<float> z;
@@ -97,7 +97,7 @@ SceneColours by_material(const SceneCloud& scene) {
   return result;
 }
 
-// Shaded less than the others: the shadow is dark enough.
+// Colours with reduced shading, since those of shadows are dark already.
 SceneColours by_visibility(const SceneCloud& scene, const SceneLook& look, const char* who) {
   if (look.visibility.empty())
     fail(ErrorKind::argument, who, ": look.visibility is empty, but colour is visibility; fill it by find_visibility");
@@ -127,7 +127,7 @@ SceneColours by_level(const SceneCloud& scene, const SceneLook& look, const Pict
           {scale, look.level_unit, {}}};
 }
 
-// Angle between ray and normal, or its complement; surfels that show their back are grey.
+// Angle between ray and normal, or its complement; back-facing surfels are grey.
 SceneColours by_angle(const SceneCloud& scene, const SceneLook& look, bool grazing, const char* who) {
   if (!look.head)
     fail(ErrorKind::argument, who, ": look.head is absent, but colour is ", grazing ? "grazing" : "incidence",

@@ -11,20 +11,20 @@
 
 namespace insonify {
 
-/// A colour and what it stands for.
+/// A colour and its meaning.
 struct LegendEntry {
   std::string text;
   Rgb colour{};
 };
 
-/// What the colours of a scene mean: a scale with its unit, or a legend. Both absent: nothing to explain.
+/// Key to the colours of a scene: a scale with its unit, or a legend, or neither.
 struct SceneKey {
-  std::optional<ColourScale> scale;  ///< in the unit of `unit`, whatever its fields are called
+  std::optional<ColourScale> scale;  ///< in units of `unit`, although its fields end in _db
   std::string unit;
   std::vector<LegendEntry> legend;
 };
 
-/// One colour per surfel and what it means.
+/// One colour per surfel, and the key.
 struct SceneColours {
   std::vector<Rgb> colour;
   SceneKey key;
@@ -34,10 +34,10 @@ struct SceneColours {
 SceneColours colour_surfels(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                             const char* who);
 
-/// Scale of levels: that of the surfels and soundings of `look` together.
+/// Common level scale of the surfels and soundings of `look`.
 ColourScale level_scale(const SceneLook& look, const PictureOptions& options, const char* who);
 
-/// Colour of surfels of which nothing is known.
+/// Colour of surfels without data.
 constexpr Rgb unknown_grey = {150, 152, 156};
 
 }  // namespace insonify

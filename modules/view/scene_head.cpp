@@ -22,7 +22,7 @@ std::vector<double> steps_between(double low, double high) {
   return angles;
 }
 
-// Turns directions and ranges of the head into places in the picture.
+// Converts directions and ranges in head axes to positions in the scene.
 class Placer {
  public:
   Placer(const SceneHead& head, const Eigen::Vector3d& origin)
@@ -53,13 +53,13 @@ class Placer {
   Eigen::Vector3d at_;
 };
 
-// An angle brought next to `middle`.
+// The angle plus whole turns, within half a turn of `middle`.
 double unwrapped(double angle, double middle) { return middle + std::remainder(angle - middle, 2 * pi); }
 
 }  // namespace
 
 FanSector fan_sector(const BeamFan& fan) {
-  // The order of beams in a fan picture, whose bearings run the other way.
+  // Beam order of a fan picture; bearings have the opposite sign of azimuths.
   const BeamCells cells =
       order_beams({fan, {1, 2, 1}, Grid<float>::Zero(static_cast<Eigen::Index>(fan.beams()), 1), ""});
   FanSector sector;
@@ -100,11 +100,11 @@ HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin,
       for (const double elevation : {sector.low_elevation, sector.high_elevation})
         lines.outline.push_back(at.ray(azimuth, elevation, head.gate));
 
-  // Arcs in the plane of the fan; of several rows only the last arc each.
+  // Arcs in the plane of the fan; with several rows only the last arc of each.
   const double step = round_step(head.gate.max_range / 4);
   for (const double elevation : sector.rows) {
     lines.arcs.push_back(at.across(sector, elevation, head.gate.max_range));
-    if (sector.full_circle) continue;  // its first and last beam are neighbours
+    if (sector.full_circle) continue;  // its first and last beams are adjacent
     lines.beams.push_back(at.ray(sector.first_azimuth, elevation, head.gate));
     lines.beams.push_back(at.ray(sector.last_azimuth, elevation, head.gate));
   }
@@ -128,7 +128,7 @@ std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const Scen
   const double half_azimuth = (sector.high_azimuth - sector.low_azimuth) / 2;
   const Eigen::Isometry3d head_from_world = head.world_from_head.inverse();
 
-  // How far a surfel is inside each pair of walls [m]: on the outline it is within reach of one, and not outside any.
+  // Distance of a surfel inside each pair of walls [m]; on the outline it is close to one wall and not outside any.
   const auto on_outline = [&](std::size_t i) {
     const Eigen::Vector3d normal = scene.normal[i].cast<double>();
     const Eigen::Vector3d place = head_from_world * (scene.origin + scene.point[i].cast<double>());

@@ -10,7 +10,7 @@
 namespace insonify {
 namespace {
 
-// Adds a line's points and gives back the number of the first.
+// Adds a line's points and returns the number of the first.
 vtkIdType add_points(vtkPoints* points, const Polyline& line) {
   const vtkIdType first = points->GetNumberOfPoints();
   for (const Eigen::Vector3d& place : line) points->InsertNextPoint(place.data());

@@ -10,13 +10,13 @@
 
 namespace insonify {
 
-/// Lines of one colour in a scene, so many pixels wide; none yet.
+/// An actor, initially empty, for lines of one colour and width [pixels].
 vtkSmartPointer<vtkActor> line_actor(const Colour& colour, double width);
 void set_lines(vtkActor* actor, const std::vector<Polyline>& lines);
 
-/// The body of a head, lit; none yet.
+/// An actor, initially empty, for the shaded body of a head.
 vtkSmartPointer<vtkActor> body_actor();
-/// rings   corners of its stern and of its front; empty: no body
+/// Sets the body; `rings` are the corners of its stern and front, empty for no body.
 void set_body(vtkActor* actor, const std::array<Polyline, 2>& rings);
 
 }  // namespace insonify

@@ -1,4 +1,4 @@
-// Holes and normals of a scene: what tells whether a scan is good enough for a head.
+// Holes and normals of a scene, which show whether a scan is good enough for a head.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,7 +13,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t most_normals = 4000;
-constexpr double normal_length = 0.012;  // of the diagonal, at least; three spacings if that is more
+constexpr double normal_length = 0.012;  // of the diagonal; or three spacings, if longer
 
 Polyline normal_of(const SceneCloud& scene, std::uint32_t i, double least) {
   const Eigen::Vector3d place = scene.point[i].cast<double>();

@@ -29,7 +29,7 @@ namespace {
 constexpr const char* side_name = "surfel_side";
 constexpr std::size_t block = 1 << 16;
 
-// As VTK wants them: min and max of x, y, z; of no points: turned inside out.
+// Bounds in VTK's order: min and max of x, y, z; inverted if there are no points.
 std::array<double, 6> bounds_of(vtkDataArray* position, std::span<const std::uint32_t> drawn) {
   const float* coordinates = static_cast<vtkFloatArray*>(position)->GetPointer(0);
   std::array<float, 6> box = {1, -1, 1, -1, 1, -1};
@@ -50,7 +50,7 @@ vtkStandardNewMacro(SquareMapper);
 
 void SquareMapper::ComputeBounds() { std::copy(bounds.begin(), bounds.end(), Bounds); }
 
-// The vertex shader sizes each point: VTK itself knows only one size in pixels for all.
+// The vertex shader sizes each point; VTK supports only one size in pixels for all.
 void SquareMapper::ReplaceShaderPositionVC(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer,
                                            vtkActor* actor) {
   std::string source = shaders[vtkShader::Vertex]->GetSource();
@@ -86,7 +86,8 @@ void SquareMapper::SetMapperShaderParameters(vtkOpenGLHelper& helper, vtkRendere
   set("pixels_per_metre", growth * pixels);
   set("min_pixels", min_pixels);
   set("max_pixels", max_pixels);
-  // Depth in clip space is a w + depth_offset; nearer by the part `lift` of the distance, at the same place.
+  // Depth in clip space is a w + depth_offset; move it nearer by the fraction `lift` of the distance, at the same
+  // pixel.
   set("lift", lift < 1 ? depth_offset * lift / (1 - lift) : 0);
   set("in_front", lift < 1 ? 0 : 0.999);
 }
@@ -110,7 +111,7 @@ PointCloudArrays point_arrays(std::span<const Eigen::Vector3f> position, const s
   std::copy(side.begin(), side.end(), sides->GetPointer(0));
 
   PointCloudArrays arrays{places, sides, vtkSmartPointer<vtkUnsignedCharArray>::New()};
-  arrays.colours->SetNumberOfComponents(4);  // VTK takes these as they are; three it would copy
+  arrays.colours->SetNumberOfComponents(4);  // VTK uses four components directly but copies three
   arrays.colours->SetNumberOfTuples(count);
   return arrays;
 }
@@ -132,7 +133,7 @@ void set_colours(vtkUnsignedCharArray* to, std::span<const Rgb> colour) {
 }
 
 void set_points(vtkActor* actor, const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn) {
-  // All points as one cell: 4 bytes per point instead of 16.
+  // Store all points as one cell: 4 bytes per point instead of 16.
   vtkNew<vtkTypeInt32Array> ends, members;
   ends->SetNumberOfTuples(2);
   ends->SetValue(0, 0);

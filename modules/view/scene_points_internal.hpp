@@ -16,16 +16,16 @@
 
 namespace insonify {
 
-/// Draws points as squares that have a size in metres, and so grow as the camera comes nearer.
+/// Draws points as squares of a given size in metres, which appear larger as the camera approaches.
 class SquareMapper : public vtkOpenGLPolyDataMapper {
  public:
   static SquareMapper* New();
   vtkTypeMacro(SquareMapper, vtkOpenGLPolyDataMapper);
 
-  double growth = 1;                       ///< times the points' own side
+  double growth = 1;                       ///< factor on the points' own side
   double min_pixels = 2, max_pixels = 64;  ///< limits of a side
-  std::array<double, 6> bounds{};          ///< of the points drawn; VTK would look for them in every frame
-  double lift = 0;  ///< drawn as if nearer to the eye by this part of the distance; 1: in front of everything
+  std::array<double, 6> bounds{};          ///< of the points drawn; saves VTK a search in every frame
+  double lift = 0;  ///< draws points nearer to the eye by this fraction of the distance; 1: in front of everything
 
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
 
@@ -36,7 +36,7 @@ class SquareMapper : public vtkOpenGLPolyDataMapper {
   void SetMapperShaderParameters(vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;
 };
 
-/// Points of any number with what VTK needs to draw them. The positions are not copied and must stay where they are.
+/// Points with the arrays that VTK needs to draw them. Positions are not copied: they must stay valid and in place.
 struct PointCloudArrays {
   vtkSmartPointer<vtkDataArray> position;         ///< 3 floats each
   vtkSmartPointer<vtkDataArray> side;             ///< [m]
@@ -49,11 +49,11 @@ std::span<const float> sides_of(const PointCloudArrays& arrays);
 /// Overwrites the colours, one per point, and marks them as changed.
 void set_colours(vtkUnsignedCharArray* to, std::span<const Rgb> colour);
 
-/// An actor that draws the points listed in `drawn`. Actors may share arrays: the points are then held, and given to
-/// GL, once.
+/// An actor that draws the points listed in `drawn`. Actors may share arrays: the points are then stored, and uploaded
+/// to GL, only once.
 vtkSmartPointer<vtkActor> point_actor(const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
 
-/// Lets an actor made by point_actor draw other points, of the same arrays or of others.
+/// Makes an actor of point_actor draw other points, of the same or other arrays.
 void set_points(vtkActor* actor, const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
 
 /// The mapper of an actor made by point_actor.

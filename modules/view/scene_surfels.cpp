@@ -14,7 +14,7 @@ constexpr std::size_t block = 1 << 15;
 constexpr float largest = 2.5F;      // side, in medians
 constexpr double picking_reach = 2;  // [pixels]
 
-// Spreads ids, which come in runs, evenly over all numbers of 32 bits (the finalizer of MurmurHash3).
+// Hashes ids, which come in runs, evenly over all 32-bit numbers (the finalizer of MurmurHash3).
 std::uint32_t scattered(std::uint32_t id) {
   id ^= id >> 16;
   id *= 0x85ebca6bU;
@@ -23,7 +23,7 @@ std::uint32_t scattered(std::uint32_t id) {
   return id ^ (id >> 16);
 }
 
-// A candidate under the cursor: those that cover it come before those beside it, then the nearer.
+// A candidate under the cursor: surfels that cover it precede those beside it, then the nearer precede.
 struct Hit {
   bool beside = true;
   double distance = std::numeric_limits<double>::infinity();

@@ -40,7 +40,7 @@ void draw_grid(Canvas& canvas, const FanLayout& layout, double step) {
   canvas.add_lines(lines, thin, canvas.colours().line, 1);
 }
 
-// Anywhere in the picture but on its texts and the colour bar.
+// The whole picture except its texts and the colour bar.
 MarkRoom room_for_marks(const FanLayout& layout, const PictureOptions& options) {
   MarkRoom room;
   room.box = {0, static_cast<double>(options.width), 0, static_cast<double>(options.height)};
@@ -59,7 +59,7 @@ FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions
   const BeamCells cells = order_beams(image);
   const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
 
-  // Find a place for everything, then draw it.
+  // Lay out everything, then draw it.
   const FanLayout layout = lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale,
                                        unit_text(image.unit, cells));
   const double step = std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc

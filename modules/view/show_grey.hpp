@@ -7,11 +7,11 @@
 
 namespace insonify {
 
-/// Writes grey values (beams x bins) as a bare picture, one pixel each and nothing else: a column per beam by bearing,
+/// Writes grey values (beams x bins) as a picture of one pixel per sample: a column per beam ordered by bearing,
 /// starboard right, range upwards (the first row of the file is the farthest bin), as show_rect. Beams of equal azimuth
-/// stand side by side in the order of the fan. PNG or PGM (P5) by the path's ending, .png or .pgm, 8 or 16 bits by the
-/// type of the values. Throws Error(argument) for another ending, an empty picture, or one of another size than its fan;
-/// Error(file) if it cannot be written.
+/// are adjacent in the order of the fan. The extension selects PNG or PGM (P5), .png or .pgm; the type of the values 8
+/// or 16 bits. Throws Error(argument) for another extension, an empty picture, or a number of beams that is not the
+/// fan's; Error(file) if it cannot write.
 void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::string& path);
 void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* who = "show_panels";
 constexpr int min_width = 640, min_height = 480;
 constexpr double left_share = 0.56, lower_share = 0.42;  // of the picture
-constexpr double smaller_font = 0.85;                    // than that of a picture of one drawing
+constexpr double smaller_font = 0.85;                    // relative to a picture of a single drawing
 
 // Options of a drawing that fills a box.
 PictureOptions options_for(const Box& box, const PictureOptions& options, int font_size) {
@@ -27,7 +27,7 @@ PictureOptions options_for(const Box& box, const PictureOptions& options, int fo
   return smaller;
 }
 
-// Names in one column, values in the next, from the top; the rows share the height that there is.
+// Names in one column, values in the next, from the top; the rows share the available height.
 void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, const PictureOptions& options) {
   const int font = options.font_size;
   const double row =

@@ -41,7 +41,7 @@ void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std:
     fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
          " dB");
 
-  // Head axes count to port; bearings in pictures count to starboard.
+  // Azimuths in head axes are positive to port, bearings in pictures to starboard.
   for (const double a : azimuth) chart.x.push_back(-degrees(a));
   const double floor_db = chart.low_y - (chart.high_y - chart.low_y);
   for (const double level : level_db) chart.y.push_back(std::max(level, floor_db));

@@ -15,7 +15,7 @@
 namespace insonify {
 namespace {
 
-// Where the scene goes, and what stands around it.
+// The box of the scene, and the colour bars and legend around it.
 struct SceneFrame {
   Box scene;
   std::optional<PlacedText> title;
@@ -23,7 +23,7 @@ struct SceneFrame {
   std::vector<std::pair<PlacedText, Rgb>> legend;
 };
 
-// A legend in rows at the foot of the picture, each in the middle; gives back its top.
+// A legend in centred rows at the bottom of the picture; returns its top.
 double lay_out_legend(SceneFrame& frame, const std::vector<LegendEntry>& entries, double width, int font) {
   const double patch = 1.5 * font, gap = 1.5 * font, room = width - 2.0 * font;
   std::vector<std::vector<std::pair<PlacedText, Rgb>>> rows(1);
@@ -51,7 +51,7 @@ double lay_out_legend(SceneFrame& frame, const std::vector<LegendEntry>& entries
   return top;
 }
 
-// A colour bar at the right, that of the soundings below if the place is taken; a legend below.
+// A colour bar at the right, that of the soundings below if the right is taken; a legend below.
 SceneFrame lay_out_frame(const SceneKey& key, const std::optional<SceneKey>& soundings, const PictureOptions& options) {
   const int font = font_size_for(options);
   const double margin = font;
@@ -102,7 +102,7 @@ void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOpt
   const int font = font_size_for(options);
   const SceneFrame frame = lay_out_frame(actors.key(), actors.soundings_key(), options);
 
-  // The canvas with its texts lies on top; below it an empty background, and the scene in its own part.
+  // Layers from the top: the canvas with its texts, the scene in its own box, an empty background.
   Canvas canvas(options, who);
   vtkRenderWindow* window = canvas.renderer()->GetRenderWindow();
   window->SetNumberOfLayers(2);

@@ -16,11 +16,11 @@
 
 namespace insonify {
 
-/// What the colour of a surfel says.
+/// The quantity shown by the colour of the surfels.
 enum class SceneColour {
   height,      ///< world z [m]
-  material,    ///< one colour per material, with their names
-  visibility,  ///< what the head sees of it
+  material,    ///< one colour per material, with a legend
+  visibility,  ///< visible, hidden, turned away or outside the fan
   level,       ///< [dB]
   grazing,     ///< angle between the surface and the ray from the head [deg]
   incidence    ///< angle between the normal and the ray from the head [deg]
@@ -33,7 +33,7 @@ struct SceneHead {
   RangeGate gate;
 };
 
-/// From where a scene is looked at.
+/// Predefined camera positions.
 enum class ScenePreset {
   automatic,  ///< `behind` if there is a head, else `iso`
   behind,     ///< behind the head and above it, along its heading; port is on the left
@@ -46,37 +46,37 @@ struct SceneCamera {
   std::optional<Eigen::Vector3d> position, focal_point;  ///< [m, world]; both or neither, instead of the preset
 };
 
-/// What is drawn of a scene, and how. Empty means: not drawn, or not known.
+/// The contents and style of a picture of a scene. Empty members are not drawn.
 struct SceneLook {
   SceneColour colour = SceneColour::height;
-  std::vector<float> level_db;             ///< per surfel; NaN: none, drawn grey
+  std::vector<float> level_db;             ///< per surfel; NaN: unknown, drawn grey
   std::string level_unit = "dB re 1 µPa";  ///< of level_db and of the soundings
   std::vector<Visibility> visibility;      ///< per surfel, see find_visibility
-  std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, footprint on the
-      ///< scene: of the elevation width, narrower than what find_visibility looks at
-  Soundings soundings;                     ///< points in the colour of their level
-  std::vector<std::uint32_t> highlighted;  ///< surfels marked, in front of everything
-  std::vector<Eigen::Vector3d> holes;      ///< where the scan has holes [m, world], see find_holes: red points
-  bool normals = false;                    ///< of some 4000 surfels, as lines; of both sides if they have none
+  std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, and footprint on the scene;
+  ///< drawn with the elevation width, which is narrower than the region of find_visibility
+  Soundings soundings;                     ///< points coloured by level
+  std::vector<std::uint32_t> highlighted;  ///< marked surfels, drawn in front of everything
+  std::vector<Eigen::Vector3d> holes;      ///< holes of the scan [m, world], see find_holes; red points
+  bool normals = false;                    ///< normals of some 4000 surfels as lines; on both sides if not oriented
   SceneCamera camera;
   double point_size = 1.4;               ///< side of a drawn surfel in units of its spacing sqrt(area)
   bool axes = true;                      ///< box and floor grid, labelled in world metres
-  std::size_t most_surfels = 2'000'000;  ///< a larger scene is drawn thinned, evenly; 0: draw all
+  std::size_t most_surfels = 2'000'000;  ///< larger scenes are thinned evenly; 0: draw all
 };
 
-/// Draws a scene in perspective into a PNG, without an X server: surfels as squares of their own size, shaded by their
-/// normals where the colour leaves room for it (height, material, visibility), with colour bar or legend, axes and title.
-/// Levels and angles are in exactly the colours of their bar. Up is world z, up in the picture (`top`: world y).
+/// Draws a scene in perspective into a PNG, without an X server: surfels as squares of their own size, with colour bar
+/// or legend, axes and title. Colours of height, material and visibility are shaded by the normals; those of levels and
+/// angles are exactly the colours of the bar. World z points up in the picture (`top`: world y).
 ///
-/// options.colour_map, min_db, max_db and window_db are those of levels; heights and angles are in viridis.
-/// Above look.most_surfels the surfels drawn are chosen by their ids alone and grow to close the gaps. Positions are
-/// drawn relative to scene.origin: a scene in UTM coordinates looks as it does at zero. Two renderings on one machine
+/// options.colour_map, min_db, max_db and window_db apply to levels; heights and angles use viridis. Of scenes above
+/// look.most_surfels a subset chosen by the ids alone is drawn, with larger squares to close the gaps. Positions are
+/// drawn relative to scene.origin: a scene in UTM coordinates looks the same as at zero. Two renderings on one machine
 /// have the same bytes.
 ///
 /// Written to a temporary name, then renamed. Throws Error(content) for a scene without surfels; Error(argument) if
-/// level_db or visibility have another length than the scene, a highlighted surfel is not in it, grazing or incidence is
-/// asked for without a head, visibility without `visibility`, half a camera is given, point_size is not positive, or as show_fan
-/// does for picture options; Error(runtime) and Error(file) as show_fan.
+/// level_db or visibility have another length than the scene, a highlighted surfel is not in it, the colour is grazing
+/// or incidence without a head or visibility without `visibility`, only one of the camera's points is given, point_size
+/// is not positive, or, as show_fan, for picture options; Error(runtime) and Error(file) as show_fan.
 void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                 const std::string& png_path);
 

@@ -37,7 +37,7 @@ ChartLine in_decibels(const SpectrumLine& line) {
   return chart;
 }
 
-// Multiples of 5 dB around all levels, at most `window_db` apart below the upper one.
+// Multiples of 5 dB around all levels, at most `window_db` apart.
 std::pair<double, double> limits_of(const std::vector<ChartLine>& lines, double window_db) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const ChartLine& line : lines) {
@@ -68,7 +68,7 @@ void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const
     fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
          " dB");
 
-  // Silence is drawn below the chart.
+  // Zero density is drawn below the chart.
   for (ChartLine& line : all)
     for (double& level : line.y) level = std::max(level, 2 * chart.low_y - chart.high_y);
   for (std::size_t i = 1; i < all.size(); ++i) all[i].style = LineStyle::dashed;

@@ -13,10 +13,11 @@ struct SpectrumLine {
   std::string name;               ///< in the legend
 };
 
-/// Draws densities [dB re 1 µPa²/Hz] against frequency [kHz] as a chart with a legend, the first one as a line and the
-/// others dashed over it. min_db and max_db limit the level axis; by themselves they are the next multiples of 5 dB
-/// beyond the highest and the lowest of all lines, at most window_db apart. See show_fan for files; Error(argument) unless there is a line, each of at least two points,
-/// with finite ascending frequencies, as many densities, and none of them negative or NaN.
+/// Draws densities [dB re 1 µPa²/Hz] against frequency [kHz] as a chart with a legend, the first one as a solid line
+/// and the others dashed over it. min_db and max_db limit the level axis; defaults are the next multiples of 5 dB
+/// beyond the extremes of all lines, at most window_db apart. Files as show_fan; Error(argument) unless there is at
+/// least one line, each with at least two points, finite ascending frequencies, as many densities, and none of them
+/// negative or NaN.
 void show_spectrum(const std::vector<SpectrumLine>& lines, const PictureOptions& options, const std::string& png_path);
 
 }  // namespace insonify

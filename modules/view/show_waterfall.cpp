@@ -26,7 +26,7 @@ void require_history(const PingHistory& history, const PictureOptions& options) 
   require_picture_size(options, who);
 }
 
-// Numbers of pings in the middle of their rows: round ones if they count up by one, else every so many.
+// Ping numbers at the centres of their rows: round ones if numbers are consecutive, else at regular intervals.
 AxisTicks ping_ticks(const PingHistory& history, double most) {
   const auto& number = history.number;
   const auto rows = static_cast<double>(number.size());
@@ -63,7 +63,7 @@ void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOpt
                     [&](double pixels) { return ping_ticks(history, std::min(12.0, pixels / (2.5 * font))); }};
   const CellFrame frame = lay_out_cell_frame(across, up, scale, history.unit, options);
 
-  // A ping is drawn as a beam is in show_rect, lying on its side.
+  // A ping is drawn like a beam of show_rect, rotated by a quarter turn.
   BeamCells rows;
   rows.level_db = history.level_db;
   for (double edge = 0; edge <= pings; ++edge) rows.edges.push_back(edge);

@@ -16,10 +16,10 @@ struct PingHistory {
   std::string unit;      ///< of the colour bar, as LevelImage::unit
 };
 
-/// Draws pings x range as sonar operators see it: one row per ping, the newest on top, so that the past flows down; range
-/// to the right; colour bar, title. Rows are of equal height whatever the time between pings, and labelled by the ping's
-/// number. Rows and bins smaller than half a pixel are combined by mean power, as in show_fan. See there for files and
-/// errors; Error(argument) too for fewer than two pings, or as many numbers, times and rows as do not agree.
+/// Draws pings x range as a waterfall: one row per ping, the newest on top; range to the right; colour bar, title. Rows
+/// have equal height whatever the time between pings and are labelled by ping number. Rows and bins smaller than half a
+/// pixel are averaged in power, as in show_fan. Files and errors as show_fan; also Error(argument) for fewer than two
+/// pings, or if numbers, times and rows are not equally many.
 void show_waterfall(const PingHistory& history, const PictureOptions& options, const std::string& png_path);
 
 }  // namespace insonify

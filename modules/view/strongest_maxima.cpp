@@ -12,14 +12,14 @@ namespace insonify {
 namespace {
 
 constexpr const char* who = "strongest_maxima";
-constexpr double least_distance = 0.05;  // of marks, as a share of the outer range
+constexpr double least_distance = 0.05;  // between marks, as a fraction of the outer range
 
 struct Maximum {
   Eigen::Index row = 0, bin = 0;
   float level_db = 0;
 };
 
-// Of equal neighbours the first one counts.
+// Of equal neighbours only the first is a maximum.
 bool is_maximum(const Grid<float>& level_db, Eigen::Index row, Eigen::Index bin) {
   const float level = level_db(row, bin);
   for (Eigen::Index r = std::max<Eigen::Index>(0, row - 1); r <= std::min(row + 1, level_db.rows() - 1); ++r)

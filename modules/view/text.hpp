@@ -10,8 +10,8 @@ struct TextSize {
 };
 TextSize text_size(const std::string& text, int font_size);
 
-/// The text at a font size <= `font_size` at which it fits into `width` [pixels]: at seven tenths of it, it
-/// is cut short with "..." instead of being shrunk further.
+/// The text at a font size <= `font_size` at which it fits into `width` [pixels]; below seven tenths of `font_size` the
+/// text is shortened with "..." instead.
 struct FittedText {
   std::string text;
   int font_size = 0;

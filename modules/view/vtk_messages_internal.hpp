@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// For as long as it lives: keeps what VTK would print (stderr stays quiet), and lets one thread draw at a
-/// time, because VTK's text renderer and message window exist once per process.
+/// During its lifetime, collects what VTK would print to stderr and lets only one thread draw, because VTK's text
+/// renderer and message window exist once per process.
 class VtkMessages {
  public:
   VtkMessages();

@@ -8,11 +8,11 @@
 
 namespace insonify {
 
-/// Writes what the window shows, which was drawn into its back buffer, as PNG: to a temporary name that is then renamed.
-/// Throws Error(runtime) if VTK has complained, Error(file) if it cannot be made or written.
+/// Writes the window's back buffer as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK
+/// reported an error, Error(file) if the file cannot be written.
 void save_window(vtkRenderWindow* window, const std::string& path, const VtkMessages& messages, const char* who);
 
-/// The same of what `writer` was given.
+/// The same for the input of `writer`.
 void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who);
 
 }  // namespace insonify

@@ -2,7 +2,7 @@
 
 #include "viewer/viewer_window_internal.hpp"
 
-// After VTK's headers: Xlib defines macros of common words.
+// Include Xlib after VTK's headers, because it defines common words as macros.
 #include <X11/Xlib.h>
 
 namespace insonify {

@@ -1,4 +1,4 @@
-// What is under a place in a ViewerWindow, and what a click there selects.
+// Picking in a ViewerWindow: what a click selects.
 #include <vtkCamera.h>
 
 #include "viewer/viewer_window_internal.hpp"
@@ -7,7 +7,7 @@ namespace insonify {
 
 Point2 ViewerWindow::on_panel(const Box& box, Point2 place) const { return {place.x - box.left, place.y - box.bottom}; }
 
-// The fan's camera may have been moved: from the window to the plane it looks at.
+// Converts a place in the window to the fan's plane, since its camera may have moved.
 Point2 ViewerWindow::on_fan(Point2 place) const {
   const Point2 own = on_panel(layout_.fan, place);
   vtkCamera* camera = fan_.content->GetActiveCamera();

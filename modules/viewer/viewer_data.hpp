@@ -12,24 +12,24 @@
 
 namespace insonify {
 
-/// What the viewer shows. Of a run: pings, and as much of the rest as there is. To inspect: scene, fan and gate.
+/// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
 struct ViewerData {
   std::string title;
   std::vector<Ping> pings;                  ///< all with the same fan and gate
   double absorption_db_per_m = 0;           ///< for range compensation
-  std::vector<Contributors> contributors;   ///< one per ping, empty where not known; or none at all
-  std::vector<std::string> material_names;  ///< by index, for contributors of a scene that is not there; or none
+  std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
+  std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
   Soundings returns;                        ///< of all pings
   SceneCloud scene;                         ///< may be empty
   BeamFan fan;                              ///< to inspect
   RangeGate gate;                           ///< to inspect
 };
 
-/// Throws Error(content) unless the pings have one fan and one gate that fit their samples, lists per ping are as many as
-/// pings, and a scene to inspect has surfels.
+/// Throws Error(content) unless all pings have the same fan and gate, matching their samples, per-ping lists have one
+/// element per ping, and a scene to inspect has surfels.
 void require_viewable(const ViewerData& data, ViewerMode mode);
 
-/// What can be chosen in it.
+/// Numbers of pings, beams and bins.
 ViewerExtent extent_of(const ViewerData& data);
 
 }  // namespace insonify

@@ -1,4 +1,4 @@
-// How a ViewerWindow draws its state: only what has changed.
+// Drawing of a ViewerWindow's state, restricted to what has changed.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr const char* who = "show_viewer";
-constexpr double slider_rows = 13;  // of text, that the sliders take up
+constexpr double slider_rows = 13;  // lines of text that the sliders occupy
 
 bool same_levels(const ViewerState& a, const ViewerState& b) {
   return a.ping == b.ping && a.tvg == b.tvg && a.gain_db == b.gain_db && a.window_db == b.window_db &&
@@ -23,7 +23,7 @@ bool same_head(const HeadPlace& a, const HeadPlace& b) {
   return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
 }
 
-// The table of keys on a plate in the middle.
+// Draws the table of keys on a plate in the middle.
 void draw_help(Canvas& canvas, ViewerMode mode, const Box& room, int font) {
   const std::vector<ViewerKey> keys = viewer_keys(mode);
   const double row = 1.6 * font, height = row * static_cast<double>(keys.size() + 3), width = 46.0 * font;
@@ -52,7 +52,7 @@ PictureOptions ViewerWindow::options_for(const Box& box) const {
   return options;
 }
 
-// The sample whose beam and range the charts show: the one selected, else the loudest of the middle beam.
+// The sample whose beam and range the charts show: the selected one, else the strongest of the middle beam.
 PixelPlace ViewerWindow::shown_place() const {
   if (state_.selected) return *state_.selected;
   PixelPlace place{extent_.beams / 2, 0};
@@ -62,7 +62,7 @@ PixelPlace ViewerWindow::shown_place() const {
   return place;
 }
 
-// What stands behind the numbers of the state, where they have changed.
+// Updates the data selected by the state where it has changed.
 void ViewerWindow::update_data() {
   if (state_.mode == ViewerMode::inspect) {
     if (!head_view_ || !drawn_ || !same_head(drawn_->head, state_.head))
@@ -157,7 +157,7 @@ void ViewerWindow::draw_words() {
   add_text_lines(status, status_text(),
                  {font * 1.0, status_options.width - 1.0 * font, 0, status_options.height - 0.25 * font}, font);
 
-  // Over all of it: help, or the borders of the panels.
+  // On top of everything: help, or the borders of the panels.
   const Box whole{0, layout_.facts.right, 0, layout_.facts.top};
   Canvas over = fresh_canvas(help_.content, panel_options(whole, font), false);
   if (state_.show_help) return draw_help(over, state_.mode, whole, font);

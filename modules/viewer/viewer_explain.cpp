@@ -21,10 +21,10 @@ std::string text_of(const char* format, Numbers... numbers) {
   return text;
 }
 
-// Angle between two azimuths, without sign.
+// Absolute angle between two azimuths.
 double azimuth_gap(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
 
-// A beam's share of the fan: halfway to its neighbours in azimuth, in elevation the width that it hears.
+// A beam's share of the fan: halfway to its neighbours in azimuth, and its width in elevation.
 struct BeamReach {
   double left, right;  // of its azimuth, positive [rad]
   double up;           // [rad]
@@ -36,14 +36,14 @@ BeamReach reach_of(const BeamFan& fan, std::size_t beam) {
     if (gap > 1e-9) left = std::min(left, gap);
     if (gap < -1e-9) right = std::min(right, -gap);
   }
-  // The outermost beams reach outwards as far as inwards; a lone one as far as it hears.
+  // The outermost beams extend outwards as far as inwards; a single one by its width.
   if (std::isinf(left)) left = right;
   if (std::isinf(right)) right = left;
   if (std::isinf(left)) left = right = fan.beam_width;
   return {left / 2, right / 2, fan.row_width > 0 ? fan.row_width / 2 : fan.elevation_width};
 }
 
-// Surfels whose centre lies in the beam's share and the bin.
+// Surfels whose centre lies in the beam's share of the fan and in the bin.
 std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
   const HeadFrame head(scene, ping.world_from_head);
   const double azimuth = ping.fan.azimuth[place.beam], elevation = ping.fan.elevation[place.beam];
@@ -73,7 +73,7 @@ void find_occluder(const SceneCloud& scene, const Ping& ping, PixelVisibility& v
   std::vector<const GatedSurfel*> behind;
   for (const GatedSurfel& s : gated)
     if (std::binary_search(visibility.hidden.begin(), visibility.hidden.end(), s.surfel)) behind.push_back(&s);
-  constexpr std::size_t enough = 64;  // they stand side by side: what hides one hides most
+  constexpr std::size_t enough = 64;  // adjacent surfels mostly share an occluder
   if (behind.size() > enough) behind.resize(enough);
   float nearest = std::numeric_limits<float>::infinity();
   for (const GatedSurfel& front : gated)
@@ -145,7 +145,7 @@ std::string visibility_lines(const PixelVisibility& visibility, const std::strin
   if (!seen_material.empty()) text += " (" + seen_material + ")";
   text += text_of(",\n  %zu hidden, %zu turned away\n", visibility.hidden.size(), visibility.turned_away);
   if (visibility.occluder_range)
-    text += text_of("Shadow: hidden by what stands at %.3f m\n", *visibility.occluder_range);
+    text += text_of("Shadow: occluded by a surfel at %.3f m\n", *visibility.occluder_range);
   return text;
 }
 

@@ -13,10 +13,10 @@ namespace insonify {
 namespace {
 
 constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
-constexpr std::size_t pings_looked_at = 16;   // for the common scale
-constexpr std::size_t longest_history = 600;  // pings of the waterfall
+constexpr std::size_t sampled_pings = 16;     // for the common scale
+constexpr std::size_t longest_history = 600;  // pings in the waterfall
 
-// The levels of one beam, ping after ping, ending with the current one if there are many.
+// The levels of one beam over the pings, ending with the current one if there are too many.
 PingHistory history_of(const ViewerData& data, std::size_t beam, bool tvg, const std::string& unit) {
   const std::size_t count = std::min(data.pings.size(), longest_history);
   PingHistory history;
@@ -101,7 +101,7 @@ LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
 }
 
 double common_max_db(const ViewerData& data, bool tvg) {
-  const std::size_t step = std::max<std::size_t>(1, data.pings.size() / pings_looked_at);
+  const std::size_t step = std::max<std::size_t>(1, data.pings.size() / sampled_pings);
   double highest = -1e300;
   for (std::size_t i = 0; i < data.pings.size(); i += step)
     highest = std::max(highest, colour_scale(levels_of(data, i, tvg).level_db, {}, "show_viewer").max_db);
@@ -115,7 +115,7 @@ FanLayout draw_fan_panel(ViewerPanel& panel, const LevelImage& image, const Pict
 
 Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t beam, const PictureOptions& options) {
   PictureOptions own = options;
-  own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // the beam's own
+  own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // automatic limits of this beam
   Canvas canvas = fresh_canvas(panel.content, own, false);
   return draw_ascan(canvas, image, beam, own);
 }

@@ -6,23 +6,23 @@
 
 namespace insonify {
 
-/// Levels of one ping as the state wants them.
+/// Levels of one ping, range compensated if `tvg`.
 LevelImage levels_of(const ViewerData& data, std::size_t ping, bool tvg);
 
-/// Highest level of the automatic colour scale over the pings of a run: one for all, so that playing does not flicker.
+/// Highest level of the automatic colour scale, common to all pings of a run so that playing does not flicker.
 double common_max_db(const ViewerData& data, bool tvg);
 
-/// Draw into emptied panels; fan and chart give back where they lie. `options` carry size, colours and limits.
+/// Draw into emptied panels; fan and chart return their layout. `options` gives size, colours and limits.
 FanLayout draw_fan_panel(ViewerPanel& panel, const LevelImage& image, const PictureOptions& options, bool keep_camera);
 Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t beam, const PictureOptions& options);
-/// Several pings: waterfall of the beam. One: levels across the beams at the bin.
+/// Draws a waterfall of the beam, or, for a single ping, the levels across the beams at the bin.
 void draw_history_panel(ViewerPanel& panel, const ViewerData& data, const LevelImage& image, PixelPlace place, bool tvg,
                         const PictureOptions& options);
 
-/// What is selected: a ring on the fan with its bearing and its arc of equal range; the measure with its length.
+/// Marks the selected sample by a ring, its bearing line and range arc, and the measured distance with its length.
 void mark_fan(ViewerPanel& panel, const LevelImage& image, const FanLayout& layout, const ViewerState& state,
               const PictureOptions& options);
-/// An upright line at the range of the bin.
+/// Draws a vertical line at the range of the selected bin.
 void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
                 const PictureOptions& options);
 

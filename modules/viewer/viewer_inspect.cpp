@@ -27,7 +27,7 @@ const char* visibility_text(Visibility visibility) {
     case Visibility::seen:
       return "seen";
     case Visibility::hidden:
-      return "hidden by what stands before it";
+      return "hidden by a nearer surface";
     case Visibility::turned_away:
       return "turned away";
     case Visibility::outside:

@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// Which part of the viewer's window shows what, in pixels from its lower left corner. Panels that are not there are
-/// empty; the others tile the window.
+/// Boxes of the panels, in pixels from the lower left corner of the window. Absent panels are empty; the others tile
+/// the window.
 struct ViewerLayout {
   int font_size = 0;
   Box fan;      ///< the ping in true geometry
@@ -19,12 +19,12 @@ struct ViewerLayout {
   Box status;   ///< one line
 };
 
-/// Names of the panels, as scripts call them.
+/// Names of the panels in scripts.
 enum class ViewerPanelName { fan, scene, ascan, history, facts, status };
 const Box& box_of(const ViewerLayout& layout, ViewerPanelName name);
 
-/// Lays out a window of so many pixels; `with_scene`: there is something to show in 3-D. Throws Error(argument) for a
-/// window smaller than 800 x 600 or larger than 8192 either way.
+/// Layout of a window of width x height pixels; `with_scene` adds the 3-D panel. Throws Error(argument) for a window
+/// smaller than 800 x 600 or larger than 8192 pixels in either direction.
 ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, bool with_scene);
 
 /// The panel at a place in the window.

@@ -52,7 +52,7 @@ Canvas fresh_canvas(vtkRenderer* renderer, const PictureOptions& options, bool k
   return canvas;
 }
 
-// Below the canvas's own heights, so that all of it stands on the plate, whatever is added first.
+// The plate lies below the canvas's own heights, and so behind everything else in any order of drawing.
 void add_plate(Canvas& canvas, const Box& box, const Colour& colour, double opacity) {
   constexpr double height = -1;
   vtkNew<vtkPoints> points;

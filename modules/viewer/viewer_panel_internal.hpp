@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// A part of the window: what it shows, and above it marks that come and go without that being drawn anew.
+/// A part of the window: its content, and marks above it that change without redrawing the content.
 struct ViewerPanel {
   vtkSmartPointer<vtkRenderer> content, marks;
 };
@@ -16,19 +16,19 @@ struct ViewerPanel {
 /// Two renderers in the window's lower and upper layer.
 ViewerPanel add_panel(vtkRenderWindow* window);
 
-/// Puts a panel into its box; an empty box hides it.
+/// Places a panel in its box; an empty box hides it.
 void place_panel(ViewerPanel& panel, const Box& box, const int window_size[2]);
 
 /// Options of a drawing that fills a box of a dark window.
 PictureOptions panel_options(const Box& box, int font_size);
 
-/// An emptied renderer to draw on. keep_camera: as the user left it.
+/// An emptied renderer to draw on. keep_camera keeps the user's camera.
 Canvas fresh_canvas(vtkRenderer* renderer, const PictureOptions& options, bool keep_camera);
 
-/// A filled rectangle behind everything else on the canvas.
+/// Adds a filled rectangle behind everything else on the canvas.
 void add_plate(Canvas& canvas, const Box& box, const Colour& colour, double opacity);
 
-/// Lines of text from the top of a box, cut to its width; none below its bottom.
+/// Adds lines of text from the top of a box, truncated to its width; lines below its bottom are omitted.
 void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int font_size);
 
 }  // namespace insonify

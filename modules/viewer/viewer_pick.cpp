@@ -8,10 +8,10 @@
 namespace insonify {
 namespace {
 
-// The beams drawn in the cell at a bearing: those nearest to it that share a cell with the nearest one.
+// The strongest of the beams drawn in the cell at a bearing, which share a cell with the nearest beam.
 std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing, Eigen::Index bin) {
   const BeamCells cells = order_beams(image);
-  const auto turned = [&](double angle) {  // into the fan's own turn
+  const auto turned = [&](double angle) {  // wraps an angle into the fan's interval
     const double middle = (cells.low() + cells.high()) / 2;
     return middle + std::remainder(angle - middle, 2 * pi);
   };

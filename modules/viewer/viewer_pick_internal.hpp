@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// Where a place on a fan picture lies: bearing [rad], positive to starboard, and range [m].
+/// Polar coordinates on a fan picture: bearing [rad], positive to starboard, and range [m].
 struct FanPlace {
   double bearing = 0, range = 0;
 };
@@ -19,8 +19,8 @@ FanPlace fan_place(const FanLayout& layout, Point2 place);
 /// The same place in metres to starboard and forward of the head.
 Eigen::Vector2d metres_on_fan(FanPlace place);
 
-/// The cell that is drawn there: the beam that is nearest in azimuth and the bin; of beams that share a cell the one that
-/// is drawn, the strongest. None outside the fan.
+/// The sample drawn at a place: the nearest beam in azimuth and the bin; of beams that share a cell the strongest,
+/// which is the one drawn. None outside the fan.
 std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place);
 
 /// The bin at a place on a chart of levels against range; none outside its frame.

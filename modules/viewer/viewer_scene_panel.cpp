@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* who = "show_viewer";
 
-// Returns as a scene of their own, for runs whose scene is not there.
+// The returns as a scene, for runs whose scene is missing.
 SceneCloud scene_of_returns(const Soundings& returns) {
   SceneCloud scene;
   scene.origin = returns.position.front().array().round();
@@ -22,7 +22,7 @@ SceneCloud scene_of_returns(const Soundings& returns) {
   return scene;
 }
 
-// Those of one ping, range compensated (E20). Pings are told by number, or, if none has it, by their place in the run.
+// The returns of one ping, range compensated (E20). Pings are matched by number, or, if none matches, by their index.
 Soundings returns_of(const ViewerData& data, std::size_t ping) {
   const Soundings& all = data.returns;
   const auto count_of = [&](std::int64_t number) { return std::count(all.ping.begin(), all.ping.end(), number); };
@@ -53,7 +53,7 @@ const char* colour_text(SceneColour colour) {
     case SceneColour::material:
       return "material";
     case SceneColour::visibility:
-      return "what the head sees";
+      return "visibility";
     case SceneColour::level:
       return "level";
     case SceneColour::grazing:
@@ -64,7 +64,7 @@ const char* colour_text(SceneColour colour) {
   return "";
 }
 
-// A square of each colour and its name, from the top left corner down, on a plate.
+// Draws a square of each colour and its name on a plate, from the top left corner downwards.
 void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double top, int font) {
   const double row = 1.5 * font, left = font;
   double widest = 0;
@@ -144,7 +144,7 @@ void ViewerScene::draw_key(const PictureOptions& options, const ViewerState& sta
   Canvas canvas = fresh_canvas(panel_.marks, options, false);
   const int font = options.font_size;
   PictureOptions titled = options;
-  titled.title = std::string(own_ ? "Returns (the scene is not there)" : "Scene") + " by " +
+  titled.title = std::string(own_ ? "Returns (scene missing)" : "Scene") + " by " +
                  colour_text(actors_->look().colour) + (data_.returns.size() > 0 && !own_ ? ", returns by level" : "");
   const auto title = place_title(titled);
   if (title) canvas.add_text(*title);

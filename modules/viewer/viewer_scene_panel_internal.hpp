@@ -11,29 +11,30 @@
 
 namespace insonify {
 
-/// The 3-D panel: the scene, or, without one, the returns; the head, the returns of the ping, what is selected.
+/// The 3-D panel: the scene, or, without one, the returns; the head, the returns of the ping, and the selection.
 class ViewerScene {
  public:
   /// `data` and `panel` must outlive it.
   ViewerScene(const ViewerData& data, ViewerPanel& panel, const ViewerState& state, const PictureOptions& options);
 
-  /// Brings the panel to a state; `view` is what the head sees, if it is known; `max_db` the brightest range compensated
-  /// level: that of the returns, whatever the fan shows, so that near and far ones compare.
+  /// Updates the panel to a state. `view` is the visibility from the head, or null; `max_db` the brightest
+  /// range-compensated level of the returns, which are always range compensated so that near and far ones are
+  /// comparable.
   void update(const ViewerState& state, const HeadView* view, double max_db);
   void highlight(const std::vector<std::uint32_t>& surfels);
-  /// Title and colour key, on an emptied upper layer.
+  /// Draws title and colour key on an emptied upper layer.
   void draw_key(const PictureOptions& options, const ViewerState& state);
   void reset_camera();
   void set_moving(bool moving);
-  void follow_camera();  ///< before drawing, when the camera has moved
-  /// The surfel of data.scene, or the place in the world, at a place in the window.
+  void follow_camera();  ///< call before drawing if the camera has moved
+  /// The surfel of data.scene, or the world position, at a place in the window.
   std::optional<std::uint32_t> surfel_at(Point2 place) const;
   std::optional<Eigen::Vector3d> world_at(Point2 place) const;
 
-  /// Where a point of the world is drawn [pixels of the window].
+  /// Place in the window where a point of the world is drawn [pixels].
   Point2 pixel_of(const Eigen::Vector3d& world) const;
 
-  static bool has_something(const ViewerData& data) { return data.scene.size() > 0 || data.returns.size() > 0; }
+  static bool has_content(const ViewerData& data) { return data.scene.size() > 0 || data.returns.size() > 0; }
 
  private:
   const SceneCloud& shown() const { return own_ ? *own_ : data_.scene; }

@@ -6,18 +6,18 @@
 
 namespace insonify {
 
-/// One thing a user does, for pictures and tests of the viewer.
+/// A user action, for pictures and tests of the viewer.
 struct ViewerEvent {
   enum class Kind { click, drag, key, select, wait, screenshot, quit };
   Kind kind = Kind::quit;
   ViewerPanelName panel = ViewerPanelName::fan;  ///< of click and drag
-  Point2 from, by;                               ///< [pixels] from the panel's lower left corner; `by`: of drag
-  PixelPlace place;                              ///< of select
-  double seconds = 0;                            ///< of wait
-  std::string text;                              ///< name of the key, or file of the screenshot
+  Point2 from, by;     ///< [pixels] from the panel's lower left corner; `by`: displacement of drag
+  PixelPlace place;    ///< of select
+  double seconds = 0;  ///< of wait
+  std::string text;    ///< name of the key, or file of the screenshot
 };
 
-/// Events from text, separated by semicolons or ends of lines; # starts a comment:
+/// Parses events separated by semicolons or line ends; # starts a comment:
 ///   click PANEL X Y; drag PANEL X Y DX DY; key NAME; select BEAM BIN; wait SECONDS; screenshot FILE.png; quit
 /// PANEL is fan, scene, ascan, history or facts. Throws Error(argument) naming the event.
 std::vector<ViewerEvent> parse_viewer_script(const std::string& text);

@@ -53,7 +53,7 @@ ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor*
       moved_(std::move(moved)) {
   renderer_->SetLayer(1);
   renderer_->InteractiveOff();
-  renderer_->GetActiveCamera();  // made by asking for it; places on the window are worked out through it
+  renderer_->GetActiveCamera();  // creates it; window coordinates are computed through it
   window->AddRenderer(renderer_);
   for (const auto& slider : slider_) {
     slider->SetInteractor(interactor);
@@ -73,7 +73,7 @@ void ViewerSliders::place(const Box& room, const int window_size[2], int font_si
     shape->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
     shape->GetPoint1Coordinate()->SetValue(room.left / width, y / height);
     shape->GetPoint2Coordinate()->SetValue(room.right / width, y / height);
-    // Heights of letters in parts of the window.
+    // Letter heights are fractions of the window.
     shape->SetTitleHeight(font_size / height);
     shape->SetLabelHeight(font_size / height);
   }

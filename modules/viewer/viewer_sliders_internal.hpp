@@ -15,7 +15,7 @@ namespace insonify {
 /// Two sliders, gain and window of the levels, over everything else.
 class ViewerSliders {
  public:
-  /// `moved` gets gain and window [dB] whenever the user moves one.
+  /// `moved` is called with gain and window [dB] when the user moves a slider.
   ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor* interactor,
                 std::function<void(double gain_db, double window_db)> moved);
 

@@ -39,7 +39,7 @@ void step_selection(ViewerState& state, int beams, int bins, const ViewerExtent&
   state.selected = PixelPlace{moved(from.beam, beams, extent.beams), moved(from.bin, bins, extent.bins)};
 }
 
-// Along the head's heading and across it, level; then up.
+// Moves the head horizontally along and across its heading, then up.
 void move_head(ViewerState& state, double forward, double port, double up) {
   const double c = std::cos(state.head.yaw), s = std::sin(state.head.yaw);
   state.head.position += state.stride * Eigen::Vector3d(c * forward - s * port, s * forward + c * port, up);
@@ -60,7 +60,7 @@ std::optional<SceneColour> colour_of_digit(const std::string& key) {
   return colours[key[0] - '1'];
 }
 
-// Keys that mean the same in both modes. False if the key is none of them.
+// Applies keys that have the same meaning in both modes; false for other keys.
 bool apply_common_key(KeyAnswer& answer, const std::string& key) {
   ViewerState& s = answer.state;
   if (key == "q" || key == "e")
@@ -130,7 +130,7 @@ void apply_inspect_key(KeyAnswer& answer, const std::string& key) {
   if (key == "Escape") s.show_help = false;
 }
 
-// A number without needless zeros, never "-0".
+// A number without trailing zeros, never "-0".
 std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f", std::abs(value) < 5e-4 ? 0.0 : value);

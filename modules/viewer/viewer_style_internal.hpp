@@ -8,11 +8,11 @@
 
 namespace insonify {
 
-/// What a mouse may do to a panel's camera.
+/// Camera motion that the mouse controls in a panel.
 enum class PanelMotion { none, slide, turn };
 
-/// Mouse and keys of the viewer: drags turn the scene and slide the fan, wheels zoom both; a click that does not move
-/// and every key go to the window. VTK's own keys are off.
+/// Mouse and keys of the viewer: drags rotate the scene and pan the fan, the wheel zooms both; clicks without motion
+/// and all keys are passed to the window. VTK's own keys are disabled.
 class ViewerStyle : public vtkInteractorStyleTrackballCamera {
  public:
   static ViewerStyle* New();
@@ -21,7 +21,7 @@ class ViewerStyle : public vtkInteractorStyleTrackballCamera {
   std::function<PanelMotion(Point2)> motion_at;
   std::function<void(Point2)> on_click;
   std::function<void(const std::string&)> on_key;
-  std::function<void(bool)> on_moving;  ///< a drag has begun, or ended
+  std::function<void(bool)> on_moving;  ///< a drag has begun (true) or ended
 
   void OnLeftButtonDown() override;
   void OnLeftButtonUp() override;
@@ -45,7 +45,7 @@ class ViewerStyle : public vtkInteractorStyleTrackballCamera {
   bool moving_ = false;
 };
 
-/// The name under which a key press reaches apply_key.
+/// The name of a key press for apply_key.
 std::string key_name(const std::string& symbol, bool shift);
 
 }  // namespace insonify

@@ -34,7 +34,7 @@ void require_start(const ViewerState& start, const ViewerExtent& extent) {
          ", the number of bins");
 }
 
-// A file name that is not taken.
+// An unused file name.
 std::string free_screenshot_name() {
   for (int i = 1;; ++i) {
     const std::string name = "insonify-view-" + std::to_string(i) + ".png";
@@ -48,7 +48,7 @@ ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options,
     : data_(data), screen_(screen), extent_(extent_of(data)), say_(options.say), state_(options.start) {
   require_viewable(data, state_.mode);
   require_start(state_, extent_);
-  layout_ = lay_out_viewer(options.width, options.height, state_.mode, ViewerScene::has_something(data));
+  layout_ = lay_out_viewer(options.width, options.height, state_.mode, ViewerScene::has_content(data));
   if (state_.mode == ViewerMode::run)
     for (const bool tvg : {false, true}) max_db_[tvg ? 1 : 0] = common_max_db(data, tvg);
   open(options);
@@ -56,7 +56,7 @@ ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options,
     *panel = add_panel(window_);
   fan_.marks->SetActiveCamera(fan_.content->GetActiveCamera());
   lay_out();
-  if (ViewerScene::has_something(data))
+  if (ViewerScene::has_content(data))
     scene_ = std::make_unique<ViewerScene>(data, scene_panel_, state_, panel_options(layout_.scene, layout_.font_size));
   connect_style();
   if (state_.mode == ViewerMode::run)
@@ -89,7 +89,8 @@ void ViewerWindow::open(const ViewerOptions& options) {
     window_ = vtkSmartPointer<vtkRenderWindow>::New();
     interactor_ = vtkSmartPointer<vtkRenderWindowInteractor>::New();
   }
-  // Smooth edges for pictures; on a screen, speed: drawing in software, samples are most of the time of a frame.
+  // Multisampling smooths the edges of pictures; on a screen it would take most of the frame time of a software
+  // renderer.
   window_->SetMultiSamples(screen_ == ViewerScreen::off_screen ? samples_per_pixel : 0);
   window_->SetDPI(72);  // one point of text is one pixel
   window_->SetSize(options.width, options.height);
@@ -114,7 +115,7 @@ void ViewerWindow::connect_style() {
   if (scene_) scene_panel_.content->AddObserver(vtkCommand::StartEvent, scene_.get(), &ViewerScene::follow_camera);
 }
 
-// An error of what the user asked for is told in the status line; the window stays.
+// Shows an error of a user action in the status line and keeps the window open.
 void ViewerWindow::guarded(const std::function<void()>& work) {
   try {
     work();
@@ -133,7 +134,7 @@ void ViewerWindow::say(const std::string& text) const {
 void ViewerWindow::lay_out() {
   const int* size = window_->GetSize();
   layout_ =
-      lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, ViewerScene::has_something(data_));
+      lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, ViewerScene::has_content(data_));
   place_panel(fan_, layout_.fan, size);
   place_panel(scene_panel_, layout_.scene, size);
   place_panel(ascan_, layout_.ascan, size);
@@ -243,7 +244,7 @@ void ViewerWindow::play(const ViewerEvent& event) {
   }
 }
 
-// As the window system would tell it, so that styles and sliders get their turn.
+// Sends the events of the window system, so that style and sliders process them.
 void ViewerWindow::mouse(Point2 from, Point2 by) {
   const auto move_to = [&](double part) {
     interactor_->SetEventInformation(static_cast<int>(std::lround(from.x + part * by.x)),

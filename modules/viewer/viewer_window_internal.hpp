@@ -23,7 +23,7 @@ namespace insonify {
 
 enum class ViewerScreen { desktop, off_screen };
 
-/// The viewer's window: draws a ViewerState with VTK, and turns what the user does into the next state.
+/// The viewer's window: draws a ViewerState with VTK and applies user actions to it.
 class ViewerWindow {
  public:
   /// `data` must outlive it. Throws as show_viewer.
@@ -35,18 +35,18 @@ class ViewerWindow {
   const ViewerState& state() const { return state_; }
   const ViewerLayout& layout() const { return layout_; }
   const std::string& explanation() const { return explanation_; }
-  /// Middle of a sample's cell on the fan, in pixels of the window.
+  /// Centre of a sample's cell on the fan, in pixels of the window.
   Point2 pixel_of(PixelPlace place) const;
-  /// Where a point of the world [m] is drawn in 3-D; none: there is no 3-D panel.
+  /// Place in the window of a point of the world [m]; none without a 3-D panel.
   std::optional<Point2> pixel_of_point(const Eigen::Vector3d& world) const;
   bool finished() const { return finished_; }
 
-  /// What the user does. Each draws the new state.
+  /// User actions; each draws the new state.
   void press_key(const std::string& key);
   void click(Point2 place);
   void play(const ViewerEvent& event);
 
-  /// Plays the events, then lets the user have the window until it is closed.
+  /// Plays the events, then processes user input until the window is closed.
   void run(const std::vector<ViewerEvent>& events);
   void draw();
   void save_png(const std::string& path);
@@ -87,12 +87,12 @@ class ViewerWindow {
   std::function<void(const std::string&)> say_;
   VtkMessages messages_;
   ViewerState state_;
-  std::optional<ViewerState> drawn_;  ///< none: everything is to be drawn
+  std::optional<ViewerState> drawn_;  ///< none: everything must be drawn
   ViewerLayout layout_;
   bool finished_ = false;
   std::string explanation_, notice_;
 
-  // What the state's numbers stand for.
+  // Data selected by the state.
   std::optional<LevelImage> image_;
   std::optional<PixelFacts> facts_;
   std::optional<HeadView> head_view_;

@@ -14,7 +14,7 @@ using namespace insonify::test;
 
 namespace {
 
-/// Both doors to a file must refuse it in the same words.
+/// load_scene and describe_file must refuse a file with the same message.
 void expect_refused(const std::string& path, ErrorKind kind, std::vector<std::string> parts) {
   parts.push_back(path);
   expect_error(kind, parts, [&] { load_scene(path); });
@@ -188,7 +188,7 @@ TEST(BadOption, values_that_no_file_can_satisfy_are_argument_errors) {
   expect_error(ErrorKind::argument, {"material = 3", "number of materials, 1"}, [&] { load_scene(path, options); });
 }
 
-/// Small good files of all formats that are parsed here or by PCL.
+/// Small valid files of all formats parsed by insonify or PCL.
 std::vector<std::pair<std::string, std::string>> good_files() {
   const std::string saved = temporary("good.ply"), saved_pcd = temporary("good.pcd");
   save_scene(saved, small_scene());
@@ -242,7 +242,7 @@ TEST(BadFile, damaged_bytes_give_an_error_or_a_valid_scene_and_nothing_is_printe
         require_valid(load_scene(path, options).scene, "test");
         ++read;
       } catch (const Error& error) {
-        // A mesh with a coordinate of 1e8 asks for too many surfels: the one error that blames the option.
+        // A mesh with a coordinate of 1e8 needs too many surfels: the only error attributed to the option.
         EXPECT_TRUE(error.kind() == ErrorKind::content || error.kind() == ErrorKind::argument) << error.what();
         EXPECT_GT(std::string(error.what()).size(), path.size());
         ++refused;

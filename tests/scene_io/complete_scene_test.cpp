@@ -9,7 +9,7 @@ using namespace insonify::test;
 
 namespace {
 
-/// Points on a sphere of radius 2 about (10, 0, 0), evenly by the golden angle.
+/// Points on a sphere of radius 2 about (10, 0, 0), evenly spaced by the golden angle.
 std::string sphere_text(int count) {
   std::ostringstream text;
   for (int i = 0; i < count; ++i) {
@@ -78,9 +78,9 @@ TEST(CompleteScene, the_viewpoint_of_a_pcd_orients_normals_and_turns_no_point) {
   EXPECT_EQ(world(turned.scene, 24), Eigen::Vector3d(2, 2, 3));
   const LoadedScene above = load_scene(write_file("b.pcd", pcd_text("0 0 5 1 0 0 0", rows, 25)));
   for (const auto& n : above.scene.normal) EXPECT_GT(n.z(), 0.999f);
-  // The identity pose is what writers put when they know nothing.
+  // Writers store the identity if the pose is unknown.
   EXPECT_FALSE(load_scene(write_file("c.pcd", pcd_text("0 0 0 1 0 0 0", rows, 25))).scene.normals_oriented);
-  // The caller's word counts more than the file's.
+  // The caller's viewpoint overrides the file's.
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, 9);
   for (const auto& n : load_scene(write_file("d.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)), options).scene.normal) {
@@ -181,7 +181,7 @@ TEST(Materials, labels_that_are_no_index_are_refused_unless_one_material_is_give
   for (const char* label : {"-1", "0.5", "70000", "nan"}) {
     const std::string path =
         write_file("a.csv", std::string("x,y,z,label\n0,0,0,0\n1,0,0,") + label + "\n0,1,0,0\n1,1,0,0\n");
-    expect_error(ErrorKind::content, {path, "a label is negative, above 65534 or no whole number"},
+    expect_error(ErrorKind::content, {path, "a label is negative, above 65534 or not an integer"},
                  [&] { load_scene(path); });
     LoadOptions options;
     options.material = 0;
@@ -214,7 +214,7 @@ TEST(Materials, an_unknown_field_is_refused_with_the_fields_there_are) {
   expect_error(ErrorKind::content,
                {path + ": no field 'reflectance' to take materials from", "'x y z intensity gain'", "name one of them"},
                [&] { load_scene(path, options); });
-  options.material = 0;  // one for all: no field is asked for
+  options.material = 0;  // one for all: no field is needed
   EXPECT_EQ(load_scene(path, options).scene.size(), 3u);
 }
 

@@ -17,7 +17,7 @@ using namespace insonify::test;
 namespace {
 
 /// Twelve points with normals, areas, labels and ids; every number is a multiple of 1/64, so that all formats
-/// hold it exactly, and far points too.
+/// store it exactly, even for distant points.
 struct Sample {
   std::vector<Eigen::Vector3d> position, normal;
   std::vector<double> area;

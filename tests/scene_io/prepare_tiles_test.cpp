@@ -13,7 +13,7 @@ using namespace insonify::test;
 
 namespace {
 
-/// Everything is read in batches, however small.
+/// Options that read even small clouds in batches.
 PrepareTilesOptions in_batches() {
   PrepareTilesOptions options;
   options.whole_points = 0;
@@ -40,7 +40,7 @@ void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
   }
 }
 
-/// Prepares `cloud` in batches: what stands in the tiles is what load_scene makes of the file.
+/// Prepares `cloud` in batches and expects the tiles to hold the scene of load_scene.
 PreparedTiles expect_as_loaded(const std::string& cloud, PrepareTilesOptions options = in_batches()) {
   const PreparedTiles prepared = prepare_tiles(cloud, temporary("out.tiles"), options);
   EXPECT_TRUE(prepared.streamed);
@@ -133,7 +133,7 @@ TEST(PrepareTiles, points_that_cannot_be_used_are_dropped_and_counted) {
   EXPECT_EQ(prepared.report.dropped_duplicates, 3U);
   EXPECT_EQ(prepared.report.dropped_without_normal, 2U);
   EXPECT_EQ(prepared.tiles.surfels, 2500U - 4);
-  // Dropping renumbers nobody.
+  // Dropping points does not renumber others.
   const SceneCloud scene = load_all(temporary("b.tiles"));
   EXPECT_EQ(std::count(scene.id.begin(), scene.id.end(), 20U), 0);
   EXPECT_EQ(scene.id.back(), 2499U);

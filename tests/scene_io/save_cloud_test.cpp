@@ -169,7 +169,7 @@ Soundings some_soundings() {
   return s;
 }
 
-/// An independent reader of what save_soundings promises: 3 doubles, 4 floats, 4 uints per row.
+/// Independent reader of the format of save_soundings: 3 doubles, 4 floats, 4 uints per row.
 TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare_knows) {
   const Soundings s = some_soundings();
   const std::string path = temporary("a.ply");

@@ -14,7 +14,7 @@ using namespace insonify::test;
 
 namespace {
 
-/// Three surfels; the middle one was never heard.
+/// Three surfels; the middle one was never insonified.
 SceneCloud three_surfels(const Eigen::Vector3d& origin) {
   SceneCloud scene;
   scene.origin = origin;
@@ -59,7 +59,7 @@ TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
   EXPECT_EQ(field<std::uint32_t>(cloud, 2, "id"), 2U);
 }
 
-TEST(SaveInsonification, what_was_never_heard_has_no_level) {
+TEST(SaveInsonification, surfels_never_insonified_have_no_level) {
   const std::string path = temporary("map.pcd");
   save_insonification(path, three_surfels({0, 0, 0}), three_entries());
   pcl::PCLPointCloud2 cloud;

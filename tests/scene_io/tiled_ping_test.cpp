@@ -34,10 +34,10 @@ const Pose& harbour_pose() {
 
 SceneCloud harbour(std::size_t points = 60000) { return make_built_in_scene("harbour", {.points = points}); }
 
-/// Small tiles, so that small scenes have many.
+/// Small tiles, so that small scenes have several.
 TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
 
-/// Pings the whole scene and what a .tiles file gives of it; both must be the same to the last bit.
+/// Pings the whole scene and the part loaded from a .tiles file, and expects identical bits.
 void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environment& environment,
                       const SimulationOptions& options, double most_of_the_scene) {
   const std::string path = temporary("part.tiles");
@@ -75,12 +75,12 @@ TEST(TiledPing, rays_meet_the_same_surfels) {
 TEST(TiledPing, relief_and_gate_are_those_of_the_whole_scene) {
   SceneCloud scene = harbour();
   for (Material& m : scene.materials) m.relief_slope = 0.2;
-  // Far away, but the largest: it decides how far beyond the gate parts of surfels may stand.
+  // The largest surfel, though far away, determines how far beyond the gate parts of surfels may lie.
   add_surfel(scene, {500, 0, 0}, Eigen::Vector3d::UnitZ(), 25.0);
   expect_same_ping(scene, harbour_pose(), {Water{}}, {}, 0.6);
 }
 
-TEST(TiledPing, multipath_hears_the_same_from_all_sides) {
+TEST(TiledPing, multipath_is_the_same_from_all_sides) {
   Environment environment{Water{}};
   environment.surface = SeaSurface{.rms_height = 0.0};
   environment.bottom = FlatBottom{.height = -8.5};

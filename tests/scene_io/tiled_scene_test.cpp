@@ -16,7 +16,7 @@ namespace {
 
 SceneCloud harbour(std::size_t points = 60000) { return make_built_in_scene("harbour", {.points = points}); }
 
-/// Small tiles, so that small scenes have many.
+/// Small tiles, so that small scenes have several.
 TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
 
 void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
@@ -91,8 +91,7 @@ TEST(TiledScene, file_depends_neither_on_batches_nor_on_threads) {
 }
 
 TEST(TiledScene, little_memory_changes_the_tiles_and_nothing_else) {
-  const SceneCloud scene =
-      harbour(100000);  // 15 MB while sorting: more than the 1 MiB given, also at a second division
+  const SceneCloud scene = harbour(100000);  // 15 MB while sorting, which exceeds 1 MiB even after one subdivision
   TileWriterOptions options = small_tiles();
   options.memory = 0;
   save_tiles(temporary("a.tiles"), scene, options);
@@ -119,7 +118,7 @@ TEST(TiledScene, tiles_near_a_place_hold_every_surfel_near_it) {
 }
 
 TEST(TiledScene, a_scene_100_km_wide_keeps_its_millimetres) {
-  // Two plates 100 km apart, given in double; a float over that width has steps of 8 mm.
+  // Two plates 100 km apart in double coordinates; float32 has steps of 8 mm at that distance.
   std::vector<Eigen::Vector3d> places;
   SceneCloud batch;
   for (int i = 0; i < 20000; ++i) {
@@ -174,7 +173,7 @@ TEST(TiledScene, scenes_without_extent_are_scenes) {
   expect_same_surfels(one.load(one.select(region_around({0, 0, 0}, 10))), one_point());
   EXPECT_EQ(one.select(region_around({50, 0, 0}, 10)).surfels, 0U);
 
-  // More at one place than sorting has memory for.
+  // More surfels at one position than the memory for sorting can hold.
   TileWriterOptions little;
   little.memory = 0;
   save_tiles(temporary("pile.tiles"), one_point(20000), little);
@@ -205,11 +204,11 @@ TEST(TiledScene, areas_found_tile_by_tile_add_up_to_the_plate) {
   TileWriterOptions options = small_tiles();
   options.estimate_areas = true;
   const TileReport report = save_tiles(temporary("a.tiles"), scene, options);
-  EXPECT_NEAR(report.total_area, 1600, 0.02 * 1600);  // the promise of estimate_surfel_areas
+  EXPECT_NEAR(report.total_area, 1600, 0.02 * 1600);  // the accuracy of estimate_surfel_areas
   const TiledScene tiled(temporary("a.tiles"));
   const SceneCloud found = tiled.load(tiled.select_all());
   EXPECT_NEAR(std::accumulate(found.area.begin(), found.area.end(), 0.0), report.total_area, 1e-6 * 1600);
-  // Without a seam between tiles: each cell is the one that the whole cloud gives.
+  // No seams between tiles: each area is that of the whole cloud.
   const auto whole = estimate_surfel_areas(scene.point, scene.normal);
   std::size_t different = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) different += std::abs(found.area[i] - whole[i]) > 1e-5F * whole[i];
@@ -246,7 +245,7 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   refuse(good.substr(0, 3000), {"cut off"});
   refuse(good + "x", {"longer"});
   refuse(with(8, 2), {"version 2", "update insonify"});
-  refuse(std::string(256, '\0') + good.substr(256), {"half written"});
+  refuse(std::string(256, '\0') + good.substr(256), {"is incomplete"});
   refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
   refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
   refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
@@ -258,7 +257,7 @@ TEST(TileWriter, an_unfinished_or_interrupted_file_leaves_nothing) {
   {
     TileWriter writer(temporary("a.tiles"));
     writer.add(one_point());
-    EXPECT_EQ(files_in_folder(), before);  // not even a temporary file has a name
+    EXPECT_EQ(files_in_folder(), before);  // temporary files are unnamed
   }
   EXPECT_EQ(files_in_folder(), before);
   struct Stop {};

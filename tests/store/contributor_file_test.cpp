@@ -124,7 +124,7 @@ TEST(ContributorFile, of_another_schema_names_both_versions) {
     H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
     H5Aclose(attribute);
   });
-  EXPECT_EQ(error_of_reading(path), "content: c.h5: has contributor schema 7, this insonify reads schema 1");
+  EXPECT_EQ(error_of_reading(path), "content: c.h5: has contributor schema 7, this version reads schema 1");
 }
 
 TEST(ContributorFile, that_contradicts_itself_is_refused) {

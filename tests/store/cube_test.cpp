@@ -18,7 +18,7 @@ using namespace insonify;
 
 namespace {
 
-// 70 beams: more than one chunk of 64, the last one not full.
+// 70 beams: one full chunk of 64 and a partial one.
 Cube make_cube(std::size_t pings = 3, std::size_t beams = 70) {
   Cube cube;
   cube.sound_speed = 1489.8;
@@ -185,7 +185,7 @@ TEST(CubeMaps, of_another_type_or_extent_are_refused) {
     H5Ldelete(file, "/unknown", H5P_DEFAULT);
     H5Lcreate_hard(file, "/pose", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown has another extent than /pressure");
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown differs in extent from /pressure");
 }
 
 TEST(Cube, keeps_the_row_width_of_a_planar_array) {
@@ -265,8 +265,7 @@ TEST(Cube, of_one_ping_and_one_beam_comes_back) {
   EXPECT_TRUE((back.pings[0].pressure == cube.pings[0].pressure).all());
 }
 
-// Memory that malloc hands out is filled with another byte each time: nothing uninitialised may reach the
-// file.
+// malloc fills memory with a different byte each time, which shows if uninitialised bytes reach the file.
 TEST(Cube, has_the_same_bytes_a_second_later_and_whatever_memory_held_before) {
   const Cube cube = make_cube();
   mallopt(M_PERTURB, 0x55);
@@ -301,7 +300,7 @@ TEST(Cube, has_the_documented_layout) {
   EXPECT_EQ(raw_number(file, "min_range"), 2);
 }
 
-// h5py and MATLAB take a compound {r, i} of two float32 for complex64.
+// h5py and MATLAB read a compound {r, i} of two float32 as complex64.
 TEST(Cube, keeps_pressure_as_compound_r_i_of_float32_in_chunks_of_one_ping) {
   const Cube cube = make_cube();
   const RawFile file(write(cube));
@@ -378,7 +377,7 @@ TEST(Cube, of_another_schema_names_both_versions) {
     H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
     H5Aclose(attribute);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: has cube schema 7, this insonify reads schema 1");
+  EXPECT_EQ(error_of_reading(path), "content: cube.h5: has cube schema 7, this version reads schema 1");
 }
 
 TEST(Cube, that_contradicts_itself_is_refused) {
@@ -391,7 +390,7 @@ TEST(Cube, that_contradicts_itself_is_refused) {
   };
   set("bin_size", 0.022);
   EXPECT_EQ(error_of_reading(path),
-            "content: cube.h5: /pressure has 46 bins, min_range, max_range and bin_size make 23");
+            "content: cube.h5: /pressure has 46 bins, but min_range, max_range and bin_size give 23");
   set("bin_size", -1);
   EXPECT_EQ(error_of_reading(path).substr(0, 17), "content: cube.h5:");
   {

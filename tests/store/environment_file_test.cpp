@@ -95,7 +95,7 @@ TEST(EnvironmentFile, of_a_run_toml_only_the_environment_counts) {
   EXPECT_TRUE(holds(error_of_file(run + "[wnd]\n"), ":11: unknown table [wnd]; did you mean [wind]?"));
 }
 
-TEST(EnvironmentFile, refuses_tables_it_does_not_know_though_empty) {
+TEST(EnvironmentFile, refuses_unknown_tables_even_if_empty) {
   EXPECT_TRUE(holds(error_of_file("[surfce]\n"), ":1: unknown table [surfce]; did you mean [surface]?"));
   EXPECT_TRUE(holds(error_of_file("[sonar]\nbeams = 3\n"), ":1: unknown table [sonar]; known are [water] [surface]"));
 }

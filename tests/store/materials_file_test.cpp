@@ -75,8 +75,8 @@ TEST(Materials, refuse_intervals_that_overlap_or_hold_nothing) {
            "\n[[material]]\nname = \"y\"\nlambert_mu_db = -20\n" + second + "\n";
   };
   EXPECT_EQ(error_of_materials(two("to = 10", "from = 9.5")),
-            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; a number means one "
-            "material");
+            "content: m.toml:9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong "
+            "to one material");
   EXPECT_EQ(error_of_materials(two("from = 4", "from = 3\nto = 3")),
             "content: m.toml:9: from = 3 of 'y', must be below to = 3");
   EXPECT_EQ(error_of_materials(two("from = nan", "")), "content: m.toml:5: from = nan of 'x', must be below to = inf");
@@ -109,7 +109,7 @@ TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
   EXPECT_NE(error_of_materials(with("nan")).find("m.toml:4: lambert_mu_db = nan dB, must be"), std::string::npos);
 }
 
-TEST(Materials, by_label_stand_at_their_label_and_gaps_are_filled) {
+TEST(Materials, by_label_have_their_label_as_index_and_gaps_are_filled) {
   const auto list = load_materials(own_file("m.toml",
                                             "schema = 1\n[[material]]\nname = \"b\"\nlabel = 3\nlambert_mu_db = -20\n"
                                             "[[material]]\nname = \"a\"\nlabel = 1\nlambert_mu_db = -10\n"));
@@ -141,7 +141,7 @@ TEST(Materials, errors_name_line_key_and_remedy) {
   EXPECT_EQ(error_of_materials("schema = 1\n"), "content: m.toml:1: no [[material]] in the file");
   EXPECT_EQ(error_of_materials("schema = 1\nmaterial = [1]\n"),
             "content: m.toml:2: material must be a table: [[material]]");
-  EXPECT_EQ(error_of_materials("schema = 2\n"), "content: m.toml:1: schema = 2, this insonify reads schema 1");
+  EXPECT_EQ(error_of_materials("schema = 2\n"), "content: m.toml:1: schema = 2, this version reads schema 1");
   EXPECT_EQ(error_of_materials("[[material]]\n"), "content: m.toml:1: missing key 'schema'");
 }
 

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 namespace {
 
-// A cube of one ping whose samples all are `value`, so that it is known again.
+// A cube of one ping whose samples are all `value`, which identifies it.
 NamedCube run(const std::string& name, double time, float value, std::int64_t number = 0) {
   Ping ping;
   ping.number = number;

@@ -37,8 +37,8 @@ TEST(ProfileFile, names_a_header_that_is_neither) {
   EXPECT_EQ(error_of_profile("depth,sound_speed\n"),
             "content: cast.csv:1: unknown column 'depth'; did you mean 'depth_m'?");
   EXPECT_EQ(error_of_profile("depth_m,sound_speed,salinity_psu\n"),
-            "content: cast.csv:1: column 'salinity_psu' does not go with 'sound_speed'");
-  EXPECT_EQ(error_of_profile("depth_m,depth_m\n"), "content: cast.csv:1: column 'depth_m' stands there twice");
+            "content: cast.csv:1: column 'salinity_psu' cannot be combined with 'sound_speed'");
+  EXPECT_EQ(error_of_profile("depth_m,depth_m\n"), "content: cast.csv:1: column 'depth_m' occurs twice");
   EXPECT_EQ(error_of_profile(""),
             "content: cast.csv: has no header, must start with depth_m,sound_speed or "
             "depth_m,temperature_c,salinity_psu");
@@ -47,7 +47,7 @@ TEST(ProfileFile, names_a_header_that_is_neither) {
 TEST(ProfileFile, names_line_column_value_and_rule) {
   const std::string speeds = "depth_m,sound_speed\n0,1500\n", water = "depth_m,temperature_c,salinity_psu\n";
   EXPECT_EQ(error_of_profile(speeds + "0,1500\n"),
-            "content: cast.csv:3: depth_m = 0 m, must be deeper than the line before it, 0 m");
+            "content: cast.csv:3: depth_m = 0 m, must be deeper than the previous line, 0 m");
   EXPECT_EQ(error_of_profile(speeds + "1,343\n"),
             "content: cast.csv:3: sound_speed = 343 m/s, must be within 1300 and 1700 m/s");
   EXPECT_EQ(error_of_profile(speeds + "1,fast\n"),
@@ -60,5 +60,5 @@ TEST(ProfileFile, names_line_column_value_and_rule) {
   EXPECT_EQ(error_of_profile(water + "1,10,-35\n"),
             "content: cast.csv:2: salinity_psu = -35 psu, must be within 0 and 400");
   EXPECT_EQ(error_of_profile("depth_m,sound_speed\n"),
-            "content: cast.csv: has a header only, must have one entry at least");
+            "content: cast.csv: has a header only, must have at least one entry");
 }

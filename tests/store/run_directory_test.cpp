@@ -93,7 +93,7 @@ TEST(RunDirectory, needs_a_parent_folder_and_a_name) {
             "file: " + out + ": folder " + own_path("missing") + " does not exist; create it first");
   for (const char* name : {"", "/", ".", ".."})
     EXPECT_EQ(error_of([&] { RunDirectory(name, true); }),
-              "file: \"" + std::string(name) + "\": is not the name of a folder that can be made");
+              "file: \"" + std::string(name) + "\": is not a valid name for a new folder");
 }
 
 TEST(TextFile, comes_back_as_written_and_replaces_an_old_one) {
@@ -115,5 +115,5 @@ TEST(TextFile, errors_name_the_path) {
   const std::string folder = fs::path(own_path("x")).parent_path().string();
   EXPECT_EQ(error_of([&] { read_text_file(folder); }), "file: " + folder + ": is a folder, must be a file");
   EXPECT_EQ(error_of([&] { write_text_file(folder, "x"); }),
-            "file: " + folder + ": is not the name of a file that can be written");
+            "file: " + folder + ": is not a valid name for an output file");
 }

@@ -54,7 +54,7 @@ TEST(ScattererTable, names_a_missing_unknown_or_doubled_column) {
   EXPECT_EQ(error_of_table("# one\nrange,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n"),
             "content: s.csv:2: unknown column 'range'; did you mean 'range_m'?");
   EXPECT_EQ(error_of_table("range_m,temperature\n"), "content: s.csv:1: unknown column 'temperature'");
-  EXPECT_EQ(error_of_table("range_m,xi_re,xi_re\n"), "content: s.csv:1: column 'xi_re' stands there twice");
+  EXPECT_EQ(error_of_table("range_m,xi_re,xi_re\n"), "content: s.csv:1: column 'xi_re' occurs twice");
 }
 
 TEST(ScattererTable, names_line_column_value_and_rule) {

@@ -99,7 +99,7 @@ TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
   EXPECT_EQ(numbers["centre_frequency_hz"].status, "user");
   EXPECT_EQ(numbers["elevation_shape"].value, "gaussian");
   EXPECT_EQ(numbers["elevation_shape"].status, "assumed");
-  EXPECT_EQ(numbers["side_lobe_db"].source, "not in the file: default of insonify");
+  EXPECT_EQ(numbers["side_lobe_db"].source, "omitted in the file: default of insonify");
 }
 
 // B = c / 2 dr with the nominal 1500 m/s: one inch is 29.53 kHz.
@@ -181,7 +181,7 @@ TEST(SonarFile, values_that_make_no_sonar_are_errors_with_line) {
 
 TEST(SonarFile, other_schemas_and_broken_toml_are_errors_with_line) {
   EXPECT_EQ(error_of_sonar(replaced(plain, "schema = 1", "schema = 2")),
-            "content: s.toml:1: schema = 2, this insonify reads schema 1");
+            "content: s.toml:1: schema = 2, this version reads schema 1");
   EXPECT_EQ(error_of_sonar(plain + "beams = = 3\n").substr(0, 19), "content: s.toml:12:");
   EXPECT_EQ(error_of_sonar(plain + "beams = 3\n").substr(0, 19), "content: s.toml:12:");  // given twice
 }
@@ -190,7 +190,7 @@ TEST(SonarFile, every_preset_survives_being_written_and_read_bit_for_bit) {
   for (const auto& sonar : list_sonars()) expect_same_bits(load(sonar_as_toml(sonar.spec)).spec, sonar.spec);
 }
 
-// Every angle that came from degrees has degrees that lead back to it, whatever the last bit.
+// Every angle read from degrees is written as degrees that read back to the same bits.
 TEST(SonarFile, random_angles_and_numbers_survive_bit_for_bit) {
   SonarSpec spec = load(plain).spec;
   for (std::uint64_t i = 0; i < 300; ++i) {
@@ -212,7 +212,7 @@ TEST(SonarFile, random_angles_and_numbers_survive_bit_for_bit) {
   }
 }
 
-// shading says nothing new when it is what side_lobe_db alone means: Taylor below 0, else uniform.
+// shading is redundant if it follows from side_lobe_db: Taylor below 0, else uniform.
 TEST(SonarFile, shading_is_kept_and_written_only_if_side_lobe_db_does_not_say_it) {
   for (const double side_lobe_db : {-30.0, 0.0})
     for (const Shading shading : {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev}) {
@@ -324,9 +324,9 @@ TEST(SonarFile, takes_a_table_of_beams) {
 
 TEST(SonarFile, refuses_widths_and_rows_that_make_no_array) {
   EXPECT_EQ(error_of_sonar(plain + "column_beam_width_deg = 0\n"),
-            "content: s.toml:12: column_beam_width_deg = 0.0, must be > 0; leave the key out if there is none");
+            "content: s.toml:12: column_beam_width_deg = 0.0, must be > 0; omit the key if there is none");
   EXPECT_EQ(error_of_sonar(plain + "transmit_width_deg = -4\n"),
-            "content: s.toml:12: transmit_width_deg = -4.0, must be > 0; leave the key out if there is none");
+            "content: s.toml:12: transmit_width_deg = -4.0, must be > 0; omit the key if there is none");
   EXPECT_EQ(
       error_of_sonar(plain + "transmit_width_deg = 400\n"),
       "content: s.toml:12: transmit_width_deg = 400 deg, must be > 0 and at most 360; leave it out for a transmitter "
@@ -343,7 +343,7 @@ TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
   EXPECT_EQ(error_of_sonar("seed = 3\n[sonar]\nschema = 1\n"), "content: s.toml:2: missing key 'centre_frequency_hz'");
 }
 
-TEST(SetSonarValue, sets_every_key_that_files_know) {
+TEST(SetSonarValue, sets_every_key_of_files) {
   SonarSpec s = load(plain).spec;
   set_sonar_value(s, "centre_frequency_hz", "700e3");
   set_sonar_value(s, "range_resolution_m", "0.01");
@@ -384,7 +384,7 @@ TEST(SetSonarValue, sets_every_key_that_files_know) {
   set_sonar_value(s, "azimuths_deg", "-1,0,1");
   EXPECT_EQ(s.azimuths.size(), 3u);
   EXPECT_EQ(s.beams, 3u);
-  set_sonar_value(s, "beams", "16");  // an even fan again
+  set_sonar_value(s, "beams", "16");  // evenly spaced again
   EXPECT_TRUE(s.azimuths.empty());
   EXPECT_EQ(s.beams, 16u);
   set_sonar_value(s, "elevations_deg", "-1,1");

@@ -11,7 +11,7 @@ using namespace insonify;
 
 namespace {
 
-// Points INSONIFY_DATA somewhere for one test.
+// Sets INSONIFY_DATA for one test.
 class DataFolder {
  public:
   explicit DataFolder(const std::string& path) { ::setenv("INSONIFY_DATA", path.c_str(), 1); }

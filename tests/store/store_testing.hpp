@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// A folder that belongs to this program and goes when it ends.
+/// A folder of this process, removed when it ends.
 class OwnFolder {
  public:
   OwnFolder() : path_(std::filesystem::path(::testing::TempDir()) / ("insonify_store_" + std::to_string(::getpid()))) {}
@@ -26,7 +26,7 @@ class OwnFolder {
   std::filesystem::path path_;
 };
 
-/// A path that belongs to the running test alone.
+/// A path unique to the running test.
 inline std::string own_path(const std::string& name) {
   static const OwnFolder own;
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -42,7 +42,7 @@ inline std::string own_file(const std::string& name, const std::string& text) {
   return path;
 }
 
-/// What a call that must fail says, as "kind: text"; fails the test if it does not throw.
+/// The error of a call as "kind: text"; fails the test if it does not throw.
 template <typename Call>
 std::string error_of(Call&& call) {
   try {

@@ -23,7 +23,7 @@ TEST(TrajectoryFile, reads_yaw_pitch_and_roll_in_degrees) {
 }
 
 TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
-  // Half a right angle about z is (0, 0, sin 45, cos 45) for yaw 90.
+  // The quaternion of yaw 90 degrees is (0, 0, sin 45, cos 45).
   const auto t = load_trajectory(
       own_file("t.csv", "qw,qx,qy,qz,time_s,x_m,y_m,z_m\n0.7071,0,0,0.7071,0,1,2,3\n-0.7071,0,0,-0.7071,1,1,2,3\n"));
   const Pose port = pose_from_yaw_pitch_roll({1, 2, 3}, pi / 2, 0, 0);
@@ -33,7 +33,7 @@ TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
 
 TEST(TrajectoryFile, names_line_column_value_and_rule) {
   EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
-            "content: way.csv:3: time_s = 0 s, must be later than the line before it, 0 s");
+            "content: way.csv:3: time_s = 0 s, must be later than the previous line, 0 s");
   EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,1000,0\n"),
             "content: way.csv:2: pitch_deg = 1000 degrees, must be within -360 and 360");
   EXPECT_EQ(error_of_trajectory(quaternions + "0,0,0,0,0,0,0,2\n"),
@@ -44,5 +44,5 @@ TEST(TrajectoryFile, names_line_column_value_and_rule) {
             "content: way.csv:1: missing column 'roll_deg'");
   EXPECT_EQ(error_of_trajectory("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"),
             "content: way.csv:1: unknown column 'time'; did you mean 'time_s'?");
-  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n"), "content: way.csv: has 1 entries, must have two at least");
+  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n"), "content: way.csv: has 1 entries, must have at least two");
 }

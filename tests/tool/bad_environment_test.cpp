@@ -1,4 +1,5 @@
-// Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left behind.
+// Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left
+// behind.
 #include <string>
 
 #include "tool/tool_runner.hpp"
@@ -61,7 +62,7 @@ TEST_F(BadEnvironment, profile) {
   refuse_profile("depth_m,sound_speed\n0,1500\n0,1490\n", {"ctd.csv:3", "depth_m = 0 m", "must be deeper"});
   refuse_profile("depth_m,sound_speed\n0,340\n", {"ctd.csv:2", "sound_speed = 340 m/s", "within 1300 and 1700"});
   refuse_profile("depth_m,temperature_c,salinity_psu\n-1,10,35\n", {"ctd.csv:2", "depth_m = -1 m", "positive down"});
-  refuse_profile("depth_m,sound_speed\n", {"ctd.csv", "one entry at least"});
+  refuse_profile("depth_m,sound_speed\n", {"ctd.csv", "at least one entry"});
   refuse_profile("depth,speed\n0,1500\n", {"ctd.csv:1"});
 }
 
@@ -95,7 +96,7 @@ TEST_F(BadEnvironment, way_of_the_head) {
   write("back.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n5,0,0,3,0,15,0\n1,1,0,3,0,15,0\n");
   refuse_trajectory("--trajectory back.csv", 3, {"back.csv:3", "time_s = 1 s", "must be later"});
   write("one.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n5,0,0,3,0,15,0\n");
-  refuse_trajectory("--trajectory one.csv", 3, {"one.csv", "1 entries", "two at least"});
+  refuse_trajectory("--trajectory one.csv", 3, {"one.csv", "1 entries", "at least two"});
 }
 
 TEST_F(BadEnvironment, pulse_and_array) {
@@ -108,8 +109,8 @@ TEST_F(BadEnvironment, pulse_and_array) {
   refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.001 --set sonar.replica_window=boxcar",
          {"boxcar", "uniform, hann or hamming"});
   refuse("--set sonar.elevations_deg=0,95", {"elevations_deg", "within -90 and 90"});
-  refuse("--set sonar.column_beam_width_deg=0", {"column_beam_width_deg = 0", "leave the key out"});
-  refuse("--set sonar.transmit_width_deg=-1", {"transmit_width_deg = -1", "leave the key out"});
+  refuse("--set sonar.column_beam_width_deg=0", {"column_beam_width_deg = 0", "omit the key"});
+  refuse("--set sonar.transmit_width_deg=-1", {"transmit_width_deg = -1", "omit the key"});
   refuse("--set sonar.shading=hann", {"shading = \"hann\"", "taylor, uniform, hamming or chebyshev"});
 }
 

@@ -163,5 +163,5 @@ TEST_F(ImageVerb, runs_that_are_none_are_told_apart) {
   ASSERT_NE(value, std::string::npos);
   other[value] = 7;
   write("other.h5", other);
-  expect_refused("image other.h5 -o x.png", 3, {"other.h5: has cube schema 7, this insonify reads schema 1"});
+  expect_refused("image other.h5 -o x.png", 3, {"other.h5: has cube schema 7, this version reads schema 1"});
 }

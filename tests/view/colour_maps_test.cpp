@@ -100,7 +100,7 @@ TEST(ColourScale, automatic_maximum_is_the_high_quantile_rounded_up_to_5_db) {
   EXPECT_EQ(scale.max_db, 100);
   EXPECT_EQ(scale.min_db, 55);
 
-  // Five bright samples in ten thousand are outliers; a floor that fills most of the image does not count.
+  // Five bright samples in ten thousand are outliers; a floor that fills most of the image is ignored.
   level_db.row(0).head(5) = 500;
   EXPECT_EQ(colour_scale(level_db, {}, "test").max_db, 100);
   level_db.bottomRows(95) = -200;

@@ -99,7 +99,7 @@ TEST(BeamCells, beams_of_one_azimuth_share_a_cell_that_shows_the_strongest) {
   EXPECT_EQ(unit_text("dB", order_beams(image_at({-10, 5}))), "dB");
 }
 
-// Rows half a spacing aside from each other, beams 2 degrees wide: one cell for two beams, not stripes of either row.
+// Rows offset by half a spacing, beams 2 degrees wide: one cell for two beams, not stripes of either row.
 TEST(BeamCells, of_staggered_rows_take_in_half_a_beam_width) {
   LevelImage image = image_at({-4, -3.5, -2, -1.5, 0, 0.5});
   image.fan.beam_width = radians(2);

@@ -1,4 +1,4 @@
-// What holds for every view: room for all texts at all sizes, both themes, Greek.
+// Properties of every view: room for all texts at all sizes, both themes, Greek letters.
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -23,7 +23,7 @@ using namespace insonify::test;
 
 namespace {
 
-// Levels that run through the whole window, of a sonar of ordinary shape.
+// Levels over the whole window, for a typical sonar.
 LevelImage busy_image() {
   LevelImage image = flat_image(64, 120, 78, 0);
   image.unit = "dB re 1 µPa at 1 m, range compensated";
@@ -99,7 +99,7 @@ const std::map<std::string, Draw>& views() {
   return all;
 }
 
-// No text outside the picture, none on another.
+// Texts neither leave the picture nor overlap.
 void expect_readable(const std::vector<PlacedText>& texts, const PictureOptions& options) {
   const Box picture{0, static_cast<double>(options.width), 0, static_cast<double>(options.height)};
   for (std::size_t i = 0; i < texts.size(); ++i) {
@@ -161,7 +161,7 @@ TEST_F(EveryView, has_a_light_and_a_dark_theme) {
     }
 }
 
-// A font without Greek would draw the same empty box, or nothing, for all of these.
+// A font without Greek would draw the same empty box, or nothing, for all these letters.
 TEST_F(EveryView, shows_greek) {
   const auto bytes = [&](const std::string& title) {
     PictureOptions options;

@@ -13,7 +13,7 @@ using namespace insonify;
 
 namespace {
 
-// A fan in a picture, laid out, and all the texts of it.
+// The layout of a fan picture and all its texts.
 struct LaidOut {
   FanOutline fan;
   PictureOptions options;
@@ -37,7 +37,7 @@ LaidOut lay_out(double field_of_view_deg, int width, int height, FanOutline fan)
   return laid;
 }
 
-// Calls check(laid) for fans from a pencil to a full circle, in pictures of all shapes.
+// Calls check(laid) for fans from a pencil beam to a full circle, in pictures of all shapes.
 template <typename Check>
 void for_all_fans(Check&& check) {
   const std::pair<int, int> sizes[] = {{600, 500}, {1400, 1050}, {500, 1000}, {1920, 1080}, {4000, 3000}};
@@ -117,7 +117,7 @@ TEST(FitText, shrinks_a_long_line_and_then_cuts_it_between_letters) {
   EXPECT_EQ(same.font_size, 20);
 }
 
-// The font must have the letter: without it VTK leaves it out in silence and the text comes out narrower.
+// VTK silently omits letters missing in the font, which makes the text narrower.
 TEST(TextSize, greek_letters_take_room) {
   EXPECT_GT(text_size("dB re 1 \u00b5Pa", 40).width, text_size("dB re 1 Pa", 40).width + 10);
   EXPECT_GT(text_size("dB re 1 \u03bcPa", 40).width, text_size("dB re 1 Pa", 40).width + 10);

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, removed at its end.
+/// A folder for each test, removed at its end.
 class SavedForVtk : public testing::Test {
  protected:
   SavedForVtk()
@@ -65,7 +65,7 @@ void read(Reader& reader, const std::string& path) {
   reader.Update();
 }
 
-TEST_F(SavedForVtk, every_cell_of_a_fan_stands_where_its_sample_does_in_the_world_and_holds_its_value) {
+TEST_F(SavedForVtk, every_cell_of_a_fan_is_at_its_sample_in_the_world_and_holds_its_value) {
   const BeamFan fan = make_fan(9, radians(90), radians(10), radians(20), radians(-15));
   const Pose pose = pose_from_yaw_pitch_roll({500000.25, 4500000.5, -12}, radians(30), radians(20), radians(5));
   const SampleField field = counted(fan);

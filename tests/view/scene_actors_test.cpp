@@ -14,7 +14,7 @@ using namespace insonify::test;
 
 namespace {
 
-// Two spheres, one partly before the other, each surfel in a level of its own.
+// Two spheres, one partly in front of the other, each surfel with a different level.
 struct ActorsInWindow : testing::Test {
   ActorsInWindow() {
     scene.origin = {500000, 5000000, 0};

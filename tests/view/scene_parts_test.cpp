@@ -1,4 +1,4 @@
-// What a picture of a scene is made of, without VTK.
+// Parts of a scene picture that do not need VTK.
 #include <algorithm>
 #include <limits>
 
@@ -62,7 +62,7 @@ TEST(SceneColours, of_angles_are_those_of_geometry) {
       EXPECT_TRUE(colours.colour[i] == low || colours.colour[i] == high) << i;
     }
   }
-  look.head = head_at(Pose(Eigen::Translation3d(0, 0, -9)));  // below the floor: all turn their backs
+  look.head = head_at(Pose(Eigen::Translation3d(0, 0, -9)));  // below the floor: all are back-facing
   EXPECT_TRUE(grey(colour_surfels(scene, look, {}, "test").colour[700]));
 }
 
@@ -110,7 +110,7 @@ TEST(DrawnSurfels, are_chosen_by_id_whatever_the_order) {
   EXPECT_EQ(ids(scene, drawn), ids(other, drawn_surfels(other, 5000)));
   EXPECT_EQ(drawn_surfels(scene, scene.size()).size(), scene.size());
 
-  // Evenly: each of 16 parts has its share, 312 of 2500, within five standard deviations.
+  // Uniformity: each of 16 parts has 312 of 2500 within five standard deviations.
   std::array<int, 16> count{};
   for (const std::uint32_t i : drawn)
     ++count[static_cast<std::size_t>((scene.point[i].x() + 10) / 5) * 4 +
@@ -190,13 +190,13 @@ TEST(HeadLines, reach_from_the_first_range_to_the_last) {
     }
   EXPECT_NEAR(nearest, 1, 1e-9);
   EXPECT_NEAR(farthest, 15, 1e-9);
-  // The y axis of the head leads to port.
+  // The y axis of the head points to port.
   EXPECT_NEAR((lines.axes[1][1] - lines.axes[1][0]).normalized().dot(pose.linear().col(1)), 1, 1e-9);
 }
 
 // The sector of a level fan 4 m above a floor: between the cones 10 degrees below (and above) the horizon, the sides at
 // 45 degrees, and 15 m of range.
-TEST(FootprintOutline, stands_where_the_walls_meet_the_floor) {
+TEST(FootprintOutline, lies_where_the_walls_meet_the_floor) {
   const SceneCloud scene = floor_of(400, 0.1);
   const SceneHead head = head_at(pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(20), 0));
   const std::vector<std::uint32_t> outline = footprint_outline(scene, head);

@@ -16,7 +16,7 @@ using namespace insonify::test;
 
 namespace {
 
-// No test here has a screen.
+// All tests run without a screen.
 class ShowScene : public testing::Test {
  protected:
   void SetUp() override { unsetenv("DISPLAY"); }
@@ -47,7 +47,7 @@ class ShowScene : public testing::Test {
   std::string path = picture_path("scene.png");
 };
 
-// Three spheres in three levels: to port and near, to starboard, and above; seen from a head at `world_from_head`.
+// Three spheres of three levels: near on port, on starboard, and above; seen from a head at `world_from_head`.
 struct ThreeSpheres {
   explicit ThreeSpheres(const Pose& world_from_head, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) {
     scene.origin = origin;
@@ -110,7 +110,7 @@ TEST_F(ShowScene, looks_the_same_in_utm_coordinates) {
   show_scene(near_zero.scene, near_zero.look, options, path);
   const std::string first = file_bytes(path);
   show_scene(in_utm.scene, in_utm.look, options, path);
-  // Millimetres that the larger numbers lose may turn a pixel at an edge.
+  // The rounding of large coordinates, millimetres, may change a pixel at an edge.
   const ReadPicture a = read_png(path);
   show_scene(near_zero.scene, near_zero.look, options, path);
   const ReadPicture b = read_png(path);
@@ -176,7 +176,7 @@ TEST_F(ShowScene, covers_a_plate_without_gaps_thinned_or_not) {
     for (int x = -100; x <= 100; ++x)
       for (int y = -100; y <= 100; ++y)
         holes += colour_difference(picture.at(plate.x + x, plate.y + y), colour_of(80)) > 2;
-    EXPECT_LT(holes, most == 0 ? 1 : 7000) << most;  // chance leaves exp(-1.96) = 14 % of the thinned one open
+    EXPECT_LT(holes, most == 0 ? 1 : 7000) << most;  // a random subset leaves exp(-1.96) = 14 % uncovered
   }
 }
 
@@ -190,7 +190,7 @@ TEST_F(ShowScene, shows_soundings_in_the_colour_of_their_level) {
     look.soundings.position.push_back({2.0 + i, 0.0, 0.0});
     look.soundings.level_db.push_back(72);
   }
-  EXPECT_GT(find(show(scene, look), colour_of(72)).pixels, 15);  // five of 2 x 2 full pixels at least
+  EXPECT_GT(find(show(scene, look), colour_of(72)).pixels, 15);  // at least five marks of 2 x 2 full pixels
   look.soundings = {};
   EXPECT_EQ(find(show(scene, look), colour_of(72)).pixels, 0);
 }

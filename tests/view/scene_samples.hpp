@@ -19,7 +19,7 @@ inline void add_sphere(SceneCloud& scene, const Eigen::Vector3d& centre, double 
   }
 }
 
-/// Adds a level square of side x side surfels, normals up, whose first corner is at `corner`.
+/// Adds a horizontal square of side x side surfels, normals up, with its first corner at `corner`.
 inline void add_floor(SceneCloud& scene, const Eigen::Vector3d& corner, int side, double spacing) {
   for (int i = 0; i < side; ++i)
     for (int k = 0; k < side; ++k)

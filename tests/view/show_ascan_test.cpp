@@ -23,10 +23,10 @@ class ShowAscan : public testing::Test {
   std::string path = picture_path("ascan.png");
 };
 
-// The line is blue on white, and the only thing that is.
+// Only the line is blue, on white.
 bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }
 
-// Height of the middle of the line between two shares of the picture's width; -1 if there is none.
+// Mean height of the line between two fractions of the picture's width; -1 if there is none.
 double line_height(const ReadPicture& picture, double from, double to) {
   double sum = 0;
   int count = 0;

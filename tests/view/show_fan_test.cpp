@@ -19,7 +19,7 @@ using namespace insonify::test;
 
 namespace {
 
-// No test here has a screen.
+// All tests run without a screen.
 class ShowFan : public testing::Test {
  protected:
   void SetUp() override { unsetenv("DISPLAY"); }
@@ -40,7 +40,7 @@ class ShowFan : public testing::Test {
   std::string path = picture_path("fan.png");
 };
 
-// Nine beams 10 degrees apart and 20 bins of 0.5 m from 1 m, dark but for three cells of three levels: port
+// Nine beams 10 degrees apart and 20 bins of 0.5 m from 1 m, dark except three cells of different levels: port
 // near (azimuth +30 degrees, 2.75 m), starboard far (azimuth -30 degrees, 9.75 m) and ahead (6.25 m).
 struct ThreeCells {
   explicit ThreeCells(bool port_first) : image(flat_image(9, 90, 20, -200, port_first)) {
@@ -107,7 +107,7 @@ TEST_F(ShowFan, has_starboard_right_and_forward_up_whatever_the_order_of_the_bea
     EXPECT_NEAR((starboard.y - port.y) / (ahead.y - port.y),
                 7 * std::cos(radians(30)) / (6.25 - 2.75 * std::cos(radians(30))), 0.05);
 
-    // And where the layout says that they are.
+    // Compare with the positions of the layout.
     const Point2 p = layout.at(radians(-30), 2.75), s = layout.at(radians(30), 9.75), a = layout.at(0, 6.25);
     EXPECT_LT(std::hypot(port.x - p.x, port.y - p.y), 2);
     EXPECT_LT(std::hypot(starboard.x - s.x, starboard.y - s.y), 2);
@@ -127,7 +127,7 @@ TEST_F(ShowFan, shows_every_cell_in_the_colour_of_its_level) {
     const ColourScale scale = colour_scale(image.level_db, options, "test");
     for (Eigen::Index beam = 0; beam < 9; ++beam)
       for (Eigen::Index bin = 2; bin < 20; ++bin) {
-        // Off the middle, where spokes and rings are.
+        // Avoid the centre of the cell, where spokes and rings are.
         const double bearing = -image.fan.azimuth[static_cast<std::size_t>(beam)] + radians(2);
         const double range = image.gate.centre(static_cast<std::size_t>(bin)) + 0.1;
         const Point2 p = layout.at(bearing, range);
@@ -197,7 +197,7 @@ TEST_F(ShowFan, of_a_full_circle_has_no_seam) {
   EXPECT_GT(seen, 600);
 }
 
-// 8000 bins on some 800 pixels, one of them bright: drawn one in ten, it would be lost nine times in ten.
+// 8000 bins on some 800 pixels, one of them bright: if one in ten were drawn, it would be lost nine times in ten.
 TEST_F(ShowFan, does_not_lose_a_bright_bin_among_many) {
   options.colour_map = "grey";
   options.min_db = 0;
@@ -258,7 +258,7 @@ TEST_F(ShowFan, that_cannot_be_written_leaves_nothing_behind) {
   EXPECT_FALSE(file_exists(folder + ".tmp"));
   std::filesystem::remove_all(folder);
 
-  // A disk that is full after the first byte.
+  // /dev/full behaves like a full disk.
   if (file_exists("/dev/full")) {
     std::filesystem::create_symlink("/dev/full", path + ".tmp");
     EXPECT_THAT(message_of(image, options, path, ErrorKind::file), testing::HasSubstr("is the disk full?"));
@@ -267,7 +267,7 @@ TEST_F(ShowFan, that_cannot_be_written_leaves_nothing_behind) {
   }
 }
 
-// In a process of its own, in which the GL library finds no driver.
+// Runs in a separate process in which the GL library finds no driver.
 TEST(ShowFanDeathTest, without_a_gl_driver_says_what_to_install) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto draw = [] {

@@ -17,7 +17,7 @@ using namespace insonify::test;
 
 namespace {
 
-// Every value of its own.
+// All values differ.
 template <typename Grey>
 Grid<Grey> values(Eigen::Index beams, Eigen::Index bins, unsigned step) {
   Grid<Grey> grey(beams, bins);
@@ -77,7 +77,7 @@ TEST(ShowGrey, writes_every_value_as_it_is_with_starboard_right_and_range_upward
   }
 }
 
-// VTK's reader takes 8 bits of a PGM only: the bytes are checked against the format (netpbm, pgm(5)).
+// VTK reads only 8-bit PGM, so the bytes are checked against the format (netpbm, pgm(5)).
 TEST(ShowGrey, writes_sixteen_bits_of_a_pgm_with_the_high_byte_first) {
   Grid<std::uint16_t> grey(2, 2);
   grey << 0x0102, 0x0304, 0x0506, 0xFFFE;  // rows are beams, port first

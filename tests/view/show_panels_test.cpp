@@ -48,7 +48,7 @@ class ShowPanels : public testing::Test {
 
 }  // namespace
 
-// Port near and starboard far in the upper left panel, the fan; and again in the lower left one, the rectangle.
+// Port near and starboard far appear in the fan, the upper left panel, and in the rectangle, the lower left one.
 TEST_F(ShowPanels, show_the_fan_and_the_rectangle_each_in_its_place) {
   panels.image.level_db(7, 8) = 40;   // azimuth +30 degrees: port
   panels.image.level_db(1, 34) = 60;  // starboard

@@ -42,7 +42,7 @@ class ShowPattern : public testing::Test {
 
 bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }
 
-// Middle height of the line in the column at a share of the picture's width, from the bottom; -1 if there is none.
+// Mean height of the line in the column at a fraction of the picture's width; -1 if there is none.
 double line_height(const ReadPicture& picture, double share) {
   const int x = static_cast<int>(share * picture.width);
   double sum = 0;
@@ -54,7 +54,7 @@ double line_height(const ReadPicture& picture, double share) {
 
 }  // namespace
 
-// Azimuth counts to port, bearing to starboard: port is on the left.
+// Azimuth is positive to port, bearing to starboard: port is on the left.
 TEST_F(ShowPattern, draws_port_on_the_left_and_level_upwards) {
   for (std::size_t i = 0; i < azimuth.size(); ++i)
     if (azimuth[i] > radians(30)) level_db[i] = -10;

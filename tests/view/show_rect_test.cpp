@@ -13,7 +13,7 @@ using namespace insonify::test;
 
 namespace {
 
-// Twelve beams over 60 degrees and 20 bins, all of one level but for single cells.
+// Twelve beams over 60 degrees and 20 bins, all of one level except single cells.
 class ShowRect : public testing::Test {
  protected:
   void SetUp() override {
@@ -52,8 +52,7 @@ TEST_F(ShowRect, has_starboard_right_and_range_upwards_and_every_cell_in_its_col
   EXPECT_LT(port_near.y, middle.y);
   EXPECT_LT(middle.y, starboard_far.y);
 
-  // The middle cell is 6 of 11 beams and 10 of 19 bins on the way. Grid lines take up to a pixel of a cell's
-  // middle.
+  // The middle cell lies at 6/11 of the beams and 10/19 of the bins. Grid lines cover up to a pixel of a cell's middle.
   EXPECT_NEAR((middle.x - port_near.x) / (starboard_far.x - port_near.x), 6.0 / 11, 0.01);
   EXPECT_NEAR((middle.y - port_near.y) / (starboard_far.y - port_near.y), 10.0 / 19, 0.01);
 }

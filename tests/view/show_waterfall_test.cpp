@@ -15,7 +15,7 @@ using namespace insonify::test;
 
 namespace {
 
-// Eight pings of 20 bins, all of one level but for single cells.
+// Eight pings of 20 bins, all of one level except single cells.
 class ShowWaterfall : public testing::Test {
  protected:
   void SetUp() override {
@@ -79,7 +79,7 @@ TEST_F(ShowWaterfall, shows_every_sample_in_the_colour_of_its_level) {
   ASSERT_GT(last.pixels, 500);
   for (Eigen::Index ping = 0; ping < 8; ++ping)
     for (Eigen::Index bin = 0; bin < 20; ++bin) {
-      // Between the middles of the outermost cells, a little off where grid lines may be.
+      // Interpolate between the centres of the outermost cells, slightly off possible grid lines.
       const double x = first.x + (last.x - first.x) * (static_cast<double>(bin) + 0.23) / 19;
       const double y = first.y + (last.y - first.y) * (static_cast<double>(ping) + 0.23) / 7;
       if (bin == 19 || ping == 7) continue;

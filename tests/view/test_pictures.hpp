@@ -25,7 +25,7 @@ ReadPicture read_png(const std::string& path);
 /// Largest difference of two colours over their channels.
 int colour_difference(const Rgb& a, const Rgb& b);
 
-/// Middle of the pixels of a colour within [left, right) x [bottom, top), and how many there are.
+/// Centroid and number of the pixels of a colour within [left, right) x [bottom, top).
 struct Blob {
   double x = 0, y = 0;
   int pixels = 0;

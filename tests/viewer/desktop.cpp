@@ -16,7 +16,7 @@
 namespace insonify::test {
 namespace {
 
-// Tries until it holds or the time is over.
+// Polls until the condition holds or the time has elapsed.
 template <typename Condition>
 bool comes_true(double seconds, Condition&& condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -75,7 +75,7 @@ VirtualDisplay::VirtualDisplay() {
     _exit(127);
   }
   close(answer[1]);
-  // Up to the end of its line: the server ends if nobody takes all of it. Nothing comes if there is no Xvfb.
+  // Read the whole line, or the server would exit. Without Xvfb nothing arrives.
   std::string number;
   for (char c = 0; read(answer[0], &c, 1) == 1 && c != '\n';) number += c;
   close(answer[0]);

@@ -6,7 +6,8 @@
 
 namespace insonify::test {
 
-/// An X server without a screen, for as long as it lives; empty name: Xvfb is not installed. Throws if it does not answer.
+/// A virtual X server, stopped by the destructor; the name is empty if Xvfb is not installed. Throws if it does not
+/// answer.
 class VirtualDisplay {
  public:
   VirtualDisplay();
@@ -17,11 +18,11 @@ class VirtualDisplay {
 
  private:
   pid_t server_ = -1;
-  void* client_ = nullptr;  ///< a server that loses its last client begins anew
+  void* client_ = nullptr;  ///< keeps the server from resetting when its last client leaves
   std::string name_;
 };
 
-/// A program on a display, what it writes, and a user who clicks and types.
+/// A program on a display, with its output, and simulated clicks and keys.
 class DesktopProgram {
  public:
   DesktopProgram(const VirtualDisplay& display, const std::vector<std::string>& command, const std::string& out_file);
@@ -33,8 +34,8 @@ class DesktopProgram {
   bool has_window(const std::string& title);
   void click(int x, int y) const;  ///< [pixels] from the window's upper left corner
   void type(const std::string& key_symbol) const;
-  void close_window() const;  ///< as the cross in its corner does
-  /// What it has written by the time that this holds `part`, or the time is over.
+  void close_window() const;  ///< like the close button
+  /// The output once it contains `part`, or after `seconds`.
   std::string output_with(const std::string& part, double seconds = 30) const;
   int wait_for_end();  ///< exit code; -1 if it had to be killed after 30 s
 

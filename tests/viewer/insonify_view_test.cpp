@@ -98,7 +98,7 @@ TEST_F(InsonifyView, a_run_whose_scene_is_gone_is_shown_without_it) {
   std::filesystem::remove(path("targets.ply"));
   const ToolResult result = run("view out --screenshot a.png");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("targets.ply: the scene of the run is not there"));
+  EXPECT_THAT(result.err, HasSubstr("targets.ply: the scene of the run is missing"));
 }
 
 TEST_F(InsonifyView, shows_the_returns_of_a_run) {
@@ -140,7 +140,7 @@ TEST_F(InsonifyView, without_a_display_it_says_what_to_do) {
   const std::string display = std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "";
   unsetenv("DISPLAY");
   expect_refused("view out", 1, {"no display", "xvfb-run", "insonify image"});
-  setenv("DISPLAY", ":999", 1);  // nobody there
+  setenv("DISPLAY", ":999", 1);  // no server
   expect_refused("view out", 1, {"no display"});
   if (display.empty())
     unsetenv("DISPLAY");
@@ -203,7 +203,7 @@ TEST_F(InsonifyView, refuses_options_that_make_no_sense) {
 TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
   const test::VirtualDisplay display;
   if (display.name().empty()) GTEST_SKIP() << "Xvfb is not installed: apps/install_packages.sh --tests";
-  // The same window drawn off-screen tells where the targets are.
+  // The same window drawn off-screen gives the places of the targets.
   ViewerOptions options;
   options.width = 1000, options.height = 700;
   Point2 at[2];
@@ -220,7 +220,7 @@ TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
   const auto click = [&](Point2 p) {
     program.click(static_cast<int>(std::lround(p.x)), 699 - static_cast<int>(std::lround(p.y)));
   };
-  // A window is there a moment before it listens.
+  // A window exists shortly before it accepts input.
   for (int i = 0; i < 30 && program.output_with("iron", 1).empty(); ++i) click(at[0]);
   EXPECT_THAT(program.output_with("iron"), HasSubstr("-26.00° (port)"));
   program.type("Right");  // the second ping

@@ -8,7 +8,7 @@ namespace insonify::test {
 namespace {
 
 constexpr std::size_t beams = 41, bins = 120;
-constexpr float loud = 10, soft = 0.01F;  // [Pa]: 60 dB
+constexpr float loud = 10, soft = 0.01F;  // [Pa], 60 dB apart
 
 // A plate of 5 x 5 surfels, 2 cm apart, facing the head.
 void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middle, std::uint16_t material) {
@@ -18,7 +18,7 @@ void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middl
     for (int j = -2; j <= 2; ++j) add_surfel(scene, middle + 0.02 * (i * across + j * up), towards, 4e-4, material);
 }
 
-void hear(ViewerData& data, const Target& target) {
+void add_echo(ViewerData& data, const Target& target) {
   for (Ping& ping : data.pings)
     ping.pressure(static_cast<Eigen::Index>(target.place.beam), static_cast<Eigen::Index>(target.place.bin)) = loud;
 }
@@ -48,10 +48,10 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
     Target target{name, ping.fan.azimuth[beam], ping.gate.centre(bin), {beam, bin}, {}};
     target.position = ping.world_from_head * (target.range * unit_vector({target.azimuth, 0}));
     add_plate(data.scene, ping.world_from_head, target.position, material);
-    hear(data, target);
+    add_echo(data, target);
     return target;
   };
-  const bool port_last = ping.fan.azimuth[0] < 0;  // whichever way the fan is numbered
+  const bool port_last = ping.fan.azimuth[0] < 0;  // for either numbering of the fan
   made.port = place("iron", port_last ? 33 : 7, 40, 0);
   made.starboard = place("wood", port_last ? 7 : 33, 40, 1);
   made.far = place("rubber", 20, 100, 2);

@@ -3,19 +3,19 @@
 
 namespace insonify::test {
 
-/// Three targets that tell left from right and near from far, as scene, ping and contributors. The head stands at
-/// (10, 20, -3), turned by 30 degrees to port; every bin but those of the targets is 60 dB weaker than they.
+/// Three targets that distinguish left from right and near from far, as scene, ping and contributors. The head is at
+/// (10, 20, -3) with 30 degrees of yaw; all bins except those of the targets are 60 dB weaker.
 struct Target {
-  const char* name;          ///< of its material
-  double azimuth, range;     ///< of its middle [rad, m]; positive azimuth is to port
-  PixelPlace place;          ///< where it is heard
+  const char* name;          ///< name of its material
+  double azimuth, range;     ///< of its centre [rad, m]; azimuth positive to port
+  PixelPlace place;          ///< sample of its echo
   Eigen::Vector3d position;  ///< world [m]
 };
 struct TargetData {
   ViewerData data;
   Target port, starboard, far;
 };
-/// `pings` alike but for their numbers, which count from 7.
+/// `pings` identical pings with numbers 7, 8, ...
 TargetData three_targets(std::size_t pings = 1, bool with_contributors = false);
 
 }  // namespace insonify::test

@@ -1,4 +1,4 @@
-// What is said about a sample, and what is highlighted for it.
+// Explanation of a sample, and the surfels highlighted for it.
 #include "viewer/viewer_explain.hpp"
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(ExplainPixel, port_is_negative_and_starboard_positive) {
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.far.place)), HasSubstr("0.00° (ahead)"));
 }
 
-TEST(ExplainPixel, names_the_material_that_stands_there) {
+TEST(ExplainPixel, names_the_material_at_the_sample) {
   const auto made = three_targets();
   for (const auto* target : {&made.port, &made.starboard, &made.far}) {
     const PixelFacts facts = find_pixel_facts(made.data, 0, target->place);
@@ -60,7 +60,7 @@ TEST(ExplainPixel, contributors_come_strongest_first_with_share_and_path) {
   EXPECT_THAT(surfels_behind(facts), testing::ElementsAre(12, 7));
 }
 
-TEST(ExplainPixel, known_and_none_is_not_the_same_as_not_known) {
+TEST(ExplainPixel, distinguishes_no_contributors_from_unknown_ones) {
   const auto known = three_targets(1, true);
   EXPECT_THAT(explain_pixel(find_pixel_facts(known.data, 0, {0, 0})), HasSubstr("No surfel contributes"));
   const auto not_known = three_targets();
@@ -73,9 +73,9 @@ TEST(ExplainPixel, without_contributors_what_is_seen_there_is_highlighted) {
   EXPECT_TRUE(surfels_behind(find_pixel_facts(made.data, 0, {0, 0})).empty());
 }
 
-TEST(ExplainPixel, says_what_casts_the_shadow_and_how_near_it_stands) {
+TEST(ExplainPixel, names_the_occluder_and_its_range) {
   auto made = three_targets();
-  // A screen of 40 x 40 surfels before the far target, at half its range.
+  // A screen of 40 x 40 surfels in front of the far target, at half its range.
   const Pose& pose = made.data.pings[0].world_from_head;
   const double range = 6;
   for (int i = -20; i < 20; ++i)
@@ -88,10 +88,10 @@ TEST(ExplainPixel, says_what_casts_the_shadow_and_how_near_it_stands) {
   ASSERT_TRUE(facts.visibility->occluder_range);
   EXPECT_NEAR(*facts.visibility->occluder_range, range, 0.01);
   EXPECT_EQ(made.data.scene.material[*facts.visibility->occluder_surfel], 1);
-  EXPECT_THAT(explain_pixel(facts), HasSubstr("hidden by what stands at 6.0"));
+  EXPECT_THAT(explain_pixel(facts), HasSubstr("occluded by a surfel at 6.0"));
 }
 
-TEST(ExplainPixel, a_hole_of_the_scan_is_told_and_so_is_the_error_of_sampling) {
+TEST(ExplainPixel, reports_a_hole_of_the_scan_and_the_sampling_error) {
   auto made = three_targets();
   Ping& ping = made.data.pings[0];
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), Not(HasSubstr("Hole")));
@@ -120,13 +120,13 @@ TEST(ExplainPixel, refuses_a_sample_that_is_not_there) {
 
 // --- from the world to a sample
 
-TEST(PlaceOf, a_target_is_heard_where_it_stands) {
+TEST(PlaceOf, finds_the_sample_of_a_target) {
   const auto made = three_targets();
   for (const auto* target : {&made.port, &made.starboard, &made.far})
     EXPECT_EQ(place_of(made.data.pings[0], target->position), target->place) << target->name;
 }
 
-TEST(PlaceOf, nothing_is_heard_outside_fan_and_gate) {
+TEST(PlaceOf, is_empty_outside_fan_and_gate) {
   const auto made = three_targets();
   const Ping& ping = made.data.pings[0];
   EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(1.9, 0, 0)));

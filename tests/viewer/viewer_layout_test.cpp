@@ -1,4 +1,4 @@
-// Where panels are, what is under a place, and what events mean.
+// Layout of the panels, picking, and parsing of events.
 #include "viewer/viewer_layout.hpp"
 
 #include <gmock/gmock.h>

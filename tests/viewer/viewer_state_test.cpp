@@ -1,4 +1,4 @@
-// Keys and clicks as a model: state in, state out.
+// Keys and clicks as functions from state to state.
 #include "viewer/viewer_state.hpp"
 
 #include <cmath>
@@ -88,7 +88,7 @@ TEST(ViewerKeys, shift_and_arrows_move_the_selection_from_sample_to_sample) {
   EXPECT_EQ(after(state, {"shift+Right", "shift+Up", "shift+Up"}).selected, (PixelPlace{11, 22}));
   state.selected = PixelPlace{0, 199};
   EXPECT_EQ(after(state, {"shift+Left", "shift+Up"}).selected, (PixelPlace{0, 199}));
-  EXPECT_TRUE(after({}, {"shift+Right"}).selected.has_value());  // begins in the middle
+  EXPECT_TRUE(after({}, {"shift+Right"}).selected.has_value());  // starts in the middle
 }
 
 TEST(ViewerKeys, escape_lets_go_of_everything) {
@@ -126,7 +126,7 @@ TEST(ViewerKeys, nothing_to_choose_from_is_no_harm) {
   }
 }
 
-// Every key that help names does something, in the mode that names it.
+// Every key in the help has an effect in its mode.
 TEST(ViewerKeys, help_names_keys_that_work) {
   const std::set<std::string> symbols = {
       "Left", "Right",       "comma",        "period", "Home", "End", "space",      "less",     "greater", "Up",
@@ -164,7 +164,7 @@ TEST(ViewerPlay, advances_by_time_and_comes_round) {
   state = play_on(state, 0.2, extent, carried);  // 1.2 pings in all
   EXPECT_EQ(state.ping, 1U);
   EXPECT_NEAR(carried, 0.2, 1e-12);
-  state = play_on(state, 1.0, extent, carried);  // 4 more of 5: round to the first
+  state = play_on(state, 1.0, extent, carried);  // 4 more of 5: wraps to the first
   EXPECT_EQ(state.ping, 0U);
   state.playing = false;
   EXPECT_EQ(play_on(state, 10, extent, carried).ping, 0U);
@@ -200,7 +200,7 @@ TEST(ViewerSelect, two_clicks_measure_a_distance_and_leave_the_selection) {
   EXPECT_DOUBLE_EQ(state.measure.length(), 5);  // 3-4-5
   EXPECT_EQ(state.selected, (PixelPlace{3, 4}));
   state = select_pixel(state, {7, 8}, {0, 0}, extent);
-  EXPECT_EQ(state.measure.points.size(), 1U);  // a new one
+  EXPECT_EQ(state.measure.points.size(), 1U);  // a new measurement
 }
 
 // --- the head
@@ -217,7 +217,7 @@ TEST(ViewerHead, moves_along_its_own_heading) {
   state.head.yaw = radians(90);  // faces y
   EXPECT_TRUE(moved("Up").isApprox(Eigen::Vector3d(0, 2, 0), 1e-12));
   EXPECT_TRUE(moved("Right").isApprox(Eigen::Vector3d(2, 0, 0), 1e-12));
-  state.head.pitch = radians(60);  // level all the same
+  state.head.pitch = radians(60);  // horizontal nevertheless
   EXPECT_TRUE(moved("Down").isApprox(Eigen::Vector3d(0, -2, 0), 1e-12));
 }
 

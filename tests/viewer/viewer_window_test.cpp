@@ -1,4 +1,4 @@
-// The whole window, drawn off-screen: clicks and keys reach the state, and what is drawn follows it.
+// The whole window, drawn off-screen: clicks and keys change the state, and the drawing follows it.
 #include <cmath>
 #include <filesystem>
 
@@ -22,7 +22,7 @@ class Window : public testing::Test {
     options.width = 1200;
     options.height = 800;
     options.say = [this](const std::string& text) { said_.push_back(text); };
-    window_.reset();  // one at a time: each has VTK's messages to itself
+    window_.reset();  // one window at a time, since each holds VTK's messages
     window_ = std::make_unique<ViewerWindow>(made_.data, options, ViewerScreen::off_screen);
     window_->run(options.events);
   }
@@ -51,7 +51,7 @@ class Window : public testing::Test {
     std::filesystem::remove(path);
     return read;
   }
-  // Pixels that differ between two pictures within a box.
+  // Number of pixels within a box that differ between two pictures.
   static int differences(const test::ReadPicture& a, const test::ReadPicture& b, const Box& box) {
     int count = 0;
     for (double x = box.left + 0.5; x < box.right; ++x)
@@ -76,7 +76,7 @@ TEST_F(Window, a_click_on_a_target_selects_its_sample_and_explains_it) {
   }
 }
 
-// Not the layout's word for it: the bright cell itself is looked for in the picture.
+// Finds the bright cell in the picture itself, independently of the layout.
 TEST_F(Window, targets_are_drawn_where_clicks_find_them) {
   ViewerOptions options;
   options.start.colour_map = "grey";
@@ -120,7 +120,7 @@ TEST_F(Window, clicks_find_the_same_cell_after_the_fan_was_moved_and_zoomed) {
   EXPECT_GT(std::abs(window_->pixel_of(made_.port.place).x - at.x), std::abs(after.x - at.x));
   window_->play(click_at(window_->pixel_of(made_.port.place), ViewerPanelName::fan));
   EXPECT_EQ(window_->state().selected, made_.port.place);
-  window_->press_key("Up");  // drawn anew, and where the user left it
+  window_->press_key("Up");  // redrawn with the user's camera
   EXPECT_NE(window_->pixel_of(made_.port.place).x, before.x);
   window_->press_key("r");
   EXPECT_NEAR(window_->pixel_of(made_.port.place).x, before.x, 1e-6);
@@ -133,7 +133,7 @@ TEST_F(Window, a_drag_is_no_click) {
   EXPECT_TRUE(said_.empty());
 }
 
-TEST_F(Window, a_click_on_a_target_in_3d_selects_where_it_is_heard) {
+TEST_F(Window, a_click_on_a_target_in_3d_selects_its_sample) {
   open();
   for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
     const auto at = window_->pixel_of_point(target->position);
@@ -190,7 +190,7 @@ TEST_F(Window, the_same_state_is_drawn_the_same_way_whatever_came_before) {
 
 TEST_F(Window, the_slider_sets_the_gain) {
   open();
-  // The slider's tube lies between these ends; a press on it makes it jump there.
+  // Ends of the slider's tube; a press on the tube moves the slider there.
   const Box& facts = window_->layout().facts;
   const double font = window_->layout().font_size;
   const double left = facts.left + 2 * font, right = facts.right - 2 * font;
@@ -200,7 +200,7 @@ TEST_F(Window, the_slider_sets_the_gain) {
 }
 
 TEST_F(Window, playing_moves_on_by_itself) {
-  made_ = three_targets(64);  // too many to come round in the time
+  made_ = three_targets(64);  // too many to wrap around in the time
   ViewerOptions options;
   options.events = parse_viewer_script("key space; wait 0.6; key space");
   open(options);
@@ -208,7 +208,7 @@ TEST_F(Window, playing_moves_on_by_itself) {
   EXPECT_FALSE(window_->state().playing);
 }
 
-TEST_F(Window, quits_when_told_to) {
+TEST_F(Window, quits_on_request) {
   ViewerOptions options;
   options.events = parse_viewer_script("key q; key Up");
   open(options);
