@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "beamforming/error_text.hpp"
 #include "beamforming/shading.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 

@@ -1,5 +1,5 @@
 // A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval Postgraduate School): what its
-// equations and figures come to when they are put right. docs/thesis.md tells the story.
+// equations and figures come to when they are put right. the story is in docs/thesis.md.
 #include <algorithm>
 #include <cmath>
 #include <complex>

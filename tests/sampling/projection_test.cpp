@@ -190,13 +190,13 @@ TEST(PreparedScene, still_refuses_what_is_wrong_with_the_ping) {
   SceneCloud scene;
   add_wall(scene, 5, 1, 1, 0.1);
   const PreparedScene prepared(scene);
-  EXPECT_EQ(message_of([&] {
+  EXPECT_EQ(error_of([&] {
               find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1});
             }),
-            message_of([&] {
+            error_of([&] {
               find_scatterers(scene, Pose::Identity(), wide_fan(), {2, 1, 0.1});
             }));
-  EXPECT_NE(message_of([&] { find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1}); }), "no error");
+  EXPECT_NE(error_of([&] { find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1}); }), "no error");
 }
 
 // Lambert's cross-section without mu. Four and sixteen times as many surfels, or rays, change it by less than 0.1 dB.

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -79,10 +80,6 @@ TEST(PreparedScene, of_nothing_or_of_one_place_is_valid) {
 TEST(PreparedScene, refuses_an_invalid_scene) {
   SceneCloud scene;
   add_surfel(scene, {1, 2, 3}, {0, 0, 0}, 1);
-  try {
-    const PreparedScene prepared(scene);
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("PreparedScene: scene.normal[0]"));
-  }
+  EXPECT_THAT(error_of([&] { const PreparedScene prepared(scene); }, ErrorKind::content),
+              testing::StartsWith("PreparedScene: scene.normal[0]"));
 }

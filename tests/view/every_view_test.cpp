@@ -1,6 +1,5 @@
 // What holds for every view: room for all texts at all sizes, both themes, Greek.
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <map>
 
@@ -19,7 +18,6 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -113,9 +111,8 @@ void expect_readable(const std::vector<PlacedText>& texts, const PictureOptions&
 class EveryView : public testing::Test {
  protected:
   void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
 
-  std::string path = picture_path("view.png");
+  std::string path = own_path("view.png");
 };
 
 }  // namespace

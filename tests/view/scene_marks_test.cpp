@@ -1,6 +1,5 @@
 // Holes of the scan and normals in the picture of a scene.
 #include <cstdlib>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -9,7 +8,6 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -26,7 +24,6 @@ class SceneMarks : public testing::Test {
     options.width = 500;
     options.height = 400;
   }
-  ~SceneMarks() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_scene(scene, look, options, path);
     return read_png(path);
@@ -38,7 +35,7 @@ class SceneMarks : public testing::Test {
   SceneCloud scene;
   SceneLook look;
   PictureOptions options;
-  std::string path = picture_path("marks.png");
+  std::string path = own_path("marks.png");
   const Rgb red = {222, 45, 38};
 };
 

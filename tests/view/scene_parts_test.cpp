@@ -13,7 +13,6 @@
 #include "view/scene_surfels_internal.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 

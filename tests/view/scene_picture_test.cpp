@@ -1,18 +1,17 @@
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/scene_colours_internal.hpp"
 #include "view/scene_samples.hpp"
 #include "view/show_scene.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -20,7 +19,6 @@ namespace {
 class ShowScene : public testing::Test {
  protected:
   void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
 
   ReadPicture show(const SceneCloud& scene, const SceneLook& look) {
     show_scene(scene, look, options, path);
@@ -44,7 +42,7 @@ class ShowScene : public testing::Test {
     return picture;
   }
   PictureOptions options = small_jet();
-  std::string path = picture_path("scene.png");
+  std::string path = own_path("scene.png");
 };
 
 // Three spheres in three levels: to port and near, to starboard, and above; seen from a head at `world_from_head`.
@@ -64,13 +62,7 @@ struct ThreeSpheres {
 };
 
 std::string message_of(const SceneCloud& scene, const SceneLook& look, ErrorKind kind, const std::string& path) {
-  try {
-    show_scene(scene, look, {}, path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { show_scene(scene, look, {}, path); }, kind);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -23,7 +23,6 @@ namespace {
 class ShowFan : public testing::Test {
  protected:
   void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
 
   ReadPicture show(const LevelImage& image) {
     show_fan(image, options, path);
@@ -37,7 +36,7 @@ class ShowFan : public testing::Test {
   }
 
   PictureOptions options{.title = "Test"};
-  std::string path = picture_path("fan.png");
+  std::string path = own_path("fan.png");
 };
 
 // Nine beams 10 degrees apart and 20 bins of 0.5 m from 1 m, dark but for three cells of three levels: port
@@ -60,13 +59,7 @@ struct ThreeCells {
 
 std::string message_of(const LevelImage& image, const PictureOptions& options, const std::string& path,
                        ErrorKind kind) {
-  try {
-    show_fan(image, options, path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { show_fan(image, options, path); }, kind);
 }
 
 }  // namespace
@@ -249,10 +242,10 @@ TEST_F(ShowFan, refuses_an_unknown_colour_map) {
 
 TEST_F(ShowFan, that_cannot_be_written_leaves_nothing_behind) {
   const LevelImage image = flat_image(4, 60, 10, 0);
-  const std::string nowhere = picture_path("no_such_folder") + "/fan.png";
+  const std::string nowhere = own_path("no_such_folder") + "/fan.png";
   EXPECT_THAT(message_of(image, options, nowhere, ErrorKind::file), testing::HasSubstr("cannot write " + nowhere));
 
-  const std::string folder = picture_path("folder.png");
+  const std::string folder = own_path("folder.png");
   std::filesystem::create_directories(folder + "/full");
   EXPECT_THAT(message_of(image, options, folder, ErrorKind::file), testing::HasSubstr("cannot write " + folder));
   EXPECT_FALSE(file_exists(folder + ".tmp"));
@@ -273,7 +266,7 @@ TEST(ShowFanDeathTest, without_a_gl_driver_says_what_to_install) {
   const auto draw = [] {
     setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
     try {
-      show_fan(flat_image(4, 60, 10, 0), {}, picture_path("never.png"));
+      show_fan(flat_image(4, 60, 10, 0), {}, own_path("never.png"));
     } catch (const Error& error) {
       std::fprintf(stderr, "%s", error.what());
       std::_Exit(error.kind() == ErrorKind::runtime ? 3 : 4);

@@ -1,7 +1,6 @@
 #include "view/show_rect.hpp"
 
 #include <cstdlib>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -9,7 +8,6 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -22,7 +20,6 @@ class ShowRect : public testing::Test {
     options.min_db = 0;
     options.max_db = 100;
   }
-  void TearDown() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_rect(image, options, path);
     return read_png(path);
@@ -35,7 +32,7 @@ class ShowRect : public testing::Test {
 
   LevelImage image = flat_image(12, 60, 20, 5);
   PictureOptions options;
-  std::string path = picture_path("rect.png");
+  std::string path = own_path("rect.png");
 };
 
 }  // namespace

@@ -1,17 +1,16 @@
 #include "view/show_waterfall.hpp"
 
 #include <cstdlib>
-#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/cell_frame_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -31,7 +30,6 @@ class ShowWaterfall : public testing::Test {
       history.time.push_back(0.2 * ping);
     }
   }
-  void TearDown() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_waterfall(history, options, path);
     return read_png(path);
@@ -41,19 +39,14 @@ class ShowWaterfall : public testing::Test {
     return find_colour(picture, scale().colour(db), 0, 0.9 * picture.width, 0, picture.height);  // without the bar
   }
   std::string refusal() {
-    try {
-      show_waterfall(history, options, path);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::argument);
-      EXPECT_FALSE(file_exists(path));
-      return error.what();
-    }
-    return "no error";
+    const std::string error = error_of([&] { show_waterfall(history, options, path); });
+    EXPECT_FALSE(file_exists(path));
+    return error;
   }
 
   PingHistory history;
   PictureOptions options;
-  std::string path = picture_path("waterfall.png");
+  std::string path = own_path("waterfall.png");
 };
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "support/files.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/picture.hpp"
 
-namespace insonify::test {
+namespace insonify::inline test {
 
 /// An image of `beams` beams spread over `field_of_view_deg`, port first or starboard first, all at
 /// `level_db`.
@@ -32,10 +33,4 @@ struct Blob {
 };
 Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top);
 
-/// A path in the test's own folder for temporary files.
-std::string picture_path(const std::string& name);
-
-std::string file_bytes(const std::string& path);
-bool file_exists(const std::string& path);
-
-}  // namespace insonify::test
+}  // namespace insonify::inline test

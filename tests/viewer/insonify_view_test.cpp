@@ -203,7 +203,7 @@ TEST_F(InsonifyView, refuses_options_that_make_no_sense) {
 TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
   const test::VirtualDisplay display;
   if (display.name().empty()) GTEST_SKIP() << "Xvfb is not installed: apps/install_packages.sh --tests";
-  // The same window drawn off-screen tells where the targets are.
+  // The same window drawn off-screen shows where the targets are.
   ViewerOptions options;
   options.width = 1000, options.height = 700;
   Point2 at[2];

@@ -1,11 +1,11 @@
 // The whole window, drawn off-screen: clicks and keys reach the state, and what is drawn follows it.
 #include <cmath>
-#include <filesystem>
 
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_window_internal.hpp"
@@ -45,10 +45,9 @@ class Window : public testing::Test {
     return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
   }
   test::ReadPicture picture(const std::string& name) {
-    const std::string path = test::picture_path(name);
+    const std::string path = own_path(name);
     window_->save_png(path);
     test::ReadPicture read = test::read_png(path);
-    std::filesystem::remove(path);
     return read;
   }
   // Pixels that differ between two pictures within a box.
@@ -250,12 +249,7 @@ TEST_F(Window, a_run_without_scene_shows_its_fan_alone) {
 
 TEST_F(Window, refuses_what_cannot_be_shown) {
   const auto refuses = [&](const ViewerData& data, const ViewerOptions& options) {
-    try {
-      ViewerWindow window(data, options, ViewerScreen::off_screen);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return error_of([&] { ViewerWindow window(data, options, ViewerScreen::off_screen); });
   };
   ViewerOptions options;
   options.start.ping = 1;
