@@ -1,6 +1,7 @@
 // KD-trees, raster and prepared scenes against the plain referee: the same bytes, at another cost.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>

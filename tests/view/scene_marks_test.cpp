@@ -1,5 +1,4 @@
 // Holes of the scan and normals in the picture of a scene.
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -11,10 +10,9 @@ using namespace insonify;
 
 namespace {
 
-class SceneMarks : public testing::Test {
+class SceneMarks : public PictureTest {
  protected:
   SceneMarks() {
-    unsetenv("DISPLAY");
     scene.origin = {5e5, 4e6, 0};
     add_floor(scene, scene.origin + Eigen::Vector3d(-3, -3, 0), 60, 0.1);
     look.colour = SceneColour::visibility;
@@ -34,8 +32,6 @@ class SceneMarks : public testing::Test {
 
   SceneCloud scene;
   SceneLook look;
-  PictureOptions options;
-  std::string path = own_path("marks.png");
   const Rgb red = {222, 45, 38};
 };
 

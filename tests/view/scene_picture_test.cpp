@@ -1,10 +1,8 @@
-#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "support/errors.hpp"
 #include "view/scene_colours_internal.hpp"
 #include "view/scene_samples.hpp"
@@ -15,11 +13,9 @@ using namespace insonify;
 
 namespace {
 
-// No test here has a screen.
-class ShowScene : public testing::Test {
+class ShowScene : public JetPictureTest {
  protected:
-  void SetUp() override { unsetenv("DISPLAY"); }
-
+  ShowScene() { options.width = 700, options.height = 520, options.title = "Test", options.min_db = 50; }
   ReadPicture show(const SceneCloud& scene, const SceneLook& look) {
     show_scene(scene, look, options, path);
     return read_png(path);
@@ -30,19 +26,6 @@ class ShowScene : public testing::Test {
   Blob find(const ReadPicture& picture, const Rgb& colour) const {
     return find_colour(picture, colour, 0, 0.82 * picture.width, 0, picture.height);  // left of the colour bar
   }
-
-  static PictureOptions small_jet() {
-    PictureOptions picture;
-    picture.width = 700;
-    picture.height = 520;
-    picture.title = "Test";
-    picture.colour_map = "jet";
-    picture.min_db = 50;
-    picture.max_db = 100;
-    return picture;
-  }
-  PictureOptions options = small_jet();
-  std::string path = own_path("scene.png");
 };
 
 // Three spheres in three levels: to port and near, to starboard, and above; seen from a head at `world_from_head`.

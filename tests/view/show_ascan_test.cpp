@@ -1,10 +1,7 @@
 #include "view/show_ascan.hpp"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 
@@ -12,13 +9,9 @@ using namespace insonify;
 
 namespace {
 
-class ShowAscan : public testing::Test {
+class ShowAscan : public PictureTest {
  protected:
-  void SetUp() override { unsetenv("DISPLAY"); }
-
   LevelImage image = flat_image(3, 60, 300, -200);
-  PictureOptions options;
-  std::string path = own_path("ascan.png");
 };
 
 // The line is blue on white, and the only thing that is.

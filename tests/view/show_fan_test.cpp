@@ -19,11 +19,9 @@ using namespace insonify;
 
 namespace {
 
-// No test here has a screen.
-class ShowFan : public testing::Test {
+class ShowFan : public PictureTest {
  protected:
-  void SetUp() override { unsetenv("DISPLAY"); }
-
+  ShowFan() { options.title = "Test"; }
   ReadPicture show(const LevelImage& image) {
     show_fan(image, options, path);
     return read_png(path);
@@ -34,9 +32,6 @@ class ShowFan : public testing::Test {
     return lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options,
                        colour_scale(image.level_db, options, "test"), image.unit);
   }
-
-  PictureOptions options{.title = "Test"};
-  std::string path = own_path("fan.png");
 };
 
 // Nine beams 10 degrees apart and 20 bins of 0.5 m from 1 m, dark but for three cells of three levels: port

@@ -1,7 +1,5 @@
 #include "view/show_panels.hpp"
 
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,15 +13,11 @@ using namespace insonify;
 
 namespace {
 
-class ShowPanels : public testing::Test {
+class ShowPanels : public JetPictureTest {
  protected:
   void SetUp() override {
-    unsetenv("DISPLAY");
     panels.image = flat_image(9, 90, 40, 5);
     panels.facts = {{"Sonar", "test"}, {"Range", "1 to 21 m"}};
-    options.colour_map = "jet";
-    options.min_db = 0;
-    options.max_db = 100;
   }
   ReadPicture show() {
     show_panels(panels, options, path);
@@ -34,8 +28,6 @@ class ShowPanels : public testing::Test {
   }
 
   Panels panels;
-  PictureOptions options;
-  std::string path = own_path("panels.png");
 };
 
 }  // namespace

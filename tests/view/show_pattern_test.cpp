@@ -1,12 +1,10 @@
 #include "view/show_pattern.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 #include "view/test_pictures.hpp"
@@ -15,10 +13,9 @@ using namespace insonify;
 
 namespace {
 
-class ShowPattern : public testing::Test {
+class ShowPattern : public PictureTest {
  protected:
   void SetUp() override {
-    unsetenv("DISPLAY");
     for (int i = -90; i <= 90; ++i) azimuth.push_back(radians(i));
     level_db.assign(azimuth.size(), -50);
   }
@@ -28,8 +25,6 @@ class ShowPattern : public testing::Test {
   }
 
   std::vector<double> azimuth, level_db;
-  PictureOptions options;
-  std::string path = own_path("pattern.png");
 };
 
 bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }

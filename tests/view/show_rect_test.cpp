@@ -1,7 +1,5 @@
 #include "view/show_rect.hpp"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -12,14 +10,8 @@ using namespace insonify;
 namespace {
 
 // Twelve beams over 60 degrees and 20 bins, all of one level but for single cells.
-class ShowRect : public testing::Test {
+class ShowRect : public JetPictureTest {
  protected:
-  void SetUp() override {
-    unsetenv("DISPLAY");
-    options.colour_map = "jet";
-    options.min_db = 0;
-    options.max_db = 100;
-  }
   ReadPicture show() {
     show_rect(image, options, path);
     return read_png(path);
@@ -31,8 +23,6 @@ class ShowRect : public testing::Test {
   }
 
   LevelImage image = flat_image(12, 60, 20, 5);
-  PictureOptions options;
-  std::string path = own_path("rect.png");
 };
 
 }  // namespace

@@ -1,11 +1,8 @@
 #include "view/show_waterfall.hpp"
 
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "support/errors.hpp"
 #include "view/cell_frame_internal.hpp"
 #include "view/test_pictures.hpp"
@@ -15,13 +12,9 @@ using namespace insonify;
 namespace {
 
 // Eight pings of 20 bins, all of one level but for single cells.
-class ShowWaterfall : public testing::Test {
+class ShowWaterfall : public JetPictureTest {
  protected:
   void SetUp() override {
-    unsetenv("DISPLAY");
-    options.colour_map = "jet";
-    options.min_db = 0;
-    options.max_db = 100;
     history.gate = {1, 11, 0.5};
     history.unit = "dB re 1 µPa";
     history.level_db = Grid<float>::Constant(8, 20, 5);
@@ -45,8 +38,6 @@ class ShowWaterfall : public testing::Test {
   }
 
   PingHistory history;
-  PictureOptions options;
-  std::string path = own_path("waterfall.png");
 };
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "support/files.hpp"
 #include "view/colour_maps_internal.hpp"
@@ -13,6 +16,21 @@ namespace insonify::inline test {
 /// `level_db`.
 LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db,
                       bool port_first = false);
+
+/// Draws without a screen, into a file of its own.
+class PictureTest : public testing::Test {
+ protected:
+  PictureTest() { unsetenv("DISPLAY"); }
+
+  PictureOptions options;
+  std::string path = own_path("picture.png");
+};
+
+/// The same in colours over 0 to 100 dB.
+class JetPictureTest : public PictureTest {
+ protected:
+  JetPictureTest() { options.colour_map = "jet", options.min_db = 0, options.max_db = 100; }
+};
 
 /// A picture as read back from its PNG; the origin is the lower left corner.
 struct ReadPicture {
