@@ -28,12 +28,12 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A small sonar: 9 beams over 40 degrees, ranges 1 to 12 m, some 700 bins.
 inline SonarSpec small_sonar() {
-  return test::small_sonar({.beams = 9,
-                            .field_of_view_deg = 40,
-                            .beam_width_deg = 4,
-                            .elevation_width_deg = 40,
-                            .min_range = 1,
-                            .max_range = 12});
+  return insonify::small_sonar({.beams = 9,
+                                .field_of_view_deg = 40,
+                                .beam_width_deg = 4,
+                                .elevation_width_deg = 40,
+                                .min_range = 1,
+                                .max_range = 12});
 }
 
 /// Water without absorption at 1500 m/s.

@@ -13,7 +13,7 @@
 #include "support/files.hpp"
 #include "support/scenes.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// Bytes of a number, most significant first if `big`.
 template <typename T>
@@ -39,4 +39,4 @@ inline bool has_note(const LoadReport& report, const std::string& part) {
                      [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

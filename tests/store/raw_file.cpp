@@ -27,7 +27,7 @@ extern "C" time_t time(time_t* now) noexcept {
   return t.tv_sec;
 }
 
-namespace insonify::inline test {
+namespace insonify {
 
 std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
   const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
@@ -50,4 +50,4 @@ void expect_same_bytes_a_day_later(const std::function<std::string(const std::st
   EXPECT_TRUE(first == second);
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

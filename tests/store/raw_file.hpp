@@ -5,7 +5,7 @@
 
 #include <hdf5.h>
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// Opens a file as another program would, to look at it or to damage it.
 class RawFile {
@@ -26,4 +26,4 @@ std::vector<hsize_t> raw_extent(hid_t file, const char* dataset);
 /// the second is written a day later by the clock of this program, into memory that malloc filled with another byte.
 void expect_same_bytes_a_day_later(const std::function<std::string(const std::string&)>& write);
 
-}  // namespace insonify::inline test
+}  // namespace insonify

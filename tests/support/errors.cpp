@@ -4,7 +4,7 @@
 
 #include "support/files.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 std::string error_of(const std::function<void()>& call, ErrorKind kind) {
   try {
@@ -41,4 +41,4 @@ void expect_error(ErrorKind kind, const std::vector<std::string>& parts, const s
   for (const std::string& part : parts) EXPECT_THAT(text, ::testing::HasSubstr(part));
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// The text of the Error that `call` throws, which must be of `kind`; "no error" if it throws none.
 std::string error_of(const std::function<void()>& call, ErrorKind kind = ErrorKind::argument);
@@ -20,4 +20,4 @@ std::string error_of_file(const std::function<void(const std::string& path)>& lo
 /// `call` must throw an Error of `kind` whose text is one line with all `parts`.
 void expect_error(ErrorKind kind, const std::vector<std::string>& parts, const std::function<void()>& call);
 
-}  // namespace insonify::inline test
+}  // namespace insonify

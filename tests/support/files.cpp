@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace insonify::inline test {
+namespace insonify {
 namespace fs = std::filesystem;
 
 namespace {
@@ -56,4 +56,4 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return place == std::string::npos ? text : text.replace(place, from.size(), to);
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// The folder of the running test, empty at its begin; removed with all its files when the program ends.
 std::string own_folder();
@@ -18,4 +18,4 @@ bool file_exists(const std::string& path);
 /// `text` with the first `from` replaced, which must be there.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -3,7 +3,7 @@
 #include "beamforming/shading.hpp"
 #include "core/units.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 SonarSpec small_sonar(const SmallSonar& sonar) {
   SonarSpec s;
@@ -36,4 +36,4 @@ SonarHead line_head(const LineHead& line) {
   return head;
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

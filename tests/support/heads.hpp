@@ -1,7 +1,7 @@
 #pragma once
 #include "beamforming/sonar_spec.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// A small multibeam sonar; all of these work at 450 kHz with 20 kHz of bandwidth.
 struct SmallSonar {
@@ -31,4 +31,4 @@ double relative_l2(const A& a, const B& b) {
   return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -9,7 +9,7 @@
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 void add_sphere(SceneCloud& scene, const Eigen::Vector3d& centre, double radius, int count, double side) {
   for (int k = 0; k < count; ++k) {
@@ -69,4 +69,4 @@ void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
   expect_same_attributes(a, b);
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -1,7 +1,7 @@
 #pragma once
 #include "scene/scene_cloud.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// Adds a sphere of `count` surfels on a Fibonacci spiral, each with 1/count of the area; side = -1: normals inward.
 void add_sphere(SceneCloud& scene, const Eigen::Vector3d& centre, double radius, int count, double side = 1);
@@ -25,4 +25,4 @@ Eigen::Vector3d world(const SceneCloud& scene, std::size_t i);
 void expect_same_attributes(const SceneCloud& a, const SceneCloud& b);
 void expect_same_surfels(const SceneCloud& a, const SceneCloud& b);
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -12,7 +12,6 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using insonify::test::colour_difference;
 
 namespace {
 

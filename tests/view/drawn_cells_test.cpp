@@ -14,7 +14,6 @@
 #include "view/ticks_internal.hpp"
 
 using namespace insonify;
-using insonify::test::flat_image;
 
 namespace {
 

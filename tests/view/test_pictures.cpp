@@ -11,7 +11,7 @@
 
 #include "core/units.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db, bool port_first) {
   LevelImage image;
@@ -65,4 +65,4 @@ Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, dou
   return blob;
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -10,7 +10,7 @@
 #include "view/colour_maps_internal.hpp"
 #include "view/picture.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// An image of `beams` beams spread over `field_of_view_deg`, port first or starboard first, all at
 /// `level_db`.
@@ -51,4 +51,4 @@ struct Blob {
 };
 Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top);
 
-}  // namespace insonify::inline test
+}  // namespace insonify

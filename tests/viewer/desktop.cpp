@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace insonify::inline test {
+namespace insonify {
 namespace {
 
 // Tries until it holds or the time is over.
@@ -184,4 +184,4 @@ int DesktopProgram::wait_for_end() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -4,7 +4,7 @@
 
 #include <sys/types.h>
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// An X server without a screen, for as long as it lives; empty name: Xvfb is not installed. Throws if it does not answer.
 class VirtualDisplay {
@@ -45,4 +45,4 @@ class DesktopProgram {
   std::string out_file_;
 };
 
-}  // namespace insonify::inline test
+}  // namespace insonify

@@ -1,7 +1,7 @@
 #pragma once
 #include "viewer/viewer_data.hpp"
 
-namespace insonify::inline test {
+namespace insonify {
 
 /// Three targets that tell left from right and near from far, as scene, ping and contributors. The head stands at
 /// (10, 20, -3), turned by 30 degrees to port; every bin but those of the targets is 60 dB weaker than they.
@@ -18,4 +18,4 @@ struct TargetData {
 /// `pings` alike but for their numbers, which count from 7.
 TargetData three_targets(std::size_t pings = 1, bool with_contributors = false);
 
-}  // namespace insonify::inline test
+}  // namespace insonify

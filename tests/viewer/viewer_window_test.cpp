@@ -11,7 +11,6 @@
 #include "viewer/viewer_window_internal.hpp"
 
 using namespace insonify;
-using insonify::test::three_targets;
 using testing::HasSubstr;
 
 namespace {
@@ -44,21 +43,21 @@ class Window : public testing::Test {
     const Box& box = box_of(window_->layout(), panel);
     return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
   }
-  test::ReadPicture picture(const std::string& name) {
+  ReadPicture picture(const std::string& name) {
     const std::string path = own_path(name);
     window_->save_png(path);
-    test::ReadPicture read = test::read_png(path);
+    ReadPicture read = read_png(path);
     return read;
   }
   // Pixels that differ between two pictures within a box.
-  static int differences(const test::ReadPicture& a, const test::ReadPicture& b, const Box& box) {
+  static int differences(const ReadPicture& a, const ReadPicture& b, const Box& box) {
     int count = 0;
     for (double x = box.left + 0.5; x < box.right; ++x)
-      for (double y = box.bottom + 0.5; y < box.top; ++y) count += test::colour_difference(a.at(x, y), b.at(x, y)) > 12;
+      for (double y = box.bottom + 0.5; y < box.top; ++y) count += colour_difference(a.at(x, y), b.at(x, y)) > 12;
     return count;
   }
 
-  test::TargetData made_ = three_targets(1, false);
+  TargetData made_ = three_targets(1, false);
   std::unique_ptr<ViewerWindow> window_;
   std::vector<std::string> said_;
 };
