@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/water.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "acoustics/noise.hpp"
 #include "acoustics/pulse.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 

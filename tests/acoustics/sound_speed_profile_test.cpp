@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "support/errors.hpp"
 
 using namespace insonify;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/water.hpp"
-#include "core/error.hpp"
 #include "support/errors.hpp"
 
 using namespace insonify;

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"

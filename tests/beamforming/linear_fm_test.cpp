@@ -9,7 +9,6 @@
 #include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"

@@ -9,7 +9,6 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"

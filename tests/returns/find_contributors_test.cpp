@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "beamforming/head_patterns.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 

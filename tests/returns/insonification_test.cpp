@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "support/errors.hpp"

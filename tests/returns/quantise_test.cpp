@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "returns/ping.hpp"
 #include "support/errors.hpp"
 

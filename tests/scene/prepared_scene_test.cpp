@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "support/errors.hpp"
 

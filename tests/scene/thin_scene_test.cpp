@@ -10,7 +10,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/scene_index.hpp"
 #include "support/errors.hpp"

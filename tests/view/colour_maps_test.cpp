@@ -6,7 +6,6 @@
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 
-#include "core/error.hpp"
 #include "support/errors.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/test_pictures.hpp"

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 #include "view/drawn_cells_internal.hpp"

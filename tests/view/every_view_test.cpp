@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/show_ascan.hpp"

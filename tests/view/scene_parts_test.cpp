@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "view/scene_axes_internal.hpp"
 #include "view/scene_camera_internal.hpp"
 #include "view/scene_colours_internal.hpp"

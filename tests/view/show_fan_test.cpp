@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 #include "view/drawn_cells_internal.hpp"
@@ -261,7 +260,7 @@ TEST(ShowFanDeathTest, without_a_gl_driver_says_what_to_install) {
   const auto draw = [] {
     setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
     try {
-      show_fan(flat_image(4, 60, 10, 0), {}, own_path("never.png"));
+      show_fan(flat_image(4, 60, 10, 0), {}, "never.png");
     } catch (const Error& error) {
       std::fprintf(stderr, "%s", error.what());
       std::_Exit(error.kind() == ErrorKind::runtime ? 3 : 4);

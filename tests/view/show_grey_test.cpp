@@ -8,7 +8,6 @@
 #include <vtkPNGReader.h>
 #include <vtkPNMReader.h>
 
-#include "core/error.hpp"
 #include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 

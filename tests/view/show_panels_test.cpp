@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 #include "view/show_spectrum.hpp"

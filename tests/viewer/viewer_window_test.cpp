@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
 #include "view/test_pictures.hpp"
