@@ -1,6 +1,4 @@
 // Clouds as they come from files: holes, duplicates, degenerate triangles, far origins.
-#include <filesystem>
-#include <fstream>
 
 #include <unistd.h>
 

@@ -1,7 +1,6 @@
 // Which surfels a head sees, on scenes whose shadows are known in closed form.
 #include <algorithm>
 #include <random>
-#include <set>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include "scene_io/prepare_tiles.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"

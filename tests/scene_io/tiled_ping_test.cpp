@@ -1,4 +1,3 @@
-#include <complex>
 
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
