@@ -1,4 +1,3 @@
-
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/tile_writer.hpp"
