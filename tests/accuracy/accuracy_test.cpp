@@ -7,18 +7,15 @@
 #include "accuracy/sampling_error.hpp"
 #include "accuracy/synthesize_extended.hpp"
 #include "accuracy/synthesize_windowed.hpp"
-#include "beamforming/error_text.hpp"
 #include "beamforming/synthesize.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
 namespace {
 
 const TaskSpec small{.scatterers = 300, .beams = 24, .bins = 211};
-
-double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
-  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
-}
 
 ComplexGrid direct(const AccuracyTask& task) { return synthesize_direct(task.echoes, task.head, task.medium); }
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/water.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -164,12 +164,7 @@ TEST(Absorption, refuses_a_frequency_of_zero_and_an_unknown_order) {
 // The cubic for pure water of Fisher and Simmons turns negative near 75 deg C: sound would grow.
 TEST(Absorption, that_would_make_sound_grow_is_refused) {
   EXPECT_GT(absorption_db_per_m({60, 35, 0, 8}, 900e3, AbsorptionFormula::fisher_simmons), 0);
-  try {
+  expect_error(ErrorKind::argument, {"the formula gives -", "temperature_c = 90 deg C"}, [] {
     absorption_db_per_m({90, 35, 0, 8}, 3e6, AbsorptionFormula::fisher_simmons);
-    FAIL() << "accepted negative absorption";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("the formula gives -"),
-                                             testing::HasSubstr("temperature_c = 90 deg C")));
-  }
+  });
 }

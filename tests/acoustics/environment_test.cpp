@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/noise.hpp"
-#include "beamforming/error_text.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 using testing::HasSubstr;

@@ -8,8 +8,8 @@
 
 #include "acoustics/noise.hpp"
 #include "acoustics/pulse.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 using Complex = std::complex<double>;
@@ -67,12 +67,7 @@ double highest_beyond(const Pulse& pulse, double from, double to) {
 }
 
 std::string refusal(const Pulse& pulse) {
-  try {
-    require_valid(pulse, "test");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { require_valid(pulse, "test"); });
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/reflection.hpp"
-#include "beamforming/error_text.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;

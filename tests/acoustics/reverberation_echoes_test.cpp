@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/reverberation_cells_internal.hpp"
-#include "beamforming/error_text.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 

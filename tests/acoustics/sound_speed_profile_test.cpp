@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -13,13 +13,7 @@ namespace {
 const SoundSpeedProfile thermocline{{0, 10, 20}, {1510, 1500, 1502}};
 
 std::string refusal(const SoundSpeedProfile& profile) {
-  try {
-    require_valid(profile, "test");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    return error.what();
-  }
-  return "";
+  return error_of([&] { require_valid(profile, "test"); });
 }
 
 }  // namespace
@@ -40,7 +34,7 @@ TEST(SoundSpeedProfile, is_constant_beyond_its_outermost_entries) {
 }
 
 TEST(SoundSpeedProfile, is_refused_with_entry_value_and_rule) {
-  EXPECT_EQ(refusal(thermocline), "");
+  EXPECT_EQ(refusal(thermocline), "no error");
   EXPECT_EQ(refusal({}), "test: sound speed profile has no entry, must have one at least");
   EXPECT_EQ(refusal({{0, 1}, {1500}}), "test: sound speed profile has 2 depths, but 1 sound speeds");
   EXPECT_EQ(refusal({{0, 2, 2}, {1500, 1500, 1500}}),
@@ -48,5 +42,5 @@ TEST(SoundSpeedProfile, is_refused_with_entry_value_and_rule) {
   EXPECT_EQ(refusal({{0, NAN}, {1500, 1500}}), "test: sound speed profile: depth[1] = nan m, must be finite");
   EXPECT_EQ(refusal({{0}, {343}}),
             "test: sound speed profile: sound_speed[0] = 343 m/s, must be within 1300 and 1700 m/s");
-  EXPECT_NE(refusal({{0}, {NAN}}), "");
+  EXPECT_NE(refusal({{0}, {NAN}}), "no error");
 }

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -38,16 +38,8 @@ TEST(MediumOf, joins_sound_speed_and_absorption) {
 }
 
 TEST(Water, impossible_values_are_refused_by_name) {
-  const auto message_of = [](const Water& water) -> std::string {
-    try {
-      require_valid(water, "somebody");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::argument);
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(message_of({}), "");
+  const auto message_of = [](const Water& water) { return error_of([&] { require_valid(water, "somebody"); }); };
+  EXPECT_EQ(message_of({}), "no error");
   EXPECT_EQ(message_of({.temperature_c = 101}), "somebody: temperature_c = 101 deg C, must be within -4 and 100");
   EXPECT_EQ(message_of({.salinity_psu = -1}), "somebody: salinity_psu = -1 psu, must be >= 0");
   EXPECT_EQ(message_of({.depth = -3}), "somebody: depth = -3 m, must be >= 0");

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -54,16 +53,6 @@ double folded_gaussian(double f) {
     sum += std::exp(-4 * std::numbers::ln2 * x * x);
   }
   return sum;
-}
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace

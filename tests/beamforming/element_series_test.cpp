@@ -5,11 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/pulse.hpp"
-#include "beamforming/error_text.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -18,13 +19,7 @@ namespace {
 constexpr double c = 1500;
 
 SonarHead head_of(double frequency, double bandwidth, std::size_t elements, double min_range, double max_range) {
-  SonarHead head;
-  head.name = "elements";
-  head.pulse = {frequency, bandwidth, 200};
-  head.array = {0.5 * c / frequency, taylor_shading(elements, -30)};
-  head.fan = make_fan(9, radians(80), radians(2), radians(20));
-  head.gate = {min_range, max_range, 0.44 * c / (2 * bandwidth)};
-  return head;
+  return line_head({frequency, bandwidth, 200, 9, elements, 80, 2, 20, min_range, max_range, c});
 }
 
 Medium water() { return {c, {0.02, 0, 0}}; }
@@ -62,10 +57,6 @@ ComplexGrid referee(const Echoes& e, const SonarHead& head, const Medium& medium
         }
   }
   return p;
-}
-
-double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
-  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
 }
 
 ComplexGrid beams_of(const Echoes& e, const SonarHead& head, const ElementOptions& options) {

@@ -7,6 +7,7 @@
 #include "beamforming/shading.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -15,11 +16,8 @@ namespace {
 constexpr double c = 1490;
 
 SonarHead head_of(PulseShape shape) {
-  SonarHead head;
-  head.pulse = {750e3, 60e3, 220, shape, shape == PulseShape::linear_fm ? 1e-3 : 0, ReplicaWindow::hamming};
-  head.fan = make_fan(64, radians(90), radians(2), radians(20));
-  head.gate = {1, 2.2, default_bin_size(head.pulse, c)};
-  head.array = {0.5 * c / 750e3, taylor_shading(32, -30)};
+  SonarHead head = line_head({.beams = 64, .elements = 32, .max_range = 2.2});
+  if (shape == PulseShape::linear_fm) head.pulse.shape = shape, head.pulse.duration = 1e-3;
   return head;
 }
 

@@ -9,10 +9,10 @@
 #include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "error_text.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -24,11 +24,8 @@ const std::vector<ReplicaWindow> windows = {ReplicaWindow::uniform, ReplicaWindo
 
 /// A sweep over 60 kHz in 1 ms: BT = 60, 1.5 m of range.
 SonarHead head_of(ReplicaWindow window, std::size_t beams = 5, std::size_t elements = 16, double max_range = 3) {
-  SonarHead head;
+  SonarHead head = line_head({.beams = beams, .elements = elements, .max_range = max_range});
   head.pulse = {750e3, 60e3, 220, PulseShape::linear_fm, 1e-3, window};
-  head.fan = make_fan(beams, radians(90), radians(2), radians(20));
-  head.gate = {1, max_range, default_bin_size(head.pulse, c)};
-  head.array = {0.5 * c / 750e3, taylor_shading(elements, -30)};
   return head;
 }
 
@@ -45,10 +42,6 @@ Echoes random_echoes(std::size_t n, double doppler = 0) {
 }
 
 Medium medium(int order = 0) { return {c, absorption_about({}, 750e3, order)}; }
-
-double relative_error(const ComplexGrid& a, const ComplexGrid& b) {
-  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
-}
 
 /// |a - b| at most, against the highest of b.
 double highest_error(const ComplexGrid& a, const ComplexGrid& b) {
@@ -85,8 +78,7 @@ TEST(LinearFmSynthesis, gridded_keeps_its_tolerance_against_the_referee) {
         const Echoes echoes = random_echoes(60, doppler);
         const ComplexGrid reference = synthesize_direct(echoes, head, medium(order));
         for (const double tolerance : {0.5, 0.1, 1e-2, 1e-4, 1e-10})
-          EXPECT_LT(relative_error(synthesize_gridded(echoes, head, medium(order), {tolerance, 0}), reference),
-                    tolerance)
+          EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, medium(order), {tolerance, 0}), reference), tolerance)
               << "order " << order << ", doppler " << doppler;
       }
 }
@@ -131,8 +123,8 @@ TEST(LinearFmSynthesis, doppler_of_a_gaussian_agrees_with_a_moved_spectrum) {
   const Echoes echoes = random_echoes(20, 900);
   for (const int order : {0, 1, 2}) {
     const ComplexGrid direct = synthesize_direct(echoes, head, medium(order));
-    EXPECT_LT(relative_error(synthesize_spectrum(echoes, head, medium(order)), direct), 1e-11);
-    EXPECT_LT(relative_error(synthesize_gridded(echoes, head, medium(order), {1e-8, 0}), direct), 1e-8);
+    EXPECT_LT(relative_l2(synthesize_spectrum(echoes, head, medium(order)), direct), 1e-11);
+    EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, medium(order), {1e-8, 0}), direct), 1e-8);
   }
 }
 

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "beamforming/error_text.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -60,10 +61,6 @@ Echoes echoes_of(const Case& c, const SonarHead& head) {
     e.amplitude.push_back(random_complex_normal(7, RandomStage::noise, {i, 0, 0}));
   }
   return e;
-}
-
-double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
-  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
 }
 
 /// Largest relative error of the eighths of the range axis, each measured by its own level.

@@ -9,9 +9,10 @@
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -60,21 +61,6 @@ Echoes random_echoes(std::size_t n, double most_v = 0.4) {
 
 /// One echo at the centre of bin 100, amplitude 1.
 Echoes one_echo(const SonarHead& head, double u, double v) { return {{2 * head.gate.centre(100) / c}, {u}, {1}, {v}}; }
-
-double relative_error(const ComplexGrid& a, const ComplexGrid& b) {
-  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
-}
-
-template <typename Call>
-std::string error_of(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return "";
-}
 
 const SynthesisMethod methods[] = {SynthesisMethod::gridded, SynthesisMethod::direct, SynthesisMethod::spectrum};
 
@@ -184,7 +170,7 @@ TEST(Rows, agree_with_tilted_heads_on_the_same_scatterers) {
   for (const FanRow& row : fan_rows(head.fan)) {
     SonarHead tilted = head;
     tilted.fan = make_fan(6, radians(40), head.fan.beam_width, head.fan.elevation_width, row.elevation);
-    EXPECT_LT(relative_error(all.middleRows(row.beams[0], 6), received_by(tilted)), 1e-12);
+    EXPECT_LT(relative_l2(all.middleRows(row.beams[0], 6), received_by(tilted)), 1e-12);
   }
 }
 
@@ -215,9 +201,9 @@ TEST(PlanarArray, gives_the_mirrored_image_of_a_mirrored_scene) {
       left_back.row(6 * row + b) = left.row(6 * row + 5 - b);
       down_back.row(6 * row + b) = down.row(6 * (3 - row) + b);
     }
-  EXPECT_LT(relative_error(left_back, p), 1e-12);
-  EXPECT_LT(relative_error(down_back, p), 1e-12);
-  EXPECT_GT(relative_error(left, p), 0.1);
+  EXPECT_LT(relative_l2(left_back, p), 1e-12);
+  EXPECT_LT(relative_l2(down_back, p), 1e-12);
+  EXPECT_GT(relative_l2(left, p), 0.1);
 }
 
 // Rows 10 degrees apart: narrow patterns of their own (most echoes are omitted from most rows), the column's side
@@ -231,7 +217,7 @@ TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
       const ComplexGrid exact = synthesize(echoes, head, medium, SynthesisMethod::direct);
       for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12})
         EXPECT_LT(
-            relative_error(synthesize(echoes, head, medium, SynthesisMethod::gridded, {.tolerance = tolerance}), exact),
+            relative_l2(synthesize(echoes, head, medium, SynthesisMethod::gridded, {.tolerance = tolerance}), exact),
             tolerance)
             << "above: " << above << ", width " << degrees(head.fan.elevation_width);
     }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "beamforming/error_text.hpp"
 #include "beamforming/line_array.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 

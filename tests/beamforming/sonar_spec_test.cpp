@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -26,13 +26,7 @@ SonarSpec spec() {
 }
 
 void expect_refused(const SonarSpec& s, const std::string& part) {
-  try {
-    make_head(s, 1490);
-    FAIL() << "accepted although " << part;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    EXPECT_THAT(error.what(), testing::HasSubstr(part));
-  }
+  expect_error(ErrorKind::argument, {part}, [&] { make_head(s, 1490); });
 }
 
 }  // namespace

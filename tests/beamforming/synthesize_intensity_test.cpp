@@ -6,11 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "beamforming/error_text.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -91,7 +92,7 @@ Grid<double> by_definition(const Echoes& e, const SonarHead& head, const Medium&
   return sum;
 }
 
-double relative_error(const Grid<double>& a, const Grid<double>& b) {
+double relative_l2(const Grid<double>& a, const Grid<double>& b) {
   return std::sqrt((a - b).square().sum() / b.square().sum());
 }
 
@@ -105,8 +106,8 @@ TEST(SynthesizeIntensity, is_the_sum_of_squares_to_the_square_of_the_tolerance) 
         if (beams == 1) head.array = {head.array.spacing, {0.7, 1.6, 0.7}};  // odd; the other one is even
         const Medium medium = water(order);
         const Echoes echoes = echoes_in(head, 150, order == 2);
-        EXPECT_LT(relative_error(synthesize_intensity(echoes, head, medium, {.tolerance = tolerance}),
-                                 by_definition(echoes, head, medium)),
+        EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, medium, {.tolerance = tolerance}),
+                              by_definition(echoes, head, medium)),
                   tolerance * tolerance)
             << beams << " beams, order " << order << ", tolerance " << tolerance;
       }
@@ -116,9 +117,8 @@ TEST(SynthesizeIntensity, of_a_sweep_is_the_sum_of_squares) {
   const SonarHead head = sweep();
   for (const int order : {0, 1}) {
     const Echoes echoes = echoes_in(head, 30, order == 1);
-    EXPECT_LT(
-        relative_error(synthesize_intensity(echoes, head, water(order)), by_definition(echoes, head, water(order))),
-        1e-12);
+    EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, water(order)), by_definition(echoes, head, water(order))),
+              1e-12);
   }
 }
 
@@ -130,8 +130,7 @@ TEST(SynthesizeIntensity, gives_rows_and_columns_their_patterns) {
   for (const SonarSpec& s : {rows, planar}) {
     const SonarHead head = make_head(s, c);
     const Echoes echoes = echoes_in(head, 100);
-    EXPECT_LT(relative_error(synthesize_intensity(echoes, head, water(0)), by_definition(echoes, head, water(0))),
-              1e-6);
+    EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, water(0)), by_definition(echoes, head, water(0))), 1e-6);
   }
 }
 

@@ -28,12 +28,12 @@ TEST(ExtremeCase, n24_beam_too_narrow_for_any_array_is_refused) {
   SonarSpec s = small_sonar();
   for (const double width_deg : {1e-3, 1e-6, 1e-300}) {
     s.beam_width = radians(width_deg);
-    expect_refused(ErrorKind::argument, {"beam_width = ", "deg needs more than 16384 elements"},
-                   [&] { make_head(s, 1500); });
+    expect_error(ErrorKind::argument, {"beam_width = ", "deg needs more than 16384 elements"},
+                 [&] { make_head(s, 1500); });
   }
   for (const double width : {0.0, -0.1, not_a_number}) {
     s.beam_width = width;
-    expect_refused(ErrorKind::argument, {"beam_width_deg", "> 0"}, [&] { make_head(s, 1500); });
+    expect_error(ErrorKind::argument, {"beam_width_deg", "> 0"}, [&] { make_head(s, 1500); });
   }
 }
 
@@ -60,7 +60,7 @@ TEST(ExtremeCase, n25_beam_of_180_degrees_is_one_omnidirectional_element) {
   }
   EXPECT_NEAR(directivity_index_db(uniform_array(1, 0.5), 1), 0, 1e-12);
   s.beam_width = radians(181);
-  expect_refused(ErrorKind::argument, {"beam_width_deg = 181 deg", "at most 180"}, [&] { make_head(s, 1500); });
+  expect_error(ErrorKind::argument, {"beam_width_deg = 181 deg", "at most 180"}, [&] { make_head(s, 1500); });
 }
 
 TEST(ExtremeCase, n25_one_element_is_omnidirectional_whatever_its_spacing) {
@@ -96,7 +96,7 @@ TEST(ExtremeCase, n28_beams_beyond_the_circle_are_refused) {
   s.beams = 3;
   for (const double azimuth : {3.15, -4.0, infinity, not_a_number}) {
     s.azimuths = {-0.1, azimuth, 0.1};
-    expect_refused(ErrorKind::argument, {"azimuth[1]", "rad", "within +-pi"}, [&] { make_head(s, 1500); });
+    expect_error(ErrorKind::argument, {"azimuth[1]", "rad", "within +-pi"}, [&] { make_head(s, 1500); });
   }
 }
 
@@ -160,22 +160,22 @@ TEST(ExtremeCase, n41_image_that_no_memory_holds_is_refused_with_its_size) {
   SonarSpec s = small_sonar();
   s.beams = 65536;
   s.bin_size = 1e-5;
-  expect_refused(ErrorKind::argument, {"65536 beams x 1100000 bins", "GiB", "2^28"}, [&] { make_head(s, 1500); });
+  expect_error(ErrorKind::argument, {"65536 beams x 1100000 bins", "GiB", "2^28"}, [&] { make_head(s, 1500); });
   s.bin_size = 1e-9;
-  expect_refused(ErrorKind::argument, {"bin_size = 1e-09 m", "more than 2^24 bins"}, [&] { make_head(s, 1500); });
+  expect_error(ErrorKind::argument, {"bin_size = 1e-09 m", "more than 2^24 bins"}, [&] { make_head(s, 1500); });
   s.beams = 65537;
-  expect_refused(ErrorKind::argument, {"beams = 65537", "within 1 and 65536"}, [&] { make_head(s, 1500); });
+  expect_error(ErrorKind::argument, {"beams = 65537", "within 1 and 65536"}, [&] { make_head(s, 1500); });
   SonarHead head = small_head();
   head.fan = make_fan(40000, 1, 0.1, 0.1);
   head.array = uniform_array(16384, head.array.spacing);
-  expect_refused(ErrorKind::argument, {"40000 beams x 16384 elements", "GiB", "2^28"},
-                 [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
+  expect_error(ErrorKind::argument, {"40000 beams x 16384 elements", "GiB", "2^28"},
+               [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
 }
 
 TEST(ExtremeCase, n41_more_parts_than_memory_holds_are_refused_with_their_number) {
   // 90 000 surfels in 4096 parts each.
-  expect_refused(ErrorKind::argument, {"90000 surfels", "368640000 scatterers", "2^28", "scatterers_per_cell"},
-                 [] { ping_of(plate(8, 4, 300), {.scatterers_per_cell = 1e12, .occlusion = false}); });
+  expect_error(ErrorKind::argument, {"90000 surfels", "368640000 scatterers", "2^28", "scatterers_per_cell"},
+               [] { ping_of(plate(8, 4, 300), {.scatterers_per_cell = 1e12, .occlusion = false}); });
 }
 
 TEST(ExtremeCase, n42_prime_numbers_of_bins_beams_and_elements_keep_the_tolerance) {

@@ -1,6 +1,4 @@
 // Clouds as they come from files: holes, duplicates, degenerate triangles, far origins.
-#include <filesystem>
-#include <fstream>
 
 #include <unistd.h>
 
@@ -11,24 +9,6 @@ using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {
-
-/// A file that is gone at the end of the test.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& ending, const std::string& text)
-      : path_(::testing::TempDir() + "insonify_extreme_" + std::to_string(getpid()) + "_" +
-              ::testing::UnitTest::GetInstance()->current_test_info()->name() + ending) {
-    std::ofstream(path_) << text;
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 /// Rows "x y z nx ny nz" of a plate at x = 5 + east that faces the head, 2 m square.
 std::string plate_rows(int n, double east = 0, double north = 0) {
@@ -41,8 +21,8 @@ std::string plate_rows(int n, double east = 0, double north = 0) {
 }
 
 LoadedScene load_rows(const std::string& rows) {
-  const TemporaryFile file(".txt", "x y z nx ny nz\n" + rows);
-  return load_scene(file.path());
+  const std::string path = own_file("in.txt", "x y z nx ny nz\n" + rows);
+  return load_scene(path);
 }
 
 }  // namespace
@@ -109,12 +89,12 @@ TEST(ExtremeCase, n39_cross_section_follows_the_area_and_not_the_density) {
 }
 
 TEST(ExtremeCase, n51_triangles_without_area_are_dropped_and_counted) {
-  const TemporaryFile file(".obj",
-                           "v 5 -1 -1\nv 5 1 -1\nv 5 1 1\nv 5 -1 1\nv 5 0 0\n"
-                           "f 1 3 2\nf 1 4 3\nf 1 1 2\nf 1 5 3\n");  // a point twice; three on one line
+  const std::string path = own_file("in.obj",
+                                    "v 5 -1 -1\nv 5 1 -1\nv 5 1 1\nv 5 -1 1\nv 5 0 0\n"
+                                    "f 1 3 2\nf 1 4 3\nf 1 1 2\nf 1 5 3\n");  // a point twice; three on one line
   LoadOptions options;
   options.mesh_spacing = 0.1;
-  const LoadedScene loaded = load_scene(file.path(), options);
+  const LoadedScene loaded = load_scene(path, options);
   EXPECT_EQ(loaded.report.dropped_degenerate, 2U);
   double area = 0;
   for (const float a : loaded.scene.area) area += a;
@@ -128,11 +108,12 @@ TEST(ExtremeCase, n52_holes_of_an_organised_cloud_are_dropped_and_counted) {
     for (int j = 0; j < 8; ++j)
       rows +=
           (i * j) % 5 == 4 ? "nan nan nan\n" : "5 " + std::to_string(0.1 * i) + " " + std::to_string(0.1 * j) + "\n";
-  const TemporaryFile file(".pcd",
-                           "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 8\n"
-                           "HEIGHT 6\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 48\nDATA ascii\n" +
-                               rows);
-  const LoadedScene loaded = load_scene(file.path());
+  const std::string path =
+      own_file("in.pcd",
+               "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 8\n"
+               "HEIGHT 6\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 48\nDATA ascii\n" +
+                   rows);
+  const LoadedScene loaded = load_scene(path);
   EXPECT_EQ(loaded.report.points_read, 48U);
   EXPECT_EQ(loaded.report.dropped_not_finite, 6U);
   EXPECT_EQ(loaded.scene.size(), 42U);

@@ -68,12 +68,6 @@ double memory_of_ping(const SceneCloud& scene) {
   return peak_memory() - before;
 }
 
-std::string write_file(const std::string& name, const std::string& text) {
-  const std::string path = ::testing::TempDir() + "insonify_units_" + std::to_string(getpid()) + "_" + name;
-  std::ofstream(path) << text;
-  return path;
-}
-
 /// Floor and one wall of a room of 4 x 4 x 3 m, 20 mm between points, in units of `unit` metres.
 std::string room(double unit) {
   std::ostringstream text;
@@ -152,8 +146,8 @@ TEST(ExtremeCase, n22_nothing_rings_between_two_echoes) {
 }
 
 TEST(ExtremeCase, n37_cloud_in_millimetres_is_suspected_with_the_unit_to_give) {
-  const std::string path = write_file("room_mm.xyz", room(0.001)), metres = write_file("room_m.xyz", room(1)),
-                    kilometres = write_file("room_km.xyz", room(1000));
+  const std::string path = own_file("room_mm.xyz", room(0.001)), metres = own_file("room_m.xyz", room(1)),
+                    kilometres = own_file("room_km.xyz", room(1000));
   const auto problems = [](const std::string& file) {
     std::string all;
     for (const std::string& problem : describe_file(file).problems) all += problem + "\n";
@@ -173,15 +167,13 @@ TEST(ExtremeCase, n37_cloud_in_millimetres_is_suspected_with_the_unit_to_give) {
 TEST(ExtremeCase, n37_values_in_other_units_are_refused_with_the_unit_wanted) {
   SonarSpec kilohertz = small_sonar();
   kilohertz.centre_frequency /= 1000;
-  expect_refused(ErrorKind::argument, {"bandwidth_hz", "20000 Hz"}, [&] { make_head(kilohertz, 1500); });
+  expect_error(ErrorKind::argument, {"bandwidth_hz", "20000 Hz"}, [&] { make_head(kilohertz, 1500); });
   kilohertz.bandwidth /= 1000;
-  expect_refused(ErrorKind::argument, {"bandwidth_hz = 20 Hz"}, [&] { make_head(kilohertz, 1500); });
+  expect_error(ErrorKind::argument, {"bandwidth_hz = 20 Hz"}, [&] { make_head(kilohertz, 1500); });
   BeamFan degrees_fan = make_fan(3, radians(40), radians(4), radians(20));
   for (double& azimuth : degrees_fan.azimuth) azimuth = degrees(azimuth);
-  expect_refused(ErrorKind::argument, {"azimuth[0]", "rad"}, [&] { require_valid(degrees_fan, "test"); });
-  expect_refused(ErrorKind::argument, {"1.5 m/s", "1300"}, [] {
-    require_valid(SoundSpeedProfile{{0}, {1.5}}, "test");
-  });
+  expect_error(ErrorKind::argument, {"azimuth[0]", "rad"}, [&] { require_valid(degrees_fan, "test"); });
+  expect_error(ErrorKind::argument, {"1.5 m/s", "1300"}, [] { require_valid(SoundSpeedProfile{{0}, {1.5}}, "test"); });
   EXPECT_FALSE(validity_notes({.depth = 20000}, 900e3).empty());  // metres, typed for a depth of 20 km
 }
 

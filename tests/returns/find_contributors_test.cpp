@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "beamforming/head_patterns.hpp"
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -127,15 +127,6 @@ void expect_as_referee(const SurfelSet& set, const SonarHead& head) {
       }
     }
   EXPECT_GT(checked, 200U);
-}
-
-std::string error_of(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace

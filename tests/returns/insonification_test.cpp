@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -58,15 +58,6 @@ Insonification map_of(const SceneCloud& scene, const SonarHead& head = small_hea
 /// SL - 2 TL + TS of `target_at`.
 double sonar_equation(double range) {
   return 210 - 2 * (20 * std::log10(range) + alpha_db * range) + 10 * std::log10(mu * area);
-}
-
-std::string error_of(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace

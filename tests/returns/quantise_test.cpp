@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "returns/ping.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -17,16 +17,6 @@ Grid<float> row(std::initializer_list<float> levels) {
   Eigen::Index n = 0;
   for (const float level : levels) grid(0, n++) = level;
   return grid;
-}
-
-template <typename Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // Steps of 1 dB for eight bits.
@@ -72,14 +62,14 @@ TEST(Quantise, is_inverted_within_half_a_step) {
 }
 
 TEST(Quantise, refuses_bad_windows_and_levels) {
-  EXPECT_EQ(refusal([] {
+  EXPECT_EQ(error_of([] {
               quantise_8(row({0}), {10, 10});
             }),
             "quantise_8: window from min_db = 10 to max_db = 10 dB, must be finite with min_db below max_db");
-  EXPECT_NE(refusal([] { quantise_16(row({0}), {NAN, 10}); }), "");
-  EXPECT_EQ(refusal([] { quantise_16(row({0, NAN}), {0, 10}); }), "quantise_16: level(0, 1) is not a number");
-  EXPECT_EQ(refusal([] { level_of_grey(256, 8, window); }), "level_of_grey: value = 256, must be at most 255");
-  EXPECT_EQ(refusal([] { level_of_grey(1, 12, window); }), "level_of_grey: bits = 12, must be 8 or 16");
+  EXPECT_NE(error_of([] { quantise_16(row({0}), {NAN, 10}); }), "no error");
+  EXPECT_EQ(error_of([] { quantise_16(row({0, NAN}), {0, 10}); }), "quantise_16: level(0, 1) is not a number");
+  EXPECT_EQ(error_of([] { level_of_grey(256, 8, window); }), "level_of_grey: value = 256, must be at most 255");
+  EXPECT_EQ(error_of([] { level_of_grey(1, 12, window); }), "level_of_grey: bits = 12, must be 8 or 16");
 }
 
 TEST(Tvg, agrees_with_range_compensation_and_leaves_the_ping_alone) {
@@ -101,9 +91,9 @@ TEST(Tvg, follows_its_law) {
 }
 
 TEST(Tvg, refuses_another_gate_and_values_that_are_not_finite) {
-  EXPECT_EQ(refusal([] {
+  EXPECT_EQ(error_of([] {
               apply_tvg(row({1, 2}), {1, 2, 0.1}, {});
             }),
             "apply_tvg: levels of 2 bins, but the gate has 10");
-  EXPECT_NE(refusal([] { apply_tvg(row({1, 2}), {1, 2, 0.5}, {NAN, 0}); }), "");
+  EXPECT_NE(error_of([] { apply_tvg(row({1, 2}), {1, 2, 0.5}, {NAN, 0}); }), "no error");
 }

@@ -22,7 +22,7 @@ TEST(BeamFan, says_what_is_wrong_with_it) {
   const auto message = [](const std::function<void(BeamFan&)>& damage) {
     BeamFan fan = make_fan(3, 0.8, 0.1, 0.3);
     damage(fan);
-    return message_of([&] { require_valid(fan, "someone"); });
+    return error_of([&] { require_valid(fan, "someone"); });
   };
   EXPECT_EQ(message([](BeamFan&) {}), "no error");
   EXPECT_THAT(message([](BeamFan& f) { f.azimuth.clear(); }), HasSubstr("someone: fan has no beams"));
@@ -33,8 +33,8 @@ TEST(BeamFan, says_what_is_wrong_with_it) {
   EXPECT_THAT(message([](BeamFan& f) { f.elevation[2] = -1.6; }), HasSubstr("fan.elevation[2] = -1.6 rad"));
   EXPECT_THAT(message([](BeamFan& f) { f.beam_width = 0; }), HasSubstr("fan.beam_width = 0 rad, must be > 0"));
   EXPECT_THAT(message([](BeamFan& f) { f.elevation_width = -1; }), HasSubstr("fan.elevation_width = -1 rad"));
-  EXPECT_THAT(message_of([] { make_fan(0, 1, 0.1, 0.1); }), HasSubstr("beams = 0"));
-  EXPECT_THAT(message_of([] { make_fan(3, 7, 0.1, 0.1); }), HasSubstr("field_of_view = 7 rad"));
+  EXPECT_THAT(error_of([] { make_fan(0, 1, 0.1, 0.1); }), HasSubstr("beams = 0"));
+  EXPECT_THAT(error_of([] { make_fan(3, 7, 0.1, 0.1); }), HasSubstr("field_of_view = 7 rad"));
 }
 
 TEST(Sector, is_the_fan_and_a_beam_width_on_either_side) {

@@ -107,9 +107,9 @@ TEST(FindHoles, do_not_depend_on_the_number_of_threads) {
 
 TEST(FindHoles, refuses_bad_options) {
   const SceneCloud scene;
-  EXPECT_EQ(message_of([&] { holes_in(scene, {.rays_per_beam = 0}); }),
+  EXPECT_EQ(error_of([&] { holes_in(scene, {.rays_per_beam = 0}); }),
             "find_holes: options.rays_per_beam = 0, must be at least 1");
-  EXPECT_EQ(message_of([&] {
+  EXPECT_EQ(error_of([&] {
               mask_holes({{{60, 0, 0, 2, 3}}, 1}, fan, gate);
             }),
             "mask_holes: beam = 60, but there are 60 beams");

@@ -150,7 +150,7 @@ TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
     RangeGate gate = long_gate();
     SamplingOptions options;
     damage(scene, pose, gate, options);
-    return message_of([&] { find_scatterers(scene, pose, wide_fan(), gate, options); });
+    return error_of([&] { find_scatterers(scene, pose, wide_fan(), gate, options); });
   };
   using O = SamplingOptions;
   EXPECT_EQ(message([](auto&, auto&, auto&, O&) {}), "no error");

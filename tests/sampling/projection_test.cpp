@@ -1,6 +1,7 @@
 // KD-trees, raster and prepared scenes against brute force: the same bytes at different cost.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -190,13 +191,13 @@ TEST(PreparedScene, refuses_invalid_pings) {
   SceneCloud scene;
   add_wall(scene, 5, 1, 1, 0.1);
   const PreparedScene prepared(scene);
-  EXPECT_EQ(message_of([&] {
+  EXPECT_EQ(error_of([&] {
               find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1});
             }),
-            message_of([&] {
+            error_of([&] {
               find_scatterers(scene, Pose::Identity(), wide_fan(), {2, 1, 0.1});
             }));
-  EXPECT_NE(message_of([&] { find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1}); }), "no error");
+  EXPECT_NE(error_of([&] { find_scatterers(prepared, Pose::Identity(), wide_fan(), {2, 1, 0.1}); }), "no error");
 }
 
 // Lambert cross-section without mu: four and sixteen times as many surfels or rays change it by less than 0.1 dB.

@@ -118,8 +118,8 @@ TEST(RangeGaps, do_not_depend_on_threads_or_on_the_world_origin) {
 }
 
 TEST(RangeGaps, refuse_no_rays_and_cells_without_length) {
-  EXPECT_EQ(message_of([] { count_range_gaps({}, Pose::Identity(), {}, 0, 0.1); }),
+  EXPECT_EQ(error_of([] { count_range_gaps({}, Pose::Identity(), {}, 0, 0.1); }),
             "count_range_gaps: rays_per_beam = 0, must be at least 1");
-  EXPECT_EQ(message_of([] { count_range_gaps({}, Pose::Identity(), {}, 1, 0); }),
+  EXPECT_EQ(error_of([] { count_range_gaps({}, Pose::Identity(), {}, 1, 0); }),
             "count_range_gaps: cell = 0 m, must be finite and > 0");
 }

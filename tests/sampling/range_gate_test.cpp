@@ -17,7 +17,7 @@ TEST(RangeGate, has_enough_bins_to_cover_its_far_end) {
 }
 
 TEST(RangeGate, says_what_is_wrong_with_it) {
-  const auto message = [](RangeGate gate) { return message_of([&] { require_valid(gate, "someone"); }); };
+  const auto message = [](RangeGate gate) { return error_of([&] { require_valid(gate, "someone"); }); };
   EXPECT_EQ(message({1, 2, 0.1}), "no error");
   EXPECT_THAT(message({0, 2, 0.1}), HasSubstr("someone: gate.min_range = 0 m, must be > 0"));
   EXPECT_THAT(message({5, 2, 0.1}), HasSubstr("gate.max_range = 2 m, must exceed gate.min_range = 5 m"));

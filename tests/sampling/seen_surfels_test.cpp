@@ -56,10 +56,10 @@ TEST(FindVisibility, surfels_not_queried_still_occlude) {
 TEST(FindVisibility, refuses_a_list_of_another_length) {
   SceneCloud scene;
   add_wall(scene, 5, 1, 1, 1);
-  EXPECT_EQ(message_of([&] { find_visibility(scene, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
+  EXPECT_EQ(error_of([&] { find_visibility(scene, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
             "find_visibility: asked has 0 entries, must have one per surfel (4)");
   const PreparedScene prepared(scene);
-  EXPECT_EQ(message_of([&] { find_visibility(prepared, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
+  EXPECT_EQ(error_of([&] { find_visibility(prepared, Pose::Identity(), wide_fan(), long_gate(), {}, unsplit()); }),
             "find_visibility: asked has 0 entries, must have one per surfel (4)");
 }
 

@@ -4,6 +4,7 @@
 
 #include "sampling/tilt_by_relief_internal.hpp"
 #include "sampling_scenes.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -169,10 +170,6 @@ TEST(TiltByRelief, does_not_depend_on_the_number_of_threads) {
 TEST(TiltByRelief, refuses_an_outer_scale_below_zero) {
   SamplingOptions options;
   options.relief_outer_scale = -1;
-  try {
-    seen(rough_plate(0.5, 0.3), options);
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "find_scatterers: options.relief_outer_scale = -1, must be >= 0 m");
-  }
+  EXPECT_EQ(error_of([&] { seen(rough_plate(0.5, 0.3), options); }),
+            "find_scatterers: options.relief_outer_scale = -1, must be >= 0 m");
 }

@@ -1,6 +1,6 @@
 // Visibility of surfels on scenes whose shadows are known in closed form.
 #include <algorithm>
-#include <set>
+#include <random>
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d, Eigen::Vector3f;
@@ -18,12 +18,7 @@ namespace {
 double area_of(const SceneCloud& scene) { return std::accumulate(scene.area.begin(), scene.area.end(), 0.0); }
 
 std::string message_of(const std::string& name, const BuiltInSceneOptions& options) {
-  try {
-    make_built_in_scene(name, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { make_built_in_scene(name, options); });
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -79,10 +79,6 @@ TEST(PreparedScene, may_be_empty_or_of_coincident_points) {
 TEST(PreparedScene, refuses_an_invalid_scene) {
   SceneCloud scene;
   add_surfel(scene, {1, 2, 3}, {0, 0, 0}, 1);
-  try {
-    const PreparedScene prepared(scene);
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("PreparedScene: scene.normal[0]"));
-  }
+  EXPECT_THAT(error_of([&] { const PreparedScene prepared(scene); }, ErrorKind::content),
+              testing::StartsWith("PreparedScene: scene.normal[0]"));
 }

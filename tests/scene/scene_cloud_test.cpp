@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 using Eigen::Vector3d;
@@ -20,15 +20,6 @@ SceneCloud two_surfels() {
   add_surfel(scene, {1e6 + 1.25, 2e6, -10}, {0, 0, 1}, 0.5);
   add_surfel(scene, {1e6, 2e6 - 3.5, -8}, {1, 0, 0}, 0.25);
   return scene;
-}
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace
@@ -56,12 +47,12 @@ TEST(SceneCloud, subset_keeps_order_ids_and_materials) {
   EXPECT_EQ(part.origin, scene.origin);
   EXPECT_FALSE(part.normals_oriented);
   EXPECT_FLOAT_EQ(part.area[0], 0.25f);
-  EXPECT_THAT(message_of([&] { subset(scene, {2}); }), HasSubstr("keep holds 2"));
+  EXPECT_THAT(error_of([&] { subset(scene, {2}); }), HasSubstr("keep holds 2"));
 }
 
 TEST(SceneCloud, refuses_an_unknown_material) {
   SceneCloud scene;
-  EXPECT_THAT(message_of([&] { add_surfel(scene, {0, 0, 0}, {0, 0, 1}, 1, 3); }), HasSubstr("material = 3"));
+  EXPECT_THAT(error_of([&] { add_surfel(scene, {0, 0, 0}, {0, 0, 1}, 1, 3); }), HasSubstr("material = 3"));
 }
 
 TEST(RequireValid, names_what_is_wrong) {
@@ -69,7 +60,7 @@ TEST(RequireValid, names_what_is_wrong) {
   const auto message = [](const std::function<void(SceneCloud&)>& damage) {
     SceneCloud scene = two_surfels();
     damage(scene);
-    return message_of([&] { require_valid(scene, "someone"); });
+    return error_of([&] { require_valid(scene, "someone"); });
   };
   EXPECT_EQ(message([](SceneCloud&) {}), "no error");
   EXPECT_THAT(message([](SceneCloud& s) { s.area.pop_back(); }), HasSubstr("someone: scene.area has 1 entries"));

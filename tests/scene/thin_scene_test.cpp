@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <random>
@@ -10,9 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/scene_index.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -113,12 +112,7 @@ TEST(ThinScene, says_what_is_wrong_with_its_arguments) {
   add_surfel(scene, {0, 0, 0}, {0, 0, 1}, 1);
   add_surfel(scene, {1000, 0, 0}, {0, 0, 1}, 1);
   const auto message = [&](double spacing, double angle) -> std::string {
-    try {
-      thin_scene(scene, spacing, {.normal_angle = angle});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return error_of([&] { thin_scene(scene, spacing, {.normal_angle = angle}); });
   };
   EXPECT_EQ(message(1, 0.5), "no error");
   EXPECT_THAT(message(0, 0.5), testing::StartsWith("thin_scene: spacing = 0 m, must be > 0"));

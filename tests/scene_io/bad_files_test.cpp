@@ -10,7 +10,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -32,43 +31,43 @@ SceneCloud small_scene() {
 }
 
 TEST(BadFile, missing_files_and_folders_are_file_errors) {
-  expect_refused(temporary("none.ply"), ErrorKind::file, {"no such file", "check the path"});
+  expect_refused(own_path("none.ply"), ErrorKind::file, {"no such file", "check the path"});
   expect_refused(::testing::TempDir(), ErrorKind::file, {"is a folder"});
 }
 
 TEST(BadFile, empty_and_unknown_files_say_what_was_expected) {
-  expect_bad(write_file("a.ply", ""), {"empty (0 bytes)"});
-  expect_bad(write_file("a.blend", "BLENDER"),
+  expect_bad(own_file("a.ply", ""), {"empty (0 bytes)"});
+  expect_bad(own_file("a.blend", "BLENDER"),
              {"unknown extension '.blend'", ".pcd .ply .obj", "text beginning with 'BLENDER'"});
-  expect_bad(write_file("a.las", "LASF...."), {"unknown extension '.las'", "pdal translate"});
-  expect_bad(write_file("noextension", "ply\n"), {"unknown extension ''", "rename it to .ply"});
+  expect_bad(own_file("a.las", "LASF...."), {"unknown extension '.las'", "pdal translate"});
+  expect_bad(own_file("noextension", "ply\n"), {"unknown extension ''", "rename it to .ply"});
 }
 
 TEST(BadFile, a_file_of_another_format_than_its_name_says_is_named) {
   const std::string text = "0 0 0\n1 0 0\n";
-  expect_bad(write_file("a.pcd", text), {"not a PCD file", "VERSION", "text beginning with '0 0 0'", ".xyz"});
-  expect_bad(write_file("b.ply", text), {"not a PLY file", "expected 'ply'", "text beginning with '0 0 0'"});
-  expect_bad(write_file("c.pcd", "ply\nformat ascii 1.0\n"), {"not a PCD file", "rename it to .ply"});
-  expect_bad(write_file("d.ply", "# .PCD v0.7\n"), {"not a PLY file", "rename it to .pcd"});
-  expect_bad(write_file("e.obj", text), {"not an OBJ file", "'v x y z'"});
-  expect_bad(write_file("f.stl", text), {"not an STL file", "solid"});
-  expect_bad(write_file("g.vtk", text), {"not a legacy VTK file", "# vtk DataFile"});
-  expect_bad(write_file("h.vtp", text), {"not a VTK XML file", "<VTKFile"});
-  expect_bad(write_file("i.xyz", std::string("\0\1\2\3", 4)), {"not a text file", "binary data"});
-  expect_bad(write_file("j.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 0 float\n"),
+  expect_bad(own_file("a.pcd", text), {"not a PCD file", "VERSION", "text beginning with '0 0 0'", ".xyz"});
+  expect_bad(own_file("b.ply", text), {"not a PLY file", "expected 'ply'", "text beginning with '0 0 0'"});
+  expect_bad(own_file("c.pcd", "ply\nformat ascii 1.0\n"), {"not a PCD file", "rename it to .ply"});
+  expect_bad(own_file("d.ply", "# .PCD v0.7\n"), {"not a PLY file", "rename it to .pcd"});
+  expect_bad(own_file("e.obj", text), {"not an OBJ file", "'v x y z'"});
+  expect_bad(own_file("f.stl", text), {"not an STL file", "solid"});
+  expect_bad(own_file("g.vtk", text), {"not a legacy VTK file", "# vtk DataFile"});
+  expect_bad(own_file("h.vtp", text), {"not a VTK XML file", "<VTKFile"});
+  expect_bad(own_file("i.xyz", std::string("\0\1\2\3", 4)), {"not a text file", "binary data"});
+  expect_bad(own_file("j.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 0 float\n"),
              {"UNSTRUCTURED_GRID", "expected DATASET POLYDATA", "Extract Surface"});
 }
 
 TEST(BadFile, a_binary_cloud_cut_off_anywhere_is_refused_with_both_counts) {
   for (const char* name : {"a.ply", "a.pcd"}) {
-    const std::string whole = temporary(name);
+    const std::string whole = own_path(name);
     save_scene(whole, small_scene());
-    const std::string bytes = read_file(whole);
+    const std::string bytes = file_bytes(whole);
     // The last 36 or 38 bytes are one row: with all but one byte of it, 9 of 10 rows are complete.
-    expect_bad(write_file(std::string("tail_") + name, bytes.substr(0, bytes.size() - 1)),
+    expect_bad(own_file(std::string("tail_") + name, bytes.substr(0, bytes.size() - 1)),
                {"cut off", "announces 10", std::string(name) == "a.ply" ? "holds 9" : "holds 359"});
     for (std::size_t length = 1; length < bytes.size(); length += 7) {
-      const std::string cut = write_file(std::string("cut_") + name, bytes.substr(0, length));
+      const std::string cut = own_file(std::string("cut_") + name, bytes.substr(0, length));
       expect_error(ErrorKind::content, {cut}, [&] { load_scene(cut); });
     }
   }
@@ -78,61 +77,60 @@ TEST(BadFile, a_compressed_pcd_cut_off_or_damaged_is_refused) {
   const std::string header =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\nPOINTS 4\nDATA "
       "binary_compressed\n";
-  expect_bad(write_file("a.pcd", header + "abc"), {"cut off", "announces 4 points"});
-  expect_bad(write_file("b.pcd", header + bytes_of(100u) + bytes_of(48u) + "abc"), {"cut off", "100 bytes", "holds 3"});
-  expect_bad(write_file("c.pcd", header + bytes_of(3u) + bytes_of(96u) + "abc"), {"48 bytes", "96"});
-  expect_bad(write_file("d.pcd", header + bytes_of(3u) + bytes_of(48u) + "abc"), {"cannot unpack", "damaged"});
+  expect_bad(own_file("a.pcd", header + "abc"), {"cut off", "announces 4 points"});
+  expect_bad(own_file("b.pcd", header + bytes_of(100u) + bytes_of(48u) + "abc"), {"cut off", "100 bytes", "holds 3"});
+  expect_bad(own_file("c.pcd", header + bytes_of(3u) + bytes_of(96u) + "abc"), {"48 bytes", "96"});
+  expect_bad(own_file("d.pcd", header + bytes_of(3u) + bytes_of(48u) + "abc"), {"cannot unpack", "damaged"});
 }
 
 TEST(BadFile, numbers_that_would_be_misread_are_named_by_line) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
       "label\nend_header\n";
-  expect_bad(write_file("a.ply", ply + "1 2 3 0\n4 zero 6 0\n"), {":10:", "expected a number", "'zero'"});
-  expect_bad(write_file("b.ply", ply + "1 2 3 300\n4 5 6 0\n"), {":9:", "fits uint8", "'300'"});
-  expect_bad(write_file("c.ply", ply + "1 2 3 0.5\n4 5 6 0\n"), {":9:", "fits uint8", "'0.5'"});
+  expect_bad(own_file("a.ply", ply + "1 2 3 0\n4 zero 6 0\n"), {":10:", "expected a number", "'zero'"});
+  expect_bad(own_file("b.ply", ply + "1 2 3 300\n4 5 6 0\n"), {":9:", "fits uint8", "'300'"});
+  expect_bad(own_file("c.ply", ply + "1 2 3 0.5\n4 5 6 0\n"), {":9:", "fits uint8", "'0.5'"});
   const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
-  expect_bad(write_file("d.pcd", pcd + "DATA ascii\n1 2 3\n4 zero 6\n"), {":10:", "expected a number", "'zero'"});
-  expect_bad(write_file("e.pcd", pcd + "DATA ascii\n1 2 3\n \n4 5 6\n"), {":10:", "expected 3 numbers", "found 0"});
+  expect_bad(own_file("d.pcd", pcd + "DATA ascii\n1 2 3\n4 zero 6\n"), {":10:", "expected a number", "'zero'"});
+  expect_bad(own_file("e.pcd", pcd + "DATA ascii\n1 2 3\n \n4 5 6\n"), {":10:", "expected 3 numbers", "found 0"});
 }
 
 TEST(BadFile, a_compressed_pcd_with_padding_is_refused) {
-  expect_bad(write_file("a.pcd",
-                        "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA "
-                        "binary_compressed\n12345678"),
+  expect_bad(own_file("a.pcd",
+                      "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA "
+                      "binary_compressed\n12345678"),
              {"padding fields '_'", "DATA binary"});
 }
 
 TEST(BadFile, text_lines_are_named_by_number) {
-  expect_bad(write_file("a.xyz", "0 0 0\n1 0\n"), {":2:", "expected 3 columns", "found 2"});
-  expect_bad(write_file("b.xyz", "0 0 0\n1 zero 0\n"), {":2:", "'zero'", "not a number"});
-  expect_bad(write_file("c.csv", "x;y;z\n1,5;2,5;3,5\n"), {":2:", "'1,5'", "decimal point"});
-  expect_bad(write_file("d.xyz", "5\n0 0 0\n1 0 0\n"), {"announces 5 points, found 2"});
-  expect_bad(write_file("e.xyz", "# nothing\n"), {"holds no point"});
-  expect_bad(write_file("f.csv", "x,y,z,label\n1,2,3\n"), {":2:", "expected 4 columns", "found 3"});
-  expect_bad(write_file("g.obj", "v 0 0 0\nv 1 0\n"), {":2:", "three numbers"});
-  expect_bad(write_file("h.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 a\n"), {":4:", "corner", "'a'"});
+  expect_bad(own_file("a.xyz", "0 0 0\n1 0\n"), {":2:", "expected 3 columns", "found 2"});
+  expect_bad(own_file("b.xyz", "0 0 0\n1 zero 0\n"), {":2:", "'zero'", "not a number"});
+  expect_bad(own_file("c.csv", "x;y;z\n1,5;2,5;3,5\n"), {":2:", "'1,5'", "decimal point"});
+  expect_bad(own_file("d.xyz", "5\n0 0 0\n1 0 0\n"), {"announces 5 points, found 2"});
+  expect_bad(own_file("e.xyz", "# nothing\n"), {"holds no point"});
+  expect_bad(own_file("f.csv", "x,y,z,label\n1,2,3\n"), {":2:", "expected 4 columns", "found 3"});
+  expect_bad(own_file("g.obj", "v 0 0 0\nv 1 0\n"), {":2:", "three numbers"});
+  expect_bad(own_file("h.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 a\n"), {":4:", "corner", "'a'"});
 }
 
 TEST(BadFile, wrong_headers_are_named) {
   const std::string pcd = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n";
-  expect_bad(write_file("a.pcd", pcd + "POINTS 3\nDATA ascii\n"), {"POINTS 3", "WIDTH times HEIGHT"});
-  expect_bad(write_file("b.pcd", pcd + "POINTS 2\nDATA zipped\n"), {"DATA zipped", "binary_compressed"});
-  expect_bad(write_file("c.pcd", pcd + "POINTS 2\nDATA ascii\n1 2 3\n"), {"cut off"});
-  expect_bad(write_file("d.pcd", pcd + "POINTS 2\nDATA ascii\n1 2 3\n1 2\n"),
-             {":11:", "expected 3 numbers", "found 2"});
-  expect_bad(write_file("e.pcd", pcd), {"cut off inside the PCD header", "DATA"});
-  expect_bad(write_file("f.pcd", "FIELDS x y z\nSIZE 4 4\n"), {":2:", "one entry per field"});
+  expect_bad(own_file("a.pcd", pcd + "POINTS 3\nDATA ascii\n"), {"POINTS 3", "WIDTH times HEIGHT"});
+  expect_bad(own_file("b.pcd", pcd + "POINTS 2\nDATA zipped\n"), {"DATA zipped", "binary_compressed"});
+  expect_bad(own_file("c.pcd", pcd + "POINTS 2\nDATA ascii\n1 2 3\n"), {"cut off"});
+  expect_bad(own_file("d.pcd", pcd + "POINTS 2\nDATA ascii\n1 2 3\n1 2\n"), {":11:", "expected 3 numbers", "found 2"});
+  expect_bad(own_file("e.pcd", pcd), {"cut off inside the PCD header", "DATA"});
+  expect_bad(own_file("f.pcd", "FIELDS x y z\nSIZE 4 4\n"), {":2:", "one entry per field"});
   expect_bad(
-      write_file("g.pcd", "FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2\n"),
+      own_file("g.pcd", "FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2\n"),
       {"expected fields x y z", "'a b'"});
-  expect_bad(write_file("h.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
+  expect_bad(own_file("h.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
              {":4:", "unknown PLY number type 'real'"});
-  expect_bad(write_file("i.ply", "ply\nformat ascii 1.0\nelement vertex 1\n"),
+  expect_bad(own_file("i.ply", "ply\nformat ascii 1.0\nelement vertex 1\n"),
              {"cut off inside the PLY header", "end_header"});
-  expect_bad(write_file("j.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"), {"no 'vertex' element"});
-  expect_bad(write_file("k.ply", "ply\nelement vertex 0\nend_header\n"), {"no 'format' line"});
-  expect_bad(write_file("l.ply", "ply\nformat ascii 1.0\ncomment insonify scene 9\nend_header\n"),
+  expect_bad(own_file("j.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"), {"no 'vertex' element"});
+  expect_bad(own_file("k.ply", "ply\nelement vertex 0\nend_header\n"), {"no 'format' line"});
+  expect_bad(own_file("l.ply", "ply\nformat ascii 1.0\ncomment insonify scene 9\nend_header\n"),
              {"insonify scene 9", "save the scene again"});
 }
 
@@ -140,40 +138,40 @@ TEST(BadFile, meshes_cut_off_are_refused) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
       "z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
-  expect_bad(write_file("a.ply", ply + "3 0 1 2\n"), {"cut off", "2 face rows, found 1"});
-  expect_bad(write_file("b.ply", ply + "3 0 1 2\n3 0 1\n"), {":14:", "expected a number in this face row"});
+  expect_bad(own_file("a.ply", ply + "3 0 1 2\n"), {"cut off", "2 face rows, found 1"});
+  expect_bad(own_file("b.ply", ply + "3 0 1 2\n3 0 1\n"), {":14:", "expected a number in this face row"});
   const std::string stl = std::string(80, ' ') + bytes_of(2u) + std::string(50, '\0');
-  expect_bad(write_file("c.stl", stl), {"cut off", "2 triangles, 184 bytes", "holds 134"});
-  expect_bad(write_file("d.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"), {"cut off", "endsolid"});
-  expect_bad(write_file("e.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 100 float\n0 0 0 1 0"),
+  expect_bad(own_file("c.stl", stl), {"cut off", "2 triangles, 184 bytes", "holds 134"});
+  expect_bad(own_file("d.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"), {"cut off", "endsolid"});
+  expect_bad(own_file("e.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 100 float\n0 0 0 1 0"),
              {"VTK cannot read it"});
 }
 
 TEST(BadFile, a_cut_off_vtp_is_refused_and_nothing_is_printed) {
   vtkNew<vtkSphereSource> sphere;
   vtkNew<vtkXMLPolyDataWriter> writer;
-  const std::string whole = temporary("a.vtp");
+  const std::string whole = own_path("a.vtp");
   writer->SetFileName(whole.c_str());
   writer->SetInputConnection(sphere->GetOutputPort());
   writer->SetDataModeToAscii();
   writer->Write();
-  const std::string bytes = read_file(whole);
+  const std::string bytes = file_bytes(whole);
   ::testing::internal::CaptureStderr();
-  expect_bad(write_file("cut.vtp", bytes.substr(0, bytes.size() / 2)), {"VTK cannot read it", "cut off"});
+  expect_bad(own_file("cut.vtp", bytes.substr(0, bytes.size() / 2)), {"VTK cannot read it", "cut off"});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(BadFile, clouds_without_a_usable_point_are_refused) {
   expect_error(ErrorKind::content, {"no usable point", "none with finite"},
-               [] { load_scene(write_file("a.xyz", "nan 0 0\n0 inf 0\n")); });
+               [] { load_scene(own_file("a.xyz", "nan 0 0\n0 inf 0\n")); });
   expect_error(ErrorKind::content, {"no usable point", "at least 3"},
-               [] { load_scene(write_file("b.xyz", "0 0 0\n1 0 0\n")); });
+               [] { load_scene(own_file("b.xyz", "0 0 0\n1 0 0\n")); });
   expect_error(ErrorKind::content, {"no usable triangle"},
-               [] { load_scene(write_file("c.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")); });
+               [] { load_scene(own_file("c.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")); });
 }
 
 TEST(BadOption, values_that_no_file_can_satisfy_are_argument_errors) {
-  const std::string path = write_file("a.xyz", plate_text(4, 0.5));
+  const std::string path = own_file("a.xyz", plate_text(4, 0.5));
   LoadOptions options;
   options.unit = 0;
   expect_error(ErrorKind::argument, {"unit = 0 m, must be > 0"}, [&] { load_scene(path, options); });
@@ -190,7 +188,7 @@ TEST(BadOption, values_that_no_file_can_satisfy_are_argument_errors) {
 
 /// Small valid files of all formats parsed by insonify or PCL.
 std::vector<std::pair<std::string, std::string>> good_files() {
-  const std::string saved = temporary("good.ply"), saved_pcd = temporary("good.pcd");
+  const std::string saved = own_path("good.ply"), saved_pcd = own_path("good.pcd");
   save_scene(saved, small_scene());
   save_scene(saved_pcd, small_scene());
   const std::string face =
@@ -211,8 +209,8 @@ std::vector<std::pair<std::string, std::string>> good_files() {
   const std::string points(48, '\0');
   const std::string compressed = pcd + "DATA binary_compressed\n" + bytes_of(50u) + bytes_of(48u) + "\x1f" +
                                  points.substr(0, 32) + "\x0f" + points.substr(0, 16);
-  return {{"a.ply", read_file(saved)},
-          {"b.pcd", read_file(saved_pcd)},
+  return {{"a.ply", file_bytes(saved)},
+          {"b.pcd", file_bytes(saved_pcd)},
           {"c.ply", face},
           {"d.ply", binary},
           {"e.pcd", pcd + "DATA ascii\n" + plate_text(2, 1)},
@@ -235,7 +233,7 @@ TEST(BadFile, damaged_bytes_give_an_error_or_a_valid_scene_and_nothing_is_printe
       if (trial % 3 == 1) bytes.erase(at, 1 + static_cast<std::size_t>(random[1] * 4));
       const char drawn = "0123456789-. \n"[static_cast<std::size_t>(random[1] * 14)];
       if (trial % 3 == 2) bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), drawn);
-      const std::string path = write_file(name, bytes);
+      const std::string path = own_file(name, bytes);
       try {
         LoadOptions options;
         options.mesh_spacing = 0.5;

@@ -5,7 +5,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -21,8 +20,7 @@ std::string sphere_text(int count) {
 
 TEST(CompleteScene, everything_dropped_is_counted) {
   const std::string plate = plate_text(6, 0.5);
-  const LoadedScene loaded =
-      load_scene(write_file("a.xyz", plate + "nan 0 0\n0 0 inf\n1e30 0 0\n0.5 0.5 0\n-0.0 0 0\n"));
+  const LoadedScene loaded = load_scene(own_file("a.xyz", plate + "nan 0 0\n0 0 inf\n1e30 0 0\n0.5 0.5 0\n-0.0 0 0\n"));
   EXPECT_EQ(loaded.report.points_read, 41u);
   EXPECT_EQ(loaded.report.dropped_not_finite, 3u);
   EXPECT_EQ(loaded.report.dropped_duplicates, 2u);
@@ -32,13 +30,13 @@ TEST(CompleteScene, everything_dropped_is_counted) {
 }
 
 TEST(CompleteScene, ids_are_row_numbers_so_that_a_dropped_point_renumbers_no_other) {
-  const LoadedScene loaded = load_scene(write_file("a.xyz", "nan 0 0\n" + plate_text(3, 0.5)));
+  const LoadedScene loaded = load_scene(own_file("a.xyz", "nan 0 0\n" + plate_text(3, 0.5)));
   ASSERT_EQ(loaded.scene.size(), 9u);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(loaded.scene.id[i], i + 1);
 }
 
 TEST(CompleteScene, ids_that_are_not_unique_are_renumbered_with_a_note) {
-  const LoadedScene loaded = load_scene(write_file("a.csv", "x,y,z,id\n0,0,0,5\n1,0,0,5\n0,1,0,6\n1,1,0,7\n"));
+  const LoadedScene loaded = load_scene(own_file("a.csv", "x,y,z,id\n0,0,0,5\n1,0,0,5\n0,1,0,6\n1,1,0,7\n"));
   EXPECT_EQ(loaded.scene.id, (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_TRUE(has_note(loaded.report, "ids in the file are not unique"));
 }
@@ -46,7 +44,7 @@ TEST(CompleteScene, ids_that_are_not_unique_are_renumbered_with_a_note) {
 TEST(CompleteScene, estimated_normals_look_at_the_viewpoint_and_lie_within_two_degrees_on_a_sphere) {
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(10, 0, 0);  // the centre: all normals point inwards
-  const LoadedScene loaded = load_scene(write_file("a.xyz", sphere_text(5000)), options);
+  const LoadedScene loaded = load_scene(own_file("a.xyz", sphere_text(5000)), options);
   ASSERT_EQ(loaded.scene.size(), 5000u);
   EXPECT_TRUE(loaded.scene.normals_oriented);
   EXPECT_EQ(*loaded.report.viewpoint, *options.viewpoint);
@@ -58,7 +56,7 @@ TEST(CompleteScene, estimated_normals_look_at_the_viewpoint_and_lie_within_two_d
 }
 
 TEST(CompleteScene, without_a_viewpoint_normals_have_no_sides_and_a_note_says_so) {
-  const LoadedScene loaded = load_scene(write_file("a.xyz", sphere_text(500)));
+  const LoadedScene loaded = load_scene(own_file("a.xyz", sphere_text(500)));
   EXPECT_FALSE(loaded.scene.normals_oriented);
   EXPECT_FALSE(loaded.report.viewpoint.has_value());
   EXPECT_TRUE(has_note(loaded.report, "both sides of every surface reflect"));
@@ -71,19 +69,19 @@ std::string pcd_text(const std::string& viewpoint, const std::string& rows, int 
 
 TEST(CompleteScene, the_viewpoint_of_a_pcd_orients_normals_and_turns_no_point) {
   const std::string rows = plate_text(5, 0.5, 0, 0, 3);
-  const LoadedScene turned = load_scene(write_file("a.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)));
+  const LoadedScene turned = load_scene(own_file("a.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)));
   EXPECT_TRUE(turned.scene.normals_oriented);
   EXPECT_EQ(*turned.report.viewpoint, Eigen::Vector3d::Zero());
   for (const auto& n : turned.scene.normal) EXPECT_LT(n.z(), -0.999f);  // the plate z = 3 seen from 0
   EXPECT_EQ(world(turned.scene, 24), Eigen::Vector3d(2, 2, 3));
-  const LoadedScene above = load_scene(write_file("b.pcd", pcd_text("0 0 5 1 0 0 0", rows, 25)));
+  const LoadedScene above = load_scene(own_file("b.pcd", pcd_text("0 0 5 1 0 0 0", rows, 25)));
   for (const auto& n : above.scene.normal) EXPECT_GT(n.z(), 0.999f);
-  // Writers store the identity if the pose is unknown.
-  EXPECT_FALSE(load_scene(write_file("c.pcd", pcd_text("0 0 0 1 0 0 0", rows, 25))).scene.normals_oriented);
-  // The caller's viewpoint overrides the file's.
+  // The identity pose is what writers put when they know nothing.
+  EXPECT_FALSE(load_scene(own_file("c.pcd", pcd_text("0 0 0 1 0 0 0", rows, 25))).scene.normals_oriented);
+  // The caller's word counts more than the file's.
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, 9);
-  for (const auto& n : load_scene(write_file("d.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)), options).scene.normal) {
+  for (const auto& n : load_scene(own_file("d.pcd", pcd_text("0 0 0 0 1 0 0", rows, 25)), options).scene.normal) {
     EXPECT_GT(n.z(), 0.999f);
   }
 }
@@ -94,7 +92,7 @@ TEST(CompleteScene, zero_and_nan_normals_are_repaired_to_agree_with_their_neighb
     text += std::to_string(i / 8) + " " + std::to_string(i % 8) + " 0 ";
     text += i == 20 ? "0 0 0\n" : i == 43 ? "nan 0 1\n" : "0 0 -1\n";
   }
-  const LoadedScene loaded = load_scene(write_file("a.txt", text));
+  const LoadedScene loaded = load_scene(own_file("a.txt", text));
   EXPECT_EQ(loaded.report.repaired_normals, 2u);
   EXPECT_FALSE(loaded.report.normals_estimated);
   EXPECT_TRUE(loaded.scene.normals_oriented);
@@ -103,14 +101,14 @@ TEST(CompleteScene, zero_and_nan_normals_are_repaired_to_agree_with_their_neighb
 
 TEST(CompleteScene, all_normals_zero_is_the_same_as_none) {
   const LoadedScene loaded =
-      load_scene(write_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,0\n1,0,0,0,0,0\n0,1,0,0,0,0\n1,1,0,0,0,0\n"));
+      load_scene(own_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,0\n1,0,0,0,0,0\n0,1,0,0,0,0\n1,1,0,0,0,0\n"));
   EXPECT_TRUE(loaded.report.normals_estimated);
   EXPECT_TRUE(has_note(loaded.report, "zero or NaN"));
 }
 
 TEST(CompleteScene, normals_of_another_length_are_scaled_to_one) {
   const LoadedScene loaded =
-      load_scene(write_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,5\n1,0,0,0,3,4\n0,1,0,0,0,1\n1,1,0,0,0,1\n"));
+      load_scene(own_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,5\n1,0,0,0,3,4\n0,1,0,0,0,1\n1,1,0,0,0,1\n"));
   EXPECT_LT((loaded.scene.normal[1] - Eigen::Vector3f(0, 0.6f, 0.8f)).norm(), 1e-6f);
   EXPECT_TRUE(has_note(loaded.report, "2 of 4 normals (50 %) were not unit vectors"));
 }
@@ -118,15 +116,15 @@ TEST(CompleteScene, normals_of_another_length_are_scaled_to_one) {
 TEST(CompleteScene, file_normals_that_look_away_from_the_viewpoint_are_noted) {
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, -5);
-  const std::string path = write_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n0,1,0,0,0,1\n1,1,0,0,0,1\n");
+  const std::string path = own_file("a.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n0,1,0,0,0,1\n1,1,0,0,0,1\n");
   EXPECT_TRUE(has_note(load_scene(path, options).report, "look away from the viewpoint"));
   EXPECT_FALSE(has_note(load_scene(path).report, "look away"));
 }
 
 TEST(CompleteScene, moving_a_cloud_by_whole_metres_changes_the_origin_alone) {
   // Multiples of 1/64 are exact in double even at a UTM northing.
-  const LoadedScene near = load_scene(write_file("a.xyz", plate_text(8, 0.171875, 0.015625, 0.25)));
-  const LoadedScene far = load_scene(write_file("b.xyz", plate_text(8, 0.171875, 500000.015625, 4600000.25)));
+  const LoadedScene near = load_scene(own_file("a.xyz", plate_text(8, 0.171875, 0.015625, 0.25)));
+  const LoadedScene far = load_scene(own_file("b.xyz", plate_text(8, 0.171875, 500000.015625, 4600000.25)));
   EXPECT_EQ(far.scene.origin - near.scene.origin, Eigen::Vector3d(500000, 4600000, 0));
   EXPECT_EQ(far.scene.point, near.scene.point);
   EXPECT_EQ(far.scene.normal, near.scene.normal);
@@ -136,8 +134,8 @@ TEST(CompleteScene, moving_a_cloud_by_whole_metres_changes_the_origin_alone) {
 TEST(CompleteScene, unit_scales_coordinates_and_areas) {
   LoadOptions options;
   options.unit = 0.001;
-  const LoadedScene loaded = load_scene(
-      write_file("a.csv", "x,y,z,area\n0,0,0,250000\n1000,0,0,250000\n0,500,0,1e6\n1000,500,0,0\n"), options);
+  const LoadedScene loaded =
+      load_scene(own_file("a.csv", "x,y,z,area\n0,0,0,250000\n1000,0,0,250000\n0,500,0,1e6\n1000,500,0,0\n"), options);
   EXPECT_LT((world(loaded.scene, 3) - Eigen::Vector3d(1, 0.5, 0)).norm(), 1e-7);
   EXPECT_FLOAT_EQ(loaded.scene.area[0], 0.25f);
   EXPECT_FLOAT_EQ(loaded.scene.area[2], 1.0f);
@@ -148,14 +146,14 @@ TEST(CompleteScene, unusable_areas_are_estimated) {
   std::string text = "x y z nx ny nz area\n";
   for (int i = 0; i < 100; ++i)
     text += std::to_string(i / 10) + " " + std::to_string(i % 10) + " 0 0 0 1 " + (i == 44 ? "-1\n" : "0.5\n");
-  const LoadedScene loaded = load_scene(write_file("a.txt", text));
+  const LoadedScene loaded = load_scene(own_file("a.txt", text));
   EXPECT_NEAR(loaded.scene.area[44], 1.0f, 1e-4f);  // the Voronoi cell of a unit grid
   EXPECT_EQ(loaded.scene.area[43], 0.5f);
   EXPECT_TRUE(has_note(loaded.report, "1 of 100 areas"));
 }
 
 TEST(Materials, labels_choose_from_the_table_given) {
-  const std::string path = write_file("a.csv", "x,y,z,label\n0,0,0,0\n1,0,0,1\n0,1,0,1\n1,1,0,0\n");
+  const std::string path = own_file("a.csv", "x,y,z,label\n0,0,0,0\n1,0,0,1\n0,1,0,1\n1,1,0,0\n");
   LoadOptions options;
   options.materials = {{"sand", 0.01}, {"rock", 0.1}};
   const LoadedScene loaded = load_scene(path, options);
@@ -170,7 +168,7 @@ TEST(Materials, labels_choose_from_the_table_given) {
 }
 
 TEST(Materials, labels_without_a_table_keep_their_numbers_under_default_materials) {
-  const LoadedScene loaded = load_scene(write_file("a.csv", "x,y,z,class\n0,0,0,0\n1,0,0,2\n0,1,0,2\n1,1,0,0\n"));
+  const LoadedScene loaded = load_scene(own_file("a.csv", "x,y,z,class\n0,0,0,0\n1,0,0,2\n0,1,0,2\n1,1,0,0\n"));
   EXPECT_EQ(loaded.scene.material[1], 2);
   ASSERT_EQ(loaded.scene.materials.size(), 3u);
   EXPECT_EQ(loaded.scene.materials[2].lambert_mu, Material{}.lambert_mu);
@@ -180,7 +178,7 @@ TEST(Materials, labels_without_a_table_keep_their_numbers_under_default_material
 TEST(Materials, labels_that_are_no_index_are_refused_unless_one_material_is_given_for_all) {
   for (const char* label : {"-1", "0.5", "70000", "nan"}) {
     const std::string path =
-        write_file("a.csv", std::string("x,y,z,label\n0,0,0,0\n1,0,0,") + label + "\n0,1,0,0\n1,1,0,0\n");
+        own_file("a.csv", std::string("x,y,z,label\n0,0,0,0\n1,0,0,") + label + "\n0,1,0,0\n1,1,0,0\n");
     expect_error(ErrorKind::content, {path, "a label is negative, above 65534 or not an integer"},
                  [&] { load_scene(path); });
     LoadOptions options;
@@ -190,15 +188,14 @@ TEST(Materials, labels_that_are_no_index_are_refused_unless_one_material_is_give
 }
 
 TEST(Materials, whole_numbers_stored_as_floats_are_labels) {
-  const std::string path =
-      write_file("a.csv", "x,y,z,scalar_Classification\n0,0,0,2.0\n1,0,0,1.0\n0,1,0,2.0\n1,1,0,0\n");
+  const std::string path = own_file("a.csv", "x,y,z,scalar_Classification\n0,0,0,2.0\n1,0,0,1.0\n0,1,0,2.0\n1,1,0,0\n");
   const LoadedScene loaded = load_scene(path);
   EXPECT_EQ(loaded.scene.material, (std::vector<std::uint16_t>{2, 1, 2, 0}));
   EXPECT_EQ(loaded.report.material_field, "scalar_classification");
 }
 
 TEST(Materials, come_from_the_field_named_whatever_its_case_and_prefix) {
-  const std::string path = write_file("a.csv", "x,y,z,label,scalar_Kind of ground\n0,0,0,0,1\n1,0,0,0,1\n0,1,0,1,0\n");
+  const std::string path = own_file("a.csv", "x,y,z,label,scalar_Kind of ground\n0,0,0,0,1\n1,0,0,0,1\n0,1,0,1,0\n");
   for (const char* name : {"kind_of_ground", "Kind of ground", "scalar_Kind of ground", "SCALAR_KIND_OF_GROUND"}) {
     LoadOptions options;
     options.material_field.name = name;
@@ -208,7 +205,7 @@ TEST(Materials, come_from_the_field_named_whatever_its_case_and_prefix) {
 }
 
 TEST(Materials, an_unknown_field_is_refused_with_the_fields_there_are) {
-  const std::string path = write_file("a.csv", "x,y,z,intensity,gain\n0,0,0,0,1\n1,0,0,0,1\n0,1,0,1,0\n");
+  const std::string path = own_file("a.csv", "x,y,z,intensity,gain\n0,0,0,0,1\n1,0,0,0,1\n0,1,0,1,0\n");
   LoadOptions options;
   options.material_field.name = "reflectance";
   expect_error(ErrorKind::content,
@@ -233,7 +230,7 @@ TEST(Materials, intervals_are_half_open_and_what_lies_outside_is_counted) {
     text += std::to_string(row) + "," + std::to_string(row % 3) + ",0," + value + "\n";
     ++row;
   }
-  const LoadedScene loaded = load_scene(write_file("a.csv", text), two_intervals());
+  const LoadedScene loaded = load_scene(own_file("a.csv", text), two_intervals());
   EXPECT_EQ(loaded.scene.material, (std::vector<std::uint16_t>{1, 1, 2, 2, 3, 3, 1}));
   ASSERT_EQ(loaded.scene.materials.size(), 4u);
   EXPECT_EQ(loaded.scene.materials[3].name, "outside");
@@ -244,13 +241,13 @@ TEST(Materials, intervals_are_half_open_and_what_lies_outside_is_counted) {
 
 TEST(Materials, a_table_whose_intervals_hold_every_number_stays_as_it_is) {
   const LoadedScene loaded =
-      load_scene(write_file("a.csv", "x,y,z,intensity\n0,0,0,10\n1,0,0,90\n0,1,0,90\n"), two_intervals());
+      load_scene(own_file("a.csv", "x,y,z,intensity\n0,0,0,10\n1,0,0,90\n0,1,0,90\n"), two_intervals());
   EXPECT_EQ(loaded.scene.materials.size(), 3u);
   EXPECT_EQ(loaded.report.outside_intervals, 0u);
 }
 
 TEST(Materials, intervals_that_cannot_be_meant_are_refused) {
-  const std::string path = write_file("a.csv", "x,y,z,intensity\n0,0,0,10\n1,0,0,90\n0,1,0,90\n");
+  const std::string path = own_file("a.csv", "x,y,z,intensity\n0,0,0,10\n1,0,0,90\n0,1,0,90\n");
   LoadOptions options = two_intervals();
   options.material_field.intervals.push_back({100, 101, 0});
   expect_error(ErrorKind::argument,
@@ -265,7 +262,7 @@ TEST(Materials, intervals_that_cannot_be_meant_are_refused) {
 }
 
 TEST(Materials, of_a_mesh_come_from_the_nearest_corner) {
-  const std::string path = write_file(
+  const std::string path = own_file(
       "a.ply",
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float "
       "scalar_Intensity\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
@@ -292,13 +289,13 @@ TEST(Doubts, a_scan_in_millimetres_is_suspected_and_one_in_metres_is_not) {
     }
     return text.str();
   };
-  EXPECT_TRUE(has_note(load_scene(write_file("a.xyz", corner(1))).report, "looks like millimetres"));
+  EXPECT_TRUE(has_note(load_scene(own_file("a.xyz", corner(1))).report, "looks like millimetres"));
   LoadOptions options;
   options.unit = 0.001;
-  EXPECT_FALSE(has_note(load_scene(write_file("b.xyz", corner(1)), options).report, "millimetres"));
-  EXPECT_FALSE(has_note(load_scene(write_file("c.xyz", corner(0.001))).report, "millimetres"));
+  EXPECT_FALSE(has_note(load_scene(own_file("b.xyz", corner(1)), options).report, "millimetres"));
+  EXPECT_FALSE(has_note(load_scene(own_file("c.xyz", corner(0.001))).report, "millimetres"));
   // A bathymetric grid of 1 km with 10 m spacing is coarse, not wrong.
-  const LoadedScene survey = load_scene(write_file("d.xyz", plate_text(100, 10)));
+  const LoadedScene survey = load_scene(own_file("d.xyz", plate_text(100, 10)));
   EXPECT_TRUE(has_note(survey.report, "a coarse survey?"));
 }
 
@@ -310,13 +307,13 @@ TEST(Doubts, what_float32_rounds_away_is_said) {
   for (int i = 0; i < 100; ++i)
     bytes += bytes_of(500000.f + static_cast<float>(i / 10)) + bytes_of(4600000.f + static_cast<float>(i % 10)) +
              bytes_of(0.f);
-  const LoadedScene loaded = load_scene(write_file("a.ply", bytes));
+  const LoadedScene loaded = load_scene(own_file("a.ply", bytes));
   EXPECT_TRUE(has_note(loaded.report, "stored as float32, in steps of 500 mm"));  // 2^(22-23) m
-  EXPECT_FALSE(has_note(load_scene(write_file("b.xyz", plate)).report, "float32"));
+  EXPECT_FALSE(has_note(load_scene(own_file("b.xyz", plate)).report, "float32"));
 }
 
 TEST(CompleteScene, the_same_bytes_for_1_2_and_7_threads) {
-  const std::string path = write_file("a.xyz", sphere_text(3000));
+  const std::string path = own_file("a.xyz", sphere_text(3000));
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, 0);
   options.threads = 1;

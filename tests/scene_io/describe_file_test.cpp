@@ -4,7 +4,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -15,7 +14,7 @@ bool has_problem(const FileDescription& file, const std::string& part) {
 
 TEST(DescribeFile, counts_bounds_and_spacing_of_a_plate) {
   const FileDescription file =
-      describe_file(write_file("a.xyz", plate_text(20, 0.25, 500000, 4600000) + "nan 0 0\n500000 4600000 0\n"));
+      describe_file(own_file("a.xyz", plate_text(20, 0.25, 500000, 4600000) + "nan 0 0\n500000 4600000 0\n"));
   EXPECT_EQ(file.format, "text");
   EXPECT_EQ(file.points, 402u);
   EXPECT_EQ(file.not_finite, 1u);
@@ -30,11 +29,11 @@ TEST(DescribeFile, counts_bounds_and_spacing_of_a_plate) {
 
 TEST(DescribeFile, fields_size_and_viewpoint_of_an_organised_pcd) {
   const FileDescription file =
-      describe_file(write_file("a.pcd",
-                               "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 8 4\nTYPE F F F "
-                               "U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 3\n"
-                               "VIEWPOINT 1 2 3 1 0 0 0\nPOINTS 6\nDATA ascii\n0 0 0 1\n1 0 0 1\n0 1 0 1\n1 "
-                               "1 0 1\n0 2 0 1\n1 2 0 1\n"));
+      describe_file(own_file("a.pcd",
+                             "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 8 4\nTYPE F F F "
+                             "U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 3\n"
+                             "VIEWPOINT 1 2 3 1 0 0 0\nPOINTS 6\nDATA ascii\n0 0 0 1\n1 0 0 1\n0 1 0 1\n1 "
+                             "1 0 1\n0 2 0 1\n1 2 0 1\n"));
   EXPECT_EQ(file.width, 2u);
   EXPECT_EQ(file.height, 3u);
   ASSERT_EQ(file.fields.size(), 4u);
@@ -47,7 +46,7 @@ TEST(DescribeFile, fields_size_and_viewpoint_of_an_organised_pcd) {
 TEST(DescribeFile, a_prepared_scene_has_no_problem) {
   SceneCloud scene;
   for (int i = 0; i < 100; ++i) add_surfel(scene, {i / 10 * 0.1, i % 10 * 0.1, 0}, {0, 0, 1}, 0.01);
-  const std::string path = temporary("a.ply");
+  const std::string path = own_path("a.ply");
   save_scene(path, scene);
   const FileDescription file = describe_file(path);
   EXPECT_TRUE(file.has_normals && file.has_area && file.has_materials);
@@ -57,7 +56,7 @@ TEST(DescribeFile, a_prepared_scene_has_no_problem) {
 
 TEST(DescribeFile, a_mesh_has_triangles) {
   const FileDescription file =
-      describe_file(write_file("a.obj", "v 0 0 0\nv 3 0 0\nv 3 4 0\nv 0 4 0\nf 1 2 3 4\nf 1 2 9\n"));
+      describe_file(own_file("a.obj", "v 0 0 0\nv 3 0 0\nv 3 4 0\nv 0 4 0\nf 1 2 3 4\nf 1 2 9\n"));
   EXPECT_EQ(file.format, "OBJ mesh");
   EXPECT_EQ(file.points, 4u);
   EXPECT_EQ(file.triangles, 3u);
@@ -67,7 +66,7 @@ TEST(DescribeFile, a_mesh_has_triangles) {
 TEST(DescribeFile, millimetres_are_suspected) {
   std::string text = plate_text(50, 20);
   for (int i = 1; i < 50; ++i) text += "0 " + std::to_string(20 * i) + " " + std::to_string(15 * i) + "\n";
-  EXPECT_TRUE(has_problem(describe_file(write_file("a.xyz", text)), "looks like millimetres"));
+  EXPECT_TRUE(has_problem(describe_file(own_file("a.xyz", text)), "looks like millimetres"));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -87,7 +86,7 @@ struct PlyCase : ::testing::TestWithParam<std::tuple<Order, bool>> {};
 TEST_P(PlyCase, every_encoding_and_precision_gives_the_same_surfels) {
   const auto [order, wide] = GetParam();
   const Eigen::Vector3d shift = wide ? Eigen::Vector3d(500000, 4600000, 0) : Eigen::Vector3d::Zero();
-  const LoadedScene loaded = load_scene(write_file("a.ply", ply_bytes(sample(shift), order, wide)));
+  const LoadedScene loaded = load_scene(own_file("a.ply", ply_bytes(sample(shift), order, wide)));
   expect_same(sample(shift), loaded);
   EXPECT_EQ(loaded.scene.origin, shift + Eigen::Vector3d(1, 1, 0));  // middle of the box: 1.375 0.5 -0.09
 }
@@ -98,11 +97,11 @@ INSTANTIATE_TEST_SUITE_P(Formats, PlyCase,
 
 TEST(Ply, colours_in_any_order_and_obj_info_move_no_coordinate) {
   const LoadedScene loaded = load_scene(
-      write_file("a.ply",
-                 "ply\nformat ascii 1.0\nobj_info num_cols 1\nobj_info num_rows 1\nelement vertex 3\nproperty uchar "
-                 "blue\nproperty float x\nproperty float y\nproperty uchar red\nproperty float z\nproperty float "
-                 "nx\nproperty float ny\nproperty float nz\nend_header\n"
-                 "9 1 2 8 3 0 0 1\n9 4 5 8 6 0 0 1\n9 7 8 8 10 0 0 1\n"));
+      own_file("a.ply",
+               "ply\nformat ascii 1.0\nobj_info num_cols 1\nobj_info num_rows 1\nelement vertex 3\nproperty uchar "
+               "blue\nproperty float x\nproperty float y\nproperty uchar red\nproperty float z\nproperty float "
+               "nx\nproperty float ny\nproperty float nz\nend_header\n"
+               "9 1 2 8 3 0 0 1\n9 4 5 8 6 0 0 1\n9 7 8 8 10 0 0 1\n"));
   ASSERT_EQ(loaded.scene.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(world(loaded.scene, i), Eigen::Vector3d(1, 2, 3) + i * Eigen::Vector3d(3, 3, i < 2 ? 3 : 3.5)) << i;
@@ -114,9 +113,9 @@ TEST(Ply, faces_with_indices_of_any_type_are_read) {
     LoadOptions options;
     options.mesh_spacing = 0.1;
     const LoadedScene loaded = load_scene(
-        write_file("a.ply", std::string("ply\nformat ascii 1.0\nelement face 1\nproperty list ") + list +
-                                " vertex_index\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
-                                "z\nend_header\n4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
+        own_file("a.ply", std::string("ply\nformat ascii 1.0\nelement face 1\nproperty list ") + list +
+                              " vertex_index\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+                              "z\nend_header\n4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"),
         options);
     EXPECT_EQ(loaded.report.triangles_read, 2u) << list;
     EXPECT_EQ(loaded.scene.size(), 100u) << list;
@@ -160,7 +159,7 @@ struct PcdCase : ::testing::TestWithParam<std::tuple<std::string, bool>> {};
 TEST_P(PcdCase, every_encoding_and_precision_written_by_pcl_gives_the_same_surfels) {
   const auto [encoding, wide] = GetParam();
   const Eigen::Vector3d shift = wide ? Eigen::Vector3d(500000, 4600000, 0) : Eigen::Vector3d::Zero();
-  const std::string path = temporary("a.pcd");
+  const std::string path = own_path("a.pcd");
   const pcl::PCLPointCloud2 cloud = pcl_cloud(sample(shift), wide);
   pcl::PCDWriter writer;
   const Eigen::Vector4f zero = Eigen::Vector4f::Zero();
@@ -191,21 +190,21 @@ std::string text_of(const Sample& s, const std::string& header, const std::strin
 
 TEST(TextCloud, blanks_tabs_commas_and_semicolons_separate_named_columns) {
   const Sample far = sample({500000, 4600000, 0});
-  expect_same(far, load_scene(write_file("a.txt", text_of(far, "x y z nx ny nz area label id\n", " ", "\n"))));
-  expect_same(far, load_scene(write_file("b.csv", text_of(far, "x,y,z,nx,ny,nz,area,material,id\n", ",", "\n"))));
-  expect_same(far, load_scene(write_file("c.csv", text_of(far, "X;Y;Z;Nx;Ny;Nz;Area;Class;ID\n", ";", "\r\n"))));
-  expect_same(far, load_scene(write_file(
-                       "d.asc", text_of(far, "# made by hand\n// X Y Z Nx Ny Nz area label id\n", "\t", "\n"))));
-  expect_same(far, load_scene(write_file(
+  expect_same(far, load_scene(own_file("a.txt", text_of(far, "x y z nx ny nz area label id\n", " ", "\n"))));
+  expect_same(far, load_scene(own_file("b.csv", text_of(far, "x,y,z,nx,ny,nz,area,material,id\n", ",", "\n"))));
+  expect_same(far, load_scene(own_file("c.csv", text_of(far, "X;Y;Z;Nx;Ny;Nz;Area;Class;ID\n", ";", "\r\n"))));
+  expect_same(far, load_scene(own_file("d.asc",
+                                       text_of(far, "# made by hand\n// X Y Z Nx Ny Nz area label id\n", "\t", "\n"))));
+  expect_same(far, load_scene(own_file(
                        "e.csv", text_of(far, "\"x\", \"y\", \"z\", nx, ny, nz, area, label, id\n", " , ", "\n"))));
 }
 
 TEST(TextCloud, without_names_three_columns_are_coordinates_and_unit_vectors_after_them_normals) {
-  const LoadedScene with = load_scene(write_file("a.xyz", "2\n0 0 0 0 0 1\n1.5 0 +2 0 1 0\n"));
+  const LoadedScene with = load_scene(own_file("a.xyz", "2\n0 0 0 0 0 1\n1.5 0 +2 0 1 0\n"));
   ASSERT_EQ(with.scene.size(), 2u);
   EXPECT_EQ(world(with.scene, 1), Eigen::Vector3d(1.5, 0, 2));
   EXPECT_EQ(with.scene.normal[1], Eigen::Vector3f(0, 1, 0));
-  const LoadedScene colours = load_scene(write_file("b.xyz", "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 0 0 255\n"));
+  const LoadedScene colours = load_scene(own_file("b.xyz", "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 0 0 255\n"));
   EXPECT_TRUE(colours.report.normals_estimated);
   EXPECT_TRUE(has_note(colours.report, "columns after z were ignored"));
 }
@@ -243,7 +242,7 @@ struct VtkCase : ::testing::TestWithParam<std::tuple<std::string, bool, bool>> {
 TEST_P(VtkCase, polydata_written_by_vtk_gives_the_same_surfels) {
   const auto [extension, binary, wide] = GetParam();
   const Eigen::Vector3d shift = wide ? Eigen::Vector3d(500000, 4600000, 0) : Eigen::Vector3d::Zero();
-  const std::string path = temporary("a" + extension);
+  const std::string path = own_path("a" + extension);
   const vtkNew<vtkPolyData> data = vtk_cloud(sample(shift), wide);
   if (extension == ".vtk") {
     vtkNew<vtkPolyDataWriter> writer;
@@ -278,7 +277,7 @@ TEST(ObjPoints, vertices_without_faces_are_a_cloud_with_the_normals_of_the_same_
   text << "# points\nmtllib none.mtl\n";
   for (const auto& p : s.position) text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
   for (const auto& n : s.normal) text << "vn " << n.x() << ' ' << n.y() << ' ' << n.z() << '\n';
-  expect_same(s, load_scene(write_file("a.obj", text.str())), false);
+  expect_same(s, load_scene(own_file("a.obj", text.str())), false);
 }
 
 }  // namespace

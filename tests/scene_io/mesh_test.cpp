@@ -13,7 +13,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -42,7 +41,7 @@ constexpr double box_area = 4;
 TEST(Mesh, surfels_keep_the_total_area_and_lie_on_the_faces_with_outward_normals) {
   LoadOptions options;
   options.mesh_spacing = 0.02;
-  const LoadedScene loaded = load_scene(write_file("a.obj", cube_obj()), options);
+  const LoadedScene loaded = load_scene(own_file("a.obj", cube_obj()), options);
   EXPECT_EQ(loaded.scene.size(), 10000u);  // 4 m^2 / 0.02^2
   EXPECT_NEAR(total_area(loaded.scene), box_area, 1e-6 * box_area);
   EXPECT_TRUE(loaded.scene.normals_oriented);
@@ -69,7 +68,7 @@ TEST(Mesh, every_triangle_gets_its_share_of_surfels_within_one) {
   }
   LoadOptions options;
   options.mesh_spacing = std::sqrt(x / 2000);
-  const LoadedScene loaded = load_scene(write_file("a.obj", text), options);
+  const LoadedScene loaded = load_scene(own_file("a.obj", text), options);
   ASSERT_NEAR(static_cast<double>(loaded.scene.size()), 2000, 1);
   std::vector<double> found(10, 0);
   for (std::size_t i = 0; i < loaded.scene.size(); ++i) {
@@ -80,7 +79,7 @@ TEST(Mesh, every_triangle_gets_its_share_of_surfels_within_one) {
 }
 
 TEST(Mesh, stratified_points_fill_a_plate_more_evenly_than_random_ones) {
-  const std::string path = write_file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const std::string path = own_file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   LoadOptions options;
   options.mesh_spacing = 0.01;
   const LoadedScene loaded = load_scene(path, options);
@@ -96,7 +95,7 @@ TEST(Mesh, stratified_points_fill_a_plate_more_evenly_than_random_ones) {
 }
 
 TEST(Mesh, the_seed_moves_the_surfels_and_threads_do_not) {
-  const std::string path = write_file("a.obj", cube_obj());
+  const std::string path = own_file("a.obj", cube_obj());
   LoadOptions options;
   options.mesh_spacing = 0.05;
   options.threads = 1;
@@ -112,7 +111,7 @@ TEST(Mesh, the_seed_moves_the_surfels_and_threads_do_not) {
 }
 
 TEST(Mesh, inconsistent_winding_gives_normals_without_sides_unless_a_viewpoint_is_given) {
-  const std::string path = write_file("a.obj", cube_obj(true));
+  const std::string path = own_file("a.obj", cube_obj(true));
   const LoadedScene loaded = load_scene(path);
   EXPECT_FALSE(loaded.scene.normals_oriented);
   EXPECT_TRUE(has_note(loaded.report, "3 of 18 shared edges"));
@@ -126,17 +125,17 @@ TEST(Mesh, inconsistent_winding_gives_normals_without_sides_unless_a_viewpoint_i
 }
 
 TEST(Mesh, a_closed_mesh_wound_inwards_is_noted_and_kept) {
-  const LoadedScene loaded = load_scene(write_file("a.obj", cube_obj(false, true)));
+  const LoadedScene loaded = load_scene(own_file("a.obj", cube_obj(false, true)));
   EXPECT_TRUE(loaded.scene.normals_oriented);
   EXPECT_TRUE(has_note(loaded.report, "normals point inwards"));
-  EXPECT_FALSE(has_note(load_scene(write_file("b.obj", cube_obj())).report, "inwards"));
+  EXPECT_FALSE(has_note(load_scene(own_file("b.obj", cube_obj())).report, "inwards"));
 }
 
 TEST(Mesh, vertex_normals_of_the_file_decide_the_side_and_are_interpolated) {
   // A roof whose vertex normals lean outwards; the winding says down, the normals up.
-  const LoadedScene loaded = load_scene(write_file("a.obj",
-                                                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn -0.6 0 0.8\nvn "
-                                                   "0.6 0 0.8\nf 1//1 4//1 3//2\nf 1//1 3//2 2//2\n"));
+  const LoadedScene loaded = load_scene(own_file("a.obj",
+                                                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn -0.6 0 0.8\nvn "
+                                                 "0.6 0 0.8\nf 1//1 4//1 3//2\nf 1//1 3//2 2//2\n"));
   EXPECT_TRUE(loaded.scene.normals_oriented);
   for (std::size_t i = 0; i < loaded.scene.size(); ++i) {
     const double x = world(loaded.scene, i).x();
@@ -148,9 +147,9 @@ TEST(Mesh, vertex_normals_of_the_file_decide_the_side_and_are_interpolated) {
 TEST(Mesh, hard_edges_keep_one_normal_per_face) {
   // Two faces that share an edge, each with its own normal at the shared vertices.
   const LoadedScene loaded =
-      load_scene(write_file("a.obj",
-                            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nvn 0 0 1\nvn 1 0 0\n"
-                            "f 1//1 2//1 3//1 4//1\nf 1//2 4//2 6//2 5//2\n"));
+      load_scene(own_file("a.obj",
+                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nvn 0 0 1\nvn 1 0 0\n"
+                          "f 1//1 2//1 3//1 4//1\nf 1//2 4//2 6//2 5//2\n"));
   EXPECT_EQ(loaded.report.points_read, 6u);
   for (std::size_t i = 0; i < loaded.scene.size(); ++i) {
     const bool floor = world(loaded.scene, i).z() == 0;
@@ -160,9 +159,9 @@ TEST(Mesh, hard_edges_keep_one_normal_per_face) {
 
 TEST(Mesh, degenerate_triangles_and_bad_corners_are_counted) {
   const LoadedScene loaded =
-      load_scene(write_file("a.obj",
-                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 "
-                            "99\nf 1 2\nf 1 2 5\nf -3 -2 1\n"));
+      load_scene(own_file("a.obj",
+                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 "
+                          "99\nf 1 2\nf 1 2 5\nf -3 -2 1\n"));
   EXPECT_EQ(loaded.report.triangles_read, 7u);
   EXPECT_EQ(loaded.report.dropped_degenerate, 5u);
   EXPECT_EQ(loaded.report.dropped_not_finite, 1u);
@@ -203,7 +202,7 @@ TEST(Mesh, a_ply_of_quads_in_every_encoding_keeps_double_coordinates_and_labels)
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     LoadOptions options;
     options.mesh_spacing = 0.05;
-    const LoadedScene loaded = load_scene(write_file("a.ply", cube_ply(format)), options);
+    const LoadedScene loaded = load_scene(own_file("a.ply", cube_ply(format)), options);
     EXPECT_EQ(loaded.report.format, std::string("PLY ") + format + " mesh");
     EXPECT_EQ(loaded.report.triangles_read, 12u);
     EXPECT_EQ(loaded.scene.size(), 1600u);
@@ -220,7 +219,7 @@ TEST(Mesh, a_ply_of_quads_in_every_encoding_keeps_double_coordinates_and_labels)
 TEST(Mesh, a_binary_mesh_cut_off_anywhere_is_refused) {
   const std::string bytes = cube_ply("binary_little_endian");
   for (std::size_t length = bytes.size() - 120; length < bytes.size(); length += 3) {
-    const std::string path = write_file("a.ply", bytes.substr(0, length));
+    const std::string path = own_file("a.ply", bytes.substr(0, length));
     expect_error(ErrorKind::content, {path, "cut off"}, [&] { load_scene(path); });
   }
 }
@@ -243,7 +242,7 @@ TEST(Mesh, stl_and_vtk_files_written_by_vtk_have_the_area_of_a_sphere) {
     }
   };
   for (const bool binary : {false, true}) {
-    const std::string stl = temporary("a.stl"), vtk = temporary("a.vtk"), vtp = temporary("a.vtp");
+    const std::string stl = own_path("a.stl"), vtk = own_path("a.vtk"), vtp = own_path("a.vtp");
     vtkNew<vtkSTLWriter> stl_writer;
     stl_writer->SetFileName(stl.c_str());
     stl_writer->SetInputConnection(sphere->GetOutputPort());
@@ -269,7 +268,7 @@ TEST(Mesh, too_fine_a_spacing_is_an_argument_error) {
   LoadOptions options;
   options.mesh_spacing = 1e-6;
   expect_error(ErrorKind::argument, {"mesh_spacing = 1e-06 m", "at most 400000000"},
-               [&] { load_scene(write_file("a.obj", cube_obj()), options); });
+               [&] { load_scene(own_file("a.obj", cube_obj()), options); });
 }
 
 }  // namespace

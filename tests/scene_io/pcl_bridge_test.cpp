@@ -7,7 +7,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -27,7 +26,7 @@ TEST(PclBridge, a_cloud_in_memory_behaves_as_the_same_cloud_in_a_file) {
   EXPECT_EQ(loaded.report.dropped_not_finite, 1u);
   EXPECT_EQ(loaded.report.dropped_duplicates, 1u);
   EXPECT_FALSE(loaded.scene.normals_oriented);
-  const LoadedScene from_file = load_scene(write_file("a.xyz", plate_text(10, 0.5, 0, 0, 2)));
+  const LoadedScene from_file = load_scene(own_file("a.xyz", plate_text(10, 0.5, 0, 0, 2)));
   EXPECT_EQ(loaded.scene.point, from_file.scene.point);
   EXPECT_EQ(loaded.scene.normal, from_file.scene.normal);
   EXPECT_EQ(loaded.scene.area, from_file.scene.area);

@@ -1,7 +1,6 @@
 #include "scene_io/prepare_tiles.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -9,7 +8,6 @@
 #include "test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -25,27 +23,12 @@ SceneCloud load_all(const std::string& path) {
   return tiled.load(tiled.select_all());
 }
 
-void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
-  EXPECT_EQ(a.origin, b.origin);
-  EXPECT_EQ(a.point, b.point);
-  EXPECT_EQ(a.normal, b.normal);
-  EXPECT_EQ(a.area, b.area);
-  EXPECT_EQ(a.material, b.material);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.normals_oriented, b.normals_oriented);
-  ASSERT_EQ(a.materials.size(), b.materials.size());
-  for (std::size_t m = 0; m < a.materials.size(); ++m) {
-    EXPECT_EQ(a.materials[m].name, b.materials[m].name);
-    EXPECT_EQ(a.materials[m].lambert_mu, b.materials[m].lambert_mu);
-  }
-}
-
-/// Prepares `cloud` in batches and expects the tiles to hold the scene of load_scene.
+/// Prepares `cloud` in batches: what stands in the tiles is what load_scene makes of the file.
 PreparedTiles expect_as_loaded(const std::string& cloud, PrepareTilesOptions options = in_batches()) {
-  const PreparedTiles prepared = prepare_tiles(cloud, temporary("out.tiles"), options);
+  const PreparedTiles prepared = prepare_tiles(cloud, own_path("out.tiles"), options);
   EXPECT_TRUE(prepared.streamed);
   const LoadedScene loaded = load_scene(cloud, options.load);
-  expect_same_surfels(load_all(temporary("out.tiles")), loaded.scene);
+  expect_same_surfels(load_all(own_path("out.tiles")), loaded.scene);
   EXPECT_EQ(prepared.report.points_read, loaded.report.points_read);
   EXPECT_EQ(prepared.report.dropped_not_finite, loaded.report.dropped_not_finite);
   EXPECT_EQ(prepared.report.dropped_duplicates, loaded.report.dropped_duplicates);
@@ -74,7 +57,7 @@ std::string ply_of(const std::vector<Row>& rows, bool big, bool with_area = true
     if (with_area) text += bytes_of(r.area, big);
     text += bytes_of(r.label, big);
   }
-  return write_file(name, text);
+  return own_file(name, text);
 }
 
 std::vector<Row> plate(int side) {
@@ -88,11 +71,11 @@ std::vector<Row> plate(int side) {
 
 TEST(PrepareTiles, a_prepared_ply_or_pcd_comes_back_bit_by_bit) {
   SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
-  save_scene(temporary("a.pcd"), scene);
-  expect_as_loaded(temporary("a.pcd"));
+  save_scene(own_path("a.pcd"), scene);
+  expect_as_loaded(own_path("a.pcd"));
   scene.origin = {431000, 5412000, 0};
-  save_scene(temporary("a.ply"), scene);
-  const PreparedTiles prepared = expect_as_loaded(temporary("a.ply"));
+  save_scene(own_path("a.ply"), scene);
+  const PreparedTiles prepared = expect_as_loaded(own_path("a.ply"));
   EXPECT_EQ(prepared.report.format, "PLY binary_little_endian");
   EXPECT_EQ(prepared.tiles.surfels, scene.size());
 }
@@ -128,35 +111,35 @@ TEST(PrepareTiles, points_that_cannot_be_used_are_dropped_and_counted) {
   // Without a normal: load_scene would repair these.
   rows[20].nz = 0;
   rows[21].nx = NAN;
-  const PreparedTiles prepared = prepare_tiles(ply_of(rows, false), temporary("b.tiles"), in_batches());
+  const PreparedTiles prepared = prepare_tiles(ply_of(rows, false), own_path("b.tiles"), in_batches());
   EXPECT_EQ(prepared.report.dropped_not_finite, 2U);
   EXPECT_EQ(prepared.report.dropped_duplicates, 3U);
   EXPECT_EQ(prepared.report.dropped_without_normal, 2U);
   EXPECT_EQ(prepared.tiles.surfels, 2500U - 4);
-  // Dropping points does not renumber others.
-  const SceneCloud scene = load_all(temporary("b.tiles"));
+  // Dropping renumbers nobody.
+  const SceneCloud scene = load_all(own_path("b.tiles"));
   EXPECT_EQ(std::count(scene.id.begin(), scene.id.end(), 20U), 0);
   EXPECT_EQ(scene.id.back(), 2499U);
 }
 
 TEST(PrepareTiles, missing_areas_are_found) {
-  const PreparedTiles prepared = prepare_tiles(ply_of(plate(80), false, false), temporary("a.tiles"), in_batches());
+  const PreparedTiles prepared = prepare_tiles(ply_of(plate(80), false, false), own_path("a.tiles"), in_batches());
   EXPECT_TRUE(prepared.report.areas_estimated);
   EXPECT_NEAR(prepared.tiles.total_area, 64, 0.03 * 64);  // 80 x 80 cells of 0.1 m
   std::vector<Row> rows = plate(80);
   rows[100].area = -1;
-  const PreparedTiles again = prepare_tiles(ply_of(rows, false), temporary("a.tiles"), in_batches());
+  const PreparedTiles again = prepare_tiles(ply_of(rows, false), own_path("a.tiles"), in_batches());
   EXPECT_TRUE(again.report.areas_estimated);
   EXPECT_THAT(again.report.notes.front(), testing::HasSubstr("1 of 6400 areas"));
   EXPECT_NEAR(again.tiles.total_area, prepared.tiles.total_area, 1e-6);
 }
 
 TEST(PrepareTiles, small_files_are_completed_as_a_whole) {
-  const std::string path = write_file("a.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 1 0\n2 0 0\n");
-  const PreparedTiles prepared = prepare_tiles(path, temporary("a.tiles"));
+  const std::string path = own_file("a.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 1 0\n2 0 0\n");
+  const PreparedTiles prepared = prepare_tiles(path, own_path("a.tiles"));
   EXPECT_FALSE(prepared.streamed);
   EXPECT_TRUE(prepared.report.normals_estimated);
-  expect_same_surfels(load_all(temporary("a.tiles")), load_scene(path).scene);
+  expect_same_surfels(load_all(own_path("a.tiles")), load_scene(path).scene);
 }
 
 TEST(PrepareTiles, what_cannot_be_prepared_is_refused) {
@@ -164,15 +147,15 @@ TEST(PrepareTiles, what_cannot_be_prepared_is_refused) {
   for (const char* axis : {"x", "y", "z"}) text += std::string("property float ") + axis + "\n";
   text += "end_header\n" + std::string(12, '\0');
   expect_error(ErrorKind::content, {"bare.ply", "no normals", "insonify prepare", ".ply output"},
-               [&] { prepare_tiles(write_file("bare.ply", text), temporary("a.tiles"), in_batches()); });
+               [&] { prepare_tiles(own_file("bare.ply", text), own_path("a.tiles"), in_batches()); });
   expect_error(ErrorKind::content, {"cut off"}, [&] {
-    prepare_tiles(write_file("cut.ply", text.substr(0, text.size() - 1)), temporary("a.tiles"), in_batches());
+    prepare_tiles(own_file("cut.ply", text.substr(0, text.size() - 1)), own_path("a.tiles"), in_batches());
   });
   std::vector<Row> rows = plate(3);
   for (Row& r : rows) r.y = NAN;
   expect_error(ErrorKind::content, {"no usable point"},
-               [&] { prepare_tiles(ply_of(rows, false), temporary("a.tiles"), in_batches()); });
-  EXPECT_FALSE(std::filesystem::exists(temporary("a.tiles")));
+               [&] { prepare_tiles(ply_of(rows, false), own_path("a.tiles"), in_batches()); });
+  EXPECT_FALSE(std::filesystem::exists(own_path("a.tiles")));
 }
 
 TEST(PrepareTiles, giving_up_leaves_nothing) {
@@ -183,10 +166,10 @@ TEST(PrepareTiles, giving_up_leaves_nothing) {
   };
   const std::string cloud = ply_of(plate(50), false);
   const auto files = [] {
-    const auto all = std::filesystem::directory_iterator(temporary_folder());
+    const auto all = std::filesystem::directory_iterator(own_folder());
     return std::distance(begin(all), end(all));
   };
   const auto before = files();
-  EXPECT_THROW(prepare_tiles(cloud, temporary("a.tiles"), options), Stop);
+  EXPECT_THROW(prepare_tiles(cloud, own_path("a.tiles"), options), Stop);
   EXPECT_EQ(files(), before);
 }

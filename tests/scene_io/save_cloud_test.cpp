@@ -7,7 +7,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -28,19 +27,7 @@ SceneCloud scene_at(const Eigen::Vector3d& origin, bool oriented = true) {
 }
 
 void expect_same_but_points(const LoadedScene& loaded, const SceneCloud& scene) {
-  EXPECT_EQ(loaded.scene.normal, scene.normal);
-  EXPECT_EQ(loaded.scene.area, scene.area);
-  EXPECT_EQ(loaded.scene.material, scene.material);
-  EXPECT_EQ(loaded.scene.id, scene.id);
-  EXPECT_EQ(loaded.scene.origin, scene.origin);
-  EXPECT_EQ(loaded.scene.normals_oriented, scene.normals_oriented);
-  ASSERT_EQ(loaded.scene.materials.size(), scene.materials.size());
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    EXPECT_EQ(loaded.scene.materials[m].name, scene.materials[m].name);
-    EXPECT_EQ(loaded.scene.materials[m].lambert_mu, scene.materials[m].lambert_mu);
-    EXPECT_EQ(loaded.scene.materials[m].coherent_fraction, scene.materials[m].coherent_fraction);
-    EXPECT_EQ(loaded.scene.materials[m].relief_slope, scene.materials[m].relief_slope);
-  }
+  expect_same_attributes(loaded.scene, scene);
   EXPECT_FALSE(loaded.report.normals_estimated);
   EXPECT_FALSE(loaded.report.areas_estimated);
   EXPECT_TRUE(loaded.report.notes.empty()) << loaded.report.notes.front();
@@ -49,7 +36,7 @@ void expect_same_but_points(const LoadedScene& loaded, const SceneCloud& scene) 
 TEST(SaveScene, a_ply_gives_the_same_scene_back) {
   for (const bool oriented : {true, false}) {
     const SceneCloud scene = scene_at(Eigen::Vector3d::Zero(), oriented);
-    const std::string path = temporary("a.ply");
+    const std::string path = own_path("a.ply");
     save_scene(path, scene);
     const LoadedScene loaded = load_scene(path);
     expect_same_but_points(loaded, scene);
@@ -59,24 +46,24 @@ TEST(SaveScene, a_ply_gives_the_same_scene_back) {
 
 TEST(SaveScene, a_far_ply_gives_the_origin_back_and_points_within_a_nanometre) {
   const SceneCloud scene = scene_at({500000, 4600000, -20});
-  const std::string path = temporary("a.ply");
+  const std::string path = own_path("a.ply");
   save_scene(path, scene);
-  EXPECT_THAT(read_file(path), ::testing::HasSubstr("property double x"));
+  EXPECT_THAT(file_bytes(path), ::testing::HasSubstr("property double x"));
   const LoadedScene loaded = load_scene(path);
   expect_same_but_points(loaded, scene);
   for (std::size_t i = 0; i < scene.size(); ++i) EXPECT_LT((loaded.scene.point[i] - scene.point[i]).norm(), 1e-9f);
 }
 
 TEST(SaveScene, saving_what_was_loaded_gives_the_same_bytes) {
-  const std::string first = temporary("a.ply"), second = temporary("b.ply");
+  const std::string first = own_path("a.ply"), second = own_path("b.ply");
   save_scene(first, scene_at({500000, 4600000, -20}));
   save_scene(second, load_scene(first).scene);
-  EXPECT_EQ(read_file(second), read_file(first));
+  EXPECT_EQ(file_bytes(second), file_bytes(first));
 }
 
 TEST(SaveScene, a_pcd_gives_the_same_scene_back_and_opens_in_pcl) {
   const SceneCloud scene = scene_at({4, 4, -3});
-  const std::string path = temporary("a.pcd");
+  const std::string path = own_path("a.pcd");
   save_scene(path, scene);
   const LoadedScene loaded = load_scene(path);
   expect_same_but_points(loaded, scene);
@@ -92,23 +79,23 @@ TEST(SaveScene, a_pcd_gives_the_same_scene_back_and_opens_in_pcl) {
 
 TEST(SaveScene, scenes_without_relief_and_coherence_have_the_lines_they_always_had) {
   SceneCloud scene = scene_at(Eigen::Vector3d::Zero());
-  const std::string with = temporary("with.ply"), without = temporary("without.ply");
+  const std::string with = own_path("with.ply"), without = own_path("without.ply");
   save_scene(with, scene);
   scene.materials[1] = {"rock, grey", 1.0 / 30};
   save_scene(without, scene);
-  EXPECT_THAT(read_file(with),
+  EXPECT_THAT(file_bytes(with),
               ::testing::HasSubstr("comment insonify surface 1 0.10000000000000002 0.3333333333333333\n"));
-  EXPECT_THAT(read_file(with), ::testing::HasSubstr("comment insonify material 1 0.03333333333333333 rock, grey\n"));
-  EXPECT_THAT(read_file(without), ::testing::Not(::testing::HasSubstr("insonify surface")));
-  std::string damaged = read_file(with);
+  EXPECT_THAT(file_bytes(with), ::testing::HasSubstr("comment insonify material 1 0.03333333333333333 rock, grey\n"));
+  EXPECT_THAT(file_bytes(without), ::testing::Not(::testing::HasSubstr("insonify surface")));
+  std::string damaged = file_bytes(with);
   damaged.replace(damaged.find("surface 1"), 9, "surface 7");
-  const std::string path = write_file("damaged.ply", damaged);
+  const std::string path = own_file("damaged.ply", damaged);
   expect_error(ErrorKind::content, {path, "cannot understand the comment line 'insonify surface 7"},
                [&] { load_scene(path); });
 }
 
 TEST(SaveScene, unit_scales_a_saved_scene_too) {
-  const std::string path = temporary("a.ply");
+  const std::string path = own_path("a.ply");
   save_scene(path, scene_at({1000, 0, 0}));
   LoadOptions options;
   options.unit = 0.5;
@@ -118,7 +105,7 @@ TEST(SaveScene, unit_scales_a_saved_scene_too) {
 }
 
 TEST(SaveScene, a_viewpoint_orients_a_scene_saved_without_sides) {
-  const std::string path = temporary("a.ply");
+  const std::string path = own_path("a.ply");
   save_scene(path, scene_at(Eigen::Vector3d::Zero(), false));
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, -100);
@@ -130,23 +117,23 @@ TEST(SaveScene, a_viewpoint_orients_a_scene_saved_without_sides) {
 TEST(SaveScene, refuses_what_it_cannot_write) {
   const SceneCloud scene = scene_at({500000, 4600000, 0});
   expect_error(ErrorKind::argument, {"save_scene", "float32", "save it as .ply"},
-               [&] { save_scene(temporary("a.pcd"), scene); });
-  EXPECT_FALSE(std::filesystem::exists(temporary("a.pcd")));
+               [&] { save_scene(own_path("a.pcd"), scene); });
+  EXPECT_FALSE(std::filesystem::exists(own_path("a.pcd")));
   expect_error(ErrorKind::argument, {"save_scene", "'.xyz'", ".ply or .pcd"},
-               [&] { save_scene(temporary("a.xyz"), scene); });
+               [&] { save_scene(own_path("a.xyz"), scene); });
   expect_error(ErrorKind::file, {"save_scene: cannot write", "No such file or directory"},
                [&] { save_scene(::testing::TempDir() + "no/such/folder/a.ply", scene); });
-  expect_error(ErrorKind::content, {"save_scene", "empty"}, [&] { save_scene(temporary("b.ply"), SceneCloud{}); });
+  expect_error(ErrorKind::content, {"save_scene", "empty"}, [&] { save_scene(own_path("b.ply"), SceneCloud{}); });
   SceneCloud wrong = scene;
   wrong.area.pop_back();
-  expect_error(ErrorKind::argument, {"save_scene", "area"}, [&] { save_scene(temporary("c.ply"), wrong); });
+  expect_error(ErrorKind::argument, {"save_scene", "area"}, [&] { save_scene(own_path("c.ply"), wrong); });
 }
 
 TEST(SaveScene, a_failed_rename_leaves_no_temporary_file) {
-  const std::string folder = temporary("folder.ply");
+  const std::string folder = own_path("folder.ply");
   std::filesystem::create_directories(folder + "/full");
   expect_error(ErrorKind::file, {"cannot write"}, [&] { save_scene(folder, scene_at(Eigen::Vector3d::Zero())); });
-  for (const auto& entry : std::filesystem::directory_iterator(temporary_folder())) {
+  for (const auto& entry : std::filesystem::directory_iterator(own_folder())) {
     EXPECT_THAT(entry.path().string(), ::testing::Not(::testing::HasSubstr("folder.ply.tmp")));
   }
 }
@@ -172,9 +159,9 @@ Soundings some_soundings() {
 /// Independent reader of the format of save_soundings: 3 doubles, 4 floats, 4 uints per row.
 TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare_knows) {
   const Soundings s = some_soundings();
-  const std::string path = temporary("a.ply");
+  const std::string path = own_path("a.ply");
   save_soundings(path, s);
-  const std::string bytes = read_file(path);
+  const std::string bytes = file_bytes(path);
   const std::string expected_header =
       "ply\nformat binary_little_endian 1.0\nelement vertex 20\nproperty double x\nproperty double "
       "y\nproperty double z\n"
@@ -203,7 +190,7 @@ TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare
 
 TEST(SaveSoundings, a_pcd_opens_in_pcl_with_all_fields) {
   const Soundings s = some_soundings();
-  const std::string path = temporary("a.pcd");
+  const std::string path = own_path("a.pcd");
   save_soundings(path, s);
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
@@ -224,9 +211,9 @@ TEST(SaveSoundings, a_pcd_opens_in_pcl_with_all_fields) {
 
 TEST(SaveSoundings, no_soundings_make_a_file_with_no_points) {
   for (const char* name : {"a.ply", "a.pcd"}) {
-    const std::string path = temporary(name);
+    const std::string path = own_path(name);
     save_soundings(path, {});
-    EXPECT_THAT(read_file(path), ::testing::ContainsRegex("(element vertex|POINTS) 0"));
+    EXPECT_THAT(file_bytes(path), ::testing::ContainsRegex("(element vertex|POINTS) 0"));
   }
 }
 
@@ -234,7 +221,7 @@ TEST(SaveSoundings, columns_of_different_lengths_are_refused) {
   Soundings s = some_soundings();
   s.beam.pop_back();
   expect_error(ErrorKind::argument, {"save_soundings", "20 positions", "length 19"},
-               [&] { save_soundings(temporary("a.ply"), s); });
+               [&] { save_soundings(own_path("a.ply"), s); });
 }
 
 }  // namespace

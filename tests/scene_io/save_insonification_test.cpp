@@ -10,7 +10,6 @@
 #include "scene_io/test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -44,7 +43,7 @@ T field(const pcl::PCLPointCloud2& cloud, std::size_t point, const std::string& 
 }  // namespace
 
 TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
-  const std::string path = temporary("map.pcd");
+  const std::string path = own_path("map.pcd");
   save_insonification(path, three_surfels({10, 0, 0}), three_entries());
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
@@ -60,7 +59,7 @@ TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
 }
 
 TEST(SaveInsonification, surfels_never_insonified_have_no_level) {
-  const std::string path = temporary("map.pcd");
+  const std::string path = own_path("map.pcd");
   save_insonification(path, three_surfels({0, 0, 0}), three_entries());
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
@@ -69,9 +68,9 @@ TEST(SaveInsonification, surfels_never_insonified_have_no_level) {
 }
 
 TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
-  const std::string path = temporary("map.ply");
+  const std::string path = own_path("map.ply");
   save_insonification(path, three_surfels({500000, 4600000, -20}), three_entries());
-  const std::string bytes = read_file(path);
+  const std::string bytes = file_bytes(path);
   EXPECT_THAT(bytes, ::testing::HasSubstr("element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
                                           "property float nx\nproperty float ny\nproperty float nz\n"
                                           "property float scalar_level_db\nproperty float scalar_grazing_deg\n"
@@ -91,9 +90,9 @@ TEST(SaveInsonification, of_another_scene_is_refused) {
   Insonification map = three_entries();
   map.range.pop_back();
   expect_error(ErrorKind::argument, {"save_insonification: ", "the map has 2 surfels, but the scene has 3"}, [&] {
-    save_insonification(temporary("map.ply"), three_surfels({0, 0, 0}), map);
+    save_insonification(own_path("map.ply"), three_surfels({0, 0, 0}), map);
   });
   expect_error(ErrorKind::argument, {"extension '.xyz'"}, [&] {
-    save_insonification(temporary("map.xyz"), three_surfels({0, 0, 0}), three_entries());
+    save_insonification(own_path("map.xyz"), three_surfels({0, 0, 0}), three_entries());
   });
 }

@@ -1,49 +1,30 @@
-#include <complex>
-
-#include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "simulate/ping_region.hpp"
+#include "support/heads.hpp"
 #include "test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
-
-SonarHead small_head() {
-  SonarSpec s;
-  s.name = "test";
-  s.centre_frequency = 450e3;
-  s.bandwidth = 20e3;
-  s.beams = 48;
-  s.field_of_view = radians(60);
-  s.beam_width = radians(2);
-  s.elevation_width = radians(20);
-  s.min_range = 2;
-  s.max_range = 15;
-  return make_head(s, sound_speed(Water{}));
-}
 
 const Pose& harbour_pose() {
   static const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
   return pose;
 }
 
-SceneCloud harbour(std::size_t points = 60000) { return make_built_in_scene("harbour", {.points = points}); }
-
-/// Small tiles, so that small scenes have several.
+/// Small tiles, so that small scenes have many.
 TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
 
 /// Pings the whole scene and the part loaded from a .tiles file, and expects identical bits.
 void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environment& environment,
                       const SimulationOptions& options, double most_of_the_scene) {
-  const std::string path = temporary("part.tiles");
+  const std::string path = own_path("part.tiles");
   save_tiles(path, whole, small_tiles());
   const TiledScene tiled(path);
-  const SonarHead head = small_head();
+  const SonarHead head = small_head({});
   const TileSelection selection = tiled.select(ping_region(tiled.info().whole, head, pose, environment, options));
   EXPECT_LT(static_cast<double>(selection.surfels), most_of_the_scene * static_cast<double>(whole.size()));
   const SimulatedPing all = simulate_ping(whole, head, pose, environment, options);

@@ -10,34 +10,14 @@
 #include "test_files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-SceneCloud harbour(std::size_t points = 60000) { return make_built_in_scene("harbour", {.points = points}); }
-
-/// Small tiles, so that small scenes have several.
+/// Small tiles, so that small scenes have many.
 TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
 
-void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {
-  EXPECT_EQ(a.origin, b.origin);
-  EXPECT_EQ(a.point, b.point);
-  EXPECT_EQ(a.normal, b.normal);
-  EXPECT_EQ(a.area, b.area);
-  EXPECT_EQ(a.material, b.material);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.normals_oriented, b.normals_oriented);
-  ASSERT_EQ(a.materials.size(), b.materials.size());
-  for (std::size_t m = 0; m < a.materials.size(); ++m) {
-    EXPECT_EQ(a.materials[m].name, b.materials[m].name);
-    EXPECT_EQ(a.materials[m].lambert_mu, b.materials[m].lambert_mu);
-    EXPECT_EQ(a.materials[m].coherent_fraction, b.materials[m].coherent_fraction);
-    EXPECT_EQ(a.materials[m].relief_slope, b.materials[m].relief_slope);
-  }
-}
-
 std::size_t files_in_folder() {
-  const auto all = std::filesystem::directory_iterator(temporary_folder());
+  const auto all = std::filesystem::directory_iterator(own_folder());
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
@@ -53,8 +33,8 @@ TEST(TiledScene, loading_all_tiles_gives_the_scene_back_bit_by_bit) {
   SceneCloud scene = harbour();
   scene.materials[2] = {"old timber", 0.01, 0.25, 0.125};
   scene.normals_oriented = false;
-  const TileReport report = save_tiles(temporary("a.tiles"), scene, small_tiles());
-  const TiledScene tiled(temporary("a.tiles"));
+  const TileReport report = save_tiles(own_path("a.tiles"), scene, small_tiles());
+  const TiledScene tiled(own_path("a.tiles"));
   expect_same_surfels(tiled.load(tiled.select_all()), scene);
   EXPECT_EQ(report.surfels, scene.size());
   EXPECT_EQ(tiled.info().surfels, scene.size());
@@ -69,40 +49,40 @@ TEST(TiledScene, loading_all_tiles_gives_the_scene_back_bit_by_bit) {
 
 TEST(TiledScene, a_surfel_takes_34_bytes_and_a_little_of_a_tile_entry) {
   const SceneCloud scene = harbour();
-  const TileReport report = save_tiles(temporary("a.tiles"), scene);
-  EXPECT_EQ(report.bytes, std::filesystem::file_size(temporary("a.tiles")));
+  const TileReport report = save_tiles(own_path("a.tiles"), scene);
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(own_path("a.tiles")));
   EXPECT_LT(static_cast<double>(report.bytes), 34.1 * static_cast<double>(scene.size()));
 }
 
 TEST(TiledScene, file_depends_neither_on_batches_nor_on_threads) {
   const SceneCloud scene = harbour();
-  save_tiles(temporary("a.tiles"), scene, small_tiles());
+  save_tiles(own_path("a.tiles"), scene, small_tiles());
   TileWriterOptions options = small_tiles();
   options.materials = scene.materials;
   options.threads = 3;
-  TileWriter writer(temporary("b.tiles"), options);
+  TileWriter writer(own_path("b.tiles"), options);
   for (std::uint32_t first = 0; first < scene.size(); first += 7777) {
     std::vector<std::uint32_t> keep(std::min<std::size_t>(7777, scene.size() - first));
     std::iota(keep.begin(), keep.end(), first);
     writer.add(subset(scene, keep));
   }
   writer.finish();
-  EXPECT_EQ(read_file(temporary("a.tiles")), read_file(temporary("b.tiles")));
+  EXPECT_EQ(file_bytes(own_path("a.tiles")), file_bytes(own_path("b.tiles")));
 }
 
 TEST(TiledScene, little_memory_changes_the_tiles_and_nothing_else) {
   const SceneCloud scene = harbour(100000);  // 15 MB while sorting, which exceeds 1 MiB even after one subdivision
   TileWriterOptions options = small_tiles();
   options.memory = 0;
-  save_tiles(temporary("a.tiles"), scene, options);
-  const TiledScene tiled(temporary("a.tiles"));
+  save_tiles(own_path("a.tiles"), scene, options);
+  const TiledScene tiled(own_path("a.tiles"));
   expect_same_surfels(tiled.load(tiled.select_all()), scene);
 }
 
 TEST(TiledScene, tiles_near_a_place_hold_every_surfel_near_it) {
   const SceneCloud scene = harbour();
-  save_tiles(temporary("a.tiles"), scene, small_tiles());
-  const TiledScene tiled(temporary("a.tiles"));
+  save_tiles(own_path("a.tiles"), scene, small_tiles());
+  const TiledScene tiled(own_path("a.tiles"));
   const Eigen::Vector3d centre(20, 3, -7);
   const TileSelection selection = tiled.select(region_around(centre, 5));
   EXPECT_LT(selection.surfels, scene.size() / 4);
@@ -128,10 +108,10 @@ TEST(TiledScene, a_scene_100_km_wide_keeps_its_millimetres) {
   }
   TileWriterOptions options = small_tiles();
   options.origin = {400000, 5400000, 0};
-  TileWriter writer(temporary("a.tiles"), options);
+  TileWriter writer(own_path("a.tiles"), options);
   writer.add(batch, places);
   writer.finish();
-  const TiledScene tiled(temporary("a.tiles"));
+  const TiledScene tiled(own_path("a.tiles"));
   const Eigen::Vector3d near = options.origin + Eigen::Vector3d(50e3, 0, 0);
   const SceneCloud part = tiled.load(tiled.select(region_around(near, 100)));
   ASSERT_EQ(part.size(), 10000U);
@@ -146,8 +126,8 @@ TEST(TiledScene, tiles_of_two_clouds_100_km_apart_are_small_in_both) {
   const std::size_t one = scene.size();
   for (std::size_t i = 0; i < one; ++i)
     add_surfel(scene, scene.point[i].cast<double>() + Eigen::Vector3d(1e5, 0, 0), Eigen::Vector3d::UnitZ(), 0.02);
-  save_tiles(temporary("a.tiles"), scene, small_tiles());
-  const TiledScene tiled(temporary("a.tiles"));
+  save_tiles(own_path("a.tiles"), scene, small_tiles());
+  const TiledScene tiled(own_path("a.tiles"));
   for (const double x : {10.0, 1e5 + 10}) EXPECT_LT(tiled.select(region_around({x, 0, 0}, 1)).surfels, one / 10);
 }
 
@@ -157,27 +137,27 @@ TEST(TiledScene, strays_far_away_do_not_make_tiles_large) {
   add_surfel(scene, {0, -3e6, 0}, Eigen::Vector3d::UnitZ(), 0.01);
   TileWriterOptions options = small_tiles();
   options.memory = 0;
-  save_tiles(temporary("a.tiles"), scene, options);
-  const TiledScene tiled(temporary("a.tiles"));
+  save_tiles(own_path("a.tiles"), scene, options);
+  const TiledScene tiled(own_path("a.tiles"));
   EXPECT_LT(tiled.select(region_around({20, 3, -7}, 5)).surfels, scene.size() / 4);
 }
 
 TEST(TiledScene, scenes_without_extent_are_scenes) {
-  EXPECT_EQ(save_tiles(temporary("none.tiles"), SceneCloud{}).surfels, 0U);
-  const TiledScene none(temporary("none.tiles"));
+  EXPECT_EQ(save_tiles(own_path("none.tiles"), SceneCloud{}).surfels, 0U);
+  const TiledScene none(own_path("none.tiles"));
   EXPECT_EQ(none.load(none.select_all()).size(), 0U);
   EXPECT_EQ(none.select(region_around({0, 0, 0}, 1e9)).surfels, 0U);
 
-  save_tiles(temporary("one.tiles"), one_point());
-  const TiledScene one(temporary("one.tiles"));
+  save_tiles(own_path("one.tiles"), one_point());
+  const TiledScene one(own_path("one.tiles"));
   expect_same_surfels(one.load(one.select(region_around({0, 0, 0}, 10))), one_point());
   EXPECT_EQ(one.select(region_around({50, 0, 0}, 10)).surfels, 0U);
 
   // More surfels at one position than the memory for sorting can hold.
   TileWriterOptions little;
   little.memory = 0;
-  save_tiles(temporary("pile.tiles"), one_point(20000), little);
-  const TiledScene pile(temporary("pile.tiles"));
+  save_tiles(own_path("pile.tiles"), one_point(20000), little);
+  const TiledScene pile(own_path("pile.tiles"));
   expect_same_surfels(pile.load(pile.select_all()), one_point(20000));
 }
 
@@ -189,9 +169,9 @@ TEST(TiledScene, duplicates_are_dropped_on_request_and_the_first_is_kept) {
   }
   TileWriterOptions options = small_tiles();
   options.drop_duplicates = true;
-  const TileReport report = save_tiles(temporary("a.tiles"), scene, options);
+  const TileReport report = save_tiles(own_path("a.tiles"), scene, options);
   EXPECT_EQ(report.dropped_duplicates, scene.size() - before);
-  const TiledScene tiled(temporary("a.tiles"));
+  const TiledScene tiled(own_path("a.tiles"));
   const SceneCloud kept = tiled.load(tiled.select_all());
   ASSERT_EQ(kept.size(), before);
   EXPECT_EQ(kept.id.back(), before - 1);
@@ -203,9 +183,9 @@ TEST(TiledScene, areas_found_tile_by_tile_add_up_to_the_plate) {
   SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {40, 40}});
   TileWriterOptions options = small_tiles();
   options.estimate_areas = true;
-  const TileReport report = save_tiles(temporary("a.tiles"), scene, options);
-  EXPECT_NEAR(report.total_area, 1600, 0.02 * 1600);  // the accuracy of estimate_surfel_areas
-  const TiledScene tiled(temporary("a.tiles"));
+  const TileReport report = save_tiles(own_path("a.tiles"), scene, options);
+  EXPECT_NEAR(report.total_area, 1600, 0.02 * 1600);  // the promise of estimate_surfel_areas
+  const TiledScene tiled(own_path("a.tiles"));
   const SceneCloud found = tiled.load(tiled.select_all());
   EXPECT_NEAR(std::accumulate(found.area.begin(), found.area.end(), 0.0), report.total_area, 1e-6 * 1600);
   // No seams between tiles: each area is that of the whole cloud.
@@ -216,18 +196,18 @@ TEST(TiledScene, areas_found_tile_by_tile_add_up_to_the_plate) {
 }
 
 TEST(TiledScene, what_does_not_fit_into_memory_is_refused_before_it_is_read) {
-  save_tiles(temporary("a.tiles"), harbour(), small_tiles());
-  const TiledScene tiled(temporary("a.tiles"));
+  save_tiles(own_path("a.tiles"), harbour(), small_tiles());
+  const TiledScene tiled(own_path("a.tiles"));
   expect_error(ErrorKind::runtime, {"a.tiles", "surfels within reach need about", "GiB", "raise the limit"},
                [&] { tiled.load(tiled.select_all(), 1e6); });
   EXPECT_GT(tiled.load(tiled.select(region_around({20, 3, -7}, 1)), 1e6).size(), 0U);
 }
 
 TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
-  save_tiles(temporary("good.tiles"), harbour(5000), small_tiles());
-  const std::string good = read_file(temporary("good.tiles"));
+  save_tiles(own_path("good.tiles"), harbour(5000), small_tiles());
+  const std::string good = file_bytes(own_path("good.tiles"));
   const auto refuse = [&](const std::string& bytes, const std::vector<std::string>& parts) {
-    const std::string path = write_file("bad.tiles", bytes);
+    const std::string path = own_file("bad.tiles", bytes);
     expect_error(ErrorKind::content, parts, [&] {
       const TiledScene tiled(path);
       tiled.load(tiled.select_all());
@@ -249,13 +229,13 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
   refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
   refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
-  expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(temporary("none.tiles")); });
+  expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(own_path("none.tiles")); });
 }
 
 TEST(TileWriter, an_unfinished_or_interrupted_file_leaves_nothing) {
   const std::size_t before = files_in_folder();
   {
-    TileWriter writer(temporary("a.tiles"));
+    TileWriter writer(own_path("a.tiles"));
     writer.add(one_point());
     EXPECT_EQ(files_in_folder(), before);  // temporary files are unnamed
   }
@@ -265,34 +245,34 @@ TEST(TileWriter, an_unfinished_or_interrupted_file_leaves_nothing) {
   options.progress = [](double part) {
     if (part > 0.5) throw Stop{};
   };
-  EXPECT_THROW(save_tiles(temporary("a.tiles"), harbour(), options), Stop);
+  EXPECT_THROW(save_tiles(own_path("a.tiles"), harbour(), options), Stop);
   EXPECT_EQ(files_in_folder(), before);
 }
 
 TEST(TileWriter, an_existing_file_stays_until_the_new_one_is_whole) {
-  save_tiles(temporary("a.tiles"), one_point());
-  const std::string old = read_file(temporary("a.tiles"));
+  save_tiles(own_path("a.tiles"), one_point());
+  const std::string old = file_bytes(own_path("a.tiles"));
   {
-    TileWriter writer(temporary("a.tiles"));
+    TileWriter writer(own_path("a.tiles"));
     writer.add(one_point(5));
-    EXPECT_EQ(read_file(temporary("a.tiles")), old);
+    EXPECT_EQ(file_bytes(own_path("a.tiles")), old);
     writer.finish();
   }
-  EXPECT_EQ(TiledScene(temporary("a.tiles")).info().surfels, 5U);
+  EXPECT_EQ(TiledScene(own_path("a.tiles")).info().surfels, 5U);
 }
 
 TEST(TileWriter, bad_input_is_refused) {
   SceneCloud scene = one_point();
   scene.materials.push_back({"other"});
   scene.material[0] = 1;
-  TileWriter writer(temporary("a.tiles"));
+  TileWriter writer(own_path("a.tiles"));
   expect_error(ErrorKind::content, {"material", "= 1"}, [&] { writer.add(scene); });
   scene.material[0] = 0;
   scene.point[0].x() = NAN;
   expect_error(ErrorKind::content, {"finite"}, [&] { writer.add(scene); });
   expect_error(ErrorKind::argument, {"places"}, [&] { writer.add(one_point(), {}); });
   expect_error(ErrorKind::file, {"nowhere"}, [] { TileWriter("/nowhere/at/all.tiles"); });
-  expect_error(ErrorKind::argument, {"tile_surfels"}, [] { TileWriter(temporary("b.tiles"), {.tile_surfels = 0}); });
+  expect_error(ErrorKind::argument, {"tile_surfels"}, [] { TileWriter(own_path("b.tiles"), {.tile_surfels = 0}); });
   writer.finish();
   expect_error(ErrorKind::argument, {"after finish"}, [&] { writer.add(one_point()); });
 }

@@ -4,28 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"
 #include "returns/insonification.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
 namespace {
 
-SonarHead small_head() {
-  SonarSpec s;
-  s.centre_frequency = 450e3;
-  s.bandwidth = 20e3;
-  s.beams = 32;
-  s.field_of_view = radians(50);
-  s.beam_width = radians(2);
-  s.elevation_width = radians(20);
-  s.min_range = 2;
-  s.max_range = 18;
-  return make_head(s, sound_speed(Water{}));
-}
+const SonarHead head = small_head({.beams = 32, .field_of_view_deg = 50, .max_range = 18});
 
 /// A level plane 3 m below the head, one material to port (y > 0), another to starboard.
 SceneCloud two_materials() {
@@ -42,7 +31,6 @@ const Pose over_plane = pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0);
 
 TEST(SimulatedContributors, are_kept_when_asked_for) {
   const SceneCloud scene = two_materials();
-  const SonarHead head = small_head();
   const SimulatedPing without = simulate_ping(scene, head, over_plane, {});
   EXPECT_TRUE(without.contributors.empty());
   const SimulatedPing with = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 2});
@@ -54,7 +42,6 @@ TEST(SimulatedContributors, are_kept_when_asked_for) {
 
 // Port is positive azimuth: beams that look to port show the mud there.
 TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
-  const SonarHead head = small_head();
   const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.keep_contributors = 1});
   const auto image = material_image(p.contributors);
   std::size_t right = 0, all = 0;
@@ -73,7 +60,6 @@ TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
 // The elevation that is named is where a plane 3 m below shows at that range: asin(-3 / r) in the world, 15 degrees up
 // in the head, as seen straight ahead.
 TEST(SimulatedContributors, of_a_plane_stand_at_the_elevation_of_the_plane) {
-  const SonarHead head = small_head();
   const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.keep_contributors = 1});
   for (std::size_t n = 0; n < head.gate.bins(); ++n) {
     const double r = head.gate.centre(n);
@@ -88,8 +74,8 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   SceneCloud scene;
   scene.materials = {{"m", 0.1}};
   add_surfel(scene, {10, 0, -4}, {-1, 0, 0}, 1e-3);
-  SonarHead head = small_head();
-  head.fan.elevation_width = radians(170);
+  SonarHead wide = head;
+  wide.fan.elevation_width = radians(170);
   Environment environment;
   environment.surface = SeaSurface{};
   Pose pose = Pose::Identity();
@@ -97,10 +83,10 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   SimulationOptions options;
   options.multipath = true;
   options.keep_contributors = 4;
-  const SimulatedPing p = simulate_ping(scene, head, pose, environment, options);
+  const SimulatedPing p = simulate_ping(scene, wide, pose, environment, options);
   const double direct = std::hypot(10, 2), bounced = std::hypot(10, 6);
   const auto at_range = [&](double range) {
-    const auto bin = static_cast<std::size_t>((range - head.gate.min_range) / head.gate.bin_size);
+    const auto bin = static_cast<std::size_t>((range - wide.gate.min_range) / wide.gate.bin_size);
     return p.contributors.at(16, bin);
   };
   const Contributors& c = p.contributors;
@@ -121,7 +107,6 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
 // Loud pixels are made by surfels that stand in their beam and at their range.
 TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
-  const SonarHead head = small_head();
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
   const SimulatedPing p = simulate_ping(scene, head, pose, {}, {.keep_contributors = 1});
   ASSERT_GT(p.soundings.size(), 100U);
@@ -140,7 +125,6 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
 // The map of a ping agrees with what sampling saw, and covers what contributors name.
 TEST(SimulatedContributors, are_insonified) {
   const SceneCloud scene = two_materials();
-  const SonarHead head = small_head();
   const SimulatedPing p = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 1});
   Insonification map;
   add_ping(map, scene, p.scatterers, head, p.medium, {.min_response_db = -300});

@@ -6,31 +6,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize_intensity.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "simulate/stage_options_internal.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
 namespace {
 
-SonarHead small_head() {
-  SonarSpec s;
-  s.name = "test";
-  s.centre_frequency = 450e3;
-  s.bandwidth = 20e3;
-  s.source_level_db = 200;
-  s.beams = 12;
-  s.field_of_view = radians(24);
-  s.beam_width = radians(2);
-  s.elevation_width = radians(30);
-  s.min_range = 3;
-  s.max_range = 8;
-  return make_head(s, sound_speed({}));
-}
+const SonarHead head = small_head({.beams = 12,
+                                   .field_of_view_deg = 24,
+                                   .elevation_width_deg = 30,
+                                   .min_range = 3,
+                                   .max_range = 8,
+                                   .source_level_db = 200});
 
 /// Between surface and bottom, in water that scatters.
 Environment loud_sea() {
@@ -51,7 +44,7 @@ const SceneCloud& plane() {
 const Pose above = pose_from_yaw_pitch_roll({-4, 0, 2.5}, 0, radians(25), 0);
 
 SimulatedPing ping(const SimulationOptions& options, const Environment& environment = {}) {
-  return simulate_ping(plane(), small_head(), above, environment, options);
+  return simulate_ping(plane(), head, above, environment, options);
 }
 
 Grid<double> power(const ComplexGridF& pressure) { return pressure.cast<std::complex<double>>().abs2(); }
@@ -70,7 +63,6 @@ struct Spread {
 
   explicit Spread(SimulationOptions options) {
     constexpr int seeds = 20;
-    const SonarHead head = small_head();
     const Medium medium = medium_of(Environment{}, head.pulse.centre_frequency, 0);
     options.method = SynthesisMethod::incoherent;
     Grid<double> sum, squares, prediction;
@@ -144,13 +136,8 @@ TEST(ExpectedLevel, is_nothing_that_elements_hear) {
   SimulationOptions options;
   options.method = SynthesisMethod::incoherent;
   options.keep_elements = true;
-  try {
-    ping(options);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    EXPECT_THAT(error.what(), testing::HasSubstr("keep_elements = true, must be false with method incoherent"));
-  }
+  expect_error(ErrorKind::argument, {"keep_elements = true, must be false with method incoherent"},
+               [&] { ping(options); });
 }
 
 TEST(LevelError, is_an_upper_estimate_for_split_surfels) {
@@ -210,7 +197,7 @@ TEST(LevelError, out_of_reach_is_told) {
   add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, 0.01);
   SimulationOptions options;
   options.level_error_db = 1e-3;
-  const SimulatedPing p = simulate_ping(scene, small_head(), Pose::Identity(), {}, options);
+  const SimulatedPing p = simulate_ping(scene, head, Pose::Identity(), {}, options);
   EXPECT_FALSE(p.convergence.reached);
   EXPECT_LT(p.convergence.share_below, 0.99);
   ASSERT_FALSE(p.notes.empty());
@@ -220,7 +207,7 @@ TEST(LevelError, out_of_reach_is_told) {
 TEST(LevelError, of_a_silent_ping_is_kept_at_once) {
   SimulationOptions options;
   options.level_error_db = 0.5;
-  const SimulatedPing p = simulate_ping(SceneCloud{}, small_head(), Pose::Identity(), {}, options);
+  const SimulatedPing p = simulate_ping(SceneCloud{}, head, Pose::Identity(), {}, options);
   EXPECT_TRUE(p.convergence.reached);
   EXPECT_EQ(p.convergence.judged, 0u);
   EXPECT_EQ(p.convergence.samplings, 1);
@@ -245,7 +232,7 @@ TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
       add_surfel(scene, whole.point[i].cast<double>(), whole.normal[i].cast<double>(), whole.area[i]);
   SimulationOptions options{.scatterers_per_cell = 0, .rays_per_beam = 512};
   options.keep_mask = true;
-  const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, small_head(), above, {}, options); };
+  const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, head, above, {}, options); };
   const SimulatedPing clean = ping_of(whole), pierced = ping_of(scene);
   ASSERT_EQ(pierced.ping.unknown.size(), pierced.ping.pressure.size());
   EXPECT_EQ(clean.holes.directions, 12u * 512u);

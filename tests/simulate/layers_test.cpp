@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/sound_speed_profile.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"
 #include "returns/compare.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
@@ -19,20 +19,8 @@ namespace {
 
 const std::vector<std::string> all_layers = {"direct", "multipath", "volume", "surface", "bottom", "noise"};
 
-SonarHead small_head(double source_level_db = 200) {
-  SonarSpec s;
-  s.name = "test";
-  s.centre_frequency = 450e3;
-  s.bandwidth = 20e3;
-  s.source_level_db = source_level_db;
-  s.beams = 16;
-  s.field_of_view = radians(30);
-  s.beam_width = radians(2);
-  s.elevation_width = radians(40);
-  s.min_range = 2;
-  s.max_range = 12;
-  return make_head(s, sound_speed({}));
-}
+const SmallSonar sonar{
+    .beams = 16, .field_of_view_deg = 30, .elevation_width_deg = 40, .max_range = 12, .source_level_db = 200};
 
 /// Everything there is to hear: a wall 5 m ahead between surface and bottom, water that scatters, wind, self noise.
 Environment full_environment() {
@@ -48,7 +36,7 @@ Environment full_environment() {
 
 struct Case {
   Environment environment = full_environment();
-  SonarHead head = small_head();
+  SonarHead head = small_head(sonar);
   double lambert_mu = 1e-3;
   SimulationOptions options = [] {
     SimulationOptions o;
@@ -186,7 +174,7 @@ TEST(Layers, of_two_scenes_are_the_sum_of_both) {
     for (SceneCloud* scene : {&both, &second}) add_surfel(*scene, {7, 0.4 + 0.02 * i, 0.01 * i}, {-1, 0, 0}, 1e-3);
   for (std::size_t i = 0; i < second.size(); ++i) second.id[i] = both.id[40 + i];
   const auto image = [](const SceneCloud& scene) -> ComplexGrid {
-    return simulate_ping(scene, small_head(), Pose::Identity(), {}).ping.pressure.cast<std::complex<double>>();
+    return simulate_ping(scene, small_head(sonar), Pose::Identity(), {}).ping.pressure.cast<std::complex<double>>();
   };
   EXPECT_LT(compare_images(image(first) + image(second), image(both)).relative_l2, 1e-4);  // the tolerance
 }

@@ -6,34 +6,21 @@
 
 #include <gtest/gtest.h>
 
-#include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"
 #include "returns/compare.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
 namespace {
 
-SonarSpec small_sonar() {
-  SonarSpec s;
-  s.name = "test";
-  s.centre_frequency = 450e3;
-  s.bandwidth = 20e3;
-  s.beams = 48;
-  s.field_of_view = radians(60);
-  s.beam_width = radians(2);
-  s.elevation_width = radians(20);
-  s.min_range = 2;
-  s.max_range = 20;
-  return s;
-}
+const SonarHead head = small_head({.max_range = 20});
 
 SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
   SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
   scene.origin += shift;
   const Water water;
-  const SonarHead head = make_head(small_sonar(), sound_speed(water));
   return simulate_ping(scene, head, pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0),
                        {water}, options);
 }
@@ -42,7 +29,6 @@ SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector
 SimulatedPing ping_plane(double y, const SimulationOptions& options) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 100000, .size = {30, 30}});
   const Water water;
-  const SonarHead head = make_head(small_sonar(), sound_speed(water));
   return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, y, 3}, 0, radians(15), 0), {water}, options);
 }
 
@@ -102,7 +88,6 @@ TEST(SimulatePing, gridded_and_direct_agree_on_a_scene) {
 TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {30, 30}});
   const Water water;
-  const SonarHead head = make_head(small_sonar(), sound_speed(water));
   const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), {water});
   ASSERT_GT(p.soundings.size(), 500U);
   std::vector<double> off;
@@ -116,7 +101,6 @@ TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
 TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const Water water;
-  const SonarHead head = make_head(small_sonar(), sound_speed(water));
   const auto ping = [&](bool noise) {
     return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water},
                          {.noise = noise});
@@ -129,7 +113,6 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
 TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const Water water;
-  const SonarHead head = make_head(small_sonar(), sound_speed(water));
   const SimulatedPing p =
       simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water});
   EXPECT_EQ(p.scatterers.size(), 0U);

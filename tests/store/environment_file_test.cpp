@@ -1,6 +1,7 @@
 #include "store/environment_file.hpp"
 
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
@@ -8,8 +9,8 @@ namespace {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string error_of_file(const std::string& text) {
-  return error_of([&] { load_environment(own_file("e.toml", text)); });
+std::string error_of_environment(const std::string& text) {
+  return error_with_kind([&] { load_environment(own_file("e.toml", text)); });
 }
 
 }  // namespace
@@ -55,20 +56,20 @@ TEST(EnvironmentFile, everything_set_by_key_reads_back_from_its_toml) {
 }
 
 TEST(EnvironmentFile, names_line_and_nearest_key_of_a_mistake) {
-  EXPECT_TRUE(holds(error_of_file("[water]\ntemprature_c = 4\n"),
+  EXPECT_TRUE(holds(error_of_environment("[water]\ntemprature_c = 4\n"),
                     ":2: water.temprature_c is unknown; did you mean "
                     "water.temperature_c?"));
-  EXPECT_TRUE(holds(error_of_file("[water]\nph = \"acid\"\n"), ":2: water.ph must be a number"));
-  EXPECT_TRUE(holds(error_of_file("[water]\nabsorption_formula = \"thorp\"\n"),
+  EXPECT_TRUE(holds(error_of_environment("[water]\nph = \"acid\"\n"), ":2: water.ph must be a number"));
+  EXPECT_TRUE(holds(error_of_environment("[water]\nabsorption_formula = \"thorp\"\n"),
                     ":2: water.absorption_formula = \"thorp\", must be one of francois-garrison"));
-  EXPECT_TRUE(holds(error_of_file("depth_m = 3\n"), ":1: depth_m must be a table"));
+  EXPECT_TRUE(holds(error_of_environment("depth_m = 3\n"), ":1: depth_m must be a table"));
 }
 
 TEST(EnvironmentFile, refuses_values_that_make_no_environment_with_value_unit_and_rule) {
-  EXPECT_TRUE(holds(error_of_file("[wind]\nspeed_m_s = -3\n"), "wind_speed = -3 m/s, must be within 0 and 100"));
-  EXPECT_TRUE(holds(error_of_file("[surface]\nheight_m = 0\n[bottom]\nheight_m = 1\n"),
+  EXPECT_TRUE(holds(error_of_environment("[wind]\nspeed_m_s = -3\n"), "wind_speed = -3 m/s, must be within 0 and 100"));
+  EXPECT_TRUE(holds(error_of_environment("[surface]\nheight_m = 0\n[bottom]\nheight_m = 1\n"),
                     "bottom.height = 1 m, must be below surface.height = 0 m"));
-  EXPECT_TRUE(holds(error_of_file("[bottom]\nlambert_mu_db = 3\nheight_m = -5\n"), "must be within 0 and 1/pi"));
+  EXPECT_TRUE(holds(error_of_environment("[bottom]\nlambert_mu_db = 3\nheight_m = -5\n"), "must be within 0 and 1/pi"));
 }
 
 TEST(EnvironmentFile, a_profile_reads_back_from_its_toml) {
@@ -80,10 +81,10 @@ TEST(EnvironmentFile, a_profile_reads_back_from_its_toml) {
   ASSERT_TRUE(back.profile);
   EXPECT_EQ(back.profile->depth, e.profile->depth);
   EXPECT_EQ(back.profile->sound_speed, e.profile->sound_speed);
-  EXPECT_TRUE(holds(error_of_file("[profile]\ndepth_m = [0, 5]\n"), ":1: profile: missing key 'sound_speed'"));
-  EXPECT_TRUE(holds(error_of_file("[profile]\ndepth_m = 0\nsound_speed = [1500]\n"),
+  EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [0, 5]\n"), ":1: profile: missing key 'sound_speed'"));
+  EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = 0\nsound_speed = [1500]\n"),
                     ":2: profile.depth_m must be a list of numbers"));
-  EXPECT_TRUE(holds(error_of_file("[profile]\ndepth_m = [3, 1]\nsound_speed = [1500, 1500]\n"),
+  EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [3, 1]\nsound_speed = [1500, 1500]\n"),
                     "must be deeper than the entry before it"));
 }
 
@@ -92,18 +93,19 @@ TEST(EnvironmentFile, of_a_run_toml_only_the_environment_counts) {
       "insonify_version = \"0\"\nseed = 1\n[scene]\npath = \"a\"\n[ping]\nnoise = true\n"
       "[water]\nph = 7.5\n[sonar]\nname = \"x\"\n";
   EXPECT_EQ(load_environment(own_file("run.toml", run)).water.ph, 7.5);
-  EXPECT_TRUE(holds(error_of_file(run + "[wnd]\n"), ":11: unknown table [wnd]; did you mean [wind]?"));
+  EXPECT_TRUE(holds(error_of_environment(run + "[wnd]\n"), ":11: unknown table [wnd]; did you mean [wind]?"));
 }
 
 TEST(EnvironmentFile, refuses_unknown_tables_even_if_empty) {
-  EXPECT_TRUE(holds(error_of_file("[surfce]\n"), ":1: unknown table [surfce]; did you mean [surface]?"));
-  EXPECT_TRUE(holds(error_of_file("[sonar]\nbeams = 3\n"), ":1: unknown table [sonar]; known are [water] [surface]"));
+  EXPECT_TRUE(holds(error_of_environment("[surfce]\n"), ":1: unknown table [surfce]; did you mean [surface]?"));
+  EXPECT_TRUE(
+      holds(error_of_environment("[sonar]\nbeams = 3\n"), ":1: unknown table [sonar]; known are [water] [surface]"));
 }
 
 TEST(EnvironmentFile, refuses_text_that_is_no_number) {
   Environment e;
-  EXPECT_EQ(error_of([&] { set_environment_value(e, "wind", "speed_m_s", "strong"); }),
+  EXPECT_EQ(error_with_kind([&] { set_environment_value(e, "wind", "speed_m_s", "strong"); }),
             "argument: wind.speed_m_s = 'strong', must be a number");
-  EXPECT_EQ(error_of([&] { set_environment_value(e, "wind", "sped_m_s", "1"); }),
+  EXPECT_EQ(error_with_kind([&] { set_environment_value(e, "wind", "sped_m_s", "1"); }),
             "argument: wind.sped_m_s is unknown; did you mean wind.speed_m_s?");
 }

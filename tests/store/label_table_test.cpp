@@ -2,17 +2,15 @@
 
 #include <gmock/gmock.h>
 
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 using testing::HasSubstr;
 
 namespace {
 
-std::string refusal(const std::string& text) {
-  const std::string path = own_file("labels.csv", text);
-  return replaced(error_of([&] { load_labels(path); }), path, "labels.csv");
-}
+std::string refusal(const std::string& text) { return error_of_file(load_labels, "labels.csv", text); }
 
 }  // namespace
 
@@ -43,5 +41,5 @@ TEST(LabelTable, refuses_what_is_no_label_with_file_and_line) {
             "content: labels.csv:2: bearing_deg = 400 deg, must be within -360 and 360");
   EXPECT_EQ(refusal("bearing_deg,range_m,text\n4,0,a\n"), "content: labels.csv:2: range_m = 0 m, must be > 0");
   EXPECT_THAT(refusal("bearing_deg,range_m,text\n"), HasSubstr("labels.csv: has no labels"));
-  EXPECT_THAT(error_of([] { load_labels(own_path("none.csv")); }), HasSubstr("file: "));
+  EXPECT_THAT(error_with_kind([] { load_labels(own_path("none.csv")); }), HasSubstr("file: "));
 }

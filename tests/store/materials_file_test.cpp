@@ -4,16 +4,14 @@
 #include <tuple>
 
 #include "core/units.hpp"
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
 namespace {
 
-std::string error_of_materials(const std::string& text) {
-  const std::string path = own_file("m.toml", text);
-  return replaced(error_of([&] { load_materials(path); }), path, "m.toml");
-}
+std::string error_of_materials(const std::string& text) { return error_of_file(load_materials, "m.toml", text); }
 
 Material shipped(const std::string& name) {
   for (const auto& m : load_materials(INSONIFY_DATA "/materials.toml").materials)

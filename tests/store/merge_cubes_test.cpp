@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "core/units.hpp"
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 using testing::ElementsAre;
@@ -46,7 +47,7 @@ template <typename Change>
 std::string refusal(Change&& change) {
   NamedCube second = run("out-1", 1, 2);
   change(second.cube);
-  return error_of([&] { merge_cubes({run("out-0", 0, 1), second}); });
+  return error_with_kind([&] { merge_cubes({run("out-0", 0, 1), second}); });
 }
 
 }  // namespace
@@ -89,5 +90,5 @@ TEST(MergeCubes, refuses_another_sonar_fan_gate_pulse_or_water) {
   EXPECT_THAT(refusal([](Cube& c) { c.bandwidth = 20e3; }), HasSubstr("has a pulse of 900000 Hz and 20000 Hz wide"));
   EXPECT_THAT(refusal([](Cube& c) { c.sound_speed = 1480; }), HasSubstr("has a sound speed of 1480 m/s, not 1500 m/s"));
   EXPECT_THAT(refusal([](Cube& c) { c.pings.clear(); }), HasSubstr("content: out-1: holds no pings"));
-  EXPECT_THAT(error_of([] { merge_cubes({}); }), HasSubstr("argument: merge_cubes: no cubes"));
+  EXPECT_THAT(error_with_kind([] { merge_cubes({}); }), HasSubstr("argument: merge_cubes: no cubes"));
 }

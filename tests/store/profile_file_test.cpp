@@ -1,14 +1,14 @@
 #include "store/profile_file.hpp"
 
 #include "acoustics/water.hpp"
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
 namespace {
 std::string error_of_profile(const std::string& text) {
-  const std::string path = own_file("cast.csv", text);
-  return replaced(error_of([&] { load_sound_speed_profile(path); }), path, "cast.csv");
+  return error_of_file(load_sound_speed_profile, "cast.csv", text);
 }
 }  // namespace
 

@@ -2,7 +2,8 @@
 
 #include <set>
 
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 namespace fs = std::filesystem;
@@ -49,7 +50,7 @@ TEST(RunDirectory, leaves_nothing_behind_without_commit) {
 TEST(RunDirectory, refuses_an_existing_folder_and_names_force) {
   const std::string out = own_path("out");
   make_run(out, "old");
-  EXPECT_EQ(error_of([&] { RunDirectory(out, false); }),
+  EXPECT_EQ(error_with_kind([&] { RunDirectory(out, false); }),
             "file: " + out + ": exists already; give --force to replace it, or another name");
   EXPECT_EQ(read_text_file(out + "/manifest.json"), "old");
 }
@@ -70,29 +71,30 @@ TEST(RunDirectory, force_does_not_replace_what_is_no_run) {
   const std::string home = own_path("home");
   fs::create_directory(home);
   write_text_file(home + "/thesis.tex", "years of work");
-  EXPECT_EQ(error_of([&] { RunDirectory(home, true); }),
+  EXPECT_EQ(error_with_kind([&] { RunDirectory(home, true); }),
             "file: " + home +
                 ": is not a folder of an earlier run (no manifest.json in it), so --force does not "
                 "replace it; remove it yourself, or give another name");
   EXPECT_EQ(read_text_file(home + "/thesis.tex"), "years of work");
   const std::string file = own_file("file", "text");
-  EXPECT_NE(error_of([&] { RunDirectory(file, true); }).find("is not a folder of an earlier run"), std::string::npos);
+  EXPECT_NE(error_with_kind([&] { RunDirectory(file, true); }).find("is not a folder of an earlier run"),
+            std::string::npos);
 }
 
 TEST(RunDirectory, does_not_overwrite_what_appeared_meanwhile) {
   const std::string out = own_path("out");
   RunDirectory run(out, false);
   make_run(out, "the other one's");
-  EXPECT_NE(error_of([&] { run.commit(); }).find("exists already"), std::string::npos);
+  EXPECT_NE(error_with_kind([&] { run.commit(); }).find("exists already"), std::string::npos);
   EXPECT_EQ(read_text_file(out + "/manifest.json"), "the other one's");
 }
 
 TEST(RunDirectory, needs_a_parent_folder_and_a_name) {
   const std::string out = own_path("missing/out");
-  EXPECT_EQ(error_of([&] { RunDirectory(out, false); }),
+  EXPECT_EQ(error_with_kind([&] { RunDirectory(out, false); }),
             "file: " + out + ": folder " + own_path("missing") + " does not exist; create it first");
   for (const char* name : {"", "/", ".", ".."})
-    EXPECT_EQ(error_of([&] { RunDirectory(name, true); }),
+    EXPECT_EQ(error_with_kind([&] { RunDirectory(name, true); }),
               "file: \"" + std::string(name) + "\": is not a valid name for a new folder");
 }
 
@@ -109,11 +111,11 @@ TEST(TextFile, comes_back_as_written_and_replaces_an_old_one) {
 
 TEST(TextFile, errors_name_the_path) {
   const std::string missing = own_path("no/a.txt");
-  EXPECT_EQ(error_of([&] { read_text_file(missing); }), "file: " + missing + ": no such file");
-  EXPECT_EQ(error_of([&] { write_text_file(missing, "x"); }),
+  EXPECT_EQ(error_with_kind([&] { read_text_file(missing); }), "file: " + missing + ": no such file");
+  EXPECT_EQ(error_with_kind([&] { write_text_file(missing, "x"); }),
             "file: " + missing + ": folder " + own_path("no") + " does not exist; create it first");
   const std::string folder = fs::path(own_path("x")).parent_path().string();
-  EXPECT_EQ(error_of([&] { read_text_file(folder); }), "file: " + folder + ": is a folder, must be a file");
-  EXPECT_EQ(error_of([&] { write_text_file(folder, "x"); }),
+  EXPECT_EQ(error_with_kind([&] { read_text_file(folder); }), "file: " + folder + ": is a folder, must be a file");
+  EXPECT_EQ(error_with_kind([&] { write_text_file(folder, "x"); }),
             "file: " + folder + ": is not a valid name for an output file");
 }

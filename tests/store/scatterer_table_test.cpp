@@ -1,16 +1,14 @@
 #include "store/scatterer_table.hpp"
 
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
 namespace {
 const std::string header = "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n";
 
-std::string error_of_table(const std::string& text) {
-  const std::string path = own_file("s.csv", text);
-  return replaced(error_of([&] { load_scatterer_table(path); }), path, "s.csv");
-}
+std::string error_of_table(const std::string& text) { return error_of_file(load_scatterer_table, "s.csv", text); }
 }  // namespace
 
 TEST(ScattererTable, reads_every_column_in_line_order) {
@@ -77,5 +75,5 @@ TEST(ScattererTable, says_what_an_empty_or_missing_file_lacks) {
             "content: s.csv: has no header, must start with "
             "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im");
   const std::string missing = own_path("missing.csv");
-  EXPECT_EQ(error_of([&] { load_scatterer_table(missing); }), "file: " + missing + ": no such file");
+  EXPECT_EQ(error_with_kind([&] { load_scatterer_table(missing); }), "file: " + missing + ": no such file");
 }

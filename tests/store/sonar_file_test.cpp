@@ -4,7 +4,8 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
@@ -25,10 +26,7 @@ const std::string plain =
 
 SonarFile load(const std::string& text) { return load_sonar_file(own_file("s.toml", text)); }
 
-std::string error_of_sonar(const std::string& text) {
-  const std::string path = own_file("s.toml", text);
-  return replaced(error_of([&] { load_sonar_file(path); }), path, "s.toml");
-}
+std::string error_of_sonar(const std::string& text) { return error_of_file(load_sonar_file, "s.toml", text); }
 
 void expect_same_bits(const SonarSpec& a, const SonarSpec& b) {
   EXPECT_EQ(a.name, b.name);
@@ -400,17 +398,17 @@ TEST(SetSonarValue, sets_every_key_of_files) {
 
 TEST(SetSonarValue, names_the_nearest_key_and_the_rule) {
   SonarSpec s;
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range", "3"); }),
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range", "3"); }),
             "argument: sonar: unknown key 'max_range'; did you mean 'max_range_m'?");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "pressure", "3"); }), "argument: sonar: unknown key 'pressure'");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "beams", "many"); }),
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "pressure", "3"); }), "argument: sonar: unknown key 'pressure'");
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "beams", "many"); }),
             "argument: sonar: beams = \"many\", must be a number");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", "30 m"); }),
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range_m", "30 m"); }),
             "argument: sonar: max_range_m = \"30 m\", must be a number");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", ""); }),
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range_m", ""); }),
             "argument: sonar: max_range_m = \"\", must be a number");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "max_range_m", "1,2"); }),
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range_m", "1,2"); }),
             "argument: sonar: max_range_m = [1.0, 2.0], must be a number");
-  EXPECT_EQ(error_of([&] { set_sonar_value(s, "elevation_shape", "3"); }),
+  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "elevation_shape", "3"); }),
             "argument: sonar: elevation_shape = 3.0, must be gaussian, line or sector");
 }

@@ -5,7 +5,8 @@
 
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
@@ -143,17 +144,17 @@ TEST(Presets, list_the_derived_bandwidth) {
 
 TEST(FindSonar, suggests_names_that_contain_the_word_or_resemble_it) {
   const std::string end = " `insonify sonars` lists all; a path ending in .toml is read as a file";
-  EXPECT_EQ(error_of([] { find_sonar("p900-54"); }),
+  EXPECT_EQ(error_with_kind([] { find_sonar("p900-54"); }),
             "argument: sonar 'p900-54' is not a preset; did you mean p900-45?" + end);
-  EXPECT_EQ(error_of([] { find_sonar("M750d"); }),
+  EXPECT_EQ(error_with_kind([] { find_sonar("M750d"); }),
             "argument: sonar 'M750d' is not a preset; did you mean oculus-m750d, oculus-m750d-hf?" + end);
-  EXPECT_EQ(error_of([] { find_sonar("submarine"); }), "argument: sonar 'submarine' is not a preset." + end);
-  EXPECT_EQ(error_of([] { find_sonar("../sonars/p900-45"); }).substr(0, 18), "argument: sonar '.");
+  EXPECT_EQ(error_with_kind([] { find_sonar("submarine"); }), "argument: sonar 'submarine' is not a preset." + end);
+  EXPECT_EQ(error_with_kind([] { find_sonar("../sonars/p900-45"); }).substr(0, 18), "argument: sonar '.");
 }
 
 TEST(FindSonar, reads_a_path_that_ends_in_toml) {
   EXPECT_EQ(find_sonar(INSONIFY_DATA "/sonars/micron.toml").spec.name, "micron");
-  EXPECT_EQ(error_of([] { find_sonar("no/such.toml"); }), "file: no/such.toml: no such file");
+  EXPECT_EQ(error_with_kind([] { find_sonar("no/such.toml"); }), "file: no/such.toml: no such file");
 }
 
 TEST(DataFolder, is_found_without_help_and_holds_the_data) {
@@ -169,6 +170,6 @@ TEST(DataFolder, is_the_one_in_the_environment_or_an_error) {
     EXPECT_TRUE(list_sonars().empty());
   }
   const DataFolder wrong(own_path("nowhere"));
-  EXPECT_EQ(error_of([] { data_folder(); }),
+  EXPECT_EQ(error_with_kind([] { data_folder(); }),
             "file: INSONIFY_DATA = " + own_path("nowhere") + ": is not a folder with sonars/ in it");
 }

@@ -1,7 +1,8 @@
 #include "store/trajectory_file.hpp"
 
 #include "core/units.hpp"
-#include "store_testing.hpp"
+#include "support/errors.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
 
@@ -9,10 +10,7 @@ namespace {
 const std::string angles = "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n";
 const std::string quaternions = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
 
-std::string error_of_trajectory(const std::string& text) {
-  const std::string path = own_file("way.csv", text);
-  return replaced(error_of([&] { load_trajectory(path); }), path, "way.csv");
-}
+std::string error_of_trajectory(const std::string& text) { return error_of_file(load_trajectory, "way.csv", text); }
 }  // namespace
 
 TEST(TrajectoryFile, reads_yaw_pitch_and_roll_in_degrees) {

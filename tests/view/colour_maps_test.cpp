@@ -6,12 +6,11 @@
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using insonify::test::colour_difference;
 
 namespace {
 
@@ -22,13 +21,7 @@ PictureOptions with_map(const std::string& name) {
 }
 
 std::string message_of(const PictureOptions& options) {
-  try {
-    colour_scale(Grid<float>::Zero(2, 2), options, "show_fan");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { colour_scale(Grid<float>::Zero(2, 2), options, "show_fan"); });
 }
 
 }  // namespace

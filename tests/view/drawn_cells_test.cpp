@@ -1,19 +1,17 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/test_pictures.hpp"
 #include "view/ticks_internal.hpp"
 
 using namespace insonify;
-using insonify::test::flat_image;
 
 namespace {
 
@@ -152,13 +150,8 @@ TEST(FanPatches, cover_the_gate_without_gaps_and_keep_the_energy) {
 TEST(RequireDrawable, levels_of_another_size_than_beams_and_bins_are_an_error) {
   LevelImage image = flat_image(4, 60, 10, 0);
   image.level_db.resize(5, 10);
-  try {
-    require_drawable(image, {}, "show_fan");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    EXPECT_STREQ(error.what(), "show_fan: image.level_db is 5 x 10, must be beams x bins = 4 x 10");
-  }
+  EXPECT_EQ(error_of([&] { require_drawable(image, {}, "show_fan"); }),
+            "show_fan: image.level_db is 5 x 10, must be beams x bins = 4 x 10");
 }
 
 TEST(RequireDrawable, a_picture_too_small_for_labels_is_an_error) {

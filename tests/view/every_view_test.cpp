@@ -1,12 +1,10 @@
 // Properties of every view: room for all texts at all sizes, both themes, Greek letters.
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/show_ascan.hpp"
@@ -19,7 +17,6 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -113,9 +110,8 @@ void expect_readable(const std::vector<PlacedText>& texts, const PictureOptions&
 class EveryView : public testing::Test {
  protected:
   void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
 
-  std::string path = picture_path("view.png");
+  std::string path = own_path("view.png");
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +13,6 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -81,7 +79,7 @@ TEST(Marks, outside_the_sector_are_left_out_and_bearings_come_round_the_circle) 
 
 TEST(Marks, have_their_ring_where_they_are) {
   unsetenv("DISPLAY");
-  const std::string path = picture_path("marks.png");
+  const std::string path = own_path("marks.png");
   LevelImage image = dark_image();
   PictureOptions options;
   options.min_db = 0;
@@ -89,7 +87,6 @@ TEST(Marks, have_their_ring_where_they_are) {
   options.marks = {{radians(25), 40, ""}, {radians(-30), 12, ""}};
   show_fan(image, options, path);
   const ReadPicture picture = read_png(path);
-  std::filesystem::remove(path);
   const BeamCells cells = order_beams(image);
   const FanLayout layout = lay_out_fan({cells.low(), cells.high(), 1, 51}, options,
                                        colour_scale(image.level_db, options, "test"), image.unit);

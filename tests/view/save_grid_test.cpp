@@ -18,27 +18,13 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/files.hpp"
 #include "view/save_lines.hpp"
 
 namespace insonify {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for each test, removed at its end.
-class SavedForVtk : public testing::Test {
- protected:
-  SavedForVtk()
-      : folder_(fs::temp_directory_path() /
-                (std::string("insonify_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SavedForVtk() override { fs::remove_all(folder_); }
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-  fs::path folder_;
-};
 
 const RangeGate gate{1, 3, 0.25};
 
@@ -65,14 +51,14 @@ void read(Reader& reader, const std::string& path) {
   reader.Update();
 }
 
-TEST_F(SavedForVtk, every_cell_of_a_fan_is_at_its_sample_in_the_world_and_holds_its_value) {
+TEST(SavedForVtk, every_cell_of_a_fan_stands_where_its_sample_does_in_the_world_and_holds_its_value) {
   const BeamFan fan = make_fan(9, radians(90), radians(10), radians(20), radians(-15));
   const Pose pose = pose_from_yaw_pitch_roll({500000.25, 4500000.5, -12}, radians(30), radians(20), radians(5));
   const SampleField field = counted(fan);
-  save_fan_grid(file("fan.vts"), fan, gate, {field}, pose);
+  save_fan_grid(own_path("fan.vts"), fan, gate, {field}, pose);
 
   vtkNew<vtkXMLStructuredGridReader> reader;
-  read(*reader, file("fan.vts"));
+  read(*reader, own_path("fan.vts"));
   vtkStructuredGrid* grid = reader->GetOutput();
   auto* values = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("level_db"));
   ASSERT_NE(values, nullptr);
@@ -87,16 +73,16 @@ TEST_F(SavedForVtk, every_cell_of_a_fan_is_at_its_sample_in_the_world_and_holds_
   }
 }
 
-TEST_F(SavedForVtk, rows_of_a_fan_become_files_by_ascending_elevation) {
+TEST(SavedForVtk, rows_of_a_fan_become_files_by_ascending_elevation) {
   BeamFan fan = make_fan(3, radians(30), radians(10), radians(20), radians(10));
   const BeamFan low = make_fan(3, radians(30), radians(10), radians(20), radians(-10));
   fan.azimuth.insert(fan.azimuth.end(), low.azimuth.begin(), low.azimuth.end());
   fan.elevation.insert(fan.elevation.end(), low.elevation.begin(), low.elevation.end());
-  const auto files = save_fan_grid(file("fan.vts"), fan, gate, {counted(fan)}, Pose::Identity());
+  const auto files = save_fan_grid(own_path("fan.vts"), fan, gate, {counted(fan)}, Pose::Identity());
 
   ASSERT_EQ(files.size(), 2u);
   for (int row = 0; row < 2; ++row) {
-    EXPECT_EQ(files[static_cast<std::size_t>(row)], file("fan_row_00" + std::to_string(row) + ".vts"));
+    EXPECT_EQ(files[static_cast<std::size_t>(row)], own_path("fan_row_00" + std::to_string(row) + ".vts"));
     vtkNew<vtkXMLStructuredGridReader> reader;
     read(*reader, files[static_cast<std::size_t>(row)]);
     EXPECT_NEAR(direction_of(middle_of(reader->GetOutput(), 0)).elevation, radians(row == 0 ? -10 : 10), 0.002);
@@ -106,14 +92,14 @@ TEST_F(SavedForVtk, rows_of_a_fan_become_files_by_ascending_elevation) {
   }
 }
 
-TEST_F(SavedForVtk, image_holds_the_samples_bit_for_bit_beam_across_and_range_upwards) {
+TEST(SavedForVtk, image_holds_the_samples_bit_for_bit_beam_across_and_range_upwards) {
   const BeamFan fan = make_fan(5, radians(60), radians(10), radians(20));
   SampleField field = counted(fan);
   field.values(2, 3) = 0.1f;
-  save_sample_image(file("image.vti"), fan, gate, {field});
+  save_sample_image(own_path("image.vti"), fan, gate, {field});
 
   vtkNew<vtkXMLImageDataReader> reader;
-  read(*reader, file("image.vti"));
+  read(*reader, own_path("image.vti"));
   auto* values = vtkFloatArray::SafeDownCast(reader->GetOutput()->GetCellData()->GetArray("level_db"));
   ASSERT_NE(values, nullptr);
   for (Eigen::Index b = 0; b < field.values.rows(); ++b)
@@ -126,19 +112,19 @@ TEST_F(SavedForVtk, image_holds_the_samples_bit_for_bit_beam_across_and_range_up
     }
 }
 
-TEST_F(SavedForVtk, series_names_its_files_beside_it_with_their_times) {
-  save_series(file("fan.pvd"), {{0.5, 0, file("fan_000000.vts")}, {1.25, 1, file("fan_000001.vts")}});
+TEST(SavedForVtk, series_names_its_files_beside_it_with_their_times) {
+  save_series(own_path("fan.pvd"), {{0.5, 0, own_path("fan_000000.vts")}, {1.25, 1, own_path("fan_000001.vts")}});
   std::stringstream text;
-  text << std::ifstream(file("fan.pvd")).rdbuf();
+  text << std::ifstream(own_path("fan.pvd")).rdbuf();
   EXPECT_NE(text.str().find(R"(<DataSet timestep="0.5" part="0" file="fan_000000.vts"/>)"), std::string::npos);
   EXPECT_NE(text.str().find(R"(<DataSet timestep="1.25" part="1" file="fan_000001.vts"/>)"), std::string::npos);
 }
 
-TEST_F(SavedForVtk, lines_come_back_with_their_points_and_numbers) {
+TEST(SavedForVtk, lines_come_back_with_their_points_and_numbers) {
   const LineSet lines{{{{1e6, 2, 3}, {4, 5, 6}}, {{0, 0, 0}, {1, 1, 1}, {2, 0, 0.1}}}, {{"level_db", {80, 90}}}};
-  save_lines(file("paths.vtp"), lines);
+  save_lines(own_path("paths.vtp"), lines);
   vtkNew<vtkXMLPolyDataReader> reader;
-  read(*reader, file("paths.vtp"));
+  read(*reader, own_path("paths.vtp"));
   vtkPolyData* data = reader->GetOutput();
   ASSERT_EQ(data->GetNumberOfLines(), 2);
   EXPECT_EQ(data->GetCell(1)->GetNumberOfPoints(), 3);
@@ -147,27 +133,28 @@ TEST_F(SavedForVtk, lines_come_back_with_their_points_and_numbers) {
   EXPECT_EQ(data->GetCellData()->GetArray("level_db")->GetTuple1(1), 90);
 }
 
-TEST_F(SavedForVtk, same_samples_make_the_same_bytes) {
+TEST(SavedForVtk, same_samples_make_the_same_bytes) {
   const BeamFan fan = make_fan(5, radians(60), radians(10), radians(20));
-  for (const char* name : {"a.vts", "b.vts"}) save_fan_grid(file(name), fan, gate, {counted(fan)}, Pose::Identity());
+  for (const char* name : {"a.vts", "b.vts"})
+    save_fan_grid(own_path(name), fan, gate, {counted(fan)}, Pose::Identity());
   std::stringstream a, b;
-  a << std::ifstream(file("a.vts")).rdbuf();
-  b << std::ifstream(file("b.vts")).rdbuf();
+  a << std::ifstream(own_path("a.vts")).rdbuf();
+  b << std::ifstream(own_path("b.vts")).rdbuf();
   EXPECT_GT(a.str().size(), 500u);
   EXPECT_EQ(a.str(), b.str());
 }
 
-TEST_F(SavedForVtk, wrong_fields_lines_and_folders_are_refused_and_leave_nothing) {
+TEST(SavedForVtk, wrong_fields_lines_and_folders_are_refused_and_leave_nothing) {
   const BeamFan fan = make_fan(5, radians(60), radians(10), radians(20));
   SampleField narrow = counted(fan);
   narrow.values.conservativeResize(4, narrow.values.cols());
-  EXPECT_THROW(save_fan_grid(file("x.vts"), fan, gate, {}, Pose::Identity()), Error);
-  EXPECT_THROW(save_fan_grid(file("x.vts"), fan, gate, {narrow}, Pose::Identity()), Error);
-  EXPECT_THROW(save_sample_image(file("x.vti"), fan, gate, {counted(fan), counted(fan)}), Error);
-  EXPECT_THROW(save_lines(file("x.vtp"), {{{{0, 0, 0}}}, {}}), Error);
-  EXPECT_THROW(save_lines(file("x.vtp"), {{{{0, 0, 0}, {1, 0, 0}}}, {{"level_db", {}}}}), Error);
-  EXPECT_THROW(save_sample_image(file("nowhere/x.vti"), fan, gate, {counted(fan)}), Error);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_THROW(save_fan_grid(own_path("x.vts"), fan, gate, {}, Pose::Identity()), Error);
+  EXPECT_THROW(save_fan_grid(own_path("x.vts"), fan, gate, {narrow}, Pose::Identity()), Error);
+  EXPECT_THROW(save_sample_image(own_path("x.vti"), fan, gate, {counted(fan), counted(fan)}), Error);
+  EXPECT_THROW(save_lines(own_path("x.vtp"), {{{{0, 0, 0}}}, {}}), Error);
+  EXPECT_THROW(save_lines(own_path("x.vtp"), {{{{0, 0, 0}, {1, 0, 0}}}, {{"level_db", {}}}}), Error);
+  EXPECT_THROW(save_sample_image(own_path("nowhere/x.vti"), fan, gate, {counted(fan)}), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(own_folder()));
 }
 
 }  // namespace

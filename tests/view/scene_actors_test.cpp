@@ -10,7 +10,6 @@
 #include "view/vtk_messages_internal.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 

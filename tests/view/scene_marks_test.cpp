@@ -1,6 +1,4 @@
 // Holes of the scan and normals in the picture of a scene.
-#include <cstdlib>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -9,14 +7,12 @@
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-class SceneMarks : public testing::Test {
+class SceneMarks : public PictureTest {
  protected:
   SceneMarks() {
-    unsetenv("DISPLAY");
     scene.origin = {5e5, 4e6, 0};
     add_floor(scene, scene.origin + Eigen::Vector3d(-3, -3, 0), 60, 0.1);
     look.colour = SceneColour::visibility;
@@ -26,7 +22,6 @@ class SceneMarks : public testing::Test {
     options.width = 500;
     options.height = 400;
   }
-  ~SceneMarks() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_scene(scene, look, options, path);
     return read_png(path);
@@ -37,8 +32,6 @@ class SceneMarks : public testing::Test {
 
   SceneCloud scene;
   SceneLook look;
-  PictureOptions options;
-  std::string path = picture_path("marks.png");
   const Rgb red = {222, 45, 38};
 };
 

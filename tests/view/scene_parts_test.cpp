@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "view/scene_axes_internal.hpp"
 #include "view/scene_camera_internal.hpp"
 #include "view/scene_colours_internal.hpp"
@@ -13,7 +12,6 @@
 #include "view/scene_surfels_internal.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 

@@ -1,27 +1,21 @@
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/scene_colours_internal.hpp"
 #include "view/scene_samples.hpp"
 #include "view/show_scene.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-// All tests run without a screen.
-class ShowScene : public testing::Test {
+class ShowScene : public JetPictureTest {
  protected:
-  void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
-
+  ShowScene() { options.width = 700, options.height = 520, options.title = "Test", options.min_db = 50; }
   ReadPicture show(const SceneCloud& scene, const SceneLook& look) {
     show_scene(scene, look, options, path);
     return read_png(path);
@@ -32,19 +26,6 @@ class ShowScene : public testing::Test {
   Blob find(const ReadPicture& picture, const Rgb& colour) const {
     return find_colour(picture, colour, 0, 0.82 * picture.width, 0, picture.height);  // left of the colour bar
   }
-
-  static PictureOptions small_jet() {
-    PictureOptions picture;
-    picture.width = 700;
-    picture.height = 520;
-    picture.title = "Test";
-    picture.colour_map = "jet";
-    picture.min_db = 50;
-    picture.max_db = 100;
-    return picture;
-  }
-  PictureOptions options = small_jet();
-  std::string path = picture_path("scene.png");
 };
 
 // Three spheres of three levels: near on port, on starboard, and above; seen from a head at `world_from_head`.
@@ -64,13 +45,7 @@ struct ThreeSpheres {
 };
 
 std::string message_of(const SceneCloud& scene, const SceneLook& look, ErrorKind kind, const std::string& path) {
-  try {
-    show_scene(scene, look, {}, path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { show_scene(scene, look, {}, path); }, kind);
 }
 
 }  // namespace

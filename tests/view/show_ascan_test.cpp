@@ -1,26 +1,17 @@
 #include "view/show_ascan.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-class ShowAscan : public testing::Test {
+class ShowAscan : public PictureTest {
  protected:
-  void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
-
   LevelImage image = flat_image(3, 60, 300, -200);
-  PictureOptions options;
-  std::string path = picture_path("ascan.png");
 };
 
 // Only the line is blue, on white.
@@ -78,11 +69,6 @@ TEST_F(ShowAscan, is_the_same_bytes_every_time) {
 }
 
 TEST_F(ShowAscan, refuses_a_beam_that_is_not_there) {
-  try {
-    show_ascan(image, 3, options, path);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    EXPECT_STREQ(error.what(), "show_ascan: beam = 3, must be below the number of beams, 3");
-  }
+  EXPECT_EQ(error_of([&] { show_ascan(image, 3, options, path); }),
+            "show_ascan: beam = 3, must be below the number of beams, 3");
 }

@@ -3,28 +3,23 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-// All tests run without a screen.
-class ShowFan : public testing::Test {
+class ShowFan : public PictureTest {
  protected:
-  void SetUp() override { unsetenv("DISPLAY"); }
-  void TearDown() override { std::filesystem::remove(path); }
-
+  ShowFan() { options.title = "Test"; }
   ReadPicture show(const LevelImage& image) {
     show_fan(image, options, path);
     return read_png(path);
@@ -35,9 +30,6 @@ class ShowFan : public testing::Test {
     return lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options,
                        colour_scale(image.level_db, options, "test"), image.unit);
   }
-
-  PictureOptions options{.title = "Test"};
-  std::string path = picture_path("fan.png");
 };
 
 // Nine beams 10 degrees apart and 20 bins of 0.5 m from 1 m, dark except three cells of different levels: port
@@ -60,13 +52,7 @@ struct ThreeCells {
 
 std::string message_of(const LevelImage& image, const PictureOptions& options, const std::string& path,
                        ErrorKind kind) {
-  try {
-    show_fan(image, options, path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { show_fan(image, options, path); }, kind);
 }
 
 }  // namespace
@@ -249,10 +235,10 @@ TEST_F(ShowFan, refuses_an_unknown_colour_map) {
 
 TEST_F(ShowFan, that_cannot_be_written_leaves_nothing_behind) {
   const LevelImage image = flat_image(4, 60, 10, 0);
-  const std::string nowhere = picture_path("no_such_folder") + "/fan.png";
+  const std::string nowhere = own_path("no_such_folder") + "/fan.png";
   EXPECT_THAT(message_of(image, options, nowhere, ErrorKind::file), testing::HasSubstr("cannot write " + nowhere));
 
-  const std::string folder = picture_path("folder.png");
+  const std::string folder = own_path("folder.png");
   std::filesystem::create_directories(folder + "/full");
   EXPECT_THAT(message_of(image, options, folder, ErrorKind::file), testing::HasSubstr("cannot write " + folder));
   EXPECT_FALSE(file_exists(folder + ".tmp"));
@@ -273,7 +259,7 @@ TEST(ShowFanDeathTest, without_a_gl_driver_says_what_to_install) {
   const auto draw = [] {
     setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
     try {
-      show_fan(flat_image(4, 60, 10, 0), {}, picture_path("never.png"));
+      show_fan(flat_image(4, 60, 10, 0), {}, "never.png");
     } catch (const Error& error) {
       std::fprintf(stderr, "%s", error.what());
       std::_Exit(error.kind() == ErrorKind::runtime ? 3 : 4);

@@ -1,7 +1,6 @@
 #include "view/show_grey.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
@@ -9,11 +8,10 @@
 #include <vtkPNGReader.h>
 #include <vtkPNMReader.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -45,17 +43,6 @@ void read_back(const std::string& path, int width, int height, int scalar_type, 
   ASSERT_EQ(image->GetScalarType(), scalar_type);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) check(x, y, image->GetScalarComponentAsDouble(x, y, 0, 0));
-  std::filesystem::remove(path);
-}
-
-template <typename Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -68,12 +55,12 @@ TEST(ShowGrey, writes_every_value_as_it_is_with_starboard_right_and_range_upward
     const auto beam = [&](int x) { return port_first ? x : 11 - x; };
     const auto check8 = [&](int x, int y, double value) { EXPECT_EQ(value, grey8(beam(x), y)); };
     const auto check16 = [&](int x, int y, double value) { EXPECT_EQ(value, grey16(beam(x), y)); };
-    show_grey(grey8, fan, picture_path("grey.png"));
-    read_back<vtkPNGReader>(picture_path("grey.png"), 12, 20, VTK_UNSIGNED_CHAR, check8);
-    show_grey(grey16, fan, picture_path("grey.png"));
-    read_back<vtkPNGReader>(picture_path("grey.png"), 12, 20, VTK_UNSIGNED_SHORT, check16);
-    show_grey(grey8, fan, picture_path("grey.pgm"));
-    read_back<vtkPNMReader>(picture_path("grey.pgm"), 12, 20, VTK_UNSIGNED_CHAR, check8);
+    show_grey(grey8, fan, own_path("grey.png"));
+    read_back<vtkPNGReader>(own_path("grey.png"), 12, 20, VTK_UNSIGNED_CHAR, check8);
+    show_grey(grey16, fan, own_path("grey.png"));
+    read_back<vtkPNGReader>(own_path("grey.png"), 12, 20, VTK_UNSIGNED_SHORT, check16);
+    show_grey(grey8, fan, own_path("grey.pgm"));
+    read_back<vtkPNMReader>(own_path("grey.pgm"), 12, 20, VTK_UNSIGNED_CHAR, check8);
   }
 }
 
@@ -81,24 +68,24 @@ TEST(ShowGrey, writes_every_value_as_it_is_with_starboard_right_and_range_upward
 TEST(ShowGrey, writes_sixteen_bits_of_a_pgm_with_the_high_byte_first) {
   Grid<std::uint16_t> grey(2, 2);
   grey << 0x0102, 0x0304, 0x0506, 0xFFFE;  // rows are beams, port first
-  const std::string path = picture_path("grey16.PGM");
+  const std::string path = own_path("grey16.PGM");
   show_grey(grey, fan_of(2, true), path);
   const std::string expected("P5\n2 2\n65535\n\x03\x04\xFF\xFE\x01\x02\x05\x06", 21);
   EXPECT_EQ(file_bytes(path), expected);
-  std::filesystem::remove(path);
 }
 
 TEST(ShowGrey, writes_a_single_pixel) {
-  show_grey(Grid<std::uint16_t>(Grid<std::uint16_t>::Constant(1, 1, 40000)), fan_of(1, true), picture_path("one.png"));
-  read_back<vtkPNGReader>(picture_path("one.png"), 1, 1, VTK_UNSIGNED_SHORT,
+  show_grey(Grid<std::uint16_t>(Grid<std::uint16_t>::Constant(1, 1, 40000)), fan_of(1, true), own_path("one.png"));
+  read_back<vtkPNGReader>(own_path("one.png"), 1, 1, VTK_UNSIGNED_SHORT,
                           [](int, int, double value) { EXPECT_EQ(value, 40000); });
 }
 
 TEST(ShowGrey, refuses_other_endings_and_sizes) {
   const auto grey = values<std::uint8_t>(3, 2, 1);
-  EXPECT_EQ(refusal([&] { show_grey(grey, fan_of(3, true), "x.jpg"); }), "show_grey: x.jpg must end with .png or .pgm");
-  EXPECT_EQ(refusal([&] { show_grey(grey, fan_of(4, true), "x.png"); }),
+  EXPECT_EQ(error_of([&] { show_grey(grey, fan_of(3, true), "x.jpg"); }),
+            "show_grey: x.jpg must end with .png or .pgm");
+  EXPECT_EQ(error_of([&] { show_grey(grey, fan_of(4, true), "x.png"); }),
             "show_grey: picture of 3 beams x 2 bins for a fan of 4 beams, must have as many and one bin at least");
-  EXPECT_NE(refusal([&] { show_grey(grey, fan_of(3, true), "/no/such/folder/x.png"); }), "");
+  EXPECT_NE(error_of([&] { show_grey(grey, fan_of(3, true), "/no/such/folder/x.png"); }, ErrorKind::file), "no error");
   EXPECT_FALSE(file_exists("x.jpg"));
 }

@@ -1,49 +1,32 @@
 #include "view/show_panels.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/show_spectrum.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-class ShowPanels : public testing::Test {
+class ShowPanels : public JetPictureTest {
  protected:
   void SetUp() override {
-    unsetenv("DISPLAY");
     panels.image = flat_image(9, 90, 40, 5);
     panels.facts = {{"Sonar", "test"}, {"Range", "1 to 21 m"}};
-    options.colour_map = "jet";
-    options.min_db = 0;
-    options.max_db = 100;
   }
-  void TearDown() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_panels(panels, options, path);
     return read_png(path);
   }
   std::string refusal() {
-    try {
-      show_panels(panels, options, path);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::argument);
-      return error.what();
-    }
-    return "no error";
+    return error_of([&] { show_panels(panels, options, path); });
   }
 
   Panels panels;
-  PictureOptions options;
-  std::string path = picture_path("panels.png");
 };
 
 }  // namespace

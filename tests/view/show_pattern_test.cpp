@@ -1,43 +1,30 @@
 #include "view/show_pattern.hpp"
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-class ShowPattern : public testing::Test {
+class ShowPattern : public PictureTest {
  protected:
   void SetUp() override {
-    unsetenv("DISPLAY");
     for (int i = -90; i <= 90; ++i) azimuth.push_back(radians(i));
     level_db.assign(azimuth.size(), -50);
   }
-  void TearDown() override { std::filesystem::remove(path); }
 
   void expect_refused(const std::string& message) const {
-    try {
-      show_pattern(azimuth, level_db, options, path);
-      FAIL() << "accepted although " << message;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::argument);
-      EXPECT_EQ(error.what(), message);
-    }
+    EXPECT_EQ(error_of([&] { show_pattern(azimuth, level_db, options, path); }), message);
   }
 
   std::vector<double> azimuth, level_db;
-  PictureOptions options;
-  std::string path = picture_path("pattern.png");
 };
 
 bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }

@@ -1,28 +1,17 @@
 #include "view/show_rect.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-// Twelve beams over 60 degrees and 20 bins, all of one level except single cells.
-class ShowRect : public testing::Test {
+// Twelve beams over 60 degrees and 20 bins, all of one level but for single cells.
+class ShowRect : public JetPictureTest {
  protected:
-  void SetUp() override {
-    unsetenv("DISPLAY");
-    options.colour_map = "jet";
-    options.min_db = 0;
-    options.max_db = 100;
-  }
-  void TearDown() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_rect(image, options, path);
     return read_png(path);
@@ -34,8 +23,6 @@ class ShowRect : public testing::Test {
   }
 
   LevelImage image = flat_image(12, 60, 20, 5);
-  PictureOptions options;
-  std::string path = picture_path("rect.png");
 };
 
 }  // namespace

@@ -1,28 +1,20 @@
 #include "view/show_waterfall.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "support/errors.hpp"
 #include "view/cell_frame_internal.hpp"
 #include "view/test_pictures.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
-// Eight pings of 20 bins, all of one level except single cells.
-class ShowWaterfall : public testing::Test {
+// Eight pings of 20 bins, all of one level but for single cells.
+class ShowWaterfall : public JetPictureTest {
  protected:
   void SetUp() override {
-    unsetenv("DISPLAY");
-    options.colour_map = "jet";
-    options.min_db = 0;
-    options.max_db = 100;
     history.gate = {1, 11, 0.5};
     history.unit = "dB re 1 µPa";
     history.level_db = Grid<float>::Constant(8, 20, 5);
@@ -31,7 +23,6 @@ class ShowWaterfall : public testing::Test {
       history.time.push_back(0.2 * ping);
     }
   }
-  void TearDown() override { std::filesystem::remove(path); }
   ReadPicture show() {
     show_waterfall(history, options, path);
     return read_png(path);
@@ -41,19 +32,12 @@ class ShowWaterfall : public testing::Test {
     return find_colour(picture, scale().colour(db), 0, 0.9 * picture.width, 0, picture.height);  // without the bar
   }
   std::string refusal() {
-    try {
-      show_waterfall(history, options, path);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::argument);
-      EXPECT_FALSE(file_exists(path));
-      return error.what();
-    }
-    return "no error";
+    const std::string error = error_of([&] { show_waterfall(history, options, path); });
+    EXPECT_FALSE(file_exists(path));
+    return error;
   }
 
   PingHistory history;
-  PictureOptions options;
-  std::string path = picture_path("waterfall.png");
 };
 
 }  // namespace

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
 #include "core/units.hpp"
 
-namespace insonify::test {
+namespace insonify {
 
 LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db, bool port_first) {
   LevelImage image;
@@ -69,15 +65,4 @@ Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, dou
   return blob;
 }
 
-std::string picture_path(const std::string& name) {
-  return ::testing::TempDir() + "insonify_view_" + std::to_string(getpid()) + "_" + name;
-}
-
-std::string file_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-bool file_exists(const std::string& path) { return std::filesystem::exists(path); }
-
-}  // namespace insonify::test
+}  // namespace insonify

@@ -1,17 +1,36 @@
 #pragma once
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include "support/files.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/picture.hpp"
 
-namespace insonify::test {
+namespace insonify {
 
 /// An image of `beams` beams spread over `field_of_view_deg`, port first or starboard first, all at
 /// `level_db`.
 LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db,
                       bool port_first = false);
+
+/// Draws without a screen, into a file of its own.
+class PictureTest : public testing::Test {
+ protected:
+  PictureTest() { unsetenv("DISPLAY"); }
+
+  PictureOptions options;
+  std::string path = own_path("picture.png");
+};
+
+/// The same in colours over 0 to 100 dB.
+class JetPictureTest : public PictureTest {
+ protected:
+  JetPictureTest() { options.colour_map = "jet", options.min_db = 0, options.max_db = 100; }
+};
 
 /// A picture as read back from its PNG; the origin is the lower left corner.
 struct ReadPicture {
@@ -32,10 +51,4 @@ struct Blob {
 };
 Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top);
 
-/// A path in the test's own folder for temporary files.
-std::string picture_path(const std::string& name);
-
-std::string file_bytes(const std::string& path);
-bool file_exists(const std::string& path);
-
-}  // namespace insonify::test
+}  // namespace insonify

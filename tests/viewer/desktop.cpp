@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace insonify::test {
+namespace insonify {
 namespace {
 
 // Polls until the condition holds or the time has elapsed.
@@ -184,4 +184,4 @@ int DesktopProgram::wait_for_end() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace insonify::test
+}  // namespace insonify

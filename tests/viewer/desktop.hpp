@@ -4,7 +4,7 @@
 
 #include <sys/types.h>
 
-namespace insonify::test {
+namespace insonify {
 
 /// A virtual X server, stopped by the destructor; the name is empty if Xvfb is not installed. Throws if it does not
 /// answer.
@@ -46,4 +46,4 @@ class DesktopProgram {
   std::string out_file_;
 };
 
-}  // namespace insonify::test
+}  // namespace insonify

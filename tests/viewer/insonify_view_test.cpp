@@ -42,7 +42,7 @@ class InsonifyView : public ToolTest {
   }
   static bool is_png(const std::string& bytes) { return bytes.substr(1, 3) == "PNG"; }
 
-  test::TargetData made_ = test::three_targets(2);
+  TargetData made_ = three_targets(2);
 };
 
 }  // namespace
@@ -54,7 +54,7 @@ TEST_F(InsonifyView, a_picture_of_a_run_needs_no_display) {
   EXPECT_THAT(out, HasSubstr("iron"));
   EXPECT_THAT(out, HasSubstr("a.png"));
   EXPECT_TRUE(is_png(read("a.png")));
-  const test::ReadPicture picture = test::read_png(path("a.png"));
+  const ReadPicture picture = read_png(path("a.png"));
   EXPECT_EQ(picture.width, 1000);
   EXPECT_EQ(picture.height, 700);
 }
@@ -201,9 +201,9 @@ TEST_F(InsonifyView, refuses_options_that_make_no_sense) {
 // --- a real window
 
 TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
-  const test::VirtualDisplay display;
+  const VirtualDisplay display;
   if (display.name().empty()) GTEST_SKIP() << "Xvfb is not installed: apps/install_packages.sh --tests";
-  // The same window drawn off-screen gives the places of the targets.
+  // The same window drawn off-screen shows where the targets are.
   ViewerOptions options;
   options.width = 1000, options.height = 700;
   Point2 at[2];
@@ -214,8 +214,8 @@ TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
     at[0] = window.pixel_of(made_.port.place);
     at[1] = window.pixel_of(made_.starboard.place);
   }
-  test::DesktopProgram program(display, {"env", "-C", path("."), INSONIFY_TOOL, "view", "out", "--size", "1000x700"},
-                               path("said.txt"));
+  DesktopProgram program(display, {"env", "-C", path("."), INSONIFY_TOOL, "view", "out", "--size", "1000x700"},
+                         path("said.txt"));
   ASSERT_TRUE(program.has_window("insonify-view")) << program.output_with("insonify");
   const auto click = [&](Point2 p) {
     program.click(static_cast<int>(std::lround(p.x)), 699 - static_cast<int>(std::lround(p.y)));
@@ -236,10 +236,10 @@ TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
 }
 
 TEST_F(InsonifyView, ends_well_when_its_window_is_closed) {
-  const test::VirtualDisplay display;
+  const VirtualDisplay display;
   if (display.name().empty()) GTEST_SKIP() << "Xvfb is not installed: apps/install_packages.sh --tests";
-  test::DesktopProgram program(display, {"env", "-C", path("."), INSONIFY_TOOL, "view", "out", "--size", "800x600"},
-                               path("said.txt"));
+  DesktopProgram program(display, {"env", "-C", path("."), INSONIFY_TOOL, "view", "out", "--size", "800x600"},
+                         path("said.txt"));
   ASSERT_TRUE(program.has_window("insonify-view")) << program.output_with("insonify");
   program.type("space");
   program.close_window();

@@ -4,7 +4,7 @@
 
 #include "core/units.hpp"
 
-namespace insonify::test {
+namespace insonify {
 namespace {
 
 constexpr std::size_t beams = 41, bins = 120;
@@ -79,4 +79,4 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   return made;
 }
 
-}  // namespace insonify::test
+}  // namespace insonify

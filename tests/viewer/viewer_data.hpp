@@ -1,7 +1,7 @@
 #pragma once
 #include "viewer/viewer_data.hpp"
 
-namespace insonify::test {
+namespace insonify {
 
 /// Three targets that distinguish left from right and near from far, as scene, ping and contributors. The head is at
 /// (10, 20, -3) with 30 degrees of yaw; all bins except those of the targets are 60 dB weaker.
@@ -18,4 +18,4 @@ struct TargetData {
 /// `pings` identical pings with numbers 7, 8, ...
 TargetData three_targets(std::size_t pings = 1, bool with_contributors = false);
 
-}  // namespace insonify::test
+}  // namespace insonify

@@ -11,7 +11,6 @@
 #include "viewer/viewer_inspect.hpp"
 
 using namespace insonify;
-using insonify::test::three_targets;
 using testing::HasSubstr;
 using testing::Not;
 

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_pick_internal.hpp"
@@ -19,13 +19,7 @@ constexpr ViewerPanelName all[] = {ViewerPanelName::fan,     ViewerPanelName::sc
                                    ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::status};
 
 std::string refused(const std::string& script) {
-  try {
-    parse_viewer_script(script);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::argument);
-    return error.what();
-  }
-  return "accepted";
+  return error_of([&] { parse_viewer_script(script); });
 }
 
 }  // namespace

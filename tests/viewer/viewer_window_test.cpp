@@ -1,17 +1,15 @@
 // The whole window, drawn off-screen: clicks and keys change the state, and the drawing follows it.
 #include <cmath>
-#include <filesystem>
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 using namespace insonify;
-using insonify::test::three_targets;
 using testing::HasSubstr;
 
 namespace {
@@ -44,22 +42,21 @@ class Window : public testing::Test {
     const Box& box = box_of(window_->layout(), panel);
     return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
   }
-  test::ReadPicture picture(const std::string& name) {
-    const std::string path = test::picture_path(name);
+  ReadPicture picture(const std::string& name) {
+    const std::string path = own_path(name);
     window_->save_png(path);
-    test::ReadPicture read = test::read_png(path);
-    std::filesystem::remove(path);
+    ReadPicture read = read_png(path);
     return read;
   }
-  // Number of pixels within a box that differ between two pictures.
-  static int differences(const test::ReadPicture& a, const test::ReadPicture& b, const Box& box) {
+  // Pixels that differ between two pictures within a box.
+  static int differences(const ReadPicture& a, const ReadPicture& b, const Box& box) {
     int count = 0;
     for (double x = box.left + 0.5; x < box.right; ++x)
-      for (double y = box.bottom + 0.5; y < box.top; ++y) count += test::colour_difference(a.at(x, y), b.at(x, y)) > 12;
+      for (double y = box.bottom + 0.5; y < box.top; ++y) count += colour_difference(a.at(x, y), b.at(x, y)) > 12;
     return count;
   }
 
-  test::TargetData made_ = three_targets(1, false);
+  TargetData made_ = three_targets(1, false);
   std::unique_ptr<ViewerWindow> window_;
   std::vector<std::string> said_;
 };
@@ -250,12 +247,7 @@ TEST_F(Window, a_run_without_scene_shows_its_fan_alone) {
 
 TEST_F(Window, refuses_what_cannot_be_shown) {
   const auto refuses = [&](const ViewerData& data, const ViewerOptions& options) {
-    try {
-      ViewerWindow window(data, options, ViewerScreen::off_screen);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return error_of([&] { ViewerWindow window(data, options, ViewerScreen::off_screen); });
   };
   ViewerOptions options;
   options.start.ping = 1;

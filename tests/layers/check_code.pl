@@ -1,0 +1,92 @@
+#!/usr/bin/env perl
+# Fails if, below ROOT,
+# - a type of a module is defined twice under one name, in headers or in sources outside unnamed namespaces;
+# - a header of a module is neither listed as public in its CMakeLists.txt nor named _internal, or both; a public header
+#   includes an _internal one; or one is included outside its module, but for those in %lent (tests may use all);
+# - a file of modules/ has more than 300 lines, or a function of modules/ or apps/ more than 60.
+# It relies on clang-format: what begins and ends in one column belongs together.
+#
+#   tests/layers/check_code.pl ROOT [LINES-OF-A-FILE LINES-OF-A-FUNCTION]
+use strict;
+use warnings;
+use File::Find;
+
+# Internal headers, or all of a module, and who else may include them.
+my %lent = (
+  'view/*' => 'viewer',                              # the viewer is built from the parts of still pictures
+  'view/line_chart_internal.hpp' => 'apps',          # charts of sweeps and of the thesis
+  'view/ticks_internal.hpp' => 'apps',               #
+  'view/colour_maps_internal.hpp' => 'apps',         # the tool lists the maps
+  'store/cube_layout_internal.hpp' => 'apps',        # the tool reads single layers
+  'store/toml_tree_internal.hpp' => 'apps',          # the tool reads run.toml
+  'sampling/gate_surfels_internal.hpp' => 'viewer',  # the viewer explains why a surfel is not seen
+  'sampling/hit_rule_internal.hpp' => 'viewer',      #
+  'simulate/stage_options_internal.hpp' => 'accuracy',
+  'simulate/stop_watch_internal.hpp' => 'accuracy',
+);
+my %long_file = ();      # path => why it may be longer
+my %long_function = ();  # "path: first line" => why it may be longer
+
+@ARGV or die "usage: check_code.pl ROOT\n";
+my ($root, $file_limit, $function_limit) = (@ARGV, 300, 60);
+chdir $root or die "$root: $!\n";
+my $failed = 0;
+sub complain { print STDERR @_, "\n"; $failed = 1 }
+
+my (@files, %public, %defined);
+find({ no_chdir => 1, wanted => sub { push @files, $_ if /\.[ch]pp$/ } }, grep { -d } 'modules', 'apps');
+die "no sources under $root\n" unless @files;
+for my $list (glob 'modules/*/CMakeLists.txt') {
+  open(my $in, '<', $list) or die "$list: $!\n";
+  my ($folder) = $list =~ m{(.*)/};
+  local $/;
+  if (<$in> =~ /\bHEADERS\b([^)]*?)(?:\bDEPENDS\b|\))/s) { $public{"$folder/$_"} = 1 for split ' ', $1 }
+}
+
+for my $path (sort @files) {
+  open(my $in, '<', $path) or die "$path: $!\n";
+  my @lines = <$in>;
+  my ($module) = $path =~ m{^modules/([^/]+)/};
+  my ($here) = $path =~ m{([^/]+)/[^/]+$};
+  my $user = $module // 'apps';
+  my $internal = $path =~ /_internal\.hpp$/;
+  if ($module) {
+    complain("$path: ", scalar(@lines), " lines, must be $file_limit at most") if @lines > $file_limit && !$long_file{$path};
+    complain("$path: neither in HEADERS of its module nor named _internal.hpp") if $path =~ /\.hpp$/ && !$internal && !$public{$path};
+    complain("$path: an internal header in HEADERS of its module") if $internal && $public{$path};
+  }
+
+  my ($namespace, @start) = ('');  # of the definition at column 0, and within a class at column 2
+  my $in_type = 0;
+  for my $i (0 .. $#lines) {
+    local $_ = $lines[$i];
+    if (m{^#include "((?:([a-z_]+)/)?[a-z_0-9]+_internal\.hpp)"}) {
+      my ($header, $other) = ($1, $2 // $here);
+      complain("$path: a public header includes $header") if $public{$path};
+      complain("$path: includes $header, which is internal to $other")
+        unless $path =~ m{^\w+/$other/} || $user eq ($lent{$header} // '') || $user eq ($lent{"$other/*"} // '');
+    }
+    if (/^namespace (\S* ?)\{$/) { $namespace .= '::' . ($1 =~ s/ $//r || 'unnamed') }
+    if (m{^\}  // namespace}) { $namespace =~ s/^(.*)::(unnamed|.+?)$/$1/ }
+    if ($module && $namespace !~ /unnamed/ && /^(?:struct|class|enum(?: class)?|union) ([\w:<> ]*?)(?: final)?(?: : [^{]*)? \{/) {
+      my $name = "${namespace}::$1";
+      complain("$path: $1 is defined in $defined{$name} too") if $defined{$name};
+      $defined{$name} = $path;
+    }
+    # Functions: from the last line that began in their column to the brace that closes there.
+    for my $column (0, 2) {
+      next if $column == 2 && !$in_type;
+      my $indent = ' ' x $column;
+      if (/^$indent\}$/ && defined $start[$column]) {
+        my $length = $i - $start[$column] + 1;
+        my $first = $lines[$start[$column]] =~ s/^\s+|\s+$//gr;
+        complain("$path:", $start[$column] + 1, ": function of $length lines, must be $function_limit at most: $first")
+          if $length > $function_limit && !$long_function{"$path: $first"};
+      }
+      $start[$column] = $i if /^$indent[\w~]/ && !/^(?:namespace|#)/;
+    }
+    $in_type = 1 if /^(?:struct|class|union) .*\{$/;
+    $in_type = 0 if /^\};?/;
+  }
+}
+exit $failed;

@@ -1,0 +1,11 @@
+#include "core/hidden_internal.hpp"
+
+namespace insonify {
+struct TimeAxis {
+  int first() {
+    int bins = 1;
+    bins += bins;
+    return bins;
+  }
+};
+}  // namespace insonify

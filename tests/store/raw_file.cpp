@@ -1,0 +1,53 @@
+#include "store/raw_file.hpp"
+
+#include <ctime>
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/time.h>
+
+#include "support/files.hpp"
+
+namespace {
+time_t seconds_ahead = 0;
+}  // namespace
+
+// The clock that HDF5 reads, too: symbols of a program come before those of libraries.
+extern "C" int gettimeofday(timeval* now, void*) noexcept {
+  timespec t;
+  clock_gettime(CLOCK_REALTIME, &t);
+  *now = {t.tv_sec + seconds_ahead, t.tv_nsec / 1000};
+  return 0;
+}
+
+extern "C" time_t time(time_t* now) noexcept {
+  timeval t;
+  gettimeofday(&t, nullptr);
+  if (now) *now = t.tv_sec;
+  return t.tv_sec;
+}
+
+namespace insonify {
+
+std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  H5Sclose(space);
+  H5Dclose(dataset);
+  return extent;
+}
+
+void expect_same_bytes_a_day_later(const std::function<std::string(const std::string&)>& write) {
+  mallopt(M_PERTURB, 0x55);
+  const std::string first = file_bytes(write("first.h5"));
+  seconds_ahead = 24 * 60 * 60;
+  mallopt(M_PERTURB, 0xA3);
+  const std::string second = file_bytes(write("second.h5"));
+  mallopt(M_PERTURB, 0);
+  seconds_ahead = 0;
+  EXPECT_FALSE(first.empty());
+  EXPECT_TRUE(first == second);
+}
+
+}  // namespace insonify

@@ -1,0 +1,29 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <hdf5.h>
+
+namespace insonify {
+
+/// Opens a file as another program would, to look at it or to damage it.
+class RawFile {
+ public:
+  explicit RawFile(const std::string& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)) {}
+  ~RawFile() { H5Fclose(file_); }
+  RawFile(const RawFile&) = delete;
+  RawFile& operator=(const RawFile&) = delete;
+  operator hid_t() const { return file_; }
+
+ private:
+  hid_t file_;
+};
+
+std::vector<hsize_t> raw_extent(hid_t file, const char* dataset);
+
+/// write("first.h5") and write("second.h5"), which return the path of what they wrote, must give the same bytes, though
+/// the second is written a day later by the clock of this program, into memory that malloc filled with another byte.
+void expect_same_bytes_a_day_later(const std::function<std::string(const std::string&)>& write);
+
+}  // namespace insonify

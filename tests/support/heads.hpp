@@ -1,0 +1,34 @@
+#pragma once
+#include "beamforming/sonar_spec.hpp"
+
+namespace insonify {
+
+/// A small multibeam sonar; all of these work at 450 kHz with 20 kHz of bandwidth.
+struct SmallSonar {
+  std::size_t beams = 48;
+  double field_of_view_deg = 60, beam_width_deg = 2, elevation_width_deg = 20;
+  double min_range = 2, max_range = 15;
+  double source_level_db = 220;
+};
+SonarSpec small_sonar(const SmallSonar& sonar);
+/// Its head, for water of `sound_speed` or, with 0, for Water{}.
+SonarHead small_head(const SmallSonar& sonar, double sound_speed = 0);
+
+/// A head put together by hand: a half-wavelength line array under a Taylor window of -30 dB, uniform if it has at most
+/// four elements, and bins as coarse as the pulse allows.
+struct LineHead {
+  double frequency = 750e3, bandwidth = 60e3, source_level_db = 220;
+  std::size_t beams = 5, elements = 16;
+  double field_of_view_deg = 90, beam_width_deg = 2, elevation_width_deg = 20;
+  double min_range = 1, max_range = 3;
+  double sound_speed = 1490;
+};
+SonarHead line_head(const LineHead& line);
+
+/// Relative L2 difference of two grids.
+template <typename A, typename B>
+double relative_l2(const A& a, const B& b) {
+  return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
+}
+
+}  // namespace insonify

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# clang-tidy (.clang-tidy) over modules/ and apps/, with the compile commands of build/dev, which must be configured.
+#
+#   tests/tidy.sh                   everything: 5 to 10 s of CPU a source
+#   tests/tidy.sh --changed [BASE]  sources that differ from BASE, and for each header that does one source that includes
+#                                   it; BASE is where this branch left origin/main, or the last commit
+#   tests/tidy.sh FILE...           these sources
+set -euo pipefail
+cd "$(dirname "$0")/.."
+commands=build/dev/compile_commands.json
+[[ -f $commands ]] || { echo "tests/tidy.sh: no $commands; run: cmake --preset dev" >&2; exit 2; }
+tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || { echo "tests/tidy.sh: install clang-tidy" >&2; exit 2; }
+
+changed_sources() {
+  local base=${1:-$(git merge-base HEAD origin/main 2>/dev/null || git rev-parse HEAD~1)} file
+  git diff --name-only --diff-filter=d "$base" -- modules apps | while read -r file; do
+    case $file in
+      *.cpp) echo "$file" ;;
+      *.hpp) grep -rlF --include=*.cpp "\"${file#*/}\"" modules apps | head -n 1 ;;
+    esac
+  done
+}
+case ${1:-} in
+  "") mapfile -t sources < <(git ls-files -- 'modules/*.cpp' 'apps/*.cpp') ;;
+  --changed) mapfile -t sources < <(changed_sources "${2:-}" | sort -u) ;;
+  -*) sed -n '4,7s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+  *) sources=("$@") ;;
+esac
+((${#sources[@]})) || { echo "tests/tidy.sh: nothing has changed"; exit 0; }
+
+# clang reads no header that g++ precompiled: without them, and without the launcher of the compiler.
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+sed -E 's/-Winvalid-pch//g; s/-include [^ "]*cmake_pch\.hxx//g; s/"command": "[^ ]*ccache /"command": "/' "$commands" >"$work/compile_commands.json"
+printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" "$tidy" -p "$work" --quiet 2> >(grep -vE "warnings? generated|^Suppressed|^Use -" >&2)
