@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<AccuracyRow>;
 
-/// Errors of nothing at all still have a place on a logarithmic axis.
+/// Errors of zero are drawn at this level, since the axis is logarithmic.
 double at_least(double value, double floor) { return std::max(value, floor); }
 constexpr double smallest_error = 1e-17;
 
@@ -72,7 +72,7 @@ class Plot {
     return lines_.back();
   }
 
-  /// A little room around the points.
+  /// Widens an axis by a margin around the points.
   void fit(AxisScale scale, std::vector<double> ChartLine::*values, double& low, double& high) const {
     low = INFINITY, high = -INFINITY;
     for (const ChartLine& line : lines_)
@@ -106,7 +106,7 @@ std::string tolerance_text(double tolerance) {
   return text;
 }
 
-/// What is written at a marker.
+/// The label of a marker.
 std::string setting_text(const AccuracyRow& r) {
   if (r.method == "pattern-cut") return fmt::format("{:g} nulls", r.parameter);
   return r.tolerance > 0 ? tolerance_text(r.tolerance) : "";

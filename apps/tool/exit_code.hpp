@@ -3,7 +3,7 @@
 
 namespace insonify::tool {
 
-/// What a program returns to the shell for an error.
+/// The exit code of the programs for an error.
 inline int exit_code(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::runtime:

@@ -21,8 +21,8 @@ struct HeadSetup {
 };
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run);
 
-/// Materials named by the options: the table given, else the one that comes with insonify when --material asks for
-/// it; `material` is the index of --material.
+/// Options of loading a scene. Materials come from --materials, else, with --material, from the table that is part of
+/// insonify.
 LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene);
 
 /// One sentence per thing that was dropped, repaired or assumed on loading.

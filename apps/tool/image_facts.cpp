@@ -10,7 +10,7 @@
 namespace insonify::tool {
 namespace {
 
-/// No negative zero.
+/// Rounds to a multiple of `step`, without negative zero.
 double rounded(double value, double step) {
   const double nearest = step * std::round(value / step);
   return nearest == 0 ? 0 : nearest;

@@ -21,7 +21,7 @@ std::string cube_path(const std::string& run) {
   return path;
 }
 
-/// Puts one of its layers in place of a ping's pressure.
+/// Replaces the pressure of a ping by one of its layers.
 void take_layer(Ping& ping, const std::string& name, const std::string& run) {
   std::string known;
   for (Layer& layer : ping.layers) {
@@ -48,18 +48,6 @@ ImageRun read_image_run(const std::string& path, const std::string& layer) {
   if (!layer.empty())
     for (Ping& ping : run.cube.pings) take_layer(ping, layer, path);
   return run;
-}
-
-ChosenBeam choose_beam(const ImageOptions& o, std::size_t beams) {
-  if (o.beam.empty()) return {o.view == "spectrum" ? BeamChoice::mean : BeamChoice::one, beams / 2};
-  if (o.beam == "max" && o.view == "waterfall") return {BeamChoice::strongest};
-  if (o.beam == "all" && o.view == "spectrum") return {BeamChoice::mean};
-  const double beam = parse_number("--beam", o.beam);
-  if (!(beam >= 0 && beam == std::floor(beam)))
-    fail(ErrorKind::argument, "--beam = ", o.beam, ", must be the number of a beam, from 0");
-  if (beam >= static_cast<double>(beams))
-    fail(ErrorKind::argument, "--beam = ", o.beam, ", must be below ", beams, ", the number of beams");
-  return {BeamChoice::one, static_cast<std::size_t>(beam)};
 }
 
 PictureOptions picture_options(const ImageOptions& o) {

@@ -40,7 +40,7 @@ ScenePreset preset_of(const std::string& word) {
   return ScenePreset::automatic;
 }
 
-/// A scene, what is to be drawn of it, and its title.
+/// A scene, how it is drawn, and its title.
 struct Drawing {
   SceneCloud scene;
   SceneLook look;
@@ -53,7 +53,7 @@ SceneCloud load(const CommonOptions& common, const SceneOptions& options, Progre
   return std::move(loaded.scene);
 }
 
-/// Those of one ping, with as much gain as the other views give.
+/// The soundings of one ping, with the gain of the other views.
 Soundings of_ping(const Soundings& all, std::int64_t number, const std::optional<Tvg>& tvg) {
   Soundings some;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -64,8 +64,8 @@ Soundings of_ping(const Soundings& all, std::int64_t number, const std::optional
   return some;
 }
 
-/// Returns in the colour of their level over the grey scene, unless another colour is asked for.
-Drawing drawing_of_run(const CommonOptions& common, const ImageOptions& o, Progress& progress) {
+/// Draws returns in the colour of their level over the grey scene, unless --colour says otherwise.
+Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   if (!o.sonar.empty() || !o.pose.empty() || !o.range.empty())
     fail(ErrorKind::argument, o.run,
          " is a run, whose sonar and poses are known; leave --sonar, --pose and --range out");
@@ -79,7 +79,7 @@ Drawing drawing_of_run(const CommonOptions& common, const ImageOptions& o, Progr
   if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
 
   Drawing drawing;
-  drawing.scene = load(common, options, progress);
+  drawing.scene = load(o.common, options, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
   drawing.look.colour = o.colour.empty() ? SceneColour::level : colour_of(o.colour);
   const fs::path returns = fs::path(o.run) / "returns.ply";
@@ -96,7 +96,7 @@ Drawing drawing_of_run(const CommonOptions& common, const ImageOptions& o, Progr
   return drawing;
 }
 
-/// What the head sees of every surfel, and where it looks into holes of the scan.
+/// Finds the visibility of every surfel from the head, and the holes of the scan in its view.
 void look_from_head(const SceneCloud& scene, int threads, SceneLook& look) {
   const auto& [pose, fan, gate] = *look.head;
   SamplingOptions sampling;
@@ -107,7 +107,7 @@ void look_from_head(const SceneCloud& scene, int threads, SceneLook& look) {
   look.holes = hole_positions(find_holes(prepared, pose, fan, gate, sampling), pose);
 }
 
-Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Progress& progress) {
+Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   Drawing drawing;
   if (o.sonar.empty() != o.pose.empty())
     fail(ErrorKind::argument, "--sonar and --pose go together, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
@@ -120,43 +120,34 @@ Drawing drawing_of_scene(const CommonOptions& common, const ImageOptions& o, Pro
     RunOptions run;
     run.sonar = o.sonar;
     run.range = o.range;
-    const SonarHead head = set_up_head(common, run).head;
+    const SonarHead head = set_up_head(o.common, run).head;
     drawing.look.head = SceneHead{parse_pose(o.pose, o.world), head.fan, head.gate};
     drawing.title = head.name + " before " + drawing.title;
   }
   if (!o.colour.empty()) drawing.look.colour = colour_of(o.colour);
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
-  drawing.scene = load(common, options, progress);
+  drawing.scene = load(o.common, options, progress);
   return drawing;
 }
 
 }  // namespace
 
-void image_scene(const CommonOptions& common, const ImageOptions& o, const PictureOptions& asked) {
-  Progress progress(common, 2);
+void image_scene(const ImageOptions& o, const PictureOptions& asked) {
+  Progress progress(o.common, 2);
   progress.step("reading " + o.run);
   const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
-  Drawing drawing = run ? drawing_of_run(common, o, progress) : drawing_of_scene(common, o, progress);
+  Drawing drawing = run ? drawing_of_run(o, progress) : drawing_of_scene(o, progress);
   SceneLook& look = drawing.look;
   look.camera.preset = preset_of(o.camera);
   look.normals = o.normals;
-  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, common.threads, look);
+  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, o.common.threads, look);
 
   progress.step("drawing " + o.output);
   PictureOptions picture = asked;
   picture.title = o.title.empty() ? drawing.title : o.title;
   show_scene(drawing.scene, look, picture, o.output);
   fmt::print("{}\n", o.output);
-}
-
-void require_no_scene_options(const ImageOptions& o) {
-  const std::pair<const char*, bool> given[] = {{"--scene", !o.scene.empty()},    {"--sonar", !o.sonar.empty()},
-                                                {"--pose", !o.pose.empty()},      {"--range", !o.range.empty()},
-                                                {"--camera", o.camera != "auto"}, {"--colour", !o.colour.empty()},
-                                                {"--normals", o.normals}};
-  for (const auto& [option, is_given] : given)
-    if (is_given) fail(ErrorKind::argument, option, " goes with --view scene, not ", o.view);
 }
 
 }  // namespace insonify::tool

@@ -1,14 +1,11 @@
 #pragma once
-#include "tool/options.hpp"
+#include "tool/image_options.hpp"
 #include "view/picture.hpp"
 
 namespace insonify::tool {
 
-/// The 3-D picture of `image --view scene`: of a run, its returns over its scene; of a scene to inspect, what the sonar
-/// would see of it. Throws Error(argument) for options that do not go together, and as the loading of either.
-void image_scene(const CommonOptions& common, const ImageOptions& options, const PictureOptions& picture);
-
-/// Throws Error(argument) for an option of view scene beside another view.
-void require_no_scene_options(const ImageOptions& options);
+/// Draws `image --view scene`: of a run, its returns over its scene; of a scene alone, its visibility from the sonar.
+/// Throws Error(argument) for options that exclude one another, and as read_run_cube and load_scene.
+void image_scene(const ImageOptions& options, const PictureOptions& picture);
 
 }  // namespace insonify::tool

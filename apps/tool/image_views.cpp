@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "tool/image_facts.hpp"
+#include "tool/image_scene.hpp"
 #include "tool/run_files.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/show_ascan.hpp"
@@ -25,14 +26,29 @@
 namespace insonify::tool {
 namespace {
 
-/// The samples as grey values, from the brightest level down to the window's end.
-void draw_grey(const LevelImage& levels, const PictureOptions& picture, int bits, const std::string& path) {
+LevelImage levels_of(const ViewJob& job) { return levels_of(job.run, job.options, job.ping); }
+
+const BeamFan& fan_of(const ViewJob& job) { return job.run.cube.pings[job.ping].fan; }
+
+void draw_fan(const ViewJob& job) { show_fan(levels_of(job), job.picture, job.path); }
+
+void draw_rect(const ViewJob& job) { show_rect(levels_of(job), job.picture, job.path); }
+
+void draw_ascan(const ViewJob& job) {
+  const std::size_t beam = choose_beam(job.options, fan_of(job).beams()).beam;
+  show_ascan(levels_of(job), beam, job.picture, job.path);
+}
+
+/// Draws the samples as grey values: white at the brightest level, black at the end of the window.
+void draw_grey(const ViewJob& job) {
+  const LevelImage levels = levels_of(job);
+  const PictureOptions& picture = job.picture;
   const double max_db = std::isnan(picture.max_db) ? levels.level_db.maxCoeff() : picture.max_db;
   const GreyWindow window{max_db - picture.window_db, max_db};
-  if (bits == 8)
-    show_grey(quantise_8(levels.level_db, window), levels.fan, path);
+  if (job.options.bits == 8)
+    show_grey(quantise_8(levels.level_db, window), levels.fan, job.path);
   else
-    show_grey(quantise_16(levels.level_db, window), levels.fan, path);
+    show_grey(quantise_16(levels.level_db, window), levels.fan, job.path);
 }
 
 std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
@@ -42,7 +58,9 @@ std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
   return fmt::format("beam {} at {:+.1f}°", chosen.beam, std::abs(bearing) < 0.05 ? 0.0 : bearing);
 }
 
-void draw_waterfall(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const std::string& path) {
+void draw_waterfall(const ViewJob& job) {
+  const ImageRun& run = job.run;
+  const ImageOptions& o = job.options;
   const std::vector<Ping>& pings = run.cube.pings;
   if (pings.size() < 2)
     fail(ErrorKind::content, run.path, ": holds one ping, a waterfall needs several; join runs with insonify merge");
@@ -62,12 +80,13 @@ void draw_waterfall(const ImageRun& run, const ImageOptions& o, PictureOptions p
       history.level_db.row(row) = levels.level_db.colwise().maxCoeff();
     history.unit = levels.unit;
   }
+  PictureOptions picture = job.picture;
   if (o.title.empty())
     picture.title = fmt::format("{}, {} pings, {}", run.cube.sonar, pings.size(), beam_text(chosen, fan));
-  show_waterfall(history, picture, path);
+  show_waterfall(history, picture, job.path);
 }
 
-/// Spectrum of the beams chosen, and that of the pulse with as much power.
+/// Spectrum of the chosen beams, and the spectrum of the pulse scaled to the same power.
 std::vector<SpectrumLine> spectrum_lines(const ImageRun& run, const ImageOptions& o, std::size_t number) {
   const Ping& ping = run.cube.pings[number];
   const ChosenBeam chosen = choose_beam(o, ping.fan.beams());
@@ -91,7 +110,11 @@ std::vector<SpectrumLine> spectrum_lines(const ImageRun& run, const ImageOptions
           {heard.frequency, pulse_density(pulse, step_time, heard.frequency, power), name}};
 }
 
-/// With the beam's pattern if the run says what array heard it, and what the picture cannot show in words.
+void draw_spectrum(const ViewJob& job) {
+  show_spectrum(spectrum_lines(job.run, job.options, job.ping), job.picture, job.path);
+}
+
+/// Image and facts of a ping, and the pattern of the beam if the run says with which array it was received.
 Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number) {
   Panels panels;
   panels.image = levels_of(run, o, number);
@@ -108,44 +131,85 @@ Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number)
   return panels;
 }
 
+void draw_panels(const ViewJob& job) { show_panels(panels_of(job.run, job.options, job.ping), job.picture, job.path); }
+
 double next_five(double level_db) { return 5 * std::floor(level_db / 5) + 5; }
+
+double max_db_of_image(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
+  return automatic_max_db(levels_of(run, o, ping).level_db, o.window_db);
+}
+
+double max_db_of_ascan(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
+  const LevelImage levels = levels_of(run, o, ping);
+  return next_five(levels.level_db.row(static_cast<Eigen::Index>(choose_beam(o, levels.fan.beams()).beam)).maxCoeff());
+}
+
+double max_db_of_spectrum(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
+  double highest = 0;
+  for (const SpectrumLine& line : spectrum_lines(run, o, ping))
+    highest = std::max(highest, *std::max_element(line.density.begin(), line.density.end()));
+  return next_five(db_from_power(highest / (micropascal * micropascal)));
+}
 
 }  // namespace
 
-void draw_view(const ImageRun& run, const ImageOptions& o, const PictureOptions& asked, std::size_t number,
-               const std::string& path) {
-  PictureOptions picture = asked;
-  const Ping& ping = run.cube.pings[number];
-  const std::string title = picture_title(run.cube.sonar, ping) + (o.layer.empty() ? "" : ", " + o.layer + " alone");
-  picture.title = o.title.empty() ? title : o.title;
-  if (o.view == "waterfall") return draw_waterfall(run, o, picture, path);
-  if (o.view == "spectrum") return show_spectrum(spectrum_lines(run, o, number), picture, path);
-  if (o.view == "panels") return show_panels(panels_of(run, o, number), picture, path);
-  const LevelImage levels = levels_of(run, o, number);
-  if (o.view == "fan") show_fan(levels, picture, path);
-  if (o.view == "rect") show_rect(levels, picture, path);
-  if (o.view == "ascan") show_ascan(levels, choose_beam(o, ping.fan.beams()).beam, picture, path);
-  if (o.view == "grey") draw_grey(levels, picture, o.bits, path);
+const std::vector<ViewSpec>& all_views() {
+  static const std::vector<ViewSpec> views{
+      {"fan", "beams and ranges to scale", {"--annotate", "--animate"}, draw_fan, max_db_of_image},
+      {"rect", "beams against range", {"--annotate", "--animate"}, draw_rect, max_db_of_image},
+      {.name = "waterfall",
+       .shows = "range against pings",
+       .draw = draw_waterfall,
+       .beam_word = "max",
+       .beam_choice = BeamChoice::strongest},
+      {"ascan", "level of one beam against range", {"--animate"}, draw_ascan, max_db_of_ascan},
+      {"spectrum",
+       "power against frequency",
+       {"--animate"},
+       draw_spectrum,
+       max_db_of_spectrum,
+       "all",
+       BeamChoice::mean,
+       BeamChoice::mean},
+      {"panels", "fan, one beam, its pattern and facts", {"--annotate", "--animate"}, draw_panels, max_db_of_image},
+      {.name = "scene",
+       .shows = "the scene in 3-D with returns, or as the head sees it",
+       .options = {"--scene", "--sonar", "--pose", "--range", "--camera", "--colour", "--normals"},
+       .draw_alone = image_scene},
+      {.name = "grey", .shows = "the bare samples as 8- or 16-bit .png or .pgm", .draw = draw_grey},
+  };
+  return views;
 }
 
-double common_max_db(const ImageRun& run, const ImageOptions& o, double window_db) {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < run.cube.pings.size(); ++p) {
-    double max_db = 0;
-    if (o.view == "spectrum") {
-      for (const SpectrumLine& line : spectrum_lines(run, o, p))
-        max_db = std::max(max_db, *std::max_element(line.density.begin(), line.density.end()));
-      max_db = next_five(db_from_power(max_db / (micropascal * micropascal)));
-    } else {
-      const LevelImage levels = levels_of(run, o, p);
-      const auto beam = static_cast<Eigen::Index>(choose_beam(o, levels.fan.beams()).beam);
-      max_db = o.view == "ascan"  ? next_five(levels.level_db.row(beam).maxCoeff())
-               : o.view == "grey" ? levels.level_db.maxCoeff()
-                                  : automatic_max_db(levels.level_db, window_db);
-    }
-    highest = std::max(highest, max_db);
-  }
-  return highest;
+const ViewSpec& view_of(const ImageOptions& o) {
+  const auto is_asked_for = [&](const ViewSpec& view) { return o.view == view.name; };
+  return *std::find_if(all_views().begin(), all_views().end(), is_asked_for);
+}
+
+std::string views_with(const std::string& option) {
+  std::vector<std::string> names;
+  for (const ViewSpec& view : all_views())
+    if (std::find(view.options.begin(), view.options.end(), option) != view.options.end())
+      names.emplace_back(view.name);
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+ChosenBeam choose_beam(const ImageOptions& o, std::size_t beams) {
+  const ViewSpec& view = view_of(o);
+  if (o.beam.empty()) return {view.default_choice, beams / 2};
+  if (o.beam == view.beam_word) return {view.beam_choice};
+  const double beam = parse_number("--beam", o.beam);
+  if (!(beam >= 0 && beam == std::floor(beam)))
+    fail(ErrorKind::argument, "--beam = ", o.beam, ", must be the number of a beam, from 0");
+  if (beam >= static_cast<double>(beams))
+    fail(ErrorKind::argument, "--beam = ", o.beam, ", must be below ", beams, ", the number of beams");
+  return {BeamChoice::one, static_cast<std::size_t>(beam)};
+}
+
+std::string default_title(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
+  return picture_title(run.cube.sonar, run.cube.pings[ping]) + (o.layer.empty() ? "" : ", " + o.layer + " alone");
 }
 
 }  // namespace insonify::tool

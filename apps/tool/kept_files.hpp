@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "simulate/simulate_ping.hpp"
 #include "store/run_directory.hpp"
@@ -13,8 +13,8 @@ namespace insonify::tool {
 /// Whether --keep names `what`.
 bool keeps(const PingOptions& options, const std::string& what);
 
-/// Writes what --keep asks for beside the cube: contributors.h5, insonification.ply and .pcd, paths.vtp; the manifest
-/// says what is in them.
+/// Writes the files of --keep beside the cube: contributors.h5, insonification.ply and .pcd, paths.vtp; `manifest` gets
+/// a summary of each.
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, nlohmann::ordered_json& manifest);
 

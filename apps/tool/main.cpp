@@ -9,9 +9,7 @@
 int main(int argc, char** argv) {
   try {
     insonify::tool::catch_interrupts();
-    const insonify::tool::Command command = insonify::tool::parse_command_line(argc, argv);
-    if (command.run) command.run();
-    return command.exit_code;
+    return insonify::tool::run_command_line(argc, argv);
   } catch (const insonify::tool::Interrupted&) {
     std::fputs("insonify: interrupted; nothing was written\n", stderr);
     return 130;

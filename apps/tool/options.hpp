@@ -1,12 +1,11 @@
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace insonify::tool {
 
-/// What every verb understands.
+/// Options of every verb.
 struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
@@ -27,32 +26,7 @@ struct SceneOptions {
   double mesh_spacing = 0;
 };
 
-struct InfoOptions {
-  std::vector<std::string> files;
-};
-
-struct PrepareOptions {
-  SceneOptions scene;
-  std::string output;
-  double thin = 0;  ///< [m] between the surfels that stay; 0: all stay
-  bool force = false;
-};
-
-struct MakeSceneOptions {
-  std::string name;
-  std::string output;
-  std::size_t points = 200000;
-  std::string size = "40,40";
-  double radius = 0.5;
-  double lambert_mu_db = -27;
-  bool force = false;
-};
-
-struct SonarsOptions {
-  std::string name;
-};
-
-/// What a run of the acoustics needs beside a scene.
+/// Sonar, environment, synthesis and output of a run.
 struct RunOptions {
   std::string sonar;
   std::string range;        ///< "min:max" [m] or empty: the sonar's own
@@ -65,7 +39,9 @@ struct RunOptions {
   bool no_picture = false;
 };
 
+/// Options of `ping` and `plan`. The fields that run.toml records are the rows of the table in setting_table.cpp.
 struct PingOptions {
+  CommonOptions common;
   SceneOptions scene;
   RunOptions run;
   std::string pose;
@@ -74,7 +50,7 @@ struct PingOptions {
   std::string amplitude = "speckle";
   double scatterers_per_cell = 10;
   int rays_per_beam = 64;
-  double level_error_db = 0;  ///< 0: the sampling is taken as it is
+  double level_error_db = 0;  ///< 0: the sampling is not refined
   bool noise = false;
   bool multipath = false;
   std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"
@@ -89,68 +65,6 @@ struct PingOptions {
   std::string all_bins_above;              ///< dB re 1 uPa, or empty
   double memory_limit = 0;                 ///< [GiB] for a .tiles scene; 0: what is available
   std::vector<std::string> with, without;  ///< stages of the plan forced in or out
-};
-
-struct SynthesizeOptions {
-  RunOptions run;
-  std::string scatterers;
-};
-
-struct ImageOptions {
-  std::string run;
-  std::string output;
-  std::string view = "fan";
-  std::string layer;  ///< name, or empty: the whole pressure
-  std::string colour_map = "copper";
-  std::string size = "1400x1050";
-  std::string title;
-  double window_db = 45;
-  std::string max_db;  ///< or empty: automatic
-  std::size_t ping = 0;
-  std::string beam;                     ///< number, "max", "all", or empty: what suits the view
-  std::optional<std::string> annotate;  ///< number of maxima, .csv file, or "": five maxima
-  bool animate = false;
-  bool force = false;
-  bool raw = false;
-  double tvg = 40;  ///< [dB per decade of range]
-  int bits = 8;     ///< of view grey
-  bool dark = false;
-  // Of view scene:
-  std::string scene;               ///< of a run, or empty: where run.toml says
-  std::string sonar, pose, range;  ///< to inspect a scene
-  std::string world = "z-up";
-  std::string camera = "auto", colour;  ///< colour empty: what suits
-  bool normals = false;                 ///< drawn as lines
-};
-
-struct MergeOptions {
-  std::vector<std::string> runs;
-  std::string output;
-  bool force = false;
-};
-
-struct ExportOptions {
-  std::string run;
-  std::string output;
-  bool force = false;
-};
-
-struct AccuracyOptions {
-  SceneOptions scene;  ///< path empty: built-in tasks
-  RunOptions run;      ///< of which sonar, range, environment, output, force and no_picture count
-  std::string pose;
-  std::string world = "z-up";
-  std::vector<std::string> methods, tolerances;  ///< empty: all
-  int repeats = 5;
-  bool full = false, quick = false;
-};
-
-struct BeamPatternOptions {
-  RunOptions run;  ///< of which only the sonar counts
-  std::string steer = "0";
-  std::string output;  ///< picture, or empty: none
-  std::string size = "1400x1050";
-  bool dark = false;
 };
 
 }  // namespace insonify::tool

@@ -6,7 +6,7 @@
 #include "beamforming/synthesize.hpp"
 #include "core/pose.hpp"
 
-/// Text from the command line to values; every failure is Error(argument) naming option, value, rule and an example.
+/// Parsers of command-line text. All throw Error(argument) that names option, value and rule, with an example.
 namespace insonify::tool {
 
 /// "1,2.5,-3" to `count` finite numbers.
@@ -23,7 +23,7 @@ Pose parse_pose(const std::string& text, const std::string& world);
 /// "min:max" in metres, 0 < min < max.
 std::pair<double, double> parse_range(const std::string& text);
 
-/// "gridded", "direct" or "element-exact".
+/// "gridded", "direct", "element-exact" or "incoherent".
 SynthesisMethod parse_method(const std::string& text);
 
 /// "1400x1050" pixels.

@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// What refraction does here, and whether it was left out.
+/// States the effect of refraction, and whether it was left out.
 std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
   const std::string bound =
       fmt::format("straight rays would be off by at most {:.2g} m in range and {:.2g} deg in angle", r.bound.range,
@@ -22,7 +22,7 @@ std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
   return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
 }
 
-/// What to tell a user who asked for multipath and hears none: most often the sea is too rough.
+/// States why multipath gave no echo: most often the sea is too rough.
 std::string no_multipath_note(const Environment& environment) {
   const double waves = environment.surface ? rms_wave_height(environment) : 0;
   const std::string sea = waves > 0
@@ -31,7 +31,7 @@ std::string no_multipath_note(const Environment& environment) {
   return "no echo comes by way of surface or bottom: " + sea;
 }
 
-/// What to tell a user whose ping is silent: where the scene is.
+/// States that the ping is silent and where the scene lies.
 std::string silence_note(const std::vector<Eigen::Vector3d>& places) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& p : places) centre += p / static_cast<double>(places.size());

@@ -3,12 +3,12 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "scene_io/load_scene.hpp"
 #include "tool/ping_setup.hpp"
 
-/// What a ping's manifest says, and the notes beside it.
+/// The parts of a ping's manifest, and its notes.
 namespace insonify::tool {
 
 nlohmann::ordered_json scene_json(const LoadedScene& loaded);
@@ -18,7 +18,7 @@ nlohmann::ordered_json holes_json(const HoleReport& holes);
 nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
 nlohmann::ordered_json motion_json(const Motion& motion);
 
-/// Notes on what the simulation found: silence, refraction, multipath that nobody hears. `places` are those of `sampled_places`.
+/// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places.
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
                                     const std::vector<Eigen::Vector3d>& places);
 

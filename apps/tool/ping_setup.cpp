@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/trajectory_file.hpp"
 #include "tool/kept_files.hpp"
 #include "tool/parse_values.hpp"
-#include "tool/run_files.hpp"
 
 namespace insonify::tool {
 namespace {
 
-constexpr int drawn_paths = 64;  // of each kind: enough to see where sound goes, few enough to see it
+constexpr int drawn_paths = 64;  // of each kind; more would hide one another
 
 SimulationOptions simulation_options(const CommonOptions& common, const PingOptions& o) {
   SimulationOptions s;
@@ -56,7 +53,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   return s;
 }
 
-/// Where the head is, and how it moves if a trajectory says so.
+/// Pose of the head, and its motion if it follows a trajectory.
 struct Track {
   Pose pose;
   Motion motion;
@@ -74,7 +71,7 @@ Track track_of(const PingOptions& o) {
   return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
 }
 
-/// Boundaries must be there to send anything back.
+/// Refuses multipath without any boundary.
 void require_boundaries(const PingOptions& o, const Environment& environment) {
   if (o.multipath && !environment.surface && !environment.bottom)
     fail(ErrorKind::argument, "--multipath: the environment has neither surface nor bottom; give their heights, e.g. ",
@@ -83,29 +80,15 @@ void require_boundaries(const PingOptions& o, const Environment& environment) {
 
 }  // namespace
 
-PingSetup set_up_ping(const CommonOptions& common, const PingOptions& o) {
+PingSetup set_up_ping(const PingOptions& o) {
   const Track track = track_of(o);
-  PingSetup setup{track.pose, set_up_head(common, o.run), simulation_options(common, o)};
+  PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
   if (!o.trajectory.empty()) setup.simulation.motion = track.motion;
   setup.simulation.time = o.time;
   for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
   for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
   require_boundaries(o, setup.head.environment);
   return setup;
-}
-
-std::string run_toml_head(const PingOptions& o) {
-  return fmt::format(
-      "\n[scene]\npath = {}\nunit = {}\nmaterial = {}\nmaterials = {}\nmaterial_field = {}\nviewpoint = {}\n"
-      "mesh_spacing = {}\n\n[ping]\npose = {}\nworld = {}\ntrajectory = {}\ntime = {}\nvelocity = {}\nturn_rate = {}\n"
-      "sampling = {}\nscatterers_per_cell = {}\nrays_per_beam = {}\nlevel_error_db = {}\namplitude = {}\nnoise = "
-      "{}\nmultipath = {}\n"
-      "layers = {}\nabsorption_order = {}\nthreshold_db = {}\nall_bins_above = {}\n",
-      toml_text(o.scene.path), toml_text(o.scene.unit), toml_text(o.scene.material), toml_text(o.scene.materials_file),
-      toml_text(o.scene.material_field), toml_text(o.scene.viewpoint), o.scene.mesh_spacing, toml_text(o.pose),
-      toml_text(o.world), toml_text(o.trajectory), o.time, toml_text(o.velocity), toml_text(o.turn_rate),
-      toml_text(o.sampling), o.scatterers_per_cell, o.rays_per_beam, o.level_error_db, toml_text(o.amplitude), o.noise,
-      o.multipath, o.layers, o.absorption_order, o.threshold_db, toml_text(o.all_bins_above));
 }
 
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {

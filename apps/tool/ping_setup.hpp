@@ -11,23 +11,22 @@
 
 namespace insonify::tool {
 
-/// Everything a ping needs but the scene.
+/// Everything that a ping needs except the scene.
 struct PingSetup {
   Pose pose;
   HeadSetup head;
   SimulationOptions simulation;
 };
 
-/// Reads what `options` name and finds everything that is wrong on the command line, before any work.
-PingSetup set_up_ping(const CommonOptions& common, const PingOptions& options);
+/// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
+/// read.
+PingSetup set_up_ping(const PingOptions& options);
 
-/// The options of a ping as they stand in run.toml: tables [scene] and [ping].
-std::string run_toml_head(const PingOptions& options);
-
-/// Places of about 10 000 surfels, as seen from the head.
+/// Places of about 10 000 surfels in head axes [m].
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);
 
-/// Catches clouds in other units and poses elsewhere: the middle one of `places` must be within reach of the range gate.
+/// Throws Error(content) if the median range of `places` is far outside the range gate: the cloud is in other units, or
+/// the pose in another frame.
 void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);
 
 }  // namespace insonify::tool

@@ -1,12 +1,12 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "simulate/plan_ping.hpp"
 
 namespace insonify::tool {
 
 /// The plan as it stands in the manifest: stages with name, included, why, bound_db, bound_relative (null: no bound), and
-/// what the synthesis chose.
+/// the parameters of the synthesis.
 nlohmann::ordered_json plan_json(const PingPlan& plan);
 
 /// The plan as a table on stdout.

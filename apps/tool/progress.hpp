@@ -8,10 +8,10 @@ namespace insonify::tool {
 /// Thrown at the next step after Ctrl-C.
 struct Interrupted {};
 
-/// Ctrl-C and SIGTERM are noted and acted on between steps, so that nothing is left half-written.
+/// Defers Ctrl-C and SIGTERM to the end of a step, so that nothing is left half-written.
 void catch_interrupts();
 
-/// Tells the user what is going on: a bar on a terminal, plain lines with -v, nothing with -q. Only on stderr.
+/// Reports progress on stderr: a bar on a terminal, plain lines with -v, nothing with -q.
 class Progress {
  public:
   Progress(const CommonOptions& common, int steps);
@@ -23,7 +23,7 @@ class Progress {
   void step(const std::string& what);
   /// Throws Interrupted after Ctrl-C: for steps that take long.
   void check() const;
-  /// A sentence for the user, shown unless quiet.
+  /// Shows a sentence unless quiet.
   void note(const std::string& sentence);
 
  private:

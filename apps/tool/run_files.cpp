@@ -1,12 +1,14 @@
 #include "tool/run_files.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
+#include "tool/run_settings.hpp"
 #include "view/show_fan.hpp"
 
 namespace insonify::tool {
@@ -14,13 +16,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string run_toml(const CommonOptions& common, const RunOptions& run, const HeadSetup& setup,
-                     const std::string& head) {
+std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings) {
   return fmt::format(
-      "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\nseed = {}\n"
-      "tolerance = {}\nmethod = \"{}\"\nenvironment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
-      INSONIFY_VERSION, common.seed, run.tolerance, run.method, toml_text(run.environment), toml_text(run.profile),
-      head, environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
+      "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\n"
+      "environment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
+      INSONIFY_VERSION, toml_text(run.environment), toml_text(run.profile), settings,
+      environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
 }
 
 Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
@@ -61,17 +62,17 @@ ordered_json sonar_json(const HeadSetup& setup) {
 }  // namespace
 
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
-               const HeadSetup& setup, const Ping& ping, const std::string& run_toml_head, ordered_json& manifest,
+               const HeadSetup& setup, const Ping& ping, const std::string& settings, ordered_json& manifest,
                Progress& progress) {
   write_cube(directory.file("cube.h5"), cube_of(ping, common, run, setup));
-  write_text_file(directory.file("run.toml"), run_toml(common, run, setup, run_toml_head));
+  write_text_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
   const double absorption = setup.medium.absorption.a0 / nepers_per_db;
   if (!run.no_picture) try {
       PictureOptions options;
       options.title = picture_title(setup.head.name, ping);
       show_fan(level_image(ping, Tvg{40, absorption}), options, directory.file("fan.png"));
-    } catch (const Error& error) {  // a machine without GL still gets its data
+    } catch (const Error& error) {  // without OpenGL the data is still written
       progress.note(std::string("no fan.png: ") + error.what());
       manifest["notes"].push_back(std::string("no fan.png: ") + error.what());
     }
@@ -106,7 +107,5 @@ double peak_memory_mib() {
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
-
-std::string toml_text(const std::string& text) { return nlohmann::json(text).dump(); }
 
 }  // namespace insonify::tool

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "returns/ping.hpp"
 #include "returns/quantise.hpp"
@@ -15,22 +15,19 @@
 
 namespace insonify::tool {
 
-/// Writes cube.h5, run.toml, fan.png (unless refused) and manifest.json into `directory`. `manifest` is completed with
-/// version, sonar, water, gate, counts of samples and peak memory.
+/// Writes cube.h5, run.toml with `settings` (settings_as_toml), and fan.png (unless refused) into `directory`. Adds
+/// sonar, water and peak memory to `manifest`.
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
-               const HeadSetup& setup, const Ping& ping, const std::string& run_toml_head,
-               nlohmann::ordered_json& manifest, Progress& progress);
+               const HeadSetup& setup, const Ping& ping, const std::string& settings, nlohmann::ordered_json& manifest,
+               Progress& progress);
 
-/// Levels of a ping as they are drawn: with `tvg` unless absent.
+/// Levels of a ping as they are drawn; without `tvg`, as they were received.
 LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 
-/// Title of a picture.
+/// Title of the picture of a ping: sonar, number, range.
 std::string picture_title(const std::string& sonar, const Ping& ping);
 
 /// Largest resident set so far [MiB].
 double peak_memory_mib();
-
-/// A string as a TOML literal with quotes and escapes.
-std::string toml_text(const std::string& text);
 
 }  // namespace insonify::tool

@@ -5,8 +5,8 @@
 
 namespace insonify::tool {
 
-/// [scene] of a run's run.toml as options of loading it. The path is sought from here, from the run and from beside it;
-/// empty if the run does not say, as it stands if it is nowhere.
+/// [scene] of the run.toml in a run directory as options of loading it, with paths looked up as by load_ping_settings.
+/// Defaults, with an empty path, if there is no run.toml or no [scene] in it.
 SceneOptions scene_of_run(const std::string& run);
 
 }  // namespace insonify::tool

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "accuracy/accuracy_sweep.hpp"
 #include "core/error.hpp"
@@ -12,18 +13,51 @@
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_files.hpp"
-#include "tool/verbs.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
 
-SweepOptions sweep_options(const CommonOptions& common, const AccuracyOptions& o) {
+struct AccuracyOptions {
+  CommonOptions common;
+  SceneOptions scene;  ///< path empty: built-in tasks
+  RunOptions run;      ///< of which sonar, range, environment, output, force and no_picture count
+  std::string pose;
+  std::string world = "z-up";
+  std::vector<std::string> methods, tolerances;  ///< empty: all
+  int repeats = 5;
+  bool full = false, quick = false;
+};
+
+void add_options(OptionList list, AccuracyOptions& o) {
+  o.run.output = "accuracy";
+  list.add("-o,--output", o.run.output, "run directory to make; default: accuracy");
+  list.add("--scene", o.scene.path, "measure on the echoes of your own ping; with --sonar and --pose");
+  list.add("--sonar", o.run.sonar, "preset (see `insonify sonars`) or a .toml file");
+  list.add("--pose", o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
+  add_world(list, o.world);
+  list.add("--range", o.run.range, "min:max [m]; default: the sonar's");
+  list.add("--material", o.scene.material, "one material for everything, by name, e.g. sand");
+  list.add("--methods", o.methods, "only these, e.g. gridded,direct").comma_separated();
+  list.add("--tolerances", o.tolerances, "of gridded, e.g. 1e-3,1e-6").comma_separated();
+  list.add("--repeats", o.repeats, "timed runs of each, after one to warm up; fewer if they take long");
+  list.add("--full", o.full, "larger tasks and all tolerances: some ten minutes");
+  list.add("--quick", o.quick, "tiny tasks: seconds").group("");
+  list.add("--set", o.common.settings, "SECTION.KEY=VALUE of sonar or environment").one_each();
+  list.add("--force", o.run.force, "replace an existing run directory");
+  list.add("--no-picture", o.run.no_picture, "do not draw the charts");
+  add_common(list, o.common, true);
+  add_work(list, o.common);
+}
+
+SweepOptions sweep_options(const AccuracyOptions& o) {
   SweepOptions sweep;
   sweep.size = o.quick ? SweepSize::quick : o.full ? SweepSize::full : SweepSize::standard;
-  sweep.seed = common.seed;
-  sweep.threads = common.threads;
+  sweep.seed = o.common.seed;
+  sweep.threads = o.common.threads;
   sweep.methods = o.methods;
   const std::vector<std::string> known = accuracy_methods();
   for (const std::string& method : o.methods)
@@ -39,9 +73,8 @@ SweepOptions sweep_options(const CommonOptions& common, const AccuracyOptions& o
   return sweep;
 }
 
-/// The steps over the user's own scene, or over made-up ones.
-std::vector<AccuracyStep> steps_of(const CommonOptions& common, const AccuracyOptions& o, const SweepOptions& sweep,
-                                   Progress& progress) {
+/// The steps for the user's own scene, or for the built-in tasks.
+std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions& sweep, Progress& progress) {
   if (o.scene.path.empty()) {
     if (!o.run.sonar.empty() || !o.pose.empty() || !o.run.range.empty())
       fail(ErrorKind::argument, "--sonar, --pose and --range go with --scene FILE; without it the tasks are built in");
@@ -50,21 +83,21 @@ std::vector<AccuracyStep> steps_of(const CommonOptions& common, const AccuracyOp
   if (o.run.sonar.empty() || o.pose.empty())
     fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
   const Pose pose = parse_pose(o.pose, o.world);
-  const HeadSetup setup = set_up_head(common, o.run);
-  const LoadOptions loading = load_options(common, o.scene);
+  const HeadSetup setup = set_up_head(o.common, o.run);
+  const LoadOptions loading = load_options(o.common, o.scene);
   progress.step("loading " + o.scene.path);
   const LoadedScene loaded = load_scene(o.scene.path, loading);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   SimulationOptions simulation;
-  simulation.seed = common.seed;
-  simulation.threads = common.threads;
+  simulation.seed = o.common.seed;
+  simulation.threads = o.common.threads;
   return accuracy_sweep_of(task_of(loaded.scene, setup.head, pose, setup.environment, simulation), sweep);
 }
 
-std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const CommonOptions& common,
-                                   const AccuracyOptions& o, Progress& progress) {
+std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,
+                                   Progress& progress) {
   MeasureOptions measure;
-  measure.threads = common.threads;
+  measure.threads = o.common.threads;
   measure.repeats = o.repeats;
   std::vector<AccuracyRow> rows;
   for (const AccuracyStep& step : steps) {
@@ -78,11 +111,11 @@ std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const
   return rows;
 }
 
-ordered_json manifest_of(const CommonOptions& common, const AccuracyOptions& o) {
+ordered_json manifest_of(const AccuracyOptions& o) {
   return {{"schema", 1},
           {"insonify_version", INSONIFY_VERSION},
-          {"seed", common.seed},
-          {"threads", thread_count(common.threads)},
+          {"seed", o.common.seed},
+          {"threads", thread_count(o.common.threads)},
           {"size", o.quick  ? "quick"
                    : o.full ? "full"
                             : "standard"},
@@ -123,18 +156,17 @@ void print_table(const std::string& output, const std::vector<AccuracyRow>& rows
   fmt::print("{}: {} measurements in sweep.csv\n", output, rows.size());
 }
 
-}  // namespace
-
-void accuracy(const CommonOptions& common, const AccuracyOptions& o) {
+void accuracy(const AccuracyOptions& o) {
+  const CommonOptions& common = o.common;
   if (o.repeats < 1 || o.repeats > 1000)
     fail(ErrorKind::argument, "--repeats = ", o.repeats, ", must be within 1 and 1000");
-  const SweepOptions sweep = sweep_options(common, o);
+  const SweepOptions sweep = sweep_options(o);
   Progress preparing(common, 1);
   RunDirectory directory(o.run.output, o.run.force);
-  const std::vector<AccuracyStep> steps = steps_of(common, o, sweep, preparing);
+  const std::vector<AccuracyStep> steps = steps_of(o, sweep, preparing);
   Progress progress(common, static_cast<int>(steps.size()) + 2);
-  ordered_json manifest = manifest_of(common, o);
-  const std::vector<AccuracyRow> rows = run_steps(steps, common, o, progress);
+  ordered_json manifest = manifest_of(o);
+  const std::vector<AccuracyRow> rows = run_steps(steps, o, progress);
 
   std::vector<SamplingErrorRow> sampling;
   if (o.scene.path.empty() && o.methods.empty()) {
@@ -152,7 +184,7 @@ void accuracy(const CommonOptions& common, const AccuracyOptions& o) {
   if (!sampling.empty()) write_text_file(directory.file("sampling.csv"), sampling_csv(sampling));
   if (!o.run.no_picture) try {
       manifest["pictures"] = draw_accuracy(rows, sampling, directory);
-    } catch (const Error& error) {  // a machine without GL still gets its numbers
+    } catch (const Error& error) {  // without OpenGL the numbers are still written
       progress.note(std::string("no pictures: ") + error.what());
       manifest["notes"].push_back(std::string("no pictures: ") + error.what());
     }
@@ -164,6 +196,16 @@ void accuracy(const CommonOptions& common, const AccuracyOptions& o) {
     fmt::print("{}\n", manifest.dump(2));
   else
     print_table(o.run.output, rows, manifest["summary"]);
+}
+
+}  // namespace
+
+Verb accuracy_verb() {
+  return make_verb<AccuracyOptions>(
+      "accuracy", "error against run time of all methods, measured on this machine",
+      {"insonify accuracy -o accuracy",
+       "insonify accuracy --scene harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 -o mine"},
+      add_options, accuracy);
 }
 
 }  // namespace insonify::tool

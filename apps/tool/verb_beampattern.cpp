@@ -9,13 +9,33 @@
 #include "tool/head_setup.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
-#include "tool/verbs.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 #include "view/show_pattern.hpp"
 
 namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
+
+struct BeamPatternOptions {
+  CommonOptions common;
+  RunOptions run;  ///< of which only the sonar counts
+  std::string steer = "0";
+  std::string output;  ///< picture, or empty: none
+  std::string size = "1400x1050";
+  bool dark = false;
+};
+
+void add_options(OptionList list, BeamPatternOptions& o) {
+  list.add("SONAR", o.run.sonar, "preset (see `insonify sonars`) or a .toml file").required();
+  list.add("--steer", o.steer, "azimuth of the beam [deg], positive to port, within -90 and 90");
+  list.add("-o,--output", o.output, "picture to write, .png");
+  list.add("--set", o.common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times").one_each();
+  list.add("--size", o.size, "WIDTHxHEIGHT [pixels]");
+  list.add("--dark", o.dark, "dark background");
+  add_common(list, o.common, true);
+}
 
 /// The beam that is measured, in the water of the run.
 struct SteeredBeam {
@@ -96,15 +116,13 @@ void draw_pattern(const SteeredBeam& beam, const PictureOptions& size, const std
   show_pattern(curve.azimuth, curve.level_db, picture, output);
 }
 
-}  // namespace
-
-void beampattern(const CommonOptions& common, const BeamPatternOptions& o) {
-  Progress progress(common, o.output.empty() ? 1 : 2);
+void beampattern(const BeamPatternOptions& o) {
+  Progress progress(o.common, o.output.empty() ? 1 : 2);
   PictureOptions picture;
   std::tie(picture.width, picture.height) = parse_size(o.size);
   picture.dark = o.dark;
   const double steering = parse_steering(o.steer);
-  const HeadSetup setup = set_up_head(common, o.run);
+  const HeadSetup setup = set_up_head(o.common, o.run);
   const SteeredBeam beam{setup, setup.medium.sound_speed / setup.spec.centre_frequency, steering};
 
   progress.step("measuring the beam of " + setup.spec.name);
@@ -113,13 +131,23 @@ void beampattern(const CommonOptions& common, const BeamPatternOptions& o) {
     progress.step("drawing " + o.output);
     draw_pattern(beam, picture, o.output);
   }
-  if (common.json) {
+  if (o.common.json) {
     ordered_json json = pattern_json(beam, report);
     if (!o.output.empty()) json["picture"] = o.output;
     fmt::print("{}\n", json.dump(2));
   } else {
     print_pattern(beam, report);
   }
+}
+
+}  // namespace
+
+Verb beampattern_verb() {
+  return make_verb<BeamPatternOptions>(
+      "beampattern", "width, side lobes and grating lobes of a sonar's beam",
+      {"insonify beampattern p900-45 -o pattern.png",
+       "insonify beampattern oculus-m750d --steer=-30 --set sonar.shading=chebyshev --json"},
+      add_options, beampattern);
 }
 
 }  // namespace insonify::tool

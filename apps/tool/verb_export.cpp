@@ -6,13 +6,28 @@
 #include "store/run_directory.hpp"
 #include "tool/image_run.hpp"
 #include "tool/progress.hpp"
-#include "tool/verbs.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 #include "view/save_grid.hpp"
 
 namespace insonify::tool {
 namespace {
 
-/// Everything a cube knows of the samples of one ping.
+struct ExportOptions {
+  CommonOptions common;
+  std::string run;
+  std::string output;
+  bool force = false;
+};
+
+void add_options(OptionList list, ExportOptions& o) {
+  list.add("RUN", o.run, "run directory or cube.h5").required();
+  list.add("-o,--output", o.output, "directory to make").required();
+  list.add("--force", o.force, "replace an existing directory of an earlier export");
+  add_common(list, o.common, false);
+}
+
+/// All fields that a cube holds per sample of a ping.
 std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m) {
   const Grid<float> level = level_db(ping);
   std::vector<SampleField> fields = {
@@ -28,10 +43,8 @@ std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m)
   return fields;
 }
 
-}  // namespace
-
-void export_run(const CommonOptions& common, const ExportOptions& o) {
-  Progress progress(common, 2);
+void export_run(const ExportOptions& o) {
+  Progress progress(o.common, 2);
   progress.step("reading " + o.run);
   const Cube cube = read_run_cube(o.run);
   RunDirectory directory(o.output, o.force);
@@ -58,6 +71,15 @@ void export_run(const CommonOptions& common, const ExportOptions& o) {
   directory.commit();
   fmt::print("{}: {} grids and {} images of {} pings; open fan.pvd in ParaView\n", o.output, fans.size(), images.size(),
              cube.pings.size());
+}
+
+}  // namespace
+
+Verb export_verb() {
+  return make_verb<ExportOptions>(
+      "export", "a run for ParaView and other VTK programs: .vts, .vti and .pvd",
+      {"insonify export out -o out-vtk", "insonify export survey -o vtk && paraview vtk/fan.pvd"}, add_options,
+      export_run);
 }
 
 }  // namespace insonify::tool

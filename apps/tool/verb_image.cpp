@@ -9,13 +9,64 @@
 #include "tool/image_scene.hpp"
 #include "tool/image_views.hpp"
 #include "tool/progress.hpp"
-#include "tool/verbs.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 #include "view/strongest_maxima.hpp"
 
 namespace insonify::tool {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The options of view scene, which stand in a group of their own.
+void add_scene_view(OptionList list, ImageOptions& o) {
+  const char* group = "Of view scene";
+  list.add("--scene", o.scene, "the run's scene, if it is not where run.toml says").group(group);
+  list.add("--sonar", o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run").group(group);
+  list.add("--pose", o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]").group(group);
+  list.add("--range", o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's").group(group);
+  list.add("--world", o.world, "z-up or ned").one_of({"z-up", "ned"}).group(group);
+  list.add("--camera", o.camera, "auto, behind (the head), top, side or iso")
+      .one_of({"auto", "behind", "top", "side", "iso"})
+      .group(group);
+  list.add("--normals", o.normals, "draw some 4000 normals as lines").group(group);
+  list.add("--colour", o.colour, "height, material, visibility, level, grazing or incidence; default: what suits")
+      .one_of({"height", "material", "visibility", "level", "grazing", "incidence"})
+      .group(group);
+}
+
+void add_options(OptionList list, ImageOptions& o) {
+  std::vector<std::string> names, views;
+  for (const ViewSpec& view : all_views()) {
+    names.emplace_back(view.name);
+    views.push_back(fmt::format("{}: {}", view.name, view.shows));
+  }
+  list.add("RUN", o.run, "run directory or cube.h5; for view scene also a cloud or mesh").required();
+  list.add("-o,--output", o.output, "picture to write, .png (grey also .pgm); with --animate a folder").required();
+  list.add("--view", o.view, fmt::format("{}", fmt::join(views, "; "))).one_of(names);
+  list.add("--bits", o.bits, "of grey: 8 or 16").one_of({"8", "16"}).shown_as("INT");
+  list.add("--layer", o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
+  list.add("--ping", o.ping, "which ping, from 0");
+  list.add("--beam", o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
+  Option raw = list.add("--raw", o.raw, "levels as received; default: range compensated; excludes --tvg");
+  list.add("--tvg", o.tvg, "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's")
+      .excludes(raw.shown_as(" "))
+      .shown_as("FLOAT");
+  list.add("--window", o.window_db, "[dB] from darkest to brightest");
+  list.add("--max", o.max_db, "[dB] brightest level; default: automatic");
+  list.add("--colormap", o.colour_map, "copper, viridis, amber, grey or jet");
+  list.add("--size", o.size, "WIDTHxHEIGHT [pixels]");
+  list.add("--title", o.title, "default: sonar and ping");
+  list.add("--dark", o.dark, "dark background");
+  list.add("--annotate", o.annotate,
+           "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text")
+      .value_optional()
+      .shown_as("[N|CSV]");
+  list.add("--animate", o.animate, "one picture per ping in the folder -o, all with the same levels");
+  list.add("--force", o.force, "replace existing pictures");
+  add_scene_view(list, o);
+  add_common(list, o.common, false);
+}
 
 /// --annotate: how many maxima, or the user's own labels.
 struct Annotation {
@@ -26,8 +77,6 @@ struct Annotation {
 Annotation read_annotation(const ImageOptions& o) {
   Annotation annotation;
   if (!o.annotate) return annotation;
-  if (o.view != "fan" && o.view != "rect" && o.view != "panels")
-    fail(ErrorKind::argument, "--annotate goes with --view fan, rect or panels, not ", o.view);
   if (fs::path(*o.annotate).extension() == ".csv") {
     for (const Label& label : load_labels(*o.annotate))
       annotation.labels.push_back({radians(label.bearing_deg), label.range, label.text});
@@ -46,15 +95,16 @@ void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions pictur
   picture.marks = annotation.labels;
   if (annotation.maxima > 0)
     picture.marks = strongest_maxima(levels_of(run, o, ping), annotation.maxima, picture.window_db);
-  draw_view(run, o, picture, ping, path);
+  picture.title = o.title.empty() ? default_title(run, o, ping) : o.title;
+  view_of(o).draw({run, o, picture, ping, path});
 }
 
 std::string frame_path(const ImageOptions& o, std::size_t ping) {
   return (fs::path(o.output) / fmt::format("{}_{:06}.png", o.view, ping)).string();
 }
 
-/// Makes the folder of a series. Pictures of an earlier series in it are in the way, and --force removes them: what is
-/// left over of a longer one would end up in the film.
+/// Makes the folder of a series. Refuses a folder with pictures of an earlier series; with --force it removes them all,
+/// so that none of a longer series is left among the new ones.
 void make_frame_folder(const ImageOptions& o) {
   std::error_code error;
   if (fs::exists(o.output, error) && !fs::is_directory(o.output, error))
@@ -71,10 +121,12 @@ void make_frame_folder(const ImageOptions& o) {
 
 void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const Annotation& annotation,
              Progress& progress) {
-  if (o.view == "waterfall") fail(ErrorKind::argument, "--animate needs one picture per ping, a waterfall shows all");
-  if (o.view == "grey" || o.view == "scene") fail(ErrorKind::argument, "--animate does not go with --view ", o.view);
-  if (std::isnan(picture.max_db)) picture.max_db = common_max_db(run, o, picture.window_db);
   const std::size_t pings = run.cube.pings.size();
+  if (std::isnan(picture.max_db)) {
+    picture.max_db = view_of(o).max_db(run, o, 0);
+    for (std::size_t ping = 1; ping < pings; ++ping)
+      picture.max_db = std::max(picture.max_db, view_of(o).max_db(run, o, ping));
+  }
   make_frame_folder(o);
   for (std::size_t ping = 0; ping < pings; ++ping) {
     progress.step(fmt::format("drawing {}", frame_path(o, ping)));
@@ -85,27 +137,49 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
                             o.view, o.view));
 }
 
-}  // namespace
+/// Refuses options that the view does not take.
+void require_options_of_view(const ImageOptions& o) {
+  const std::pair<const char*, bool> given[] = {
+      {"--annotate", o.annotate.has_value()}, {"--animate", o.animate},        {"--scene", !o.scene.empty()},
+      {"--sonar", !o.sonar.empty()},          {"--pose", !o.pose.empty()},     {"--range", !o.range.empty()},
+      {"--camera", o.camera != "auto"},       {"--colour", !o.colour.empty()}, {"--normals", o.normals}};
+  const std::vector<std::string>& taken = view_of(o).options;
+  for (const auto& [option, is_given] : given)
+    if (is_given && std::find(taken.begin(), taken.end(), option) == taken.end())
+      fail(ErrorKind::argument, option, " goes with --view ", views_with(option), ", not ", o.view);
+}
 
-void image(const CommonOptions& common, const ImageOptions& o) {
+void image(const ImageOptions& o) {
+  require_options_of_view(o);
   const PictureOptions picture = picture_options(o);
   const Annotation annotation = read_annotation(o);
   std::error_code ignored;
   if (!o.animate && !o.force && fs::exists(o.output, ignored))
     fail(ErrorKind::file, o.output, ": exists already; give --force to replace it, or another name");
-  if (o.view != "scene") require_no_scene_options(o);
-  if (o.view == "scene" && !o.animate) return image_scene(common, o, picture);
+  if (const auto draw = view_of(o).draw_alone) return draw(o, picture);
   const ImageRun run = read_image_run(o.run, o.layer);
   const std::size_t pings = run.cube.pings.size();
   if (o.ping >= pings)
     fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", pings, ", the number of pings in ", o.run);
   choose_beam(o, run.cube.pings.front().fan.beams());
 
-  Progress progress(common, o.animate ? static_cast<int>(pings) : 1);
+  Progress progress(o.common, o.animate ? static_cast<int>(pings) : 1);
   if (o.animate) return animate(run, o, picture, annotation, progress);
   progress.step("drawing " + o.output);
   draw_ping(run, o, picture, annotation, o.ping, o.output);
   fmt::print("{}\n", o.output);
+}
+
+}  // namespace
+
+Verb image_verb() {
+  return make_verb<ImageOptions>(
+      "image", "a picture of a run, drawn without a display",
+      {"insonify image out -o fan.png --annotate", "insonify image out --view ascan --beam 128 -o beam.png",
+       "insonify image track --animate -o frames", "insonify image track --view waterfall --beam max -o waterfall.png",
+       "insonify image out --view scene -o scene.png",
+       "insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o visibility.png"},
+      add_options, image);
 }
 
 }  // namespace insonify::tool

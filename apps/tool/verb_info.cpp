@@ -6,15 +6,27 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "scene_io/describe_file.hpp"
+#include "scene_io/tiled_scene.hpp"
 #include "store/cube.hpp"
 #include "store/sonar_file.hpp"
-#include "tool/tiled_scenes.hpp"
-#include "tool/verbs.hpp"
+#include "tool/scene_files.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
+
+struct InfoOptions {
+  CommonOptions common;
+  std::vector<std::string> files;
+};
+
+void add_options(OptionList list, InfoOptions& o) {
+  list.add("FILE", o.files, "cloud, mesh, sonar .toml, cube.h5 or run directory").required();
+  add_common(list, o.common, true);
+}
 
 ordered_json point(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -93,9 +105,27 @@ ordered_json sonar_summary(const SonarFile& f) {
           {"bandwidth_hz", f.spec.bandwidth}};
 }
 
-}  // namespace
+ordered_json tiles_summary(const std::string& path) {
+  const TiledScene tiled(path);
+  const TiledSceneInfo& info = tiled.info();
+  ordered_json materials = ordered_json::array();
+  for (const Material& m : info.materials) materials.push_back(m.name);
+  ordered_json json = {{"path", path},
+                       {"format", "insonify tiles"},
+                       {"surfels", info.surfels},
+                       {"tiles", info.tiles},
+                       {"bytes", info.bytes},
+                       {"origin", point(info.origin)},
+                       {"area_m2", info.total_area},
+                       {"mean_spacing_m", info.whole.mean_spacing},
+                       {"largest_area_m2", info.whole.largest_area},
+                       {"normals_oriented", info.normals_oriented},
+                       {"materials", materials}};
+  if (info.surfels > 0) json["bounds"] = {{"min", point(info.box.min)}, {"max", point(info.box.max)}};
+  return json;
+}
 
-void info(const CommonOptions& common, const InfoOptions& o) {
+void info(const InfoOptions& o) {
   ordered_json all = ordered_json::array();
   for (const std::string& path : o.files) {
     const std::filesystem::path file(path);
@@ -109,15 +139,23 @@ void info(const CommonOptions& common, const InfoOptions& o) {
       all.push_back(sonar_summary(load_sonar_file(path)));
     } else {
       const FileDescription d = describe_file(path);
-      if (!common.json) {
+      if (!o.common.json) {
         print_cloud(d);
         continue;
       }
       all.push_back(cloud_json(d));
     }
-    if (!common.json) print_json_as_text(all.back());
+    if (!o.common.json) print_json_as_text(all.back());
   }
-  if (common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+  if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+}
+
+}  // namespace
+
+Verb info_verb() {
+  return make_verb<InfoOptions>("info", "what is in a file or run, and what is wrong with it",
+                                {"insonify info reef.pcd", "insonify info reef.pcd --json | jq .bounds"}, add_options,
+                                info);
 }
 
 }  // namespace insonify::tool

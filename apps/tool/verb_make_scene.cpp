@@ -1,30 +1,79 @@
-#include <filesystem>
-
 #include <fmt/format.h>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
+#include "scene_io/tile_writer.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
-#include "tool/tiled_scenes.hpp"
-#include "tool/verbs.hpp"
+#include "tool/scene_files.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
+namespace {
 
-void make_scene(const CommonOptions& common, const MakeSceneOptions& o) {
-  if (is_tiles(o.output)) return make_scene_as_tiles(common, o);
-  if (!o.force && std::filesystem::exists(o.output))
-    fail(ErrorKind::file, o.output, ": exists already; choose another name or add --force");
+constexpr std::size_t batch_surfels = 1 << 20;
+
+struct MakeSceneOptions {
+  CommonOptions common;
+  std::string name;
+  std::string output;
+  std::uint64_t points = 200000;
+  std::string size = "40,40";
+  double radius = 0.5;
+  double lambert_mu_db = -27;
+  bool force = false;
+};
+
+void add_options(OptionList list, MakeSceneOptions& o) {
+  list.add("NAME", o.name, "harbour, plane, sphere, wall or poles").required();
+  list.add("-o,--output", o.output, "scene to write, .ply or .pcd; or .tiles, for any size").required();
+  list.add("--points", o.points, "surfels wanted");
+  list.add("--size", o.size, "plane: x,y extent; wall: width,height [m]");
+  list.add("--radius", o.radius, "of the sphere [m]");
+  list.add("--mu-db", o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
+  list.add("--force", o.force, "replace an existing file");
+  add_common(list, o.common, false);
+  list.add("--seed", o.common.seed, "of jitter and ripples; same seed, same bytes");
+}
+
+void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {
+  TileWriterOptions options;
+  options.materials = empty_built_in_scene(o.name, built_in).materials;
+  options.progress = [&](double) { progress.check(); };
+  TileWriter writer(o.output, options);
+  make_built_in_scene_in_batches(o.name, built_in, batch_surfels, [&](const SceneCloud& batch) {
+    progress.check();
+    writer.add(batch);
+  });
+  progress.step("writing " + o.output);
+  const TileReport report = writer.finish();
+  fmt::print("{}: {} surfels in {} tiles, {} materials\n", o.output, report.surfels, report.tiles,
+             options.materials.size());
+}
+
+void make_scene(const MakeSceneOptions& o) {
+  require_free(o.output, o.force);
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 40,40");
-  Progress progress(common, 2);
+  const BuiltInSceneOptions built_in{
+      o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), o.common.seed};
+  Progress progress(o.common, 2);
   progress.step("making " + o.name);
-  const SceneCloud scene = make_built_in_scene(
-      o.name, {o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), common.seed});
+  if (is_tiles(o.output)) return make_scene_as_tiles(o, built_in, progress);
+  const SceneCloud scene = make_built_in_scene(o.name, built_in);
   progress.step("writing " + o.output);
   save_scene(o.output, scene);
   fmt::print("{}: {} surfels, {} materials\n", o.output, scene.size(), scene.materials.size());
+}
+
+}  // namespace
+
+Verb make_scene_verb() {
+  return make_verb<MakeSceneOptions>("make-scene", "a built-in scene with normals, areas and materials",
+                                     {"insonify make-scene harbour -o harbour.ply --points 200000",
+                                      "insonify make-scene plane -o plane.ply --size 40,40 --mu-db -27"},
+                                     add_options, make_scene);
 }
 
 }  // namespace insonify::tool

@@ -8,21 +8,36 @@
 #include "store/run_directory.hpp"
 #include "tool/image_run.hpp"
 #include "tool/progress.hpp"
-#include "tool/verbs.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// What went in, for the manifest.
+struct MergeOptions {
+  CommonOptions common;
+  std::vector<std::string> runs;
+  std::string output;
+  bool force = false;
+};
+
+void add_options(OptionList list, MergeOptions& o) {
+  list.add("RUN", o.runs, "run directories or cubes with the same fan and gate").required();
+  list.add("-o,--output", o.output, "run directory to make").required();
+  list.add("--force", o.force, "replace an existing run directory");
+  add_common(list, o.common, true);
+}
+
+/// The merged files and their numbers of pings, for the manifest.
 ordered_json inputs_json(const std::vector<NamedCube>& cubes) {
   ordered_json inputs = ordered_json::array();
   for (const NamedCube& one : cubes) inputs.push_back({{"path", one.name}, {"pings", one.cube.pings.size()}});
   return inputs;
 }
 
-/// What merging changed and a reader of the cube would not expect.
+/// Notes on what differs between the runs and is lost or ambiguous in the merged cube.
 std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, const Cube& merged) {
   std::vector<std::string> notes;
   std::size_t same_time = 0;
@@ -43,10 +58,8 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
   return notes;
 }
 
-}  // namespace
-
-void merge(const CommonOptions& common, const MergeOptions& o) {
-  Progress progress(common, static_cast<int>(o.runs.size()) + 1);
+void merge(const MergeOptions& o) {
+  Progress progress(o.common, static_cast<int>(o.runs.size()) + 1);
   RunDirectory directory(o.output, o.force);
   std::vector<NamedCube> cubes;
   for (const std::string& run : o.runs) {
@@ -65,10 +78,20 @@ void merge(const CommonOptions& common, const MergeOptions& o) {
   if (std::filesystem::exists(settings)) write_text_file(directory.file("run.toml"), read_text_file(settings.string()));
   write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  if (common.json)
+  if (o.common.json)
     fmt::print("{}\n", manifest.dump(2));
   else
     fmt::print("{}: {} pings of {} runs\n", o.output, merged.pings.size(), o.runs.size());
+}
+
+}  // namespace
+
+Verb merge_verb() {
+  return make_verb<MergeOptions>(
+      "merge", "pings of several runs of one sonar in one run, by time",
+      {"insonify merge out-0 out-1 out-2 -o track",
+       "insonify merge run-* -o track && insonify image track --view waterfall -o waterfall.png"},
+      add_options, merge);
 }
 
 }  // namespace insonify::tool

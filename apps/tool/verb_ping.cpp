@@ -3,18 +3,21 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/element_file.hpp"
 #include "tool/kept_files.hpp"
+#include "tool/ping_options.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/plan_report.hpp"
 #include "tool/run_files.hpp"
-#include "tool/tiled_scenes.hpp"
-#include "tool/verbs.hpp"
+#include "tool/run_settings.hpp"
+#include "tool/scene_files.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -34,27 +37,14 @@ void print_summary(const CommonOptions& common, const std::string& output, const
              manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
 }
 
-}  // namespace
+void add_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
 
-void plan(const CommonOptions& common, const PingOptions& o) {
-  Progress progress(common, 2);
-  const PingSetup ready = set_up_ping(common, o);
-  progress.step("loading " + o.scene.path);
-  const LoadedScene loaded = load_ping_scene(common, o, ready).loaded;
-  for (const std::string& note : ready.head.notes) progress.note(note);
-  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
-  progress.step("planning");
-  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.pose, ready.head.environment, ready.simulation);
-  if (common.json)
-    fmt::print("{}\n", plan_json(plan).dump(2));
-  else
-    print_plan(plan);
-}
-
-void ping(const CommonOptions& common, const PingOptions& o) {
-  // Everything that can be wrong on the command line is found before any work.
+void ping(const PingCommand& command) {
+  PingOptions o = settled_options(command);
+  const CommonOptions& common = o.common;
+  // The whole command line is checked before any work.
   Progress progress(common, 4);
-  const PingSetup ready = set_up_ping(common, o);
+  const PingSetup ready = set_up_ping(o);
   const Pose& pose = ready.pose;
   const HeadSetup& setup = ready.head;
   const SimulationOptions& simulation = ready.simulation;
@@ -62,7 +52,7 @@ void ping(const CommonOptions& common, const PingOptions& o) {
 
   progress.step("loading " + o.scene.path);
   auto start = Clock::now();
-  const PingScene in_reach = load_ping_scene(common, o, ready);
+  const PingScene in_reach = load_ping_scene(o, ready);
   const LoadedScene& loaded = in_reach.loaded;
   const double load_seconds = seconds_since(start);
   ordered_json manifest = {{"schema", 1},
@@ -96,7 +86,7 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   manifest["layers"] = layers_json(result.layers);
   if (!simulation.motion.none()) manifest["motion"] = motion_json(simulation.motion);
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
-  write_run(directory, common, o.run, setup, result.ping, run_toml_head(o), manifest, progress);
+  write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);
   manifest["seconds"] = {{"load", load_seconds},
                          {"sampling", result.seconds.sampling},
                          {"acoustics", result.seconds.acoustics},
@@ -108,6 +98,21 @@ void ping(const CommonOptions& common, const PingOptions& o) {
   progress.step("done");
   directory.commit();
   print_summary(common, o.run.output, manifest);
+}
+
+}  // namespace
+
+Verb ping_verb() {
+  return make_verb<PingCommand>(
+      "ping", "what the sonar hears of the scene: the main job",
+      {"insonify ping reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9 -o out",
+       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set water.temperature_c=4 -o cold",
+       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --multipath --set surface.height_m=0 --layers "
+       "-o sea",
+       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --noise --set wind.speed_m_s=8 "
+       "--profile ctd.csv -o gale",
+       "insonify ping --run out/run.toml -o again"},
+      add_options, ping);
 }
 
 }  // namespace insonify::tool

@@ -1,34 +1,82 @@
-#include <filesystem>
 #include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
 #include "scene/thin_scene.hpp"
+#include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "tool/head_setup.hpp"
 #include "tool/progress.hpp"
-#include "tool/tiled_scenes.hpp"
-#include "tool/verbs.hpp"
+#include "tool/scene_files.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
+namespace {
 
-void prepare(const CommonOptions& common, const PrepareOptions& o) {
-  if (is_tiles(o.output) && o.thin == 0) return prepare_as_tiles(common, o);
-  if (!o.force && std::filesystem::exists(o.output))
-    fail(ErrorKind::file, o.output, ": exists already; choose another name or add --force");
-  Progress progress(common, o.thin > 0 ? 3 : 2);
+using nlohmann::ordered_json;
+
+struct PrepareOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  std::string output;
+  double thin = 0;  ///< [m] between the surfels that stay; 0: all stay
+  bool force = false;
+  bool normals = false;  ///< without effect: missing normals are always estimated
+};
+
+void add_options(OptionList list, PrepareOptions& o) {
+  add_scene(list, o.scene);
+  list.add("-o,--output", o.output, "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees")
+      .required();
+  list.add("--thin", o.thin, "[m] between surfels: denser parts are thinned, area and materials kept").positive();
+  list.add("--force", o.force, "replace an existing file");
+  list.add("--normals", o.normals, "accepted for clarity: missing normals are always estimated");
+  add_common(list, o.common, true);
+  add_work(list, o.common);
+}
+
+void prepare_as_tiles(const PrepareOptions& o) {
+  Progress progress(o.common, 1);
+  progress.step("preparing " + o.output);
+  PrepareTilesOptions options;
+  options.load = load_options(o.common, o.scene);
+  options.progress = [&](double) { progress.check(); };
+  const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
+  const auto notes = loading_notes(prepared.report);
+  for (const std::string& note : notes) progress.note(note);
+  if (o.common.json) {
+    const ordered_json result = {{"output", o.output},
+                                 {"points_read", prepared.report.points_read},
+                                 {"surfels", prepared.tiles.surfels},
+                                 {"tiles", prepared.tiles.tiles},
+                                 {"bytes", prepared.tiles.bytes},
+                                 {"area_m2", prepared.tiles.total_area},
+                                 {"normals_oriented", prepared.normals_oriented},
+                                 {"in_batches", prepared.streamed},
+                                 {"notes", notes}};
+    fmt::print("{}\n", result.dump(2));
+  } else {
+    fmt::print("{}: {} surfels in {} tiles, {:.4g} m^2, normals {}\n", o.output, prepared.tiles.surfels,
+               prepared.tiles.tiles, prepared.tiles.total_area, prepared.normals_oriented ? "oriented" : "two-sided");
+  }
+}
+
+void prepare(const PrepareOptions& o) {
+  require_free(o.output, o.force);
+  if (is_tiles(o.output) && o.thin == 0) return prepare_as_tiles(o);
+  Progress progress(o.common, o.thin > 0 ? 3 : 2);
   progress.step("reading and completing " + o.scene.path);
-  LoadedScene loaded = load_scene(o.scene.path, load_options(common, o.scene));
+  LoadedScene loaded = load_scene(o.scene.path, load_options(o.common, o.scene));
   auto notes = loading_notes(loaded.report);
   if (o.thin > 0) {
     const std::size_t all = loaded.scene.size();
     progress.step(fmt::format("thinning {} surfels", all));
     loaded.scene = thin_scene(loaded.scene, o.thin);
-    notes.push_back(fmt::format("thinned to {} m: {} of {} surfels stay, with the area of those that went", o.thin,
-                                loaded.scene.size(), all));
+    notes.push_back(
+        fmt::format("thinned to {} m: {} of {} surfels kept, with the area of all", o.thin, loaded.scene.size(), all));
   }
   for (const std::string& note : notes) progress.note(note);
   progress.step("writing " + o.output);
@@ -38,8 +86,8 @@ void prepare(const CommonOptions& common, const PrepareOptions& o) {
     save_scene(o.output, loaded.scene);
 
   const double area = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0);
-  if (common.json) {
-    const nlohmann::ordered_json result = {
+  if (o.common.json) {
+    const ordered_json result = {
         {"output", o.output}, {"points_read", loaded.report.points_read},          {"surfels", loaded.scene.size()},
         {"area_m2", area},    {"normals_oriented", loaded.scene.normals_oriented}, {"notes", notes}};
     fmt::print("{}\n", result.dump(2));
@@ -47,6 +95,16 @@ void prepare(const CommonOptions& common, const PrepareOptions& o) {
     fmt::print("{}: {} surfels, {:.4g} m^2, normals {}\n", o.output, loaded.scene.size(), area,
                loaded.scene.normals_oriented ? "oriented" : "two-sided");
   }
+}
+
+}  // namespace
+
+Verb prepare_verb() {
+  return make_verb<PrepareOptions>("prepare", "complete a cloud or mesh once: origin, normals, areas, materials",
+                                   {"insonify prepare reef.pcd -o reef.ply --material sand",
+                                    "insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2",
+                                    "insonify prepare dense.pcd -o reef.ply --thin 0.02"},
+                                   add_options, prepare);
 }
 
 }  // namespace insonify::tool

@@ -3,12 +3,23 @@
 
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
-#include "tool/verbs.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
+
+struct SonarsOptions {
+  CommonOptions common;
+  std::string name;
+};
+
+void add_options(OptionList list, SonarsOptions& o) {
+  list.add("NAME", o.name, "preset or .toml file");
+  add_common(list, o.common, true);
+}
 
 ordered_json sonar_json(const SonarFile& file) {
   ordered_json numbers = ordered_json::array();
@@ -38,22 +49,27 @@ void print_table(const std::vector<SonarFile>& files) {
   }
 }
 
-}  // namespace
-
-void sonars(const CommonOptions& common, const SonarsOptions& o) {
+void sonars(const SonarsOptions& o) {
   if (!o.name.empty()) {
     const SonarFile file = find_sonar(o.name);
-    if (common.json)
+    if (o.common.json)
       fmt::print("{}\n", sonar_json(file).dump(2));
     else
       print_one(file);
     return;
   }
   const std::vector<SonarFile> files = list_sonars();
-  if (!common.json) return print_table(files);
+  if (!o.common.json) return print_table(files);
   ordered_json all = ordered_json::array();
   for (const SonarFile& f : files) all.push_back(sonar_json(f));
   fmt::print("{}\n", all.dump(2));
+}
+
+}  // namespace
+
+Verb sonars_verb() {
+  return make_verb<SonarsOptions>("sonars", "the presets; with a name, every number with its source",
+                                  {"insonify sonars", "insonify sonars oculus-m750d"}, add_options, sonars);
 }
 
 }  // namespace insonify::tool

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
@@ -9,11 +10,35 @@
 #include "store/scatterer_table.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/run_files.hpp"
-#include "tool/verbs.hpp"
+#include "tool/run_settings.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
+namespace {
 
-void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
+struct SynthesizeOptions {
+  CommonOptions common;
+  RunOptions run;
+  std::string scatterers;
+};
+
+void add_options(OptionList list, SynthesizeOptions& o) {
+  list.add("SCATTERERS", o.scatterers, "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im").required();
+  add_sonar(list, o.common, o.run);
+  add_output(list, o.run);
+  add_common(list, o.common, true);
+  add_work(list, o.common);
+}
+
+/// What run.toml records beside sonar and environment.
+std::string settings_of(SynthesizeOptions o) {
+  return settings_as_toml({seed_setting(o.common)}) + settings_as_toml(synthesis_settings(o.run)) +
+         fmt::format("scatterers = {}\n", toml_text(o.scatterers));
+}
+
+void synthesize(const SynthesizeOptions& o) {
+  const CommonOptions& common = o.common;
   using Clock = std::chrono::steady_clock;
   Progress progress(common, 3);
   const HeadSetup setup = set_up_head(common, o.run);
@@ -46,8 +71,7 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
     manifest["notes"].push_back(note);
   }
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(pressure.abs().maxCoeff()));
-  write_run(directory, common, o.run, setup, ping, fmt::format("scatterers = {}\n", toml_text(o.scatterers)), manifest,
-            progress);
+  write_run(directory, common, o.run, setup, ping, settings_of(o), manifest, progress);
   manifest["seconds"] = {{"synthesis", seconds}};
   write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
@@ -56,6 +80,15 @@ void synthesize(const CommonOptions& common, const SynthesizeOptions& o) {
   else
     fmt::print("{}: {} scatterers, peak {:.4f} dB re 1 uPa\n", o.run.output, table.scatterers.size(),
                manifest["peak_level_db"].get<double>());
+}
+
+}  // namespace
+
+Verb synthesize_verb() {
+  return make_verb<SynthesizeOptions>("synthesize", "beams from scatterers of another program (CSV)",
+                                      {"insonify synthesize rays.csv --sonar p900-45 --range 1:20 -o out",
+                                       "insonify synthesize rays.csv --sonar p900-45 --method direct -o referee"},
+                                      add_options, synthesize);
 }
 
 }  // namespace insonify::tool

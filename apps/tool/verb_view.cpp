@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "tool/verbs.hpp"
+#include "tool/verb.hpp"
 
 namespace insonify::tool {
+namespace {
 
+/// Replaces this process by insonify-view, the program beside this one. Throws Error(runtime) if that fails.
 void view(const std::vector<std::string>& arguments) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -17,9 +19,15 @@ void view(const std::vector<std::string>& arguments) {
   std::vector<std::string> own = arguments;
   for (std::string& argument : own) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  execvp(viewer.c_str(), argv.data());  // comes back only if it failed
+  execvp(viewer.c_str(), argv.data());  // returns only if it failed
   fail(ErrorKind::runtime, "cannot start ", viewer, ": ", std::strerror(errno),
        "; it is installed beside insonify, unless that was built without INSONIFY_VIEW");
+}
+
+}  // namespace
+
+Verb view_verb() {
+  return {"view", "the interactive viewer: a run, or a scene before any ping; see insonify view --help", {}, {}, view};
 }
 
 }  // namespace insonify::tool

@@ -10,13 +10,13 @@ namespace insonify::viewer {
 struct LoadedView {
   ViewerData data;
   ViewerState start;
-  std::vector<std::string> notes;  ///< what the user should know, one sentence each
+  std::vector<std::string> notes;  ///< for the user, one sentence each
 };
 
 /// True if the target is a run directory or a cube rather than a scene.
 bool is_run(const std::string& target);
 
-/// Reads a run: its cube, and as much of contributors, returns and scene as is there. Throws Error(file) if there is no
+/// Reads a run: its cube, and contributors, returns and scene if they exist. Throws Error(file) if there is no
 /// such run, Error(content) if it is unfinished or damaged, Error(argument) for options that do not fit it.
 LoadedView load_run(const ViewerCommand& command);
 

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   using namespace insonify;
   try {
     const viewer::ViewerCommand command = viewer::parse_viewer_command(argc, argv);
-    if (command.finished) return command.exit_code;
+    if (command.exit_code) return *command.exit_code;
     viewer::view(command);
     return 0;
   } catch (const Error& error) {

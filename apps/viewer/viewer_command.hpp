@@ -1,12 +1,13 @@
 #pragma once
-#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "tool/options.hpp"
 
 namespace insonify::viewer {
 
-/// What the command line of insonify-view says.
+/// Options of insonify-view.
 struct ViewerCommand {
   tool::CommonOptions common;
   tool::SceneOptions scene;  ///< path: of --scene, or the target itself
@@ -14,7 +15,7 @@ struct ViewerCommand {
   std::string target;        ///< run directory, cube.h5, or scene
   std::string pose;
   std::string world = "z-up";
-  std::size_t ping = 0;
+  std::uint64_t ping = 0;
   std::string beam;  ///< number, or empty: nothing is selected
   std::string colour_map = "copper";
   double window_db = 45;
@@ -23,8 +24,7 @@ struct ViewerCommand {
   bool force = false;
   bool no_scene = false;
   std::string events, script;
-  int exit_code = 0;
-  bool finished = false;  ///< help or version was asked for, or the usage is wrong: return exit_code
+  std::optional<int> exit_code;  ///< set if nothing is left to do: help or version was asked for, or the usage is wrong
 };
 ViewerCommand parse_viewer_command(int argc, char** argv);
 

@@ -1,0 +1,156 @@
+#include "tool/run_settings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "store/toml_tree_internal.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = TomlValue::Kind;
+
+std::string as_toml(const std::string& text) { return toml_text(text); }
+std::string as_toml(double number) { return fmt::format("{}", number); }
+std::string as_toml(int number) { return fmt::format("{}", number); }
+std::string as_toml(bool flag) { return flag ? "true" : "false"; }
+
+/// TOML has no integers above 2^63, and its readers no exact ones above 2^53: those are text.
+std::string as_toml(std::uint64_t number) {
+  const std::string digits = fmt::format("{}", number);
+  return number < (std::uint64_t{1} << 53) ? digits : toml_text(digits);
+}
+
+std::string as_toml(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + toml_text(word);
+  return "[" + list + "]";
+}
+
+/// A value of run.toml with what an error must name.
+struct FileValue {
+  const std::string& path;
+  const RunSetting& setting;
+  const TomlValue& value;
+
+  template <typename... Parts>
+  [[noreturn]] void refuse(const Parts&... parts) const {
+    fail_in_file(path, value.line, setting.key, parts...);
+  }
+  std::string text(const TomlValue& item) const {
+    if (item.kind != Kind::text) refuse(" must be text in quotes");
+    const auto& words = setting.words;
+    if (!words.empty() && std::find(words.begin(), words.end(), item.text) == words.end())
+      refuse(" = '", item.text, "', must be one of ", fmt::format("{}", fmt::join(words, ", ")));
+    return item.text;
+  }
+};
+
+void read(const FileValue& from, std::string& text) {
+  text = from.text(from.value);
+  if (!from.setting.is_path || text.empty() || fs::exists(text) || fs::path(text).is_absolute()) return;
+  const fs::path folder = fs::path(from.path).parent_path();
+  for (const fs::path& start : {folder, folder.parent_path()})
+    if (fs::exists(start / text)) {
+      text = (start / text).string();
+      return;
+    }
+}
+
+void read(const FileValue& from, double& number) {
+  if (!from.value.is_number()) from.refuse(" must be a number");
+  number = from.value.number;
+}
+
+void read(const FileValue& from, int& number) {
+  if (from.value.kind != Kind::integer || std::abs(from.value.number) > 1e9) from.refuse(" must be an integer");
+  number = static_cast<int>(from.value.number);
+  const auto [lowest, highest] = from.setting.limits;
+  if (lowest != highest && (number < lowest || number > highest))
+    from.refuse(" = ", number, ", must be within ", lowest, " and ", highest);
+}
+
+void read(const FileValue& from, std::uint64_t& number) {
+  const TomlValue& value = from.value;
+  const std::string digits = value.kind == Kind::text      ? value.text
+                             : value.kind == Kind::integer ? fmt::format("{:.0f}", value.number)
+                                                           : "";
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size())
+    from.refuse(" must be an integer from 0, in quotes from 2^53");
+}
+
+void read(const FileValue& from, bool& flag) {
+  if (from.value.kind != Kind::boolean) from.refuse(" must be true or false");
+  flag = from.value.number != 0;
+}
+
+void read(const FileValue& from, std::vector<std::string>& words) {
+  if (from.value.kind != Kind::array) from.refuse(" must be a list of texts");
+  words.clear();
+  for (const TomlValue& item : from.value.items) words.push_back(from.text(item));
+}
+
+const TomlValue no_table{};
+
+/// Reads the settings of one section from its table, which may hold no other keys but `others`.
+void read_section(const std::string& path, const TomlValue& table, const std::string& section,
+                  const std::vector<RunSetting>& settings, std::vector<std::string> others = {}) {
+  if (table.kind != Kind::table) fail_in_file(path, table.line, section, " must be a table: [", section, "]");
+  std::vector<std::string> known = std::move(others);
+  for (const RunSetting& setting : settings)
+    if (setting.section == section) known.emplace_back(setting.key);
+  require_known_keys(path, table, known);
+  for (const RunSetting& setting : settings)
+    if (const TomlValue* found = setting.section == section ? table.find(setting.key) : nullptr)
+      std::visit([&](auto* value) { read({path, setting, *found}, *value); }, setting.value);
+}
+
+const TomlValue& table_of(const TomlValue& document, const std::string& section) {
+  const TomlValue* table = document.find(section);
+  return table ? *table : no_table;
+}
+
+}  // namespace
+
+std::string toml_text(const std::string& text) { return nlohmann::json(text).dump(); }
+
+std::string settings_as_toml(const std::vector<RunSetting>& settings) {
+  std::string text, section;
+  for (const RunSetting& setting : settings) {
+    if (section != setting.section) text += fmt::format("\n[{}]\n", section = setting.section);
+    text +=
+        fmt::format("{} = {}\n", setting.key, std::visit([](auto* value) { return as_toml(*value); }, setting.value));
+  }
+  return text;
+}
+
+SceneOptions load_scene_settings(const std::string& path) {
+  SceneOptions options;
+  read_section(path, table_of(load_toml(path), "scene"), "scene", scene_settings(options));
+  return options;
+}
+
+PingOptions load_ping_settings(const std::string& path) {
+  const TomlValue document = load_toml(path);
+  if (!document.find("insonify_version") || !document.find("ping"))
+    fail(ErrorKind::content, path, ": is not the run.toml of a ping");
+  PingOptions options;
+  const std::vector<RunSetting> settings = all_settings(options);
+  for (const char* section : {"scene", "ping"}) read_section(path, table_of(document, section), section, settings);
+  // Sonar and environment have readers of their own, which refuse what they do not know.
+  std::vector<std::string> others{"schema", "insonify_version", "environment_file", "profile_file"};
+  for (std::size_t i = 0; i < document.keys.size(); ++i)
+    if (document.items[i].kind == Kind::table) others.push_back(document.keys[i]);
+  read_section(path, document, "", settings, others);
+  options.run.sonar = options.run.environment = path;
+  return options;
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,79 @@
+#include "tool/scene_files.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "simulate/ping_region.hpp"
+#include "tool/ping_report.hpp"
+#include "tool/run_settings.hpp"
+
+namespace insonify::tool {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr double bytes_to_ping = 192;  ///< per surfel read: surfel, index, scatterers and echoes
+
+/// A .tiles scene is complete: options that say how to complete a cloud would have no effect.
+void require_no_loading_options(const SceneOptions& o) {
+  SceneOptions given = o, none;
+  none.path = o.path;
+  const auto settings = scene_settings(given), defaults = scene_settings(none);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
+      fail(ErrorKind::argument, settings[i].option, ": ", o.path,
+           " is prepared already; give it to insonify prepare instead");
+}
+
+PingScene load_tiles_of_region(const PingOptions& o, const PingSetup& setup) {
+  require_no_loading_options(o.scene);
+  const TiledScene tiled(o.scene.path);
+  const TiledSceneInfo& info = tiled.info();
+  const TileSelection near =
+      tiled.select(ping_region(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation));
+  const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
+  require_memory(near, bytes_to_ping, memory, o.scene.path);
+
+  PingScene result;
+  result.loaded.scene = tiled.load(near, memory, o.common.threads);
+  LoadReport& report = result.loaded.report;
+  report.path = o.scene.path;
+  report.format = "insonify tiles";
+  report.points_read = near.surfels;
+  report.notes.push_back(fmt::format("{} of {} surfels read, in {} of {} tiles", near.surfels, info.surfels,
+                                     near.tiles.size(), info.tiles));
+  for (const Eigen::Vector3d& place : tiled.places())
+    result.places.push_back(setup.pose.linear().transpose() * (place - setup.pose.translation()));
+  result.json = scene_json(result.loaded);
+  result.json["tiles"] = {{"surfels", info.surfels},
+                          {"surfels_read", near.surfels},
+                          {"tiles", info.tiles},
+                          {"tiles_read", near.tiles.size()},
+                          {"bytes", info.bytes}};
+  return result;
+}
+
+}  // namespace
+
+bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
+
+void require_free(const std::string& output, bool force) {
+  if (!force && std::filesystem::exists(output))
+    fail(ErrorKind::file, output, ": exists already; choose another name or add --force");
+}
+
+PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup) {
+  if (is_tiles(o.scene.path)) return load_tiles_of_region(o, setup);
+  PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
+  result.places = sampled_places(result.loaded.scene, setup.pose);
+  require_in_reach(result.places, setup.head.head.gate, o.scene.path);
+  result.json = scene_json(result.loaded);
+  return result;
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene_io/load_scene.hpp"
+#include "tool/options.hpp"
+#include "tool/ping_setup.hpp"
+
+namespace insonify::tool {
+
+/// True for a .tiles file: a scene on disk of which a ping reads only what its fan reaches.
+bool is_tiles(const std::string& path);
+
+/// Throws Error(file) if `output` exists already and may not be replaced.
+void require_free(const std::string& output, bool force);
+
+/// The scene of a ping: a whole cloud or mesh, or the tiles of a .tiles file within the region of the ping.
+struct PingScene {
+  LoadedScene loaded;
+  std::vector<Eigen::Vector3d> places;  ///< of some surfels, or centres of tiles, in head axes [m]
+  nlohmann::ordered_json json;          ///< for the manifest
+};
+/// Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).
+PingScene load_ping_scene(const PingOptions& options, const PingSetup& setup);
+
+}  // namespace insonify::tool

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tool/ping_options.hpp"
+#include "tool/ping_setup.hpp"
+#include "tool/plan_report.hpp"
+#include "tool/progress.hpp"
+#include "tool/scene_files.hpp"
+#include "tool/verb.hpp"
+
+namespace insonify::tool {
+namespace {
+
+void add_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
+
+void plan(const PingCommand& command) {
+  const PingOptions o = settled_options(command);
+  Progress progress(o.common, 2);
+  const PingSetup ready = set_up_ping(o);
+  progress.step("loading " + o.scene.path);
+  const LoadedScene loaded = load_ping_scene(o, ready).loaded;
+  for (const std::string& note : ready.head.notes) progress.note(note);
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  progress.step("planning");
+  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.pose, ready.head.environment, ready.simulation);
+  if (o.common.json)
+    fmt::print("{}\n", plan_json(plan).dump(2));
+  else
+    print_plan(plan);
+}
+
+}  // namespace
+
+Verb plan_verb() {
+  return make_verb<PingCommand>(
+      "plan", "what a ping would compute and leave out, and what leaving it out costs",
+      {"insonify plan reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9",
+       "insonify plan harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set surface.height_m=0 --json"},
+      add_options, plan);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,134 @@
+// A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
+#include <fstream>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tool/run_settings.hpp"
+#include "tool/tool_runner.hpp"
+
+using namespace insonify::tool;
+
+namespace {
+
+/// Gives a setting a value that is allowed and is not its default.
+void change(const RunSetting& setting) {
+  const auto other_word = [&](const std::string& word) {
+    for (const std::string& candidate : setting.words)
+      if (candidate != word) return candidate;
+    return std::string("other \"word\" \\");
+  };
+  struct Change {
+    const decltype(other_word)& word;
+    void operator()(std::string* text) const { *text = word(*text); }
+    void operator()(double* number) const { *number += 0.1; }
+    void operator()(int* number) const { *number += 1; }
+    void operator()(std::uint64_t* number) const { *number = ~std::uint64_t{0}; }
+    void operator()(bool* flag) const { *flag = !*flag; }
+    void operator()(std::vector<std::string>* words) const { *words = {word(""), word("")}; }
+  };
+  std::visit(Change{other_word}, setting.value);
+}
+
+class RunAgain : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    succeed("make-scene harbour -o harbour.ply --points 20000 -q");
+    write("track.csv",
+          "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n1,1,0.3,-3,20,10,2\n2,2,0,-3,0,9,0\n");
+    write("ctd.csv", "depth_m,sound_speed\n0,1520\n4,1490.123456789\n20,1489\n");
+    write("sea.toml", "[surface]\nheight_m = 0\nrms_height_m = 0.001\n[volume]\nscattering_db = -65\n");
+  }
+  void expect_same(const std::string& run, const std::string& other) const {
+    for (const auto& entry : std::filesystem::directory_iterator(path(run))) {
+      const std::string name = "/" + entry.path().filename().string();
+      if (name != "/run.toml" && name != "/manifest.json") {
+        EXPECT_TRUE(read(run + name) == read(other + name)) << other << name;
+      }
+    }
+  }
+};
+
+const std::string pose = " --pose=0,0,-3,0,10,0";
+const std::string head = "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16 --range 2:9";
+
+}  // namespace
+
+TEST(RunSettings, every_setting_of_a_ping_reads_back) {
+  PingOptions given, defaults;
+  const auto settings = all_settings(given), usual = all_settings(defaults);
+  for (const RunSetting& setting : settings) change(setting);
+  const std::string path = testing::TempDir() + "insonify_every_setting.toml";
+  std::ofstream(path) << "schema = 1\ninsonify_version = \"1\"\n"
+                      << settings_as_toml(settings) << "\n[sonar]\nbeams = 1\n";
+  PingOptions read = load_ping_settings(path);
+  const auto back = all_settings(read);
+  ASSERT_GE(back.size(), 30U);
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    EXPECT_EQ(settings_as_toml({back[i]}), settings_as_toml({settings[i]}));
+    EXPECT_NE(settings_as_toml({back[i]}), settings_as_toml({usual[i]})) << "not changed";
+  }
+  std::filesystem::remove(path);
+}
+
+TEST_F(RunAgain, the_same_bytes_for_all_kinds_of_options) {
+  const std::vector<std::string> sets{
+      pose + " --sampling rays --rays-per-beam 16 --seed 12345678901234567890 --amplitude random-phase",
+      pose + " --method element-exact --keep elements --scatterers-per-cell 1 --range 2:4 --set sonar.beams=5",
+      pose + " --keep contributors,mask,paths,insonification --contributors 2 --layers --threshold 8",
+      pose + " --with outer-azimuths --with absorption-slope --without occlusion --all-bins-above 60.5",
+      " --trajectory track.csv --time 0.75 --absorption-order 1 --material-field material",
+      pose + " --velocity=1,0.5,0 --turn-rate=0,0,30 --method incoherent --level-error-db 1.5",
+      pose +
+          " --multipath --noise --layers --environment sea.toml --profile ctd.csv --set bottom.height_m=-9 "
+          "--set bottom.lambert_mu_db=-23.7 --set wind.speed_m_s=7.3 --set water.temperature_c=4.7"};
+  for (const std::string& options : sets) {
+    succeed(head + options + " -o first --force");
+    succeed("ping --run first/run.toml -o again --force --no-picture -q");
+    expect_same("first", "again");
+  }
+}
+
+TEST_F(RunAgain, options_beside_it_override_it) {
+  succeed(head + pose + " --noise --seed 7 --keep mask --without occlusion -o first");
+  succeed(
+      "ping --run first/run.toml --noise=false --seed 8 --keep paths --without motion --range 3:6 -o other "
+      "--no-picture -q");
+  succeed(head + pose + " --seed 8 --keep paths --without motion --range 3:6 -o expected");
+  expect_same("expected", "other");
+  // A trajectory takes the place of a pose and its motion, and a pose that of a trajectory.
+  succeed(head + pose + " --velocity=1,0,0 --world ned -o moving");
+  succeed("ping --run moving/run.toml --trajectory track.csv --time 1.5 -o track --no-picture -q");
+  succeed("ping --run track/run.toml" + pose + " -o still --no-picture -q");
+  succeed(head + pose + " --time 1.5 -o still2");
+  expect_same("still2", "still");
+}
+
+TEST_F(RunAgain, files_are_found_from_the_run) {
+  succeed(head + " --trajectory track.csv -o first");
+  std::filesystem::create_directory(path("site"));
+  for (const char* name : {"harbour.ply", "track.csv", "first"})
+    std::filesystem::rename(path(name), path(std::string("site/") + name));
+  succeed("ping --run site/first/run.toml -o again --no-picture -q");
+  expect_same("site/first", "again");
+  succeed("plan --run site/first/run.toml -q");
+}
+
+TEST_F(RunAgain, refuses_what_is_no_setting) {
+  const std::string version = "insonify_version = \"1\"\n";
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    write("run.toml", version + text);
+    expect_refused("ping --run run.toml -o again", 3, parts);
+  };
+  refused("[ping]\nnoize = true\n", {"run.toml:3: unknown key 'noize'; did you mean 'noise'?"});
+  refused("tolerence = 1\n[ping]\n", {"run.toml:2: unknown key 'tolerence'; did you mean 'tolerance'?"});
+  refused("[ping]\nsampling = \"ray\"\n", {"run.toml:3: sampling = 'ray', must be one of surfels, rays"});
+  refused("[ping]\ncontributors = 300\n", {"run.toml:3: contributors = 300, must be within 1 and 255"});
+  refused("[ping]\nkeep = [\"mask\", 1]\n", {"run.toml:3: keep must be text in quotes"});
+  refused("[ping]\nnoise = 1\n", {"run.toml:3: noise must be true or false"});
+  refused("seed = -1\n[ping]\n", {"run.toml:2: seed must be an integer from 0"});
+  refused("scatterers = \"rays.csv\"\n", {"run.toml: is not the run.toml of a ping"});
+  expect_refused("ping --run absent.toml -o again", 4, {"absent.toml"});
+  expect_refused("ping -o again", 2, {"SCENE is required"});
+}
