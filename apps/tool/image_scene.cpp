@@ -45,6 +45,7 @@ struct Drawing {
   SceneCloud scene;
   SceneLook look;
   std::string title;
+  std::optional<View> view;  // of the head, if its sonar is known
 };
 
 SceneCloud load(const CommonOptions& common, const SceneOptions& options, Progress& progress) {
@@ -82,6 +83,8 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   drawing.scene = load(o.common, options, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
   drawing.look.colour = o.colour.empty() ? SceneColour::level : colour_of(o.colour);
+  if (drawing.look.colour == SceneColour::visibility)
+    drawing.view = view_of_run(o.run, whole_of(drawing.scene), o.common.threads);
   const fs::path returns = fs::path(o.run) / "returns.ply";
   const bool covered = drawing.look.colour == SceneColour::visibility || drawing.look.colour == SceneColour::grazing ||
                        drawing.look.colour == SceneColour::incidence;
@@ -97,9 +100,10 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
 }
 
 /// Finds the visibility of every surfel from the head, and the holes of the scan in its view.
-void look_from_head(const SceneCloud& scene, int threads, SceneLook& look) {
-  const auto& [pose, fan, gate] = *look.head;
-  SamplingOptions sampling;
+void look_from_head(const SceneCloud& scene, const std::optional<View>& view, int threads, SceneLook& look) {
+  const auto& [pose, fan, head_gate] = *look.head;
+  const RangeGate& gate = view ? view->gate : head_gate;
+  SamplingOptions sampling = view ? view->sampling : SamplingOptions{};
   sampling.threads = threads;
   sampling.rays_per_beam = 16;
   const PreparedScene prepared(scene, threads);
@@ -116,11 +120,13 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   options.path = o.run;
   drawing.title = fs::path(o.run).filename().string();
   drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::visibility;
+  std::optional<HeadSetup> setup;
   if (!o.sonar.empty()) {
     RunOptions run;
     run.sonar = o.sonar;
     run.range = o.range;
-    const SonarHead head = set_up_head(o.common, run).head;
+    setup = set_up_head(o.common, run);
+    const SonarHead& head = setup->head;
     drawing.look.head = SceneHead{parse_pose(o.pose, o.world), head.fan, head.gate};
     drawing.title = head.name + " before " + drawing.title;
   }
@@ -128,6 +134,9 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
   drawing.scene = load(o.common, options, progress);
+  if (setup)
+    drawing.view =
+        resolve_ping(whole_of(drawing.scene), setup->head, drawing.look.head->world_from_head, setup->environment).view;
   return drawing;
 }
 
@@ -141,7 +150,7 @@ void image_scene(const ImageOptions& o, const PictureOptions& asked) {
   SceneLook& look = drawing.look;
   look.camera.preset = preset_of(o.camera);
   look.normals = o.normals;
-  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, o.common.threads, look);
+  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, drawing.view, o.common.threads, look);
 
   progress.step("drawing " + o.output);
   PictureOptions picture = asked;

@@ -55,9 +55,9 @@ bool keeps(const PingOptions& options, const std::string& what) {
 
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {
-  if (setup.simulation.keep_contributors > 0)
+  if (setup.simulation.outputs.contributors > 0)
     manifest["contributors"] = write_contributors(directory, scene, ping.contributors);
-  if (setup.simulation.keep_paths > 0) manifest["paths"] = write_paths(directory, ping.paths);
+  if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.paths);
   if (keeps(options, "insonification"))
     manifest["insonification"] = write_insonification(directory, scene, setup, ping);
 }

@@ -19,32 +19,32 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   SimulationOptions s;
   s.seed = common.seed;
   s.threads = common.threads;
-  s.sampling = o.sampling == "rays" ? SamplingKind::rays : SamplingKind::surfels;
-  s.scatterers_per_cell = o.scatterers_per_cell;
-  s.rays_per_beam = o.rays_per_beam;
+  s.sampling.kind = o.sampling == "rays" ? SamplingKind::rays : SamplingKind::surfels;
+  s.sampling.scatterers_per_cell = o.scatterers_per_cell;
+  s.sampling.rays_per_beam = o.rays_per_beam;
   s.amplitude = o.amplitude == "coherent"       ? SurfaceAmplitude::coherent
                 : o.amplitude == "random-phase" ? SurfaceAmplitude::random_phase
                                                 : SurfaceAmplitude::complex_normal;
-  s.method = parse_method(o.run.method);
-  s.tolerance = o.run.tolerance;
-  s.noise = o.noise;
-  s.multipath = o.multipath;
-  s.keep_layers = o.layers;
-  s.keep_elements = keeps(o, "elements");
-  s.keep_mask = keeps(o, "mask");
-  s.keep_contributors = keeps(o, "contributors") ? o.contributors : 0;
-  s.keep_paths = keeps(o, "paths") ? drawn_paths : 0;
-  if (s.keep_elements && s.method == SynthesisMethod::incoherent)
+  s.synthesis.method = parse_method(o.run.method);
+  s.synthesis.tolerance = o.run.tolerance;
+  s.effects.noise = o.noise;
+  s.effects.multipath = o.multipath;
+  s.outputs.layers = o.layers;
+  s.outputs.elements = keeps(o, "elements");
+  s.outputs.mask = keeps(o, "mask");
+  s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
+  s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
+  if (s.outputs.elements && s.synthesis.method == SynthesisMethod::incoherent)
     fail(ErrorKind::argument,
          "--keep elements: elements hear pressures, and --method incoherent has none; use gridded");
-  s.level_error_db = o.level_error_db;
-  if (!(s.level_error_db >= 0 && std::isfinite(s.level_error_db)))
-    fail(ErrorKind::argument, "--level-error-db = ", s.level_error_db,
+  s.sampling.level_error_db = o.level_error_db;
+  if (!(s.sampling.level_error_db >= 0 && std::isfinite(s.sampling.level_error_db)))
+    fail(ErrorKind::argument, "--level-error-db = ", s.sampling.level_error_db,
          " dB, must be finite and > 0; 0: taken as it is");
-  s.absorption_order = o.absorption_order;
-  if (!o.velocity.empty()) s.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
+  s.effects.absorption_order = o.absorption_order;
+  if (!o.velocity.empty()) s.effects.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
   if (!o.turn_rate.empty())
-    s.motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
+    s.effects.motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
   s.detection.threshold_db = o.threshold_db;
   if (!o.all_bins_above.empty()) {
     s.detection.all_bins = true;
@@ -83,11 +83,12 @@ void require_boundaries(const PingOptions& o, const Environment& environment) {
 PingSetup set_up_ping(const PingOptions& o) {
   const Track track = track_of(o);
   PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
-  if (!o.trajectory.empty()) setup.simulation.motion = track.motion;
+  if (!o.trajectory.empty()) setup.simulation.effects.motion = track.motion;
   setup.simulation.time = o.time;
   for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
   for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
   require_boundaries(o, setup.head.environment);
+  require_valid(setup.simulation, "simulate_ping");
   return setup;
 }
 

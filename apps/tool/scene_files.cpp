@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "scene_io/tiled_scene.hpp"
-#include "simulate/ping_region.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/run_settings.hpp"
 
@@ -34,8 +34,8 @@ PingScene load_tiles_of_region(const PingOptions& o, const PingSetup& setup) {
   require_no_loading_options(o.scene);
   const TiledScene tiled(o.scene.path);
   const TiledSceneInfo& info = tiled.info();
-  const TileSelection near =
-      tiled.select(ping_region(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation));
+  const TileSelection near = tiled.select(
+      resolve_ping(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation).region);
   const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
   require_memory(near, bytes_to_ping, memory, o.scene.path);
 

@@ -77,14 +77,14 @@ void ping(const PingCommand& command) {
   start = Clock::now();
   save_soundings(directory.file("returns.pcd"), result.soundings);
   save_soundings(directory.file("returns.ply"), result.soundings);
-  if (simulation.keep_elements)
+  if (simulation.outputs.elements)
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
   write_kept(directory, o, loaded.scene, ready, result, manifest);
   manifest["sampling"] = sampling_json(result);
-  if (simulation.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);
-  if (simulation.keep_mask) manifest["holes"] = holes_json(result.holes);
+  if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);
+  if (simulation.outputs.mask) manifest["holes"] = holes_json(result.holes);
   manifest["layers"] = layers_json(result.layers);
-  if (!simulation.motion.none()) manifest["motion"] = motion_json(simulation.motion);
+  if (!simulation.effects.motion.none()) manifest["motion"] = motion_json(simulation.effects.motion);
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);
   manifest["seconds"] = {{"load", load_seconds},

@@ -64,6 +64,7 @@ void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
       return;
     }
   view.data.scene = std::move(loaded.scene);
+  view.data.view = tool::view_of_run(command.target, whole_of(view.data.scene), command.common.threads);
 }
 
 // The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
@@ -135,6 +136,8 @@ LoadedView load_inspection(const ViewerCommand& command) {
   for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
   view.data.title = setup.head.name + " before " + fs::path(command.target).filename().string();
   view.data.scene = std::move(loaded.scene);
+  view.data.view =
+      resolve_ping(whole_of(view.data.scene), setup.head, pose_of(view.start.head), setup.environment).view;
   return view;
 }
 

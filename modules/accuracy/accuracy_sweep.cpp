@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "beamforming/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -64,7 +65,7 @@ Runs work_precision(const SweepOptions& o) {
       {gridded_runs(tolerances(o)), {direct_run(), spectrum_run()}, windowed_runs(windows), short_cuts(nulls)});
 }
 
-/// Those that compete for the crossover.
+/// Settings of the methods whose run times are compared over the number of scatterers.
 std::vector<double> usual_tolerances(const SweepOptions& o) {
   return o.tolerances.empty() ? std::vector<double>{1e-4, 1e-6} : o.tolerances;
 }
@@ -89,11 +90,12 @@ void require_sweep(const SweepOptions& o) {
       fail(ErrorKind::argument, "accuracy_sweep: method '", method, "' is unknown; known are ", names);
     }
   for (const double tolerance : o.tolerances)
-    if (!(tolerance >= 1e-13 && tolerance < 1))
-      fail(ErrorKind::argument, "accuracy_sweep: tolerance = ", tolerance, ", must be within [1e-13, 1)");
+    if (!(tolerance >= min_gridding_tolerance && tolerance < 1))
+      fail(ErrorKind::argument, "accuracy_sweep: tolerance = ", tolerance, ", must be within [", min_gridding_tolerance,
+           ", 1)");
 }
 
-/// Leaves only the methods asked for, and no step without any.
+/// Keeps only the methods asked for, and the steps that have one of them.
 std::vector<AccuracyStep> chosen(std::vector<AccuracyStep> steps, const std::vector<std::string>& methods) {
   if (methods.empty()) return steps;
   for (AccuracyStep& step : steps)
@@ -138,13 +140,13 @@ class Sweep {
     add("threads", large, thread_runs(options_));
   }
 
-  /// Is the direct sum's time as the number of echoes? 5000 of them timed whole, and scaled up from a part.
+  /// Checks that the direct sum's time is proportional to the number of echoes: 5000 timed whole, and scaled up.
   void add_scaling(TaskSpec spec) {
     spec.scatterers = 5000;
     add("scaling", spec, {direct_run(), {"direct", [](const AccuracyBench& b) { return b.direct_whole(); }}});
   }
 
-  /// Small images of all kinds: the promise. The spectrum joins where it is in doubt.
+  /// Small images of all kinds, to check the tolerance; with the spectrum where its accuracy is in doubt.
   void add_small() {
     const Runs all = joined({gridded_runs(tolerances(options_)), {direct_run()}});
     const Runs with_spectrum = joined({all, {spectrum_run()}});

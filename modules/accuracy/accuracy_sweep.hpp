@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// quick: seconds, to see that all works; standard: a minute or two; full: some ten minutes.
+/// quick: seconds, to try whether everything works; standard: a minute or two; full: about ten minutes.
 enum class SweepSize { quick, standard, full };
 
 struct SweepOptions {
@@ -31,18 +31,18 @@ struct AccuracyStep {
   std::vector<AccuracyRun> runs;
 };
 
-/// The sweeps over made-up tasks, each changing one thing:
+/// The sweeps over made-up tasks, each over one parameter:
 ///   work-precision   every method over its setting, 512 beams x 2000 bins x 50 000 scatterers
 ///   scatterers       from 1 on
 ///   beams, bins      prime numbers and powers of two among them
 ///   band, absorption, dynamic-range
-///   scaling          direct, whole and scaled up from a part (full size only)
+///   scaling          time of direct, measured whole and scaled up from a part (full size only)
 ///   threads          gridded on one, two ... all cores
 /// Gridded runs at tolerances from 1e-2 to 1e-12 in all of them.
 /// Throws Error for an unknown method, naming the known ones, or a tolerance out of reach.
 std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options = {});
 
-/// work-precision, scatterers (evenly picked) and threads on a user's own echoes. The seed does not count.
+/// work-precision, scatterers (evenly picked) and threads on a user's own echoes. The seed is not used.
 std::vector<AccuracyStep> accuracy_sweep_of(const AccuracyTask& task, const SweepOptions& options = {});
 
 /// Names of all methods, in the order in which they are measured.

@@ -6,7 +6,7 @@
 #include "beamforming/sonar_spec.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "simulate/stage_options_internal.hpp"
+#include "simulate/resolve_ping.hpp"
 
 namespace insonify {
 namespace {
@@ -59,11 +59,10 @@ AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose&
                      const Environment& environment, const SimulationOptions& options) {
   if (head.column || fan_rows(head.fan).size() != 1)
     fail(ErrorKind::argument, "task_of: ", head.name, " has several rows of beams; the sweep takes sonars with one");
-  AccuracyTask task{head, medium_of(environment, head.pulse.centre_frequency, options.absorption_order), {}};
-  const Sampling sampling =
-      find_scatterers(scene, world_from_head, head.fan, head.gate, sampling_options(head, task.medium, options));
-  task.echoes =
-      direct_echoes(sampling.scatterers, scene.materials, head.pulse, task.medium, echo_options_of(head, options));
+  const ResolvedPing ping = resolve_ping(whole_of(scene), head, world_from_head, environment, options, "task_of");
+  const auto& [pulse, medium, echo_options] = ping.sent;
+  const Sampling sampling = find_scatterers(scene, world_from_head, head.fan, ping.view.gate, ping.view.sampling);
+  AccuracyTask task{head, medium, direct_echoes(sampling.scatterers, scene.materials, pulse, medium, echo_options)};
   if (task.echoes.size() == 0) fail(ErrorKind::content, "task_of: nothing of the scene is in fan and range gate");
   return task;
 }

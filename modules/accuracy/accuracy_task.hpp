@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// Echoes and what hears them: the input of every method of synthesis.
+/// Echoes and the head that receives them: the input of every method of synthesis.
 struct AccuracyTask {
   SonarHead head;  ///< of one row of beams
   Medium medium;
@@ -18,25 +18,27 @@ struct AccuracyTask {
 struct TaskSpec {
   std::size_t scatterers = 5000, beams = 64, bins = 500;
   double bandwidth = 30e3;           ///< [Hz]
-  double dynamic_range_db = 40;      ///< by which absorption lowers the last bin against the first
+  double dynamic_range_db = 40;      ///< absorption between the first bin and the last
   int absorption_order = 0;          ///< 1: slope a0 / fc; 2: curvature a0 / fc^2 too
   double beam_width = radians(1.0);  ///< [rad]; the fan spans two widths per beam, at most 120 degrees
   std::uint64_t seed = 1;
 };
 
-/// Echoes of complex-normal amplitude, spread evenly over fan and gate and a little beyond.
+/// Echoes of complex-normal amplitude, distributed evenly over fan and gate and a little beyond.
 AccuracyTask make_task(const TaskSpec& spec);
 
-/// What a head hears of a scene: the direct echoes of simulate_ping, before beams are formed. Throws Error as simulate_ping
-/// does, for a head of several rows or a column, and if nothing of the scene is in fan and gate.
+/// The echoes that a head receives from a scene: the direct echoes of simulate_ping along straight rays, before beams
+/// are formed. Throws Error as simulate_ping does, for a head of several rows or a column, and if nothing of the scene
+/// is in fan and gate.
 AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                      const Environment& environment, const SimulationOptions& options = {});
 
-/// `count` echoes of a task, evenly picked in their order; all if there are no more.
+/// `count` echoes, evenly picked in their order; all of them if there are fewer.
 Echoes some_echoes(const Echoes& echoes, std::size_t count);
 
-/// The same head with `count` of its beams, evenly picked with both ends: beam round(k (beams - 1) / (count - 1)).
+/// The same head with `count` of its beams, evenly picked with both ends.
 SonarHead some_beams(const SonarHead& head, std::size_t count);
+/// Which ones are picked: round(k (of - 1) / (count - 1)) for k = 0 ... count - 1.
 std::vector<std::size_t> picked(std::size_t of, std::size_t count);
 
 }  // namespace insonify

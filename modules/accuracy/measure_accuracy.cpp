@@ -135,7 +135,7 @@ AccuracyRow AccuracyBench::direct() const {
   r.timed_scatterers = timed(options_.direct_work / work(1, r.beams, r.bins));
   time_all([&](const Echoes& e) { return synthesize_direct(e, task_.head, task_.medium, options); }, r);
 
-  // Its own error: a part of it in extended precision.
+  // Error of the referee itself: a part of it against extended precision.
   const Echoes some = some_echoes(task_.echoes, options_.twice_checked);
   const SonarHead head = some_beams(task_.head, std::min<std::size_t>(4, r.beams));
   const std::vector<std::size_t> bins = picked(r.bins, 64);

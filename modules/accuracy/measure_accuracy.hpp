@@ -18,25 +18,25 @@ struct AccuracyRow {
   double tolerance = 0;          ///< asked for; 0 if the method takes none
   std::size_t kernel_width = 0;  ///< of gridded, also where it sums few echoes directly; 0 else
   double error = 0;              ///< ||P - P_ref|| / ||P_ref|| over the checked beams
-  double local_error = 0;        ///< the worst of the same over eighths of the range axis that hold an echo
+  double local_error = 0;        ///< the largest of it over those eighths of the range axis that hold an echo
   double seconds = 0, seconds_min = 0, seconds_max = 0;  ///< wall time of one ping; seconds: the median
   double peak_mib = 0;                                   ///< largest resident set of the process meanwhile
-  double max_level_db = 0;  ///< largest error in level of samples less than 60 dB below the highest
-  double plan_seconds = 0;  ///< spent once per head, not in `seconds`
+  double max_level_db = 0;  ///< largest error in level of samples within 60 dB of the highest
+  double plan_seconds = 0;  ///< wall time of the plan, once per head, not part of `seconds`
   double parameter = 0;     ///< of pattern-cut: null widths; of absorption-order: the order
   double bandwidth = 0, dynamic_range_db = 0;
   int absorption_order = 0, threads = 0, repeats = 0;
-  std::size_t timed_scatterers = 0;  ///< fewer than scatterers: time is scaled up in proportion
-  std::size_t timed_beams = 0;       ///< the same
+  std::size_t timed_scatterers = 0;  ///< if fewer than scatterers, time is scaled up in proportion
+  std::size_t timed_beams = 0;       ///< the same for beams
   std::size_t checked_beams = 0;
 };
 
 struct MeasureOptions {
   int threads = 0;
-  int repeats = 5;                   ///< after one run to warm up
-  double most_seconds = 2;           ///< no repeat is begun after so long, but at least two are made
+  int repeats = 5;                   ///< timed runs, after one to warm caches
+  double most_seconds = 2;           ///< no repeat begins later, but at least two are made
   double direct_work = 4e8;          ///< echoes x beams x bins of one timed run of the direct sums
-  double windowed_work = 8e6;        ///< echoes x beams of one timed run of those that cut the pulse
+  double windowed_work = 8e6;        ///< echoes x beams of one timed run of the methods that cut the pulse
   double spectrum_work = 4e6;        ///< echoes x 4 beams x bins of one timed run of the spectrum
   double referee_work = 1.5e9;       ///< echoes x checked beams x bins of the referee
   std::size_t twice_checked = 2000;  ///< echoes for which the referee itself is checked
@@ -48,10 +48,10 @@ class AccuracyBench {
  public:
   AccuracyBench(std::string sweep, AccuracyTask task, const MeasureOptions& options);
 
-  /// Its time is that of evenly picked echoes, scaled up; its error that against synthesize_extended on at most
-  /// twice_checked echoes, 4 beams and 64 bins.
+  /// Time of evenly picked echoes, scaled up; error against synthesize_extended on at most twice_checked echoes, 4
+  /// beams and 64 bins.
   AccuracyRow direct() const;
-  /// Whole, once, without repeats: to check the scaling.
+  /// All echoes, once, without repeats: to check the scaling.
   AccuracyRow direct_whole() const;
   /// The plan is made beforehand. threads 0: those of the options.
   AccuracyRow gridded(double tolerance, int threads = 0) const;
@@ -60,7 +60,7 @@ class AccuracyBench {
   AccuracyRow windowed(double tolerance) const;
   AccuracyRow nearest_bin() const;
   AccuracyRow pattern_cut(double nulls) const;
-  /// What it costs to leave out slope (order 0) or curvature (1) of the absorption, gridded at a tolerance of 1e-8.
+  /// Error of leaving out slope (order 0) or curvature (1) of the absorption, gridded at a tolerance of 1e-8.
   AccuracyRow absorption_order(int order) const;
 
   const AccuracyTask& task() const { return task_; }
@@ -83,8 +83,8 @@ class AccuracyBench {
   ComplexGrid referee_;
 };
 
-/// Relative L2 error of `pressure`, and the worst of it in eighths of the bins; eighths in which `referee` is silent or
-/// no echo arrives are left out.
+/// Relative L2 error of `pressure`, and the largest of it in eighths of the bins, but for those in which `referee` is 0
+/// or no echo arrives.
 struct ImageError {
   double whole = 0, worst_eighth = 0;
 };

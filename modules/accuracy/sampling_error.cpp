@@ -60,7 +60,7 @@ class Strip {
   std::vector<double> power_;
 };
 
-/// Adds what a ray with this solid angle hears of the bottom.
+/// Adds the power that returns from the bottom through the solid angle of a ray.
 void add_ray(Strip& strip, const Pose& pose, double azimuth, double elevation, double solid_angle) {
   const double down = -(pose.linear() * unit_vector({azimuth, elevation})).z();
   if (down <= 0) return;

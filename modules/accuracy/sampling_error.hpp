@@ -5,11 +5,11 @@
 
 namespace insonify {
 
-/// How far a sampling of a flat bottom puts the mean level of a beam off, before any speckle.
+/// Error of the mean level of a beam that comes from the sampling of a flat bottom, before any speckle.
 struct SamplingErrorRow {
   std::string sampling;  ///< random-rays, jittered-rays (the product's), surfels, or split-surfels (of 60 000)
   double parameter = 0;  ///< rays per beam; surfels per m^2; scatterers wanted per resolution cell
-  double scatterers_per_beam = 0;  ///< that were made
+  double scatterers_per_beam = 0;  ///< rays or scatterers that were made
   double error = 0;                ///< root mean square over beams and trials, relative, of the mean power
   double error_db = 0;             ///< the same as level: 10 log10(1 + error)
   double seconds = 0;              ///< of sampling once, median over trials

@@ -10,7 +10,7 @@
 namespace insonify {
 
 /// The direct sum (E12) in long double (64 bits of mantissa on x86-64) with Kahan's compensated sums, for all beams of
-/// the head and the listed bins: the referee's referee. Slow; Gaussian pulses without Doppler shift.
+/// the head and the listed bins: it checks the referee. Slow; Gaussian pulses without Doppler shift.
 /// Returns beams x bins.size(), rounded to double.
 ComplexGrid synthesize_extended(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                 const std::vector<std::size_t>& bins, int threads = 0);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t echoes_at_once = 2048;
 
-/// The pattern over the difference of direction cosines, even in it.
+/// The beam pattern, an even function of the difference of direction cosines.
 class PatternTable {
  public:
   PatternTable(const LineArray& array, double wavelength, double tolerance) {
@@ -88,7 +88,7 @@ class Windowed {
   }
 
  private:
-  /// Without the test for infinities that operator* makes.
+  /// Complex product without the test for infinities of operator*.
   static std::complex<double> times(std::complex<double> a, std::complex<double> b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
   }

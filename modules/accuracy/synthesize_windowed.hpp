@@ -11,7 +11,7 @@ namespace insonify {
 /// What is left out of the direct sum.
 struct WindowedOptions {
   double tolerance = 1e-4;   ///< pulses are cut, and the pattern is interpolated, at this part of their peaks
-  double pattern_nulls = 0;  ///< beams hear nothing beyond so many null widths; 0: everything
+  double pattern_nulls = 0;  ///< the pattern is cut off at so many null widths; 0: never
   bool nearest_bin = false;  ///< delays are rounded to whole bins; the carrier phase is kept
   int threads = 0;
 };
@@ -29,12 +29,11 @@ class WindowedSynthesizer {
   std::unique_ptr<Plan> plan_;
 };
 
-/// The direct sum as others program it, to compare with: each echo is added to every beam over the length of its pulse,
-/// its weight read from a table of the pattern (cubic interpolation). With pattern_nulls or nearest_bin it has the errors
-/// of the short cuts taken elsewhere: both are in the image for good, whatever the tolerance.
-/// Cost: echoes x beams x pulse samples. Gaussian pulses without Doppler shift. The result does not depend on `threads`.
-/// Throws Error for an invalid head or medium, a head of several rows, a sweep, Doppler shifts, or a tolerance outside
-/// [1e-12, 1).
+/// The direct sum as other simulators program it, for comparison: each echo is added to every beam over the length of
+/// its pulse, its weight read from a table of the pattern (cubic interpolation). pattern_nulls and nearest_bin are
+/// short cuts taken elsewhere: their errors do not fall with the tolerance. Cost: echoes x beams x pulse samples.
+/// Gaussian pulses without Doppler shift. The result does not depend on `threads`. Throws Error for an invalid head or
+/// medium, a head of several rows, a sweep, Doppler shifts, or a tolerance outside [1e-12, 1).
 ComplexGrid synthesize_windowed(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                 const WindowedOptions& options = {});
 

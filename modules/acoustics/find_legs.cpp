@@ -79,15 +79,6 @@ void find_bounces(const SceneCloud& scene, const View& view, const std::vector<B
 
 }  // namespace
 
-RangeGate gate_of_images(const View& view, const std::vector<Boundary>& boundaries, double pulse_margin) {
-  // By the triangle inequality two ways to one patch differ by no more than twice the head's distance from the farther
-  // boundary, so neither is longer than their mean by more than that distance.
-  double farthest = 0;
-  for (const Boundary& b : boundaries) farthest = std::max(farthest, std::abs(b.head_height));
-  const double max_range = view.gate.max_range + pulse_margin + farthest, min_range = 1e-3 * view.gate.min_range;
-  return {min_range, max_range, view.gate.bin_size * max_range / view.gate.max_range};
-}
-
 double extent_of_legs(const EchoOptions& echo_options) {
   if (!(echo_options.elevation_width > 0)) return pi / 2;
   return elevation_half_extent(echo_options.elevation_shape, echo_options.elevation_width, 2 * pattern_floor_db);

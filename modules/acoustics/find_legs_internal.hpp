@@ -17,9 +17,6 @@ struct FoundLegs {
   std::size_t hidden = 0;    ///< legs by a boundary that the scene hides
 };
 
-/// How far a boundary's images, or direct places that belong to them, may stand for an echo inside the gate.
-RangeGate gate_of_images(const View& view, const std::vector<Boundary>& boundaries, double pulse_margin);
-
 /// Elevations on either side of the fan's in which legs are looked for [rad].
 double extent_of_legs(const EchoOptions& echo_options);
 

@@ -24,6 +24,11 @@ constexpr double echo_floor = 1e-4;   // -80 dB: what pattern and reflection may
 constexpr double pulse_floor = 1e-4;  // of its envelope's peak: where a pulse ends
 constexpr std::size_t patches_per_block = 4096;
 
+/// How far outside the gate an echo may stand whose pulse reaches into it [m].
+double pulse_margin(const Transmission& sent) {
+  return 0.5 * sent.medium.sound_speed * pulse_half_length(sent.pulse, pulse_floor);
+}
+
 /// One leg between head and patch, in the axes of the head.
 struct Leg {
   double range;     ///< [m]
@@ -59,7 +64,7 @@ class PathListener {
         source_(source_pressure(sent.pulse)),
         sound_speed_(sent.medium.sound_speed),
         cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed) {
-    const double margin = 0.5 * sound_speed_ * pulse_half_length(sent.pulse, pulse_floor);
+    const double margin = pulse_margin(sent);
     least_leg_ = 2 * (view.gate.min_range - margin);
     longest_leg_ = 2 * (view.gate.max_range + margin);
   }
@@ -178,10 +183,10 @@ class PathListener {
 };
 
 /// The view as far as legs may lead out of it and still belong to an echo inside the gate.
-View widened(const View& view, const std::vector<Boundary>& boundaries, const Transmission& sent) {
+View widened(const View& view, const Environment& environment, const Transmission& sent) {
   View wide = view;
-  const double margin = 0.5 * sent.medium.sound_speed * pulse_half_length(sent.pulse, pulse_floor);
-  wide.gate = gate_of_images(view, boundaries, margin);
+  const double max_range = longest_leg(environment, view, sent);
+  wide.gate = {1e-3 * view.gate.min_range, max_range, view.gate.bin_size * max_range / view.gate.max_range};
   wide.sampling.elevation_half_extent = extent_of_legs(sent.echo_options);
   return wide;
 }
@@ -224,7 +229,7 @@ Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, co
   const auto parts = parts_per_surfel(direct, scene.size());
   std::vector<std::uint8_t> seen_directly(scene.size(), 0);
   for (std::size_t i = 0; i < scene.size() && !rays; ++i) seen_directly[i] = parts[i] > 0;
-  const FoundLegs found = find_legs(scene, widened(view, boundaries, transmission), boundaries, seen_directly);
+  const FoundLegs found = find_legs(scene, widened(view, environment, transmission), boundaries, seen_directly);
   Multipath heard;
   heard.blocked = found.hidden;
 
@@ -237,13 +242,21 @@ Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, co
   return heard;
 }
 
+double longest_leg(const Environment& environment, const View& view, const Transmission& transmission) {
+  const double head = view.world_from_head.translation().z();
+  double farthest = 0;
+  if (environment.surface) farthest = std::max(farthest, std::abs(head - environment.surface->height));
+  if (environment.bottom) farthest = std::max(farthest, std::abs(head - environment.bottom->height));
+  return view.gate.max_range + pulse_margin(transmission) + farthest;
+}
+
 double strongest_bounce(const Environment& environment, const View& view, const Transmission& transmission) {
   require_valid(environment, "strongest_bounce");
   if (!environment.surface && !environment.bottom) return 0;
   const auto boundaries = boundaries_of(environment, view.world_from_head, transmission, 0, "strongest_bounce");
-  const RangeGate gate = widened(view, boundaries, transmission).gate;
+  const double range = longest_leg(environment, view, transmission);
   double most = 0;
-  for (const Boundary& b : boundaries) most = std::max(most, b.strongest_bounce(gate.max_range));
+  for (const Boundary& b : boundaries) most = std::max(most, b.strongest_bounce(range));
   return most;
 }
 

@@ -69,6 +69,11 @@ struct MultipathOptions {
 Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
                            const View& view, const Transmission& transmission, const MultipathOptions& options = {});
 
+/// Range [m] beyond which neither a surfel nor its image takes part in multipath_echoes. By the triangle inequality two
+/// legs to one patch differ by no more than twice the head's distance from the farther boundary, so neither is longer
+/// than their mean, which lies within the gate and a pulse, by more than that distance.
+double longest_leg(const Environment& environment, const View& view, const Transmission& transmission);
+
 /// The most, as a pressure factor, that roughness leaves of a bounce off any boundary within the view's gate: leaving
 /// multipath out costs no more than this, relative to a direct echo of the same length and pattern, per mixed path. 1
 /// for a smooth boundary, 0 if there is none.

@@ -17,8 +17,9 @@ namespace insonify {
 namespace {
 
 void require_tolerance(const ElementOptions& options, const char* who) {
-  if (!(options.tolerance >= 1e-12 && options.tolerance <= 0.1))
-    fail(ErrorKind::argument, who, ": tolerance = ", options.tolerance, ", must be within 1e-12 and 0.1");
+  if (!(options.tolerance >= min_element_tolerance && options.tolerance <= max_element_tolerance))
+    fail(ErrorKind::argument, who, ": tolerance = ", options.tolerance, ", must be within ", min_element_tolerance,
+         " and ", max_element_tolerance);
 }
 
 /// Position of element m along the array [m], positive to port.

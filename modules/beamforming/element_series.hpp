@@ -11,8 +11,12 @@ enum class Wavefront {
   plane       ///< from infinite range
 };
 
+/// The tolerances that series and beams of elements can keep.
+constexpr double min_element_tolerance = 1e-12, max_element_tolerance = 0.1;
+
 struct ElementOptions {
-  double tolerance = 1e-4;  ///< relative error of series and beams, within [1e-12, 0.1]
+  double tolerance =
+      1e-4;  ///< relative error of series and beams, within min_element_tolerance and max_element_tolerance
   Wavefront wavefront = Wavefront::spherical;
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };

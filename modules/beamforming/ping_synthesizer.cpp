@@ -12,7 +12,6 @@
 namespace insonify {
 namespace {
 
-constexpr double min_tolerance = 1e-13;
 /// Errors of kernel and rounding are distributed evenly over all beams, so the kernel tolerance is the image tolerance
 /// times the fraction of the gridded energy that the beams receive. From this value on single precision suffices.
 constexpr double single_precision_from = 2e-6;
@@ -75,9 +74,9 @@ struct PingSynthesizer::Plan {
 PingSynthesizer::PingSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   require_synthesis({}, head, medium, options, "PingSynthesizer");
   require_one_row(head, "PingSynthesizer");
-  if (!(options.tolerance >= min_tolerance))
-    fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ", min_tolerance,
-         "; below that use the direct method");
+  if (!(options.tolerance >= min_gridding_tolerance))
+    fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ",
+         min_gridding_tolerance, "; below that use the direct method");
   plan_ = std::make_unique<Plan>(head, medium, options,
                                  expected_share(head, medium.sound_speed / head.pulse.centre_frequency));
 }

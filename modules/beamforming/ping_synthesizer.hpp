@@ -8,6 +8,9 @@
 
 namespace insonify {
 
+/// The smallest tolerance that gridding can keep.
+constexpr double min_gridding_tolerance = 1e-13;
+
 /// Parameters that a PingSynthesizer chose for its tolerance; all but direct_echoes concern gridding.
 struct SynthesisChoice {
   bool single_precision = false;  ///< of tiles and transforms; delays and phases are always double

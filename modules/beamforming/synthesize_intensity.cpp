@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "beamforming/time_axis_internal.hpp"
@@ -16,7 +17,6 @@
 namespace insonify {
 namespace {
 
-constexpr double min_tolerance = 1e-13;  // of the gridded synthesis
 constexpr std::size_t echoes_at_once = 256;
 
 /// Input of the synthesis of a line-array image.
@@ -114,7 +114,8 @@ Grid<double> sum_of_powers(const Echoes& echoes, const SonarHead& head, const Me
 Grid<double> synthesize_intensity(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                   const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize_intensity");
-  const SynthesisOptions squares{std::max(min_tolerance, options.tolerance * options.tolerance), options.threads};
+  const SynthesisOptions squares{std::max(min_gridding_tolerance, options.tolerance * options.tolerance),
+                                 options.threads};
   return image_by_rows<Grid<double>>(
       echoes, head, medium, row_cutoff(options.tolerance, fan_rows(head.fan).size()), options.threads,
       [&](const Echoes& of_row, const SonarHead& line) { return sum_of_powers(of_row, line, medium, 1, squares); });
@@ -129,7 +130,7 @@ Grid<float> predict_level_error_db(const Echoes& echoes, const SonarHead& head, 
   // Tolerance of 1 % of the weakest cell judged.
   const double weakest = std::pow(10, -0.1 * options.dynamic_range_db);
   const auto sum = [&](int power) {
-    const SynthesisOptions fine{std::max(min_tolerance, 0.01 * std::pow(weakest, power)), options.threads};
+    const SynthesisOptions fine{std::max(min_gridding_tolerance, 0.01 * std::pow(weakest, power)), options.threads};
     return image_by_rows<Grid<double>>(
         echoes, head, medium, row_cutoff(weakest, fan_rows(head.fan).size()), options.threads,
         [&](const Echoes& of_row, const SonarHead& line) { return sum_of_powers(of_row, line, medium, power, fine); });

@@ -78,8 +78,7 @@ Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, con
   require_valid(fan, "find_holes");
   require_valid(gate, "find_holes");
   require_valid(world_from_head, options);
-  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
-  const Sector sector = insonified_sector(fan, half_extent, options.azimuth_margin);
+  const Sector sector = insonified_sector(fan, options);
   const HeadFrame head(prepared.scene(), world_from_head);
   const FootprintSets surfels(gate_surfels(prepared, head, sector, gate, options.footprint, options.threads));
   const std::vector<Ray> rays = beam_rays(beam_shares(fan, sector), options);

@@ -55,10 +55,6 @@ void require_valid(const Pose& pose) {
     fail(ErrorKind::argument, me, ": world_from_head must be a rotation and a translation");
 }
 
-double half_extent_of(const BeamFan& fan, const SamplingOptions& options) {
-  return options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
-}
-
 // All parameters of a ping except the scene.
 struct View {
   const Pose& world_from_head;
@@ -74,7 +70,7 @@ struct View {
         fan(of_fan),
         gate(of_gate),
         options(o),
-        sector(insonified_sector(fan, half_extent_of(fan, o), o.azimuth_margin)),
+        sector(insonified_sector(fan, o)),
         head(scene, pose) {}
 };
 
@@ -141,6 +137,11 @@ void tilt(const SceneCloud& scene, const View& view, double outer_scale, Samplin
 
 }  // namespace
 
+Sector insonified_sector(const BeamFan& fan, const SamplingOptions& options) {
+  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
+  return insonified_sector(fan, half_extent, options.azimuth_margin);
+}
+
 Sampling find_scatterers(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
                          const RangeGate& gate, const SamplingOptions& options) {
   require_valid(scene, me);
@@ -159,7 +160,8 @@ Sampling find_scatterers(const PreparedScene& prepared, const Pose& world_from_h
   const View view(scene, world_from_head, fan, gate, options);
   Sampling sampling =
       sample(scene, gate_surfels(prepared, view.head, view.sector, gate, options.footprint, options.threads), view);
-  tilt(scene, view, options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.mean_spacing(), sampling);
+  tilt(scene, view, options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.whole().mean_spacing,
+       sampling);
   return sampling;
 }
 

@@ -39,6 +39,10 @@ struct SamplingOptions {
   double azimuth_margin = 0;         ///< margin beyond the outermost beams [rad]; 0: one beam width
 };
 
+/// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin and
+/// the elevation half extent, or by one beam width and the elevation width where those are 0.
+Sector insonified_sector(const BeamFan& fan, const SamplingOptions& options);
+
 /// Counts of the sampling, for log and manifest.
 struct SamplingReport {
   std::size_t surfels = 0;      ///< in the scene

@@ -44,18 +44,13 @@ std::vector<Visibility> visibility_of(std::vector<GatedSurfel> surfels, const st
   return visibility;
 }
 
-Sector sector_of(const BeamFan& fan, const SamplingOptions& options) {
-  const double half_extent = options.elevation_half_extent > 0 ? options.elevation_half_extent : fan.elevation_width;
-  return insonified_sector(fan, half_extent, options.azimuth_margin);
-}
-
 }  // namespace
 
 std::vector<Visibility> find_visibility(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan,
                                         const RangeGate& gate, const std::vector<std::uint8_t>& asked,
                                         const SamplingOptions& options) {
   require_valid(scene, fan, gate, asked);
-  return visibility_of(gate_surfels(scene, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
+  return visibility_of(gate_surfels(scene, HeadFrame(scene, world_from_head), insonified_sector(fan, options), gate,
                                     options.footprint, options.threads),
                        asked, options);
 }
@@ -65,7 +60,7 @@ std::vector<Visibility> find_visibility(const PreparedScene& prepared, const Pos
                                         const SamplingOptions& options) {
   const SceneCloud& scene = prepared.scene();
   require_valid(scene, fan, gate, asked);
-  return visibility_of(gate_surfels(prepared, HeadFrame(scene, world_from_head), sector_of(fan, options), gate,
+  return visibility_of(gate_surfels(prepared, HeadFrame(scene, world_from_head), insonified_sector(fan, options), gate,
                                     options.footprint, options.threads),
                        asked, options);
 }

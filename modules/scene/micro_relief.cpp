@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -89,12 +88,8 @@ Vector3d tilted_normal(const ReliefField& field, double rms_slope, const Vector3
 std::optional<ReliefField> relief_of(const SceneCloud& scene, MicroRelief relief) {
   const auto rough = [](const Material& material) { return material.relief_slope > 0; };
   if (scene.size() == 0 || std::none_of(scene.materials.begin(), scene.materials.end(), rough)) return std::nullopt;
-  if (relief.outer_scale == 0 && scene.part_of) relief.outer_scale = scene.part_of->mean_spacing;
-  if (relief.outer_scale == 0) {
-    const double total = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
-    if (!(total > 0)) return std::nullopt;
-    relief.outer_scale = std::sqrt(total / static_cast<double>(scene.size()));
-  }
+  if (relief.outer_scale == 0) relief.outer_scale = whole_of(scene).mean_spacing;
+  if (relief.outer_scale == 0) return std::nullopt;
   return ReliefField(relief);
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -102,9 +101,8 @@ PreparedScene::PreparedScene(const SceneCloud& scene, int threads) : scene_(&sce
   require_valid(scene, "PreparedScene");
   if (scene.size() > std::numeric_limits<std::uint32_t>::max())
     fail(ErrorKind::argument, "PreparedScene: ", scene.size(), " surfels, must be below 2^32; divide the scene");
+  whole_ = whole_of(scene);
   if (scene.size() == 0) return;
-  const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
-  mean_spacing_ = scene.part_of ? scene.part_of->mean_spacing : std::sqrt(area / static_cast<double>(scene.size()));
   order_ = morton_order(scene.point, threads);
   blocks_.resize((scene.size() + block_surfels - 1) / block_surfels);
   parallel_for(blocks_.size(), threads, [&](std::size_t b) {
@@ -115,8 +113,6 @@ PreparedScene::PreparedScene(const SceneCloud& scene, int threads) : scene_(&sce
     std::sort(members.begin(), members.end());
     enclose(scene, members, block);
   });
-  for (const SurfelBlock& block : blocks_) largest_area_ = std::max(largest_area_, block.largest_area);
-  if (scene.part_of) largest_area_ = scene.part_of->largest_area;
 }
 
 }  // namespace insonify

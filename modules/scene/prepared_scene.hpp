@@ -32,17 +32,14 @@ class PreparedScene {
   std::span<const SurfelBlock> blocks() const { return blocks_; }
   /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
   std::span<const std::uint32_t> order() const { return order_; }
-  /// Returns the root of the mean surfel area [m]; 0 for an empty scene.
-  double mean_spacing() const { return mean_spacing_; }
-  /// Returns the area of the largest surfel [m^2]; 0 for an empty scene.
-  float largest_area() const { return largest_area_; }
+  /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
+  const WholeScene& whole() const { return whole_; }
 
  private:
   const SceneCloud* scene_;
   std::vector<SurfelBlock> blocks_;
   std::vector<std::uint32_t> order_;
-  double mean_spacing_ = 0;
-  float largest_area_ = 0;
+  WholeScene whole_;
 };
 
 }  // namespace insonify

@@ -1,6 +1,8 @@
 #include "scene/scene_cloud.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -54,6 +56,14 @@ void require_valid(const SceneCloud& scene, const char* who) {
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
   for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
   for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
+}
+
+WholeScene whole_of(const SceneCloud& scene) {
+  if (scene.part_of) return *scene.part_of;
+  if (scene.size() == 0) return {};
+  const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
+  return {scene.size(), std::sqrt(area / static_cast<double>(scene.size())),
+          *std::max_element(scene.area.begin(), scene.area.end())};
 }
 
 SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep) {

@@ -43,6 +43,9 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
 /// are finite and >= 0, and materials exist and are valid. `who` names the caller in the message.
 void require_valid(const SceneCloud& scene, const char* who);
 
+/// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
+WholeScene whole_of(const SceneCloud& scene);
+
 /// Returns the surfels listed in `keep`, in that order, with their ids.
 SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep);
 

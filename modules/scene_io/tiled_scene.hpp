@@ -37,7 +37,7 @@ struct TileSelection {
 /// far larger than memory. Opening reads the directory, 80 bytes per tile of at most 4096 surfels.
 ///
 ///   const TiledScene tiled("bay.tiles");
-///   const InsonifiedRegion region = ping_region(tiled.info().whole, head, pose, environment, options);
+///   const InsonifiedRegion region = resolve_ping(tiled.info().whole, head, pose, environment, options).region;
 ///   const SceneCloud part = tiled.load(tiled.select(region));
 ///   simulate_ping(part, head, pose, environment, options);  // the same bytes as of the whole scene
 class TiledScene {

@@ -4,60 +4,67 @@
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
 #include "simulate/attach_outputs_internal.hpp"
-#include "simulate/converge_sampling.hpp"
+#include "simulate/converge_sampling_internal.hpp"
 #include "simulate/stop_watch_internal.hpp"
 
 namespace insonify {
 namespace {
 
-void mark_holes(const PreparedScene& prepared, const View& view, const SimulationOptions& options,
-                SimulatedPing& result) {
+void mark_holes(const PreparedScene& prepared, const ResolvedPing& ping, SimulatedPing& result) {
+  const View& view = ping.view;
   SamplingOptions looks = view.sampling;
-  looks.rays_per_beam = options.rays_per_beam;
+  looks.rays_per_beam = ping.options.sampling.rays_per_beam;
   const Holes holes = find_holes(prepared, view.world_from_head, view.fan, view.gate, looks);
   result.holes = {holes.directions, holes.holes.size()};
-  result.ping.unknown = mask_holes(holes, result.ping.fan, result.ping.gate);
+  result.ping.unknown = mask_holes(holes, view.fan, ping.head.gate);
 }
 
-void name_contributors(const SceneCloud& scene, const PingParts& parts, const SonarHead& head,
-                       const SimulationOptions& options, SimulatedPing& result) {
-  StopWatch watch;
+Contributors contributors_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
+                             const Scatterers& patches) {
   const Multipath& bounced = parts.bounced;
-  const SurfelEchoes heard[] = {{parts.direct, result.scatterers.surfel},
-                                {bounced.echoes, bounced.surfel, bounced.legs}};
-  ContributorOptions wanted;
-  wanted.per_pixel = options.keep_contributors;
-  wanted.threads = options.threads;
-  result.contributors = find_contributors(scene, heard, head, result.medium, wanted);
-  result.seconds.contributors = watch.lap();
+  const SurfelEchoes echoes[] = {{parts.direct, patches.surfel}, {bounced.echoes, bounced.surfel, bounced.legs}};
+  ContributorOptions options;
+  options.per_pixel = ping.options.outputs.contributors;
+  options.threads = ping.options.threads;
+  return find_contributors(scene, echoes, ping.head, ping.sent.medium, options);
 }
 
-SoundPaths paths_of(const SceneCloud& scene, const PingParts& parts, const SimulationOptions& options,
-                    const SimulatedPing& result) {
-  const auto count = static_cast<std::size_t>(options.keep_paths);
-  SoundPaths paths = direct_paths(result.scatterers, parts.direct, parts.view.world_from_head, result.medium, count);
-  append(paths, bounced_paths(parts.bounced, scene, parts.environment, parts.view, result.medium, count));
+SoundPaths paths_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
+                    const Scatterers& patches) {
+  const auto count = static_cast<std::size_t>(ping.options.outputs.paths);
+  const Medium& medium = ping.sent.medium;
+  SoundPaths paths = direct_paths(patches, parts.direct, ping.view.world_from_head, medium, count);
+  append(paths, bounced_paths(parts.bounced, scene, ping.environment, ping.view, medium, count));
   return paths;
 }
 
-std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, const Scatterers& scatterers) {
+std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, const Scatterers& patches) {
   const SamplingOptions& s = view.sampling;
-  const RangeGaps gaps = count_range_gaps(scene, view.world_from_head, scatterers, s.rays_per_beam, s.range_resolution);
+  const RangeGaps gaps = count_range_gaps(scene, view.world_from_head, patches, s.rays_per_beam, s.range_resolution);
   return range_gap_notes(gaps, s.rays_per_beam, s.range_resolution);
 }
 
 }  // namespace
 
-void attach_outputs(const PreparedScene& prepared, const SonarHead& head, const PingParts& parts,
-                    const SimulationOptions& options, SimulatedPing& result) {
+void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, PingParts parts, SimulatedPing& result) {
   const SceneCloud& scene = prepared.scene();
-  const View& view = parts.view;
-  result.ping.level_error_db = std::move(result.convergence.level_error_db);
-  if (options.keep_mask) mark_holes(prepared, view, options, result);
-  if (options.keep_contributors > 0) name_contributors(scene, parts, head, options, result);
-  if (options.keep_paths > 0) result.paths = paths_of(scene, parts, options, result);
+  const OutputSettings& wanted = ping.options.outputs;
+  result.medium = ping.sent.medium;
+  result.noise_floor_db = ping.detection.noise_floor_db;
+  result.sampling = parts.sampling.report;
+  result.scatterers = std::move(parts.sampling.scatterers);
+  const Scatterers& patches = result.scatterers;
 
-  if (view.sampling.kind == SamplingKind::rays) result.notes = gap_notes(scene, view, result.scatterers);
+  result.ping.level_error_db = std::move(result.convergence.level_error_db);
+  if (wanted.mask) mark_holes(prepared, ping, result);
+  if (wanted.contributors > 0) {
+    StopWatch watch;
+    result.contributors = contributors_of(scene, ping, parts, patches);
+    result.seconds.contributors = watch.lap();
+  }
+  if (wanted.paths > 0) result.paths = paths_of(scene, ping, parts, patches);
+
+  if (ping.view.sampling.kind == SamplingKind::rays) result.notes = gap_notes(scene, ping.view, patches);
   for (std::string& note : convergence_notes(result.convergence)) result.notes.push_back(std::move(note));
 }
 

@@ -1,21 +1,19 @@
 #pragma once
 #include "acoustics/multipath_echoes.hpp"
-#include "scene/prepared_scene.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 
 namespace insonify {
 
-/// What a ping was made from, beside what its result holds.
+/// What a ping was made of, for its outputs.
 struct PingParts {
-  const View& view;
-  const Environment& environment;
+  Sampling sampling;
   const Echoes& direct;
   const Multipath& bounced;
 };
 
-/// Gives `result`, whose ping, medium and scatterers stand, what the options ask to keep beside the pressure: level error
-/// and mask of holes, contributors (E63), paths of sound; and what to tell the user of its sampling.
-void attach_outputs(const PreparedScene& prepared, const SonarHead& head, const PingParts& parts,
-                    const SimulationOptions& options, SimulatedPing& result);
+/// Moves the sampling into `result`, whose ping is complete, and adds medium, noise floor and notes; and what the
+/// options ask for: level error and mask of holes, contributors (E63), paths of sound.
+void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, PingParts parts, SimulatedPing& result);
 
 }  // namespace insonify

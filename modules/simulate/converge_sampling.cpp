@@ -1,11 +1,12 @@
-#include "simulate/converge_sampling.hpp"
-
+// Adaptive sampling. Each sampling is judged by the predicted standard error of every cell's expected level (E66). The
+// error falls with the root of the number of points: the next sampling has more of them by the square of the ratio of
+// errors, until 99 % of the cells are below the wanted error. Each round costs one sampling and two intensity images.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "beamforming/synthesize_intensity.hpp"
-#include "core/error.hpp"
+#include "simulate/converge_sampling_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -15,7 +16,7 @@ constexpr int most_samplings = 6;
 constexpr double most_points = 1 << 23;             // scatterers, or rays cast
 constexpr double least_step = 1.3, most_step = 16;  // of the number of points, from one sampling to the next
 
-/// Share of the judged cells that are below the wanted error, and below which error the wanted share is.
+/// Finds the share of the judged cells below the wanted error, and the error that the wanted share is below.
 void judge(ConvergenceReport& report) {
   std::vector<float> errors;
   for (Eigen::Index k = 0; k < report.level_error_db.size(); ++k)
@@ -31,7 +32,7 @@ void judge(ConvergenceReport& report) {
   report.reached_db = errors[static_cast<std::size_t>(rank)];
 }
 
-/// How many times as many points the next sampling should have; below `least_step` there is no use in one.
+/// Factor by which the next sampling should have more points; below `least_step` another sampling is not worth it.
 double next_step(const ConvergenceReport& report, double points) {
   const double needed = 1.1 * std::pow(report.reached_db / report.wanted_db, 2);  // sigma falls with the root
   return std::min(std::clamp(needed, least_step, most_step), most_points / std::max(points, 1.0));
@@ -44,33 +45,40 @@ void refine(SamplingOptions& sampling, double step) {
     sampling.scatterers_per_cell = std::max(1.0, sampling.scatterers_per_cell) * step;
 }
 
-}  // namespace
+Sampling sample_once(const PreparedScene& prepared, const View& view) {
+  return find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+}
 
-Sampling converge_sampling(const PreparedScene& prepared, const SonarHead& head, const Transmission& sent,
-                           double wanted_db, View& view, ConvergenceReport& report) {
-  if (!(wanted_db > 0 && std::isfinite(wanted_db)))
-    fail(ErrorKind::argument, "converge_sampling: wanted_db = ", wanted_db, " dB, must be finite and > 0");
-  report.wanted_db = wanted_db;
+Sampling converge_sampling(const PreparedScene& prepared, ResolvedPing& ping, ConvergenceReport& report) {
+  const Transmission& sent = ping.sent;
+  SamplingOptions& sampling_options = ping.view.sampling;
   EchoOptions mean_power = sent.echo_options;
   mean_power.amplitude = SurfaceAmplitude::mean_power;
   while (true) {
-    Sampling sampling = find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+    Sampling sampling = sample_once(prepared, ping.view);
     const Echoes echoes =
         direct_echoes(sampling.scatterers, prepared.scene().materials, sent.pulse, sent.medium, mean_power);
     report.level_error_db =
-        predict_level_error_db(echoes, head, sent.medium, {.threads = view.sampling.threads});  // (E66)
+        predict_level_error_db(echoes, ping.head, sent.medium, {.threads = ping.options.threads});  // (E66)
     report.scatterers = sampling.scatterers.size();
-    report.scatterers_per_cell = view.sampling.scatterers_per_cell;
-    report.rays_per_beam = view.sampling.rays_per_beam;
+    report.scatterers_per_cell = sampling_options.scatterers_per_cell;
+    report.rays_per_beam = sampling_options.rays_per_beam;
     ++report.samplings;
     judge(report);
-    const double rays = static_cast<double>(report.rays_per_beam) * static_cast<double>(view.fan.beams());
+    const double rays = static_cast<double>(report.rays_per_beam) * static_cast<double>(ping.head.fan.beams());
     const double step =
-        next_step(report, view.sampling.kind == SamplingKind::rays ? rays : static_cast<double>(report.scatterers));
+        next_step(report, sampling_options.kind == SamplingKind::rays ? rays : static_cast<double>(report.scatterers));
     report.reached = report.share_below >= wanted_share;
     if (report.reached || report.samplings == most_samplings || step < least_step) return sampling;
-    refine(view.sampling, step);
+    refine(sampling_options, step);
   }
+}
+
+}  // namespace
+
+Sampling sample_view(const PreparedScene& prepared, ResolvedPing& ping, ConvergenceReport& report) {
+  report.wanted_db = ping.options.sampling.level_error_db;
+  return report.wanted_db == 0 ? sample_once(prepared, ping.view) : converge_sampling(prepared, ping, report);
 }
 
 std::vector<std::string> convergence_notes(const ConvergenceReport& report) {

@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// A stage or effect of the model, whether simulate_ping computes it for this scene, and what leaving it out costs.
+/// A stage or effect of the model: whether simulate_ping computes it for this scene, and the error of leaving it out.
 struct PlannedStage {
   std::string name;
   bool included = false;
@@ -26,19 +26,19 @@ struct PingPlan {
   double mib = 0;                   ///< rough estimate of the memory of scatterers, echoes and image
 };
 
-/// The plan of simulate_ping for the same arguments: it looks at a sample of the scene (20 000 surfels at most) and at
-/// head, environment and options; nothing is simulated.
+/// The plan of simulate_ping for the same arguments, from a sample of the scene (20 000 surfels at most), head,
+/// environment and options; nothing is simulated.
 ///
 /// Bounds of what lies outside sector and gate come from the incoherent sum of all surfels without occlusion, with a
-/// factor of 2 in amplitude for speckle and for what hides; a bound is 0 where an effect has no cause (no boundary, no
-/// motion, no relief), and as stated at each stage else. bound_relative may exceed 1: then the stage changes the image
-/// altogether, and was left out because it was not asked for.
-/// Throws Error as simulate_ping does.
+/// factor of 2 in amplitude for speckle and for occlusion. A bound is 0 where an effect has no cause (no boundary, no
+/// motion, no relief). bound_relative may exceed 1: then the stage changes the image altogether, and was left out
+/// because it was not asked for. Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                    const Environment& environment, const SimulationOptions& options = {});
 
-/// Forces a stage in or out, by its name in the plan. Throws Error(argument) for a name that is unknown or a stage that
-/// cannot be forced that way: it says which can.
+/// Forces a stage in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another method
+/// changes nothing. Throws Error(argument) for a stage that is unknown or cannot be forced, naming those that can, and
+/// for one that cannot be forced in, naming what is missing.
 void force_stage(const std::string& name, bool included, Environment& environment, SimulationOptions& options);
 
 }  // namespace insonify

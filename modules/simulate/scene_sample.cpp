@@ -1,81 +1,119 @@
+// Echo power of an evenly strided sample of the scene, by where the surfels stand: incoherent sums of the direct echo
+// (E4, E7, E14) without occlusion, from which the plan derives its bounds and its estimates of surfels and scatterers.
 #include <algorithm>
 #include <cmath>
 
-#include "beamforming/head_patterns.hpp"
 #include "core/units.hpp"
 #include "simulate/scene_sample_internal.hpp"
-#include "simulate/stage_options_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t most_looked_at = 20000;
+constexpr std::size_t most_sampled = 20000;
 
-}  // namespace
+/// Adds up one surfel after another.
+class Sampler {
+ public:
+  Sampler(const SceneCloud& scene, const ResolvedPing& ping)
+      : scene_(scene),
+        ping_(ping),
+        gate_(ping.view.gate),
+        to_head_(ping.view.world_from_head.linear().transpose()),
+        shift_(scene.origin - ping.view.world_from_head.translation()),
+        source_(source_pressure(ping.head.pulse)) {}
 
-SceneSample sample_scene(const SceneCloud& scene, const SonarHead& head, const Pose& pose, const Medium& medium,
-                         const SimulationOptions& options) {
-  SceneSample sample;
-  if (scene.size() == 0) return sample;
-  const SamplingOptions sampling = sampling_options(head, medium, options);
-  const EchoOptions echo_options = with_patterns({}, head);
-  const Sector sector = insonified_sector(head.fan, sampling.elevation_half_extent, sampling.azimuth_margin);
-  const RangeGate gate = sampled_gate(largest_area(scene), head, medium, options);
-  const double reach = gate.max_range - head.gate.max_range;
-  const Eigen::Matrix3d to_head = pose.linear().transpose();
-  const Eigen::Vector3d shift = scene.origin - pose.translation();
-  const double source = source_pressure(head.pulse), cell_length = sampling.range_resolution;
-
-  const std::size_t step = (scene.size() + most_looked_at - 1) / most_looked_at;
-  double looked_at = 0, surfels = 0, back_facing = 0;
-  for (std::size_t i = step / 2; i < scene.size(); i += step, ++looked_at) {
-    const Eigen::Vector3d p = to_head * (shift + scene.point[i].cast<double>());
+  void add(std::size_t i) {
+    const Eigen::Vector3d p = to_head_ * (shift_ + scene_.point[i].cast<double>());
     const double r = p.norm();
-    if (r < 1e-3) continue;
-    const double cosine = -(to_head * scene.normal[i].cast<double>()).dot(p) / r;
-    const double facing = scene.normals_oriented ? std::max(0.0, cosine) : std::abs(cosine);
+    if (r < 1e-3) return;
+    const double cosine = -(to_head_ * scene_.normal[i].cast<double>()).dot(p) / r;
+    const double facing = scene_.normals_oriented ? std::max(0.0, cosine) : std::abs(cosine);
     const Direction d = direction_of(p);
+    const Sector& sector = ping_.sector;
     const bool in_azimuth = std::abs(std::remainder(d.azimuth - 0.5 * (sector.min_azimuth + sector.max_azimuth),
                                                     2 * pi)) <= 0.5 * (sector.max_azimuth - sector.min_azimuth);
     const bool in_elevation = d.elevation >= sector.min_elevation && d.elevation <= sector.max_elevation;
-    const bool in_gate = r >= gate.min_range && r <= gate.max_range;
-    const double pattern = echo_options.elevation_width > 0
-                               ? elevation_response(echo_options.elevation_shape, echo_options.elevation_width,
-                                                    d.elevation - echo_options.elevation_centre)
-                               : 1;
-    const double amplitude = source * std::exp(-2 * medium.absorption.a0 * r) / (r * r);
-    const double sigma = lambert_cross_section(scene.materials[scene.material[i]].lambert_mu, facing,
-                                               facing * static_cast<double>(scene.area[i]));
-    const double power = sigma * amplitude * amplitude * pattern * pattern;
-    sample.anywhere +=
-        lambert_cross_section(scene.materials[scene.material[i]].lambert_mu, 1, scene.area[i]) * amplitude * amplitude;
-    if (in_gate && in_azimuth && !in_elevation) sample.off_elevation += power;
-    if (in_gate && in_elevation && !in_azimuth) sample.off_azimuth += power;
-    if (!in_gate && in_azimuth && in_elevation) {
-      // What a pulse from there still has inside the gate: a Gaussian, cut where the sampled ranges end.
-      const double gap = r > gate.max_range ? r - head.gate.max_range : head.gate.min_range - r;
-      sample.beyond_gate += power * std::pow(0.5 * options.tolerance, 2 * std::pow(std::max(1.0, gap / reach), 2));
-    }
-    if (!(in_gate && in_azimuth && in_elevation)) continue;
-    surfels += facing > 0;
-    back_facing += !(facing > 0);
-    if (!(facing > 0)) continue;
-    sample.in_view += power;
-    sample.places.range.push_back(r);
-    sample.places.azimuth.push_back(d.azimuth);
-    sample.places.elevation.push_back(d.elevation);
-    sample.in_view_farthest = std::max(sample.in_view_farthest, r);
-    sample.in_view_nearest = sample.in_view_nearest > 0 ? std::min(sample.in_view_nearest, r) : r;
-    const double sine = std::sqrt(std::max(0.0, 1 - facing * facing));
-    const double length = std::min(cell_length / std::max(sine, 1e-6), 2 * std::sqrt(2 * r * cell_length));
-    sample.scatterers += std::max(
-        1.0, options.scatterers_per_cell * static_cast<double>(scene.area[i]) / (length * r * head.fan.beam_width));
+    const bool in_gate = r >= gate_.min_range && r <= gate_.max_range;
+
+    const double power = echo_power(i, r, facing, d.elevation);
+    if (in_gate && in_azimuth && !in_elevation) sums_.off_elevation += power;
+    if (in_gate && in_elevation && !in_azimuth) sums_.off_azimuth += power;
+    if (!in_gate && in_azimuth && in_elevation) sums_.beyond_gate += power * left_in_gate(r);
+    if (in_gate && in_azimuth && in_elevation) add_in_view(i, {r, d.azimuth, d.elevation}, facing, power);
   }
-  const double scale = static_cast<double>(scene.size()) / looked_at;
-  sample.surfels = static_cast<std::size_t>(surfels * scale);
-  sample.back_facing = static_cast<std::size_t>(back_facing * scale);
-  sample.scatterers *= scale;
-  return sample;
+
+  /// The sums, with the numbers of surfels and scatterers scaled from `sampled` surfels to the scene.
+  SceneSample finish(double sampled) {
+    const double scale = static_cast<double>(scene_.size()) / sampled;
+    sums_.surfels = static_cast<std::size_t>(surfels_ * scale);
+    sums_.back_facing = static_cast<std::size_t>(back_facing_ * scale);
+    sums_.scatterers *= scale;
+    return std::move(sums_);
+  }
+
+ private:
+  struct Place {
+    double range, azimuth, elevation;
+  };
+
+  /// |echo|^2 by the pattern, and, for the sum over the scene, without it and broadside.
+  double echo_power(std::size_t i, double r, double facing, double elevation) {
+    const EchoOptions& echoes = ping_.sent.echo_options;
+    const double pattern =
+        echoes.elevation_width > 0
+            ? elevation_response(echoes.elevation_shape, echoes.elevation_width, elevation - echoes.elevation_centre)
+            : 1;
+    const double amplitude = source_ * std::exp(-2 * ping_.sent.medium.absorption.a0 * r) / (r * r);
+    const double mu = scene_.materials[scene_.material[i]].lambert_mu, area = scene_.area[i];
+    sums_.anywhere += lambert_cross_section(mu, 1, area) * amplitude * amplitude;
+    return lambert_cross_section(mu, facing, facing * area) * amplitude * amplitude * pattern * pattern;
+  }
+
+  /// What a pulse from beyond the gate still has inside it: a Gaussian, cut where the sampled ranges end.
+  double left_in_gate(double r) const {
+    const RangeGate& gate = ping_.head.gate;
+    const double reach = gate_.max_range - gate.max_range;
+    const double gap = r > gate_.max_range ? r - gate.max_range : gate.min_range - r;
+    return std::pow(0.5 * ping_.options.synthesis.tolerance, 2 * std::pow(std::max(1.0, gap / reach), 2));
+  }
+
+  void add_in_view(std::size_t i, const Place& place, double facing, double power) {
+    if (!(facing > 0)) {
+      ++back_facing_;
+      return;
+    }
+    ++surfels_;
+    sums_.in_view += power;
+    sums_.places.range.push_back(place.range);
+    sums_.places.azimuth.push_back(place.azimuth);
+    sums_.places.elevation.push_back(place.elevation);
+    sums_.in_view_farthest = std::max(sums_.in_view_farthest, place.range);
+    sums_.in_view_nearest = sums_.in_view_nearest > 0 ? std::min(sums_.in_view_nearest, place.range) : place.range;
+    const SamplingOptions& sampling = ping_.view.sampling;
+    const double sine = std::sqrt(std::max(0.0, 1 - facing * facing)), cell_length = sampling.range_resolution;
+    const double length = std::min(cell_length / std::max(sine, 1e-6), 2 * std::sqrt(2 * place.range * cell_length));
+    sums_.scatterers += std::max(1.0, sampling.scatterers_per_cell * static_cast<double>(scene_.area[i]) /
+                                          (length * place.range * ping_.head.fan.beam_width));
+  }
+
+  const SceneCloud& scene_;
+  const ResolvedPing& ping_;
+  const RangeGate& gate_;  // the sampled one
+  Eigen::Matrix3d to_head_;
+  Eigen::Vector3d shift_;
+  double source_, surfels_ = 0, back_facing_ = 0;
+  SceneSample sums_;
+};
+
+}  // namespace
+
+SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
+  if (scene.size() == 0) return {};
+  Sampler sampler(scene, ping);
+  const std::size_t step = (scene.size() + most_sampled - 1) / most_sampled;
+  double sampled = 0;
+  for (std::size_t i = step / 2; i < scene.size(); i += step, ++sampled) sampler.add(i);
+  return sampler.finish(sampled);
 }
 
 }  // namespace insonify

@@ -45,6 +45,11 @@ void require_viewable(const ViewerData& data, ViewerMode mode) {
   require_valid(data.gate, who);
 }
 
+View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate) {
+  if (!data.view) return {pose, fan, gate, {}};
+  return {pose, fan, data.view->gate, data.view->sampling};
+}
+
 ViewerExtent extent_of(const ViewerData& data) {
   if (data.pings.empty()) return {};
   return {data.pings.size(), data.pings[0].fan.beams(), data.pings[0].gate.bins()};

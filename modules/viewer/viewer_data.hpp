@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "acoustics/multipath_echoes.hpp"
 #include "returns/contributors.hpp"
 #include "returns/ping.hpp"
 #include "returns/soundings.hpp"
@@ -23,11 +25,16 @@ struct ViewerData {
   SceneCloud scene;                         ///< may be empty
   BeamFan fan;                              ///< to inspect
   RangeGate gate;                           ///< to inspect
+  std::optional<View> view;  ///< how a ping samples the scene (resolve_ping), wherever the head stands; or
+                             ///< none: by fan and gate alone
 };
 
 /// Throws Error(content) unless all pings have the same fan and gate, matching their samples, per-ping lists have one
 /// element per ping, and a scene to inspect has surfels.
 void require_viewable(const ViewerData& data, ViewerMode mode);
+
+/// Returns where a head at `pose` with this fan and gate looks in the scene.
+View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate);
 
 /// Numbers of pings, beams and bins.
 ViewerExtent extent_of(const ViewerData& data);

@@ -66,7 +66,7 @@ PixelPlace ViewerWindow::shown_place() const {
 void ViewerWindow::update_data() {
   if (state_.mode == ViewerMode::inspect) {
     if (!head_view_ || !drawn_ || !same_head(drawn_->head, state_.head))
-      head_view_ = look_from(data_.scene, data_.fan, data_.gate, state_.head);
+      head_view_ = look_from(data_.scene, view_at(data_, pose_of(state_.head), data_.fan, data_.gate));
     explanation_ = explain_view(*head_view_, state_);
     if (state_.surfel)
       explanation_ = explain_surfel(data_.scene, *head_view_, state_.head, *state_.surfel) + "\n" + explanation_;
@@ -77,7 +77,7 @@ void ViewerWindow::update_data() {
   if (new_ping) head_view_.reset();
   if (state_.scene_colour == SceneColour::visibility && !head_view_ && data_.scene.size() > 0)
     head_view_ =
-        look_from(data_.scene, image_->fan, image_->gate, head_place(data_.pings[state_.ping].world_from_head));
+        look_from(data_.scene, view_at(data_, data_.pings[state_.ping].world_from_head, image_->fan, image_->gate));
   if (!new_ping && drawn_->selected == state_.selected) return;
   facts_.reset();
   explanation_.clear();

@@ -66,10 +66,11 @@ std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping,
 }
 
 // The nearest surfel of the scene that hides one of `hidden`, by the hit rule.
-void find_occluder(const SceneCloud& scene, const Ping& ping, PixelVisibility& visibility) {
-  const BeamFan& fan = ping.fan;
-  const std::vector<GatedSurfel> gated = gate_surfels(scene, HeadFrame(scene, ping.world_from_head),
-                                                      insonified_sector(fan, fan.elevation_width), ping.gate, 1.2, 0);
+void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& visibility) {
+  const SamplingOptions& sampling = view.sampling;
+  const std::vector<GatedSurfel> gated =
+      gate_surfels(scene, HeadFrame(scene, view.world_from_head), insonified_sector(view.fan, sampling), view.gate,
+                   sampling.footprint, sampling.threads);
   std::vector<const GatedSurfel*> behind;
   for (const GatedSurfel& s : gated)
     if (std::binary_search(visibility.hidden.begin(), visibility.hidden.end(), s.surfel)) behind.push_back(&s);
@@ -151,19 +152,22 @@ std::string visibility_lines(const PixelVisibility& visibility, const std::strin
 
 }  // namespace
 
-PixelVisibility look_at_pixel(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
+PixelVisibility look_at_pixel(const ViewerData& data, const Ping& ping, PixelPlace place) {
+  const SceneCloud& scene = data.scene;
   PixelVisibility visibility;
   const std::vector<std::uint32_t> here = surfels_at(scene, ping, place);
   if (here.empty()) return visibility;
   std::vector<std::uint8_t> asked(scene.size(), 0);
   for (const std::uint32_t i : here) asked[i] = 1;
-  const std::vector<Visibility> answer = find_visibility(scene, ping.world_from_head, ping.fan, ping.gate, asked, {});
+  const View view = view_at(data, ping.world_from_head, ping.fan, ping.gate);
+  const std::vector<Visibility> answer =
+      find_visibility(scene, view.world_from_head, view.fan, view.gate, asked, view.sampling);
   for (const std::uint32_t i : here) {
     if (answer[i] == Visibility::seen) visibility.seen.push_back(i);
     if (answer[i] == Visibility::hidden) visibility.hidden.push_back(i);
     if (answer[i] == Visibility::turned_away) ++visibility.turned_away;
   }
-  if (!visibility.hidden.empty()) find_occluder(scene, ping, visibility);
+  if (!visibility.hidden.empty()) find_occluder(scene, view, visibility);
   return visibility;
 }
 
@@ -190,7 +194,7 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
   if (ping.unknown.size() > 0) facts.unknown = ping.unknown(row, column) != 0;
   if (ping.level_error_db.size() > 0) facts.level_error_db = static_cast<double>(ping.level_error_db(row, column));
   if (data.scene.size() > 0) {
-    facts.visibility = look_at_pixel(data.scene, ping, place);
+    facts.visibility = look_at_pixel(data, ping, place);
     facts.seen_material = most_common_material(data, facts.visibility->seen);
   }
   return facts;

@@ -29,7 +29,7 @@ struct PixelVisibility {
   std::optional<double> occluder_range;          ///< range of the nearest surfel that hides one of `hidden` [m]
   std::optional<std::uint32_t> occluder_surfel;  ///< its index
 };
-PixelVisibility look_at_pixel(const SceneCloud& scene, const Ping& ping, PixelPlace place);
+PixelVisibility look_at_pixel(const ViewerData& data, const Ping& ping, PixelPlace place);
 
 /// Facts about one sample.
 struct PixelFacts {

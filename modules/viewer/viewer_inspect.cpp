@@ -40,11 +40,11 @@ const char* visibility_text(Visibility visibility) {
 
 }  // namespace
 
-HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate, const HeadPlace& place) {
-  const Pose pose = pose_of(place);
+HeadView look_from(const SceneCloud& scene, const View& from) {
+  const auto& [pose, fan, gate, sampling] = from;
   HeadView view;
   const PreparedScene prepared(scene);
-  view.visibility = find_visibility(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), {});
+  view.visibility = find_visibility(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), sampling);
   const HeadFrame head(scene, pose);
   for (std::size_t i = 0; i < scene.size(); ++i) {
     view.seen += view.visibility[i] == Visibility::seen;
@@ -56,7 +56,7 @@ HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate&
     view.nearest = view.seen == 1 ? range : std::min(view.nearest, range);
     view.farthest = std::max(view.farthest, range);
   }
-  SamplingOptions rays;
+  SamplingOptions rays = sampling;
   rays.kind = SamplingKind::rays;
   rays.rays_per_beam = rays_per_beam;
   const SamplingReport report = find_scatterers(prepared, pose, fan, gate, rays).report;

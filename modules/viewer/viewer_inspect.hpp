@@ -16,7 +16,7 @@ struct HeadView {
   std::size_t rays = 0, rays_open = 0;  ///< 16 per beam; rays_open: hit neither a surface nor a hole
   std::vector<Eigen::Vector3d> holes;   ///< holes of the scan found by the rays, world [m]
 };
-HeadView look_from(const SceneCloud& scene, const BeamFan& fan, const RangeGate& gate, const HeadPlace& head);
+HeadView look_from(const SceneCloud& scene, const View& view);
 
 /// The view in sentences, one per line, with the corresponding option --pose.
 std::string explain_view(const HeadView& view, const ViewerState& state);

@@ -133,7 +133,7 @@ TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_received) {
   SceneCloud scene;
   for (int i = 0; i < 5000; ++i) add_surfel(scene, {5, 0.5, 0.1}, Eigen::Vector3d(-5, -0.5, -0.1).normalized(), 1e-2);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
-    const SimulatedPing p = ping_of(scene, {.sampling = kind, .rays_per_beam = 2000});
+    const SimulatedPing p = ping_of(scene, {.sampling = {.kind = kind, .rays_per_beam = 2000}});
     EXPECT_TRUE(all_finite(p));
     EXPECT_GT(p.scatterers.size(), 0U);
     EXPECT_GT(p.ping.pressure.abs().maxCoeff(), 0);
@@ -175,7 +175,7 @@ TEST(ExtremeCase, n41_image_that_no_memory_holds_is_refused_with_its_size) {
 TEST(ExtremeCase, n41_more_parts_than_memory_holds_are_refused_with_their_number) {
   // 90 000 surfels in 4096 parts each.
   expect_error(ErrorKind::argument, {"90000 surfels", "368640000 scatterers", "2^28", "scatterers_per_cell"},
-               [] { ping_of(plate(8, 4, 300), {.scatterers_per_cell = 1e12, .occlusion = false}); });
+               [] { ping_of(plate(8, 4, 300), {.sampling = {.scatterers_per_cell = 1e12, .occlusion = false}}); });
 }
 
 TEST(ExtremeCase, n42_prime_numbers_of_bins_beams_and_elements_keep_the_tolerance) {

@@ -12,7 +12,7 @@ SceneCloud one_surfel(const Eigen::Vector3d& place, const Eigen::Vector3d& norma
   return scene;
 }
 
-const SimulationOptions coherent{.scatterers_per_cell = 0, .amplitude = SurfaceAmplitude::coherent};
+const SimulationOptions coherent{.amplitude = SurfaceAmplitude::coherent, .sampling = {.scatterers_per_cell = 0}};
 
 double peak(const SimulatedPing& p) { return image(p).abs().maxCoeff(); }
 
@@ -48,8 +48,8 @@ TEST(ExtremeCase, n03_flipped_normals_without_sides_give_the_image_of_oriented_o
   SceneCloud mixed = plate(5, 2, 20);
   mixed.normals_oriented = false;
   for (std::size_t i = 0; i < mixed.size(); i += 3) mixed.normal[i] = -mixed.normal[i];
-  EXPECT_LT(relative_l2(image(ping_of(mixed, {.scatterers_per_cell = 0})),
-                        image(ping_of(plate(5, 2, 20), {.scatterers_per_cell = 0}))),
+  EXPECT_LT(relative_l2(image(ping_of(mixed, {.sampling = {.scatterers_per_cell = 0}})),
+                        image(ping_of(plate(5, 2, 20), {.sampling = {.scatterers_per_cell = 0}}))),
             1e-12);
   EXPECT_GT(oriented.abs().maxCoeff(), 0);
 }
@@ -104,7 +104,7 @@ TEST(ExtremeCase, n12_scene_without_points_is_silent) {
   EXPECT_EQ(p.soundings.size(), 0U);
   EXPECT_EQ(level_db(p.ping).maxCoeff(), -200);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays})
-    EXPECT_EQ(ping_of(SceneCloud{}, {.sampling = kind}).scatterers.size(), 0U);
+    EXPECT_EQ(ping_of(SceneCloud{}, {.sampling = {.kind = kind}}).scatterers.size(), 0U);
 }
 
 // SL 220 dB, 10 m, 0.2994626 dB/m, target strength -20 dB: 220 - 2 (20 + 2.994626) - 20 dB.
@@ -124,7 +124,7 @@ TEST(ExtremeCase, n14_one_beam_and_one_ray_meet_the_wall_before_them) {
   SonarSpec s = small_sonar();
   s.beams = 1;
   s.field_of_view = 0;  // one beam looks straight ahead, whatever the field of view
-  const SimulatedPing p = ping_of(plate(5, 12, 60), {.sampling = SamplingKind::rays, .rays_per_beam = 1}, s);
+  const SimulatedPing p = ping_of(plate(5, 12, 60), {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 1}}, s);
   EXPECT_TRUE(all_finite(p));
   ASSERT_EQ(p.scatterers.size(), 1U);
   const double x = p.scatterers.range[0] * std::cos(p.scatterers.azimuth[0]) * std::cos(p.scatterers.elevation[0]);
@@ -142,7 +142,7 @@ TEST(ExtremeCase, n16_copies_of_a_point_add_amplitudes_if_coherent_and_powers_if
   // Power over 400 seeds: k times that of one point, with a standard deviation of 5 %.
   double power = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed)
-    power += std::pow(peak(ping_of(copies(7), {.seed = seed, .scatterers_per_cell = 0})), 2) / 400;
+    power += std::pow(peak(ping_of(copies(7), {.seed = seed, .sampling = {.scatterers_per_cell = 0}})), 2) / 400;
   EXPECT_NEAR(power / std::pow(peak(ping_of(copies(1), coherent)), 2), 7, 7 * 0.15);
 }
 
@@ -197,5 +197,5 @@ TEST(ExtremeCase, n54_behind_a_plate_that_fills_the_fan_there_is_nothing) {
     add_surfel(scene, wall.point[i].cast<double>(), wall.normal[i].cast<double>(), wall.area[i]);
   EXPECT_GT(peak(ping_of(scene)), 0);
   EXPECT_EQ(beyond(ping_of(scene)), 0);
-  EXPECT_GT(beyond(ping_of(scene, {.occlusion = false})), 0);
+  EXPECT_GT(beyond(ping_of(scene, {.sampling = {.occlusion = false}})), 0);
 }

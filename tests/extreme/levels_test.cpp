@@ -145,7 +145,7 @@ TEST(ExtremeCase, n34_pressure_beyond_single_precision_is_refused) {
   for (float& area : scene.area) area = 3e38F;
   scene.materials[0].lambert_mu = 1e30;
   expect_error(ErrorKind::content, {"simulate_ping", "Pa", "single precision"},
-               [&] { simulate_ping(scene, head, Pose::Identity(), {}, {.scatterers_per_cell = 0}); });
+               [&] { simulate_ping(scene, head, Pose::Identity(), {}, {.sampling = {.scatterers_per_cell = 0}}); });
 }
 
 TEST(ExtremeCase, n35_level_of_nothing_is_the_floor) {

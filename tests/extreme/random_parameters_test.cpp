@@ -78,14 +78,14 @@ void shorten(RangeGate& gate, Draw& draw) {
 SimulationOptions any_options(Draw& draw) {
   SimulationOptions o;
   o.seed = draw.count(1, 1e9);
-  o.sampling = draw.one_in(3) ? SamplingKind::rays : SamplingKind::surfels;
-  o.rays_per_beam = static_cast<int>(draw.count(1, 30));
+  o.sampling.kind = draw.one_in(3) ? SamplingKind::rays : SamplingKind::surfels;
+  o.sampling.rays_per_beam = static_cast<int>(draw.count(1, 30));
   o.amplitude = static_cast<SurfaceAmplitude>(draw.count(1, 3.999) - 1);
   const bool split = draw.one_in(5);  // up to 4096 parts per surfel: for the fast method
-  o.scatterers_per_cell = split ? draw.log_uniform(1e-3, 3) : 0;
-  o.method = !split && draw.one_in(4) ? SynthesisMethod::direct : SynthesisMethod::gridded;
-  o.tolerance = draw.log_uniform(1e-12, 0.5);
-  o.absorption_order = static_cast<int>(draw.count(1, 3.999)) - 1;
+  o.sampling.scatterers_per_cell = split ? draw.log_uniform(1e-3, 3) : 0;
+  o.synthesis.method = !split && draw.one_in(4) ? SynthesisMethod::direct : SynthesisMethod::gridded;
+  o.synthesis.tolerance = draw.log_uniform(1e-12, 0.5);
+  o.effects.absorption_order = static_cast<int>(draw.count(1, 3.999)) - 1;
   o.threads = static_cast<int>(draw.count(1, 3.999));
   return o;
 }
@@ -128,7 +128,7 @@ TEST(RandomParameters, every_ping_is_finite_or_refused) {
       SonarHead head = make_head(any_sonar(draw), sound_speed(water));
       shorten(head.gate, draw);
       const SimulationOptions options = any_options(draw);
-      const SceneCloud scene = any_scene(draw, head.gate, options.scatterers_per_cell > 0 ? 8 : 300);
+      const SceneCloud scene = any_scene(draw, head.gate, options.sampling.scatterers_per_cell > 0 ? 8 : 300);
       const Pose pose =
           pose_from_yaw_pitch_roll({0, 0, 0}, draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-4, 4));
       const SimulatedPing p = simulate_ping(scene, head, pose, {water}, options);

@@ -44,7 +44,8 @@ TEST(ExtremeCase, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_a
     SonarSpec s = small_sonar();
     s.beams = 1;
     s.bin_size = 0.011;  // 1000 bins fill the gate exactly
-    const SimulatedPing p = ping_of(scene, {.scatterers_per_cell = 0, .amplitude = SurfaceAmplitude::coherent}, s);
+    const SimulatedPing p =
+        ping_of(scene, {.amplitude = SurfaceAmplitude::coherent, .sampling = {.scatterers_per_cell = 0}}, s);
     EXPECT_TRUE(all_finite(p));
     ASSERT_EQ(p.scatterers.size(), 1U) << r << " m";
     ASSERT_EQ(p.soundings.size(), 1U) << r << " m";

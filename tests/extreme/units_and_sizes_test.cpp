@@ -63,7 +63,7 @@ SceneCloud wall(int side, double x = 8) {
 double memory_of_ping(const SceneCloud& scene) {
   forget_peak();
   const double before = peak_memory();
-  const SimulatedPing p = ping_of(scene, {.scatterers_per_cell = 0});
+  const SimulatedPing p = ping_of(scene, {.sampling = {.scatterers_per_cell = 0}});
   EXPECT_GT(p.ping.pressure.abs().maxCoeff(), 0);
   return peak_memory() - before;
 }
@@ -111,7 +111,8 @@ TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
   for (std::size_t i = 0; i < beyond; ++i) far.id[i] += static_cast<std::uint32_t>(near.size());
   const double alone = memory_of_ping(near), among = memory_of_ping(far);
   EXPECT_LT(among - alone, 18.0 * static_cast<double>(beyond));  // bytes
-  EXPECT_TRUE(same(image(ping_of(far, {.scatterers_per_cell = 0})), image(ping_of(near, {.scatterers_per_cell = 0}))));
+  EXPECT_TRUE(same(image(ping_of(far, {.sampling = {.scatterers_per_cell = 0}})),
+                   image(ping_of(near, {.sampling = {.scatterers_per_cell = 0}}))));
 }
 
 // A Gaussian spectrum cut off at +-Bs/2 loses erfc(sqrt(2 ln2) Bs / 2B) of its peak: -24.6 dB for the band that the
@@ -190,10 +191,10 @@ TEST(ExtremeCase, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_40
   water.profile = SoundSpeedProfile{{0, 100}, {c, c}};
   const auto ping = [&](double speed) {
     SimulationOptions options;
-    options.scatterers_per_cell = 0;
+    options.sampling.scatterers_per_cell = 0;
     options.amplitude = SurfaceAmplitude::coherent;
-    options.tolerance = 1e-7;
-    options.motion.velocity = {speed, 0, 0};
+    options.synthesis.tolerance = 1e-7;
+    options.effects.motion.velocity = {speed, 0, 0};
     return simulate_ping(scene, head, Pose::Identity(), water, options);
   };
   const auto peak_range = [&](const ComplexGrid& p, Eigen::Index& n) {
@@ -220,7 +221,7 @@ TEST(ExtremeCase, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_40
 TEST(ExtremeCase, n44_head_with_no_velocity_gives_the_image_of_one_at_rest_bit_for_bit) {
   const SceneCloud scene = plate(6, 4, 40);
   SimulationOptions still;
-  still.motion = {Eigen::Vector3d(0, -0.0, 0), Eigen::Vector3d(-0.0, 0, 0)};
+  still.effects.motion = {Eigen::Vector3d(0, -0.0, 0), Eigen::Vector3d(-0.0, 0, 0)};
   EXPECT_TRUE(same(image(ping_of(scene, still)), image(ping_of(scene))));
 }
 
@@ -230,11 +231,11 @@ TEST(ExtremeCase, n55_rays_too_few_for_a_grazing_plane_are_noted_with_the_number
   SceneCloud scene;
   for (int i = 0; i < 240; ++i)
     for (int j = 0; j < 200; ++j) add_surfel(scene, {4 + 0.04 * i, 0.04 * j - 4, -3}, {0, 0, 1}, 0.0016);
-  const SimulatedPing few = ping_of(scene, {.sampling = SamplingKind::rays, .rays_per_beam = 64});
+  const SimulatedPing few = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 64}});
   ASSERT_EQ(few.notes.size(), 1U);
   EXPECT_THAT(few.notes[0], ::testing::HasSubstr("rays are too few"));
   EXPECT_THAT(few.notes[0], ::testing::HasSubstr("rays per beam"));
-  const SimulatedPing enough = ping_of(scene, {.sampling = SamplingKind::rays, .rays_per_beam = 20000});
+  const SimulatedPing enough = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 20000}});
   EXPECT_TRUE(enough.notes.empty()) << enough.notes[0];
   EXPECT_TRUE(ping_of(scene).notes.empty());
   EXPECT_TRUE(all_finite(few));

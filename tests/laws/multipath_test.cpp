@@ -23,8 +23,8 @@ SimulatedPing ping_of_one_patch(const Environment& environment) {
   head.elevation_shape = ElevationShape::sector;
   SimulationOptions options;
   options.amplitude = SurfaceAmplitude::coherent;
-  options.scatterers_per_cell = 0;
-  options.multipath = options.keep_layers = true;
+  options.sampling.scatterers_per_cell = 0;
+  options.effects.multipath = options.outputs.layers = true;
   Pose pose = Pose::Identity();
   pose.translation() = Eigen::Vector3d(0, 0, -2);
   return simulate_ping(scene, head, pose, environment, options);

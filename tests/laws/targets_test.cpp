@@ -132,8 +132,8 @@ TEST(TargetLaws, flat_plate_of_coherent_facets_goes_from_its_image_to_its_area_o
   for (const PlateCase& c : plate_cases) {
     SimulationOptions options;
     options.amplitude = SurfaceAmplitude::coherent;
-    options.scatterers_per_cell = 0;
-    options.occlusion = false;
+    options.sampling.scatterers_per_cell = 0;
+    options.sampling.occlusion = false;
     const SonarHead head = long_pulse_head(c.range);
     const SimulatedPing p = simulate_ping(kirchhoff_plate(c.range), head, Pose::Identity(), water_at_speed(), options);
     const double absorbed = 2 * c.range * p.medium.absorption.a0 / nepers_per_db;

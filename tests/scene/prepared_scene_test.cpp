@@ -56,14 +56,14 @@ TEST(PreparedScene, blocks_are_small_though_a_few_points_are_far_away) {
 TEST(PreparedScene, knows_the_mean_spacing) {
   const SceneCloud scene = harbour_with_strays();
   const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
-  EXPECT_DOUBLE_EQ(PreparedScene(scene).mean_spacing(), std::sqrt(area / static_cast<double>(scene.size())));
+  EXPECT_DOUBLE_EQ(PreparedScene(scene).whole().mean_spacing, std::sqrt(area / static_cast<double>(scene.size())));
 }
 
 TEST(PreparedScene, knows_the_largest_surfel) {
   const SceneCloud scene = harbour_with_strays();
-  EXPECT_EQ(PreparedScene(scene).largest_area(), *std::max_element(scene.area.begin(), scene.area.end()));
+  EXPECT_EQ(PreparedScene(scene).whole().largest_area, *std::max_element(scene.area.begin(), scene.area.end()));
   const SceneCloud empty;
-  EXPECT_EQ(PreparedScene(empty).largest_area(), 0);
+  EXPECT_EQ(PreparedScene(empty).whole().largest_area, 0);
 }
 
 TEST(PreparedScene, may_be_empty_or_of_coincident_points) {

@@ -2,7 +2,8 @@
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "scene_io/tiled_scene.hpp"
-#include "simulate/ping_region.hpp"
+#include "simulate/resolve_ping.hpp"
+#include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
 #include "test_files.hpp"
 
@@ -25,7 +26,8 @@ void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environme
   save_tiles(path, whole, small_tiles());
   const TiledScene tiled(path);
   const SonarHead head = small_head({});
-  const TileSelection selection = tiled.select(ping_region(tiled.info().whole, head, pose, environment, options));
+  const TileSelection selection =
+      tiled.select(resolve_ping(tiled.info().whole, head, pose, environment, options).region);
   EXPECT_LT(static_cast<double>(selection.surfels), most_of_the_scene * static_cast<double>(whole.size()));
   const SimulatedPing all = simulate_ping(whole, head, pose, environment, options);
   const SimulatedPing part = simulate_ping(tiled.load(selection), head, pose, environment, options);
@@ -46,11 +48,12 @@ TEST(TiledPing, ping_of_the_part_is_the_ping_of_the_whole) {
 
 TEST(TiledPing, ping_from_within_the_scene_is_the_same) {
   expect_same_ping(harbour(), pose_from_yaw_pitch_roll({30, 2, -5}, radians(150), radians(20), radians(5)), {Water{}},
-                   {.scatterers_per_cell = 3}, 0.6);
+                   {.sampling = {.scatterers_per_cell = 3}}, 0.6);
 }
 
 TEST(TiledPing, rays_meet_the_same_surfels) {
-  expect_same_ping(harbour(), harbour_pose(), {Water{}}, {.sampling = SamplingKind::rays, .rays_per_beam = 32}, 0.4);
+  expect_same_ping(harbour(), harbour_pose(), {Water{}},
+                   {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 32}}, 0.4);
 }
 
 TEST(TiledPing, relief_and_gate_are_those_of_the_whole_scene) {
@@ -65,7 +68,8 @@ TEST(TiledPing, multipath_is_the_same_from_all_sides) {
   Environment environment{Water{}};
   environment.surface = SeaSurface{.rms_height = 0.0};
   environment.bottom = FlatBottom{.height = -8.5};
-  expect_same_ping(harbour(), harbour_pose(), environment, {.scatterers_per_cell = 2, .multipath = true}, 0.9);
+  expect_same_ping(harbour(), harbour_pose(), environment,
+                   {.sampling = {.scatterers_per_cell = 2}, .effects = {.multipath = true}}, 0.9);
 }
 
 TEST(TiledPing, utm_coordinates_keep_their_millimetres) {
@@ -73,5 +77,5 @@ TEST(TiledPing, utm_coordinates_keep_their_millimetres) {
   scene.origin = {431234, 5412345, 12};
   Pose pose = harbour_pose();
   pose.translation() += scene.origin;
-  expect_same_ping(scene, pose, {Water{}}, {.scatterers_per_cell = 2}, 0.4);
+  expect_same_ping(scene, pose, {Water{}}, {.sampling = {.scatterers_per_cell = 2}}, 0.4);
 }

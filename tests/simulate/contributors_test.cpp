@@ -33,7 +33,7 @@ TEST(SimulatedContributors, are_kept_when_asked_for) {
   const SceneCloud scene = two_materials();
   const SimulatedPing without = simulate_ping(scene, head, over_plane, {});
   EXPECT_TRUE(without.contributors.empty());
-  const SimulatedPing with = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 2});
+  const SimulatedPing with = simulate_ping(scene, head, over_plane, {}, {.outputs = {.contributors = 2}});
   EXPECT_EQ(with.contributors.beams, head.fan.beams());
   EXPECT_EQ(with.contributors.bins, head.gate.bins());
   EXPECT_EQ(with.contributors.per_pixel, 2U);
@@ -42,7 +42,7 @@ TEST(SimulatedContributors, are_kept_when_asked_for) {
 
 // Port is positive azimuth: beams that look to port show the mud there.
 TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
-  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.keep_contributors = 1});
+  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.outputs = {.contributors = 1}});
   const auto image = material_image(p.contributors);
   std::size_t right = 0, all = 0;
   for (std::size_t b = 0; b < head.fan.beams(); ++b) {
@@ -60,7 +60,7 @@ TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
 // The elevation that is named is where a plane 3 m below shows at that range: asin(-3 / r) in the world, 15 degrees up
 // in the head, as seen straight ahead.
 TEST(SimulatedContributors, of_a_plane_stand_at_the_elevation_of_the_plane) {
-  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.keep_contributors = 1});
+  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.outputs = {.contributors = 1}});
   for (std::size_t n = 0; n < head.gate.bins(); ++n) {
     const double r = head.gate.centre(n);
     if (r < 7 || r > 14) continue;
@@ -80,10 +80,8 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   environment.surface = SeaSurface{};
   Pose pose = Pose::Identity();
   pose.translation() = Eigen::Vector3d(0, 0, -2);
-  SimulationOptions options;
-  options.multipath = true;
-  options.keep_contributors = 4;
-  const SimulatedPing p = simulate_ping(scene, wide, pose, environment, options);
+  const SimulatedPing p =
+      simulate_ping(scene, wide, pose, environment, {.effects = {.multipath = true}, .outputs = {.contributors = 4}});
   const double direct = std::hypot(10, 2), bounced = std::hypot(10, 6);
   const auto at_range = [&](double range) {
     const auto bin = static_cast<std::size_t>((range - wide.gate.min_range) / wide.gate.bin_size);
@@ -108,7 +106,7 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
 TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
-  const SimulatedPing p = simulate_ping(scene, head, pose, {}, {.keep_contributors = 1});
+  const SimulatedPing p = simulate_ping(scene, head, pose, {}, {.outputs = {.contributors = 1}});
   ASSERT_GT(p.soundings.size(), 100U);
   std::size_t near = 0;
   for (std::size_t i = 0; i < p.soundings.size(); ++i) {
@@ -125,7 +123,7 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
 // The map of a ping agrees with what sampling saw, and covers what contributors name.
 TEST(SimulatedContributors, are_insonified) {
   const SceneCloud scene = two_materials();
-  const SimulatedPing p = simulate_ping(scene, head, over_plane, {}, {.keep_contributors = 1});
+  const SimulatedPing p = simulate_ping(scene, head, over_plane, {}, {.outputs = {.contributors = 1}});
   Insonification map;
   add_ping(map, scene, p.scatterers, head, p.medium, {.min_response_db = -300});
   std::size_t hits = 0;

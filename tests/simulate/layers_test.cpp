@@ -38,11 +38,7 @@ struct Case {
   Environment environment = full_environment();
   SonarHead head = small_head(sonar);
   double lambert_mu = 1e-3;
-  SimulationOptions options = [] {
-    SimulationOptions o;
-    o.multipath = o.noise = o.keep_layers = true;
-    return o;
-  }();
+  SimulationOptions options{.effects = {.multipath = true, .noise = true}, .outputs = {.layers = true}};
 
   SimulatedPing ping() const {
     const SceneCloud wall = make_built_in_scene("wall", {.points = 3000, .size = {2, 2}, .lambert_mu = lambert_mu});
@@ -111,7 +107,7 @@ TEST(Layers, add_up_to_the_pressure) {
 
 TEST(Layers, are_kept_only_on_request_and_change_nothing) {
   Case c;
-  c.options.keep_layers = false;
+  c.options.outputs.layers = false;
   const SimulatedPing without = c.ping();
   EXPECT_TRUE(without.ping.layers.empty());
   EXPECT_EQ(without.layers.size(), all_layers.size());
@@ -121,11 +117,11 @@ TEST(Layers, are_kept_only_on_request_and_change_nothing) {
 // One after another is taken away: the others stay as they are, to the last bit.
 TEST(Layers, are_what_each_is_without_the_others) {
   const std::map<std::string, std::function<void(Case&)>> removals = {
-      {"multipath", [](Case& c) { c.options.multipath = false; }},
+      {"multipath", [](Case& c) { c.options.effects.multipath = false; }},
       {"volume", [](Case& c) { c.environment.volume_scattering_db.reset(); }},
       {"surface", [](Case& c) { c.environment.surface->scattering_strength_db.reset(); }},
       {"bottom", [](Case& c) { c.environment.bottom->lambert_mu.reset(); }},
-      {"noise", [](Case& c) { c.options.noise = false; }}};
+      {"noise", [](Case& c) { c.options.effects.noise = false; }}};
   for (const auto& [gone, remove] : removals) {
     Case c;
     remove(c);
@@ -136,7 +132,7 @@ TEST(Layers, are_what_each_is_without_the_others) {
   }
   Case direct_alone;
   direct_alone.environment = {};
-  direct_alone.options.multipath = direct_alone.options.noise = false;
+  direct_alone.options.effects.multipath = direct_alone.options.effects.noise = false;
   EXPECT_TRUE(same(layers_of(direct_alone.ping()).at("direct"), reference().at("direct")));
 }
 
@@ -208,10 +204,10 @@ TEST(Layers, do_not_depend_on_the_thread_count) {
 
 TEST(SimulatePing, of_a_head_with_no_velocity_is_that_of_a_head_at_rest_bit_for_bit) {
   Case still;
-  still.options.motion = {{0, -0.0, 0}, {-0.0, 0, 0}};
+  still.options.effects.motion = {{0, -0.0, 0}, {-0.0, 0, 0}};
   EXPECT_TRUE(same(still.ping().ping.pressure, Case{}.ping().ping.pressure));
   Case moving;
-  moving.options.motion.velocity = {1, 0, 0};
+  moving.options.effects.motion.velocity = {1, 0, 0};
   const Layers layers = layers_of(moving.ping());
   EXPECT_FALSE(same(layers.at("direct"), reference().at("direct")));
   for (const char* name : {"multipath", "volume", "surface", "bottom", "noise"})  // heard as at rest
@@ -231,13 +227,13 @@ TEST(SimulatePing, in_a_profile_of_one_sound_speed_is_that_without_a_profile_bit
 // The series of all elements, beamformed by true delays, is the ping without its noise.
 TEST(Elements, of_a_ping_beamform_to_the_ping_itself) {
   Case plain;
-  plain.options.noise = false;
-  plain.options.method = SynthesisMethod::element_exact;
-  plain.options.keep_elements = true;
+  plain.options.effects.noise = false;
+  plain.options.synthesis.method = SynthesisMethod::element_exact;
+  plain.options.outputs.elements = true;
   const SimulatedPing p = plain.ping();
-  const ComplexGrid beams =
-      beam_from_elements(p.elements, plain.head, p.medium, {plain.options.tolerance, Wavefront::spherical, 0});
+  const ComplexGrid beams = beam_from_elements(p.elements, plain.head, p.medium,
+                                               {plain.options.synthesis.tolerance, Wavefront::spherical, 0});
   EXPECT_LT(compare_images(beams, p.ping.pressure.cast<std::complex<double>>()).relative_l2, 1e-6);
-  plain.options.keep_elements = false;
+  plain.options.outputs.elements = false;
   EXPECT_EQ(plain.ping().elements.pressure.size(), 0);
 }

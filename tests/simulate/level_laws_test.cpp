@@ -81,14 +81,17 @@ TEST(LevelLaws, level_does_not_depend_on_cloud_density_or_splitting) {
   for (const std::size_t points : {50000, 100000, 400000})
     EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, points, {}), head, 6, 3), 0, 0.4) << points << " points";
   for (const double per_cell : {3.0, 30.0})
-    EXPECT_NEAR(bottom_excess_db(ping_plane(head, 3, 100000, {.scatterers_per_cell = per_cell}), head, 6, 3), 0, 0.4)
+    EXPECT_NEAR(
+        bottom_excess_db(ping_plane(head, 3, 100000, {.sampling = {.scatterers_per_cell = per_cell}}), head, 6, 3), 0,
+        0.4)
         << per_cell;
 }
 
 TEST(LevelLaws, level_does_not_depend_on_the_number_of_rays) {
   const SonarHead head = bottom_sonar(4, 8);
   for (const int rays : {2000, 4000}) {
-    const SimulatedPing p = ping_plane(head, 3, 200000, {.sampling = SamplingKind::rays, .rays_per_beam = rays});
+    const SimulatedPing p =
+        ping_plane(head, 3, 200000, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = rays}});
     EXPECT_NEAR(bottom_excess_db(p, head, 6, 3), 0, 0.5) << rays << " rays per beam";
   }
 }

@@ -9,6 +9,7 @@
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
@@ -44,7 +45,7 @@ Situation situation(std::uint64_t number) {
   s.head = make_head(spec, sound_speed(s.environment.water));
   s.pose = pose_from_yaw_pitch_roll({0, 0, 1.5 + b[3]}, 0, radians(10 + 15 * b[0]), 0);
   s.options.seed = number;
-  s.options.scatterers_per_cell = 3;
+  s.options.sampling.scatterers_per_cell = 3;
   return s;
 }
 
@@ -76,7 +77,7 @@ TEST(PlanPing, effect_of_every_stage_left_out_stays_below_its_bound) {
     Situation s = situation(number);
     s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
     s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
-    s.options.refraction = Choice::never;
+    s.options.effects.refraction = Choice::never;
     const PingPlan plan = plan_of(s);
     outer_elevations += stage(plan, "outer-elevations").bound_relative;
     for (const std::string name : {"outer-elevations", "outer-azimuths", "absorption-slope", "refraction", "multipath",
@@ -105,8 +106,8 @@ TEST(PlanPing, bounds_are_not_idle) {
 TEST(PlanPing, ranges_beyond_the_sampled_ones_change_nothing_above_their_bound) {
   for (std::uint64_t number = 1; number <= 6; ++number) {
     Situation s = situation(number);
-    s.options.method = SynthesisMethod::direct;  // whole pulses: only what is sampled differs
-    s.options.tolerance = 0.03;
+    s.options.synthesis.method = SynthesisMethod::direct;  // whole pulses: only what is sampled differs
+    s.options.synthesis.tolerance = 0.03;
     const ComplexGrid narrow = image(s);
     const double bound = stage(plan_of(s), "other-ranges").bound_relative;
     Situation wide = s;
@@ -161,9 +162,9 @@ TEST(PlanPing, what_the_environment_calls_for_is_in) {
   s.environment.surface = SeaSurface{.height = 5, .scattering_strength_db = -30.0};
   s.environment.bottom = FlatBottom{.height = -1, .lambert_mu = 0.002};
   s.environment.volume_scattering_db = -70;
-  s.options.multipath = s.options.noise = true;
-  s.options.absorption_order = 1;
-  s.options.motion.velocity = {1, 0, 0};
+  s.options.effects.multipath = s.options.effects.noise = true;
+  s.options.effects.absorption_order = 1;
+  s.options.effects.motion.velocity = {1, 0, 0};
   s.scene.materials[0].relief_slope = 0.1;
   s.scene.materials[0].coherent_fraction = 0.5;
   const PingPlan plan = plan_of(s);
@@ -175,6 +176,42 @@ TEST(PlanPing, what_the_environment_calls_for_is_in) {
   const PingPlan less = plan_of(s);
   for (const std::string name : {"volume", "surface", "bottom", "multipath", "noise", "motion", "occlusion"})
     EXPECT_FALSE(stage(less, name).included) << name;
+}
+
+// Out of a ping of another method, a way of summing is out already; into one of intensities it does not go.
+TEST(PlanPing, forcing_a_method_out_leaves_another_method_alone) {
+  using enum SynthesisMethod;
+  const std::pair<const char*, SynthesisMethod> stages[] = {{"direct-sum", direct}, {"true-delays", element_exact}};
+  for (const auto& [name, method] : stages) {
+    for (const SynthesisMethod chosen : {gridded, direct, spectrum, element_exact, incoherent}) {
+      Situation s = situation(1);
+      s.options.synthesis.method = chosen;
+      force_stage(name, false, s.environment, s.options);
+      EXPECT_EQ(s.options.synthesis.method, chosen == method ? gridded : chosen) << name;
+      if (chosen == incoherent) {
+        EXPECT_THROW(effect_of(s, name), Error) << name;
+        continue;
+      }
+      force_stage(name, true, s.environment, s.options);
+      EXPECT_EQ(s.options.synthesis.method, method) << name;
+    }
+  }
+}
+
+// The direct sum has no tolerance to keep: it takes one that gridding cannot keep.
+TEST(PlanPing, of_a_direct_sum_takes_any_tolerance) {
+  Situation s = situation(1);
+  s.options.synthesis = {SynthesisMethod::direct, 1e-14};
+  s.options.sampling.scatterers_per_cell = 0;
+  EXPECT_TRUE(stage(plan_of(s), "direct-sum").included);
+  EXPECT_GT(image(s).abs().maxCoeff(), 0);
+}
+
+TEST(PlanPing, names_the_stages_that_can_be_forced) {
+  Situation s = situation(1);
+  EXPECT_EQ(error_of([&] { force_stage("noize", true, s.environment, s.options); }),
+            "force_stage: 'noize' cannot be forced; these can: outer-elevations, outer-azimuths, occlusion, "
+            "absorption-slope, refraction, motion, multipath, volume, surface, bottom, noise, direct-sum, true-delays");
 }
 
 TEST(PlanPing, estimates_what_a_ping_will_hold) {

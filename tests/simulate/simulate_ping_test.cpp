@@ -79,8 +79,9 @@ TEST(SimulatePing, does_not_change_when_world_and_head_move_together) {
 }
 
 TEST(SimulatePing, gridded_and_direct_agree_on_a_scene) {
-  const SimulatedPing fast = ping_harbour({.scatterers_per_cell = 0, .tolerance = 1e-6});
-  const SimulatedPing slow = ping_harbour({.scatterers_per_cell = 0, .method = SynthesisMethod::direct});
+  const SimulatedPing fast = ping_harbour({.sampling = {.scatterers_per_cell = 0}, .synthesis = {.tolerance = 1e-6}});
+  const SimulatedPing slow =
+      ping_harbour({.sampling = {.scatterers_per_cell = 0}, .synthesis = {.method = SynthesisMethod::direct}});
   EXPECT_LT(compare_images(image(fast), image(slow)).relative_l2, 1e-6);
 }
 
@@ -103,7 +104,7 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
   const Water water;
   const auto ping = [&](bool noise) {
     return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water},
-                         {.noise = noise});
+                         {.effects = {.noise = noise}});
   };
   const SimulatedPing p = ping(true);
   EXPECT_NEAR(mean_level_db(p.ping, 2, 20), p.noise_floor_db, 0.4);

@@ -139,25 +139,36 @@ TEST(PlaceOf, is_empty_outside_fan_and_gate) {
 TEST(HeadView, counts_what_a_head_sees) {
   const auto made = three_targets();
   const Ping& ping = made.data.pings[0];
-  HeadPlace head = head_place(ping.world_from_head);
-  const HeadView view = look_from(made.data.scene, ping.fan, ping.gate, head);
+  const HeadView view = look_from(made.data.scene, view_at(made.data, ping.world_from_head, ping.fan, ping.gate));
   EXPECT_EQ(view.seen, 75U);
   EXPECT_EQ(view.seen + view.hidden + view.turned_away + view.outside, made.data.scene.size());
   EXPECT_NEAR(view.nearest, 6.05, 0.01);
   EXPECT_NEAR(view.farthest, 12.05, 0.01);
+  HeadPlace head = head_place(ping.world_from_head);
   head.yaw += pi;  // looks away
-  const HeadView away = look_from(made.data.scene, ping.fan, ping.gate, head);
+  const HeadView away = look_from(made.data.scene, view_at(made.data, pose_of(head), ping.fan, ping.gate));
   EXPECT_EQ(away.seen, 0U);
   ViewerState state;
   state.head = head;
   EXPECT_THAT(explain_view(away, state), HasSubstr("Nothing is seen"));
 }
 
+// A ping samples more than the elevation width and the gate: so does the inspection, once it knows the ping.
+TEST(HeadView, is_that_of_the_ping_where_it_is_known) {
+  auto made = three_targets();
+  const Ping& ping = made.data.pings[0];
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.place);
+  EXPECT_EQ(facts.visibility->seen.size(), 25U);
+  made.data.view = View{Pose::Identity(), {}, {2, 9, 0.1}, {}};  // the far target stands at 12 m
+  EXPECT_EQ(look_from(made.data.scene, view_at(made.data, ping.world_from_head, ping.fan, ping.gate)).seen, 50U);
+  EXPECT_TRUE(find_pixel_facts(made.data, 0, made.far.place).visibility->seen.empty());
+}
+
 TEST(HeadView, explains_a_surfel) {
   const auto made = three_targets();
   const Ping& ping = made.data.pings[0];
   const HeadPlace head = head_place(ping.world_from_head);
-  const HeadView view = look_from(made.data.scene, ping.fan, ping.gate, head);
+  const HeadView view = look_from(made.data.scene, view_at(made.data, ping.world_from_head, ping.fan, ping.gate));
   const std::string text = explain_surfel(made.data.scene, view, head, 12);  // middle of the port target
   EXPECT_THAT(text, HasSubstr("Material iron"));
   EXPECT_THAT(text, HasSubstr("Range 6.050 m"));

@@ -1,0 +1,92 @@
+#include "simulate/resolve_ping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "beamforming/head_patterns.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double nearest_range = 0.1;  // [m]: spreading would have no bound nearer by
+constexpr double rounding = 1.001;     // of the ball that holds all paths
+
+EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
+  EchoOptions echoes;
+  const bool incoherent = o.synthesis.method == SynthesisMethod::incoherent;
+  echoes.amplitude = incoherent ? SurfaceAmplitude::mean_power : o.amplitude;
+  echoes.seed = o.seed;
+  echoes.threads = o.threads;
+  return with_patterns(echoes, head);
+}
+
+SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, const Medium& medium,
+                            const SimulationOptions& o) {
+  SamplingOptions s;
+  s.kind = o.sampling.kind;
+  s.scatterers_per_cell = o.sampling.scatterers_per_cell;
+  s.range_resolution = range_resolution(head.pulse, medium.sound_speed);
+  s.rays_per_beam = o.sampling.rays_per_beam;
+  s.elevation_half_extent = sampled_half_extent(head, o.sampling.elevation_floor_db);
+  s.azimuth_margin = o.sampling.azimuth_margin;
+  s.occlusion = o.sampling.occlusion;
+  s.relief_outer_scale = scene.mean_spacing;
+  s.seed = o.seed;
+  s.threads = o.threads;
+  return s;
+}
+
+RangeGate sampled_gate(const WholeScene& scene, const SonarHead& head, const Medium& medium, double tolerance) {
+  const double widest = head.gate.max_range - head.gate.min_range;  // a larger part is of no use to a ping
+  const double part = std::min(widest, std::sqrt(scene.largest_area / pi));
+  const double reach = part + 0.5 * medium.sound_speed * pulse_half_length(head.pulse, 0.5 * tolerance);
+  RangeGate gate = head.gate;
+  gate.min_range = std::max(std::min(nearest_range, gate.min_range), gate.min_range - reach);
+  gate.max_range += reach;
+  return gate;
+}
+
+InsonifiedRegion region_of(const ResolvedPing& ping) {
+  const View& view = ping.view;
+  if (!ping.options.effects.multipath) return {view.world_from_head, ping.sector, view.gate, view.sampling.footprint};
+  // Bounces come from all sides: whatever is nearer than the longest leg may reflect or block one.
+  InsonifiedRegion region =
+      region_around(view.world_from_head.translation(), rounding * longest_leg(ping.environment, view, ping.sent));
+  region.footprint = view.sampling.footprint;
+  return region;
+}
+
+DetectionOptions detection_of(const SimulationOptions& o, double beam_noise_db) {
+  DetectionOptions detection = o.detection;
+  detection.threads = o.threads;
+  if (std::isinf(detection.noise_floor_db)) detection.noise_floor_db = beam_noise_db;
+  return detection;
+}
+
+}  // namespace
+
+ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
+                          const Environment& environment, const SimulationOptions& options, const char* who) {
+  require_valid(head, who);
+  require_valid(environment, who);
+  require_valid(options, who);
+  if (options.effects.multipath && !environment.surface && !environment.bottom)
+    fail(ErrorKind::argument, who, ": options.effects.multipath = true, but the environment has neither surface nor ",
+         "bottom, must have one of them");
+
+  ResolvedPing ping{head, environment, options, {}, {}, {}, {}, {}, {}, {}};
+  const Medium medium = medium_of(environment, head.pulse.centre_frequency, options.effects.absorption_order);
+  ping.sent = {head.pulse, medium, echo_options_of(head, options)};
+  ping.view = {world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
+               sampling_of(scene, head, medium, options)};
+  ping.sector = insonified_sector(head.fan, ping.view.sampling);
+  ping.region = region_of(ping);
+  ping.element_noise_db = element_noise_level_db(environment, head.pulse);
+  ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
+  ping.detection = detection_of(options, ping.beam_noise_db);
+  return ping;
+}
+
+}  // namespace insonify

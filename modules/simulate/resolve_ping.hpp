@@ -1,0 +1,37 @@
+#pragma once
+#include "acoustics/environment.hpp"
+#include "acoustics/multipath_echoes.hpp"
+#include "beamforming/sonar_head.hpp"
+#include "sampling/insonified_region.hpp"
+#include "simulate/simulation_options.hpp"
+
+namespace insonify {
+
+/// A ping and all that follows from its head, pose, environment and options, derived once for every stage.
+struct ResolvedPing {
+  SonarHead head;
+  Environment environment;
+  SimulationOptions options;
+  Transmission sent;            ///< pulse, medium and the patterns that echoes are weighted by
+  View view;                    ///< pose, fan, sampled ranges and sampling
+  Sector sector;                ///< that is sampled
+  InsonifiedRegion region;      ///< all that can be heard or block sound; with multipath a ball about the head
+  double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
+  double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
+  DetectionOptions detection;   ///< with that noise floor, if the options leave it open
+};
+
+/// Resolves a ping of a scene with the properties `scene` (whole_of, PreparedScene::whole), for plan_ping,
+/// simulate_ping and all that asks what a ping would see. The surfels inside `region` alone, in their order and with
+/// SceneCloud::part_of set, give the same ping to the byte.
+///
+/// The sampled ranges go beyond the head's gate as far as pulses reach into it (down to half the tolerance) and as
+/// parts of the largest surfel stand off its middle; never below 0.1 m, or the gate's own beginning if that is nearer.
+///
+/// Throws Error for an invalid head, environment or option, and for multipath without a boundary; `who` names the
+/// caller.
+ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
+                          const Environment& environment, const SimulationOptions& options = {},
+                          const char* who = "resolve_ping");
+
+}  // namespace insonify

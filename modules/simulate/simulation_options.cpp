@@ -1,0 +1,80 @@
+#include "simulate/simulation_options.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "beamforming/element_series.hpp"
+#include "beamforming/ping_synthesizer.hpp"
+#include "core/error.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int most_contributors = 255;
+
+bool at_least_0(double value) { return value >= 0 && std::isfinite(value); }
+
+/// Refuses values of one group of options, by name.
+struct Checker {
+  const char* who;
+  const char* group;
+
+  template <typename Value>
+  void require(bool good, const char* name, Value value, const char* rule) const {
+    if (!good) fail(ErrorKind::argument, who, ": options.", group, name, " = ", value, ", must be ", rule);
+  }
+};
+
+void require_valid(const SamplingSettings& s, const char* who) {
+  const Checker check{who, "sampling."};
+  check.require(at_least_0(s.scatterers_per_cell), "scatterers_per_cell", s.scatterers_per_cell, "finite and >= 0");
+  check.require(s.rays_per_beam >= 1, "rays_per_beam", s.rays_per_beam, "at least 1");
+  check.require(s.elevation_floor_db < 0, "elevation_floor_db", s.elevation_floor_db, "< 0 dB");
+  check.require(at_least_0(s.azimuth_margin), "azimuth_margin", s.azimuth_margin, "finite and >= 0 rad");
+  check.require(at_least_0(s.level_error_db), "level_error_db", s.level_error_db,
+                "finite and > 0 dB; 0: the sampling is taken as it is");
+}
+
+void require_valid(const SynthesisSettings& s, bool elements, const char* who) {
+  const Checker check{who, "synthesis."};
+  const double t = s.tolerance;
+  check.require(t > 0 && t < 1, "tolerance", t, "within 0 and 1");
+  if (s.method == SynthesisMethod::gridded)
+    check.require(t >= min_gridding_tolerance, "tolerance", t,
+                  "at least 1e-13 with method gridded; below that use direct");
+  if (elements || s.method == SynthesisMethod::element_exact)
+    check.require(t >= min_element_tolerance && t <= max_element_tolerance, "tolerance", t,
+                  "within 1e-12 and 0.1 for method element_exact and the output of elements");
+}
+
+void require_valid(const DetectionOptions& d, const char* who) {
+  const Checker check{who, "detection."};
+  check.require(d.noise_floor_db < infinity, "noise_floor_db", d.noise_floor_db,
+                "finite, or -inf: all noise in the band");
+  check.require(!std::isnan(d.threshold_db), "threshold_db", d.threshold_db, "a number");
+  check.require(!std::isnan(d.side_lobe_margin_db), "side_lobe_margin_db", d.side_lobe_margin_db, "a number");
+  check.require(!std::isnan(d.above_db), "above_db", d.above_db, "a number");
+}
+
+}  // namespace
+
+void require_valid(const SimulationOptions& o, const char* who) {
+  require_valid(o.sampling, who);
+  require_valid(o.synthesis, o.outputs.elements, who);
+  require_valid(o.detection, who);
+  require_valid(o.effects.motion, who);
+  const int order = o.effects.absorption_order;
+  Checker{who, "effects."}.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");
+  const Checker outputs{who, "outputs."};
+  outputs.require(o.outputs.paths >= 0, "paths", o.outputs.paths, "at least 0");
+  outputs.require(o.outputs.contributors >= 0 && o.outputs.contributors <= most_contributors, "contributors",
+                  o.outputs.contributors, "within 0 and 255");
+  outputs.require(!(o.outputs.elements && o.synthesis.method == SynthesisMethod::incoherent), "elements", "true",
+                  "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
+  const Checker top{who, ""};
+  top.require(std::isfinite(o.time), "time", o.time, "finite");
+  top.require(o.threads >= 0, "threads", o.threads, "at least 0; 0: all cores");
+}
+
+}  // namespace insonify

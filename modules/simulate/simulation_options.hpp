@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+
+#include "acoustics/direct_echoes.hpp"
+#include "acoustics/motion.hpp"
+#include "beamforming/synthesize.hpp"
+#include "returns/detect_soundings.hpp"
+#include "sampling/find_scatterers.hpp"
+
+namespace insonify {
+
+/// Whether something is done: as the scene needs it, always, or never.
+enum class Choice { as_needed, always, never };
+
+/// Which points stand for the scene.
+struct SamplingSettings {
+  SamplingKind kind = SamplingKind::surfels;
+  double scatterers_per_cell = 10;  ///< surfels are split until a resolution cell holds so many; 0: never split
+  int rays_per_beam = 64;           ///< of sampling by rays, and of the mask of holes
+  bool occlusion = true;
+  double elevation_floor_db = -40;  ///< elevations where the two-way pattern is lower are not sampled; < 0
+  double azimuth_margin = 0;        ///< sampled beyond the outermost beams [rad]; 0: one beam width
+  /// The sampling is refined until 99 % of the cells have a smaller error (E66): points are multiplied (surfels:
+  /// scatterers per cell; rays: rays per beam) by what the error asks for, up to six samplings and 2^23 scatterers or
+  /// rays (about 1.5 GiB). 0: the sampling is taken as it is.
+  double level_error_db = 0;
+};
+
+/// How beams are formed of echoes.
+struct SynthesisSettings {
+  /// `incoherent` gives the expected level without speckle (E65): all amplitudes are of mean power, and layers and
+  /// noise add up by their squares. There are no pressures at the elements then.
+  SynthesisMethod method = SynthesisMethod::gridded;
+  /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
+  /// 0.1.
+  double tolerance = 1e-4;
+};
+
+/// What is computed beside direct echoes along straight rays from a head at rest.
+struct EffectSettings {
+  bool multipath = false;                 ///< echoes by way of the environment's surface and bottom (E48)
+  bool noise = false;                     ///< thermal, wind and self noise of independent elements (E18, E25, E41)
+  Motion motion{};                        ///< of the head during the ping (E44); only direct echoes are shifted by it
+  int absorption_order = 0;               ///< 0: absorption of the centre frequency for the whole pulse; at most 2
+  Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
+};
+
+/// What the result holds beside ping, scatterers and soundings.
+struct OutputSettings {
+  bool elements = false;  ///< pressure at every element of a line array, before beams (E61), without noise
+  bool layers = false;    ///< each kind of echo as a layer of its own
+  bool mask = false;      ///< cells where the scan has holes
+  int paths = 0;          ///< so many paths of sound of each kind
+  int contributors = 0;   ///< so many of the strongest surfels of every pixel (E63), at most 255
+};
+
+/// All that can be chosen for a ping of a given head, place and environment.
+struct SimulationOptions {
+  std::uint64_t seed = 1;
+  SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
+  SamplingSettings sampling{};
+  SynthesisSettings synthesis{};
+  EffectSettings effects{};
+  OutputSettings outputs{};
+  DetectionOptions detection{};  ///< noise floor -inf: all noise in the band, less the array's gain
+  std::int64_t ping = 0;         ///< number of the ping: noise, water and waves are new in every one
+  double time = 0;               ///< of transmission [s]
+  int threads = 0;               ///< 0: all cores; the result does not depend on it
+};
+
+/// Throws Error(argument) for a value out of its range, or for two that exclude each other: `who` names the caller, and
+/// the message option, value and rule.
+void require_valid(const SimulationOptions& options, const char* who);
+
+}  // namespace insonify

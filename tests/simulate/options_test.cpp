@@ -1,0 +1,85 @@
+// Options of a ping are refused by name, before any work.
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "simulate/plan_ping.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
+
+using namespace insonify;
+using HasSubstr;
+
+namespace {
+
+using O = SimulationOptions;
+
+constexpr double infinity = HUGE_VAL;
+const double not_a_number = std::nan("");
+
+std::string error_of_tolerance(SynthesisMethod method, double tolerance, bool elements = false) {
+  const O options{.synthesis = {method, tolerance}, .outputs = {.elements = elements}};
+  return error_of([&] { require_valid(options, "ping"); });
+}
+
+}  // namespace
+
+TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
+  const std::pair<O, const char*> cases[] = {
+      {{.sampling = {.scatterers_per_cell = -1}}, "sampling.scatterers_per_cell = -1, must be finite and >= 0"},
+      {{.sampling = {.scatterers_per_cell = infinity}}, "sampling.scatterers_per_cell = inf, must be finite and >= 0"},
+      {{.sampling = {.rays_per_beam = 0}}, "sampling.rays_per_beam = 0, must be at least 1"},
+      {{.sampling = {.elevation_floor_db = 0}}, "sampling.elevation_floor_db = 0, must be < 0 dB"},
+      {{.sampling = {.azimuth_margin = -0.1}}, "sampling.azimuth_margin = -0.1, must be finite and >= 0 rad"},
+      {{.sampling = {.level_error_db = -1}}, "sampling.level_error_db = -1, must be finite and > 0 dB; 0: "},
+      {{.sampling = {.level_error_db = not_a_number}}, "sampling.level_error_db = nan, must be"},
+      {{.sampling = {.level_error_db = infinity}}, "sampling.level_error_db = inf, must be"},
+      {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2"},
+      {{.effects = {.multipath = true}},
+       "effects.multipath = true, but the environment has neither surface nor bottom"},
+      {{.outputs = {.paths = -1}}, "outputs.paths = -1, must be at least 0"},
+      {{.outputs = {.contributors = 300}}, "outputs.contributors = 300, must be within 0 and 255"},
+      {{.outputs = {.contributors = -1}}, "outputs.contributors = -1, must be within 0 and 255"},
+      {{.synthesis = {.method = SynthesisMethod::incoherent}, .outputs = {.elements = true}},
+       "outputs.elements = true, must be false with method incoherent"},
+      {{.detection = {.noise_floor_db = infinity}}, "detection.noise_floor_db = inf, must be finite, or -inf"},
+      {{.detection = {.threshold_db = not_a_number}}, "detection.threshold_db = nan, must be a number"},
+      {{.detection = {.side_lobe_margin_db = not_a_number}}, "detection.side_lobe_margin_db = nan, must be a number"},
+      {{.detection = {.above_db = not_a_number}}, "detection.above_db = nan, must be a number"},
+      {{.time = infinity}, "time = inf, must be finite"},
+      {{.threads = -1}, "threads = -1, must be at least 0; 0: all cores"}};
+  SceneCloud broken;  // no stage accepts it: a later check would complain about the scene
+  broken.point.resize(1);
+  for (const auto& [options, message] : cases) {
+    const std::string text =
+        error_of([&, &o = options] { simulate_ping(broken, small_head({}), Pose::Identity(), {}, o); });
+    EXPECT_THAT(text, testing::StartsWith(std::string("simulate_ping: options.") + message));
+  }
+  EXPECT_THAT(error_of([] {
+                simulate_ping(SceneCloud{}, small_head({}), Pose::Identity(), {}, {.effects = {.multipath = true}});
+              }),
+              HasSubstr("effects.multipath = true, but the environment has neither surface nor bottom"));
+}
+
+TEST(PingOptions, have_the_tolerance_that_their_method_can_keep) {
+  using enum SynthesisMethod;
+  for (const SynthesisMethod method : {gridded, direct, spectrum, element_exact, incoherent})
+    for (const double tolerance : {0.0, 1.0, not_a_number})
+      EXPECT_THAT(error_of_tolerance(method, tolerance), HasSubstr("must be within 0 and 1"));
+  EXPECT_THAT(error_of_tolerance(gridded, 1e-14),
+              HasSubstr("synthesis.tolerance = 1e-14, must be at least 1e-13 with method gridded"));
+  for (const SynthesisMethod method : {direct, spectrum, incoherent})
+    EXPECT_EQ(error_of_tolerance(method, 1e-14), "no error");
+  for (const double tolerance : {1e-13, 0.2}) {
+    EXPECT_THAT(error_of_tolerance(element_exact, tolerance), HasSubstr("must be within 1e-12 and 0.1"));
+    EXPECT_THAT(error_of_tolerance(gridded, tolerance, true), HasSubstr("the output of elements"));
+    EXPECT_EQ(error_of_tolerance(gridded, tolerance), "no error");
+  }
+}
+
+TEST(PingOptions, are_refused_by_the_plan_as_by_the_ping) {
+  const auto plan = [](const O& options) { plan_ping({}, small_head({}), Pose::Identity(), {}, options); };
+  EXPECT_EQ(error_of([&] { plan({.outputs = {.contributors = 300}}); }),
+            "plan_ping: options.outputs.contributors = 300, must be within 0 and 255");
+  EXPECT_THAT(error_of([&] { plan({.effects = {.motion = {{infinity, 0, 0}}}}); }), HasSubstr("motion.velocity = "));
+}
