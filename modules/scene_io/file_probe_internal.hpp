@@ -18,8 +18,7 @@ std::string read_whole_file(const std::string& path);
 /// First bytes of the file, at most `count`.
 std::string read_beginning(const std::string& path, std::size_t count);
 
-/// What the first bytes look like ("a PLY file; rename it to .ply", "text", "binary data", ...), for
-/// messages.
+/// What the first bytes look like ("a PLY file; rename it to .ply", "text beginning with ...", "binary data"), for messages.
 std::string what_it_looks_like(const std::string& path);
 
 }  // namespace insonify

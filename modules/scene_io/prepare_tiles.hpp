@@ -12,7 +12,7 @@ struct PrepareTilesOptions {
   LoadOptions load;
   std::size_t whole_points = 10'000'000;      ///< binary clouds of more points are never held in memory
   std::size_t memory = 256 << 20;             ///< [bytes] that sorting may take
-  std::function<void(double)> progress = {};  ///< told the part that is done, 0..1; may throw to give up
+  std::function<void(double)> progress = {};  ///< called with the part that is done, 0..1; may throw to give up
 };
 
 struct PreparedTiles {

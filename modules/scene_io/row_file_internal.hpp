@@ -22,9 +22,9 @@ struct RowFile {
   std::optional<Eigen::Vector3d> viewpoint;  ///< [file units]
 };
 
-/// The rows of a binary PLY or PCD without faces; nothing for files that must be read as a whole. Throws as load_scene
-/// for those that are missing, cut off or not what their name says.
-std::optional<RowFile> find_rows(const std::string& path);
+/// The rows of a binary PLY or PCD without faces; nothing for files that must be read as a whole. Throw as load_scene
+/// for those that are cut off or not what their name says.
+std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
 
 /// Rows `first` on, in this machine's byte order.

@@ -17,12 +17,13 @@ struct TileWriterOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; points are stored relative to it
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;
-  bool drop_duplicates = false;            ///< of surfels at exactly one place keep the first
-  bool estimate_areas = false;             ///< take the areas given for nothing and find them from the neighbours (E15)
-  std::size_t tile_surfels = 4096;         ///< at most, in one tile
-  std::size_t memory = 256 << 20;          ///< [bytes] that sorting may take; at least 1 MiB is used
-  int threads = 0;                         ///< 0: all cores; the file does not depend on it
-  std::function<void(double)> progress{};  ///< told the part of finish() that is done, 0..1; may throw to give up
+  bool drop_duplicates = false;     ///< of surfels at exactly one place keep the first
+  bool estimate_areas = false;      ///< ignore the areas given, estimate them from the neighbours (E15)
+  std::size_t tile_surfels = 4096;  ///< at most, in one tile
+  std::size_t memory = 256 << 20;   ///< [bytes] that sorting may take; at least 1 MiB is used
+  int threads = 0;                  ///< 0: all cores; the file does not depend on it
+  std::function<void(double)>
+      progress{};  ///< called with the part of finish() that is done, 0..1; may throw to give up
 };
 
 struct TileReport {
@@ -36,7 +37,7 @@ struct TileReport {
 /// file its name: before that, and after any failure, nothing stands under it and nothing is left behind.
 class TileWriter {
  public:
-  /// Throws Error(argument) for an option that makes no sense, Error(file) if the folder cannot be written.
+  /// Throws Error(argument) for invalid options, Error(file) if the folder cannot be written.
   explicit TileWriter(const std::string& path, const TileWriterOptions& options = {});
   ~TileWriter();
 

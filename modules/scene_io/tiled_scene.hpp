@@ -34,7 +34,11 @@ struct TileSelection {
 };
 
 /// A prepared scene on disk, of which only the tiles near a head are read: scenes far larger than memory can be pinged.
-/// TileWriter makes one. Opening reads the directory, 80 bytes per tile of at most 4096 surfels.
+/// TileWriter makes one. Steps and cost:
+///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels
+///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
+///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id, so that the cloud is the
+///             whole scene with the others left out
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = ping_region(tiled.info().whole, head, pose, environment, options);
@@ -54,9 +58,9 @@ class TiledScene {
   TileSelection select(const InsonifiedRegion& region) const;
   TileSelection select_all() const;
 
-  /// Their surfels by ascending id, ids and order those of the whole scene, part_of set. Scenes that reach less than
+  /// Their surfels by ascending id, ids and order those of the whole scene, part_of set. Scenes that extend less than
   /// 2000 m from their origin keep it, and every point its bits; of wider ones the cloud's origin is a multiple of
-  /// 256 m near the reach, and points are good to 2e-4 m within 2000 m of it, whatever the size of the scene.
+  /// 256 m near the head, and points are good to 2e-4 m within 2000 m of it, whatever the size of the scene.
   /// memory   [bytes] that loading may take; 0: what the system has available. Throws Error(runtime) if it would take
   ///          more, before anything is read; Error(content) if a tile is damaged. Does not depend on `threads`.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/scattering.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "core/units.hpp"
 #include "simulate/scene_sample_internal.hpp"
@@ -39,16 +40,13 @@ SceneSample sample_scene(const SceneCloud& scene, const SonarHead& head, const P
                                                     2 * pi)) <= 0.5 * (sector.max_azimuth - sector.min_azimuth);
     const bool in_elevation = d.elevation >= sector.min_elevation && d.elevation <= sector.max_elevation;
     const bool in_gate = r >= gate.min_range && r <= gate.max_range;
-    const double pattern = echo_options.elevation_width > 0
-                               ? elevation_response(echo_options.elevation_shape, echo_options.elevation_width,
-                                                    d.elevation - echo_options.elevation_centre)
-                               : 1;
+    const double pattern = elevation_pattern(echo_options, d.elevation);
     const double amplitude = source * std::exp(-2 * medium.absorption.a0 * r) / (r * r);
-    const double sigma = lambert_cross_section(scene.materials[scene.material[i]].lambert_mu, facing,
-                                               facing * static_cast<double>(scene.area[i]));
+    const Material& material = scene.materials[scene.material[i]];
+    const double area = scene.area[i], frequency = head.pulse.centre_frequency;
+    const double sigma = cross_section(material, {facing, facing, facing * area}, frequency);
     const double power = sigma * amplitude * amplitude * pattern * pattern;
-    sample.anywhere +=
-        lambert_cross_section(scene.materials[scene.material[i]].lambert_mu, 1, scene.area[i]) * amplitude * amplitude;
+    sample.anywhere += cross_section(material, {1, 1, area}, frequency) * amplitude * amplitude;
     if (in_gate && in_azimuth && !in_elevation) sample.off_elevation += power;
     if (in_gate && in_elevation && !in_azimuth) sample.off_azimuth += power;
     if (!in_gate && in_azimuth && in_elevation) {

@@ -20,8 +20,8 @@ struct MaterialTable {
   MaterialField field;  ///< its intervals name materials by label, the index in materials_by_label
 };
 
-/// Reads a table of materials from TOML: [[material]] name, lambert_mu_db, coherent_fraction (0), relief_slope (0),
-/// label (its place), status, source. `field` at the top names the scalar field that holds the labels; or each material
+/// Reads a table of materials from TOML: [[material]] name, the keys of material_numbers, label (its place), status,
+/// source. `field` at the top names the scalar field that holds the labels; or each material
 /// gives the half-open interval of values that mean it, `from` (included) and `to` (not included), of which one may be
 /// left out. Unknown keys, overlapping intervals and numbers that no surface can have are errors with file and line.
 MaterialTable load_materials(const std::string& path);
