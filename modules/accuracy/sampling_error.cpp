@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "acoustics/direct_echoes.hpp"
+#include "acoustics/scattering.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/parallel.hpp"
 #include "core/pose.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "acoustics/scattering.hpp"
 #include "acoustics/surface_amplitude_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -18,7 +19,7 @@ constexpr std::size_t block = 4096;
 struct EchoBuilder {
   double source;        ///< sqrt2 p0 [Pa]
   double cycles_per_m;  ///< two-way carrier cycles per metre of range
-  double sound_speed;
+  double sound_speed;   ///< [m/s]
   const EchoOptions& options;
 
   EchoBuilder(const Pulse& pulse, const Medium& medium, const EchoOptions& options_in)
@@ -27,15 +28,12 @@ struct EchoBuilder {
         sound_speed(medium.sound_speed),
         options(options_in) {}
 
-  /// Echo i of a target with cross-section `sigma` and amplitude `xi`.
-  void hear(const Scatterers& s, std::size_t i, double sigma, std::complex<double> xi, Echoes& echoes) const {
+  /// Sets echo i: of a target with cross-section `sigma` [m^2] and amplitude `xi`.
+  void build(const Scatterers& s, std::size_t i, double sigma, std::complex<double> xi, Echoes& echoes) const {
     const double r = s.range[i];
     if (!(r > 0) || !std::isfinite(r))
       fail(ErrorKind::argument, "direct_echoes: range[", i, "] = ", r, " m, must be > 0");
-    double pattern = options.elevation_width > 0 ? elevation_response(options.elevation_shape, options.elevation_width,
-                                                                      s.elevation[i] - options.elevation_centre)
-                                                 : 1;
-    if (options.transmit_width > 0) pattern *= transmit_response(options.transmit_width, s.azimuth[i]);
+    const double pattern = elevation_pattern(options, s.elevation[i]) * transmit_pattern(options, s.azimuth[i]);
     const double phase = 2 * pi * reduced_cycles(cycles_per_m * r);
     echoes.delay[i] = 2 * r / sound_speed;
     echoes.u[i] = std::cos(s.elevation[i]) * std::sin(s.azimuth[i]);
@@ -64,13 +62,14 @@ std::complex<double> surface_amplitude(const EchoOptions& options, double cohere
   return std::sqrt(coherent_fraction) + std::sqrt(1 - coherent_fraction) * xi;  // (E53)
 }
 
-double transmit_response(double width, double azimuth) {
-  const double x = azimuth / width;
-  return std::exp2(-2 * x * x);  // (E57) intensity 2^(-(2x)^2): one half at x = 1/2
+double elevation_pattern(const EchoOptions& options, double elevation) {
+  if (!(options.elevation_width > 0)) return 1;
+  return elevation_response(options.elevation_shape, options.elevation_width, elevation - options.elevation_centre);
 }
 
-double lambert_cross_section(double lambert_mu, double cos_incidence, double projected_area) {
-  return lambert_mu * cos_incidence * projected_area;  // (E4)
+double transmit_pattern(const EchoOptions& options, double azimuth) {
+  if (!(options.transmit_width > 0)) return 1;
+  return gaussian_lobe(options.transmit_width, std::remainder(azimuth, 2 * pi));  // (E57)
 }
 
 Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
@@ -79,16 +78,17 @@ Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> mat
   require_valid(medium, "direct_echoes");
   for (const Material& material : materials) require_valid(material, "direct_echoes");
   Echoes echoes = room_for(scatterers.size());
-  const EchoBuilder echo_options(pulse, medium, options);
+  const EchoBuilder builder(pulse, medium, options);
   parallel_blocks(scatterers.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t m = scatterers.material[i];
       if (m >= materials.size())
         fail(ErrorKind::argument, "direct_echoes: material[", i, "] = ", m, ", but there are ", materials.size());
+      const double cosine = scatterers.cos_incidence[i];
       const double sigma =
-          lambert_cross_section(materials[m].lambert_mu, scatterers.cos_incidence[i], scatterers.projected_area[i]);
-      echo_options.hear(scatterers, i, sigma,
-                        surface_amplitude(options, materials[m].coherent_fraction, scatterers.id[i]), echoes);
+          cross_section(materials[m], {cosine, cosine, scatterers.projected_area[i]}, pulse.centre_frequency);
+      builder.build(scatterers, i, sigma, surface_amplitude(options, materials[m].coherent_fraction, scatterers.id[i]),
+                    echoes);
     }
   });
   return echoes;
@@ -104,11 +104,11 @@ Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma
     fail(ErrorKind::argument, "target_echoes: ", n, " ranges, but ", sigma.size(), " cross-sections and ", xi.size(),
          " amplitudes");
   Echoes echoes = room_for(n);
-  const EchoBuilder echo_options(pulse, medium, options);
+  const EchoBuilder builder(pulse, medium, options);
   for (std::size_t i = 0; i < n; ++i) {
     if (!(sigma[i] >= 0 && std::isfinite(sigma[i])))
       fail(ErrorKind::argument, "target_echoes: sigma[", i, "] = ", sigma[i], " m^2, must be finite and >= 0");
-    echo_options.hear(scatterers, i, sigma[i], xi[i], echoes);
+    builder.build(scatterers, i, sigma[i], xi[i], echoes);
   }
   return echoes;
 }

@@ -29,24 +29,24 @@ struct EchoOptions {
   double transmit_width = 0;  ///< -3 dB width of the transmitter's one-way intensity in azimuth [rad]; 0: no pattern
 };
 
-/// One-way pressure response of the transmitter in azimuth, a Gaussian main lobe about azimuth 0 (E57): 1 ahead,
-/// 2^(-2 (azimuth / width)^2), so -3 dB at width / 2 and -12 dB at width.
-double transmit_response(double width, double azimuth);
+/// Two-way pressure response of the head at `elevation` [rad], by shape, width and centre of `options` (E14); 1 without
+/// a pattern.
+double elevation_pattern(const EchoOptions& options, double elevation);
 
-/// Backscattering cross-section of a Lambert patch [m^2] (E4): mu cos_incidence projected_area. Because the
-/// projected area already holds one cosine this is mu cos^2 dS for surfels and mu cos r^2 dOmega for rays.
-double lambert_cross_section(double lambert_mu, double cos_incidence, double projected_area);
+/// One-way pressure response of the transmitter at any `azimuth` [rad], a Gaussian lobe about azimuth 0 (E57); 1 without
+/// a pattern.
+double transmit_pattern(const EchoOptions& options, double azimuth);
 
-/// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2, with the
-/// elevation pattern b_E (E14) and the transmitter's in azimuth b_T (E57).
+/// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2 [Pa], with
+/// sigma the material's cross_section, b_E the elevation pattern and b_T the transmitter's in azimuth.
 ///
 /// materials   looked up by scatterers.material
 /// returns     one echo per scatterer, in order; delay = 2 r / c. The phase is reduced to one cycle in double.
 ///
 /// Unless all amplitudes are coherent, a material's coherent_fraction g makes them Rician about 1 (E53):
-/// xi = sqrt(g) + sqrt(1 - g) z, z the law's random amplitude; mean power 1.
+/// xi = sqrt(g) + sqrt(1 - g) z, z the random amplitude of options.amplitude; mean power 1.
 ///
-/// Throws Error if an invalid pulse, medium, material or material index is met, or a range is not > 0.
+/// Throws Error for an invalid pulse, medium, material or material index, and for a range that is not > 0.
 Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
                      const Medium& medium, const EchoOptions& options = {});
 

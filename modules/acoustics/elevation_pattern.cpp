@@ -16,12 +16,15 @@ double sinc(double x) {
 }
 }  // namespace
 
+double gaussian_lobe(double width, double off_axis) {
+  const double x = off_axis / width;
+  return std::exp2(-2 * x * x);  // (E14, E57) intensity 2^(-(2x)^2): one half at x = 1/2
+}
+
 double elevation_response(ElevationShape shape, double width, double elevation_off_centre) {
   switch (shape) {
-    case ElevationShape::gaussian: {
-      const double x = elevation_off_centre / width;
-      return std::exp2(-2 * x * x);  // (E14) intensity 2^(-(2x)^2): one half at x = 1/2
-    }
+    case ElevationShape::gaussian:
+      return gaussian_lobe(width, elevation_off_centre);
     case ElevationShape::line:
       return sinc(sinc_half_power * std::sin(elevation_off_centre) / std::sin(std::min(width / 2, pi / 2)));  // (E14)
     case ElevationShape::sector:

@@ -1,3 +1,12 @@
+// Echoes that touch the sea surface or the bottom, by the method of images (Jensen et al., Computational Ocean Acoustics,
+// section 1.4; E48), one bounce per leg at most. Steps:
+//   1. boundaries_of     surface and bottom as planes in head axes, with their reflection
+//   2. find_legs         for each surfel the legs, direct and by a boundary, that the scene leaves open: the head sees the
+//                        scene mirrored in each boundary with the same visibility test as the scene itself
+//   3. split_listed      patches of the surfels that only a boundary shows; those seen directly keep their patches
+//   4. add_paths         for each patch every pair of legs, out and back, except the direct pair
+// Cost: one visibility test of the scene per boundary, which dominates, and up to 8 paths of constant cost per patch (3
+// legs out x 3 back, less one). Blocks of patches run in parallel and are joined in order.
 #include "acoustics/multipath_echoes.hpp"
 
 #include <algorithm>
@@ -8,6 +17,7 @@
 #include "acoustics/boundary_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
+#include "acoustics/scattering.hpp"
 #include "acoustics/surface_amplitude_internal.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -33,9 +43,9 @@ double pulse_margin(const Transmission& sent) {
 struct Leg {
   double range;     ///< [m]
   double u, v;      ///< direction cosines
-  double azimuth;   ///< [rad]
   double cosine;    ///< at the patch
   complex gain;     ///< one-way pattern times reflection
+  complex sent;     ///< gain of the leg out: with the transmitter's pattern in azimuth too
   std::uint8_t by;  ///< 0: direct; k: by the k-th boundary
 };
 
@@ -51,11 +61,11 @@ struct Origins {
   std::vector<LegPair> legs;
 };
 
-/// Hears the patches of one list by all their paths.
-class PathListener {
+/// Makes the echoes of the patches of one list by all their paths.
+class PathBuilder {
  public:
-  PathListener(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const FoundLegs& found,
-               const View& view, const Transmission& sent)
+  PathBuilder(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const FoundLegs& found,
+              const View& view, const Transmission& sent)
       : scene_(scene),
         boundaries_(boundaries),
         found_(found),
@@ -63,15 +73,17 @@ class PathListener {
         to_head_(view.world_from_head.linear().transpose()),
         source_(source_pressure(sent.pulse)),
         sound_speed_(sent.medium.sound_speed),
-        cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed) {
+        frequency_(sent.pulse.centre_frequency),
+        cycles_per_m_(frequency_ / sent.medium.sound_speed) {
     const double margin = pulse_margin(sent);
     least_leg_ = 2 * (view.gate.min_range - margin);
     longest_leg_ = 2 * (view.gate.max_range + margin);
   }
 
+  /// Adds the echoes of `patches` to `result`.
   /// parts        of each surfel, how many patches it was split into
   /// cosines      true if those of `patches` hold for the direct leg
-  void hear(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& heard) const {
+  void add(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& result) const {
     std::atomic<std::size_t> two_bounces{0};
     std::vector<Echoes> echoes(1);
     std::vector<Origins> origins((patches.size() + patches_per_block - 1) / patches_per_block);
@@ -85,18 +97,18 @@ class PathListener {
                                    const LegsToPatch legs = legs_to(patches, i, cosines);
                                    if (legs.count == 0) continue;
                                    const double area = static_cast<double>(scene_.area[surfel]) / parts[surfel];
-                                   add_paths(legs, amplitude_of(patches, i, area), out, from);
+                                   add_paths(legs, patches, i, area, out, from);
                                    from.surfel.resize(out.size(), surfel);
                                  }
                                  for (const LegPair pair : from.legs) twice += pair.bounces() == 2;
                                  two_bounces += twice;
                                });
-    heard.two_bounces += two_bounces;
-    heard.one_bounce += echoes[0].size() - two_bounces;
-    join_echoes(std::move(echoes), heard.echoes);
+    result.two_bounces += two_bounces;
+    result.one_bounce += echoes[0].size() - two_bounces;
+    join_echoes(std::move(echoes), result.echoes);
     for (const Origins& from : origins) {
-      heard.surfel.insert(heard.surfel.end(), from.surfel.begin(), from.surfel.end());
-      heard.legs.insert(heard.legs.end(), from.legs.begin(), from.legs.end());
+      result.surfel.insert(result.surfel.end(), from.surfel.begin(), from.surfel.end());
+      result.legs.insert(result.legs.end(), from.legs.begin(), from.legs.end());
     }
   }
 
@@ -132,44 +144,34 @@ class PathListener {
     leg.range = place.norm();
     leg.u = place.y() / leg.range;
     leg.v = place.z() / leg.range;
-    leg.azimuth = echo_options_.transmit_width > 0 ? std::atan2(place.y(), place.x()) : 0;
     const double cosine = -normal.dot(place) / leg.range;
     leg.cosine = std::min(1.0, scene_.normals_oriented ? cosine : std::abs(cosine));
     leg.gain = reflection * one_way_pattern(leg.v);
+    leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
     return leg;
   }
 
   /// Square root of the two-way pattern; imaginary where that is negative, so that its square is the two-way pattern.
   complex one_way_pattern(double v) const {
-    if (!(echo_options_.elevation_width > 0)) return 1;
-    const double elevation = std::asin(std::clamp(v, -1.0, 1.0)) - echo_options_.elevation_centre;
-    const double two_way = elevation_response(echo_options_.elevation_shape, echo_options_.elevation_width, elevation);
+    const double two_way = elevation_pattern(echo_options_, std::asin(std::clamp(v, -1.0, 1.0)));
     return two_way < 0 ? complex(0, std::sqrt(-two_way)) : complex(std::sqrt(two_way), 0);
   }
 
-  /// The transmitter's own pattern counts on the leg out alone.
-  complex gain_out(const Leg& out) const {
-    return echo_options_.transmit_width > 0 ? out.gain * transmit_response(echo_options_.transmit_width, out.azimuth)
-                                            : out.gain;
-  }
-
-  complex amplitude_of(const Scatterers& patches, std::size_t i, double area) const {
-    const Material& material = scene_.materials[patches.material[i]];
-    const complex xi = surface_amplitude(echo_options_, material.coherent_fraction, patches.id[i]);
-    return source_ * std::sqrt(material.lambert_mu * area) * xi;
-  }
-
-  void add_paths(const LegsToPatch& legs, complex amplitude, Echoes& out, Origins& from) const {
+  void add_paths(const LegsToPatch& legs, const Scatterers& patches, std::size_t patch, double area, Echoes& out,
+                 Origins& from) const {
+    const Material& material = scene_.materials[patches.material[patch]];
+    const complex amplitude = source_ * surface_amplitude(echo_options_, material.coherent_fraction, patches.id[patch]);
     for (std::size_t o = 0; o < legs.count; ++o)
       for (std::size_t i = 0; i < legs.count; ++i) {
         const Leg &there = legs.leg[o], &back = legs.leg[i];
         const double length = there.range + back.range;
         if (!(there.by || back.by) || length < least_leg_ || length > longest_leg_) continue;
-        const complex gain = gain_out(there) * back.gain;
+        const complex gain = there.sent * back.gain;
         if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
         from.legs.push_back({there.by, back.by});
         const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * length);
-        const double size = std::sqrt(there.cosine * back.cosine) / (there.range * back.range);
+        const double sigma = cross_section(material, {there.cosine, back.cosine, there.cosine * area}, frequency_);
+        const double size = std::sqrt(sigma) / (there.range * back.range);
         add_echo(out, length / sound_speed_, back.u, back.v, amplitude * gain * std::polar(size, phase));  // (E48)
       }
   }
@@ -179,7 +181,7 @@ class PathListener {
   const FoundLegs& found_;
   const EchoOptions& echo_options_;
   Eigen::Matrix3d to_head_;
-  double source_, sound_speed_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
+  double source_, sound_speed_, frequency_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
 };
 
 /// The view as far as legs may lead out of it and still belong to an echo inside the gate.
@@ -224,22 +226,22 @@ Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, co
   const auto boundaries =
       boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
 
-  // LegSet, surfel by surfel.
+  // Legs, surfel by surfel.
   const bool rays = view.sampling.kind == SamplingKind::rays;
   const auto parts = parts_per_surfel(direct, scene.size());
   std::vector<std::uint8_t> seen_directly(scene.size(), 0);
   for (std::size_t i = 0; i < scene.size() && !rays; ++i) seen_directly[i] = parts[i] > 0;
   const FoundLegs found = find_legs(scene, widened(view, environment, transmission), boundaries, seen_directly);
-  Multipath heard;
-  heard.blocked = found.hidden;
+  Multipath result;
+  result.blocked = found.hidden;
 
   // Paths, patch by patch: first those seen directly, then those that only a boundary shows.
-  const PathListener listener(scene, boundaries, found, view, transmission);
-  if (!rays) listener.hear(direct, parts, true, heard);
+  const PathBuilder builder(scene, boundaries, found, view, transmission);
+  if (!rays) builder.add(direct, parts, true, result);
   const Scatterers beside = split_listed(scene, view.world_from_head, view.fan, view.gate,
                                          surfels_beside(found, seen_directly), view.sampling);
-  listener.hear(beside, parts_per_surfel(beside, scene.size()), false, heard);
-  return heard;
+  builder.add(beside, parts_per_surfel(beside, scene.size()), false, result);
+  return result;
 }
 
 double longest_leg(const Environment& environment, const View& view, const Transmission& transmission) {

@@ -18,7 +18,7 @@ struct LegPair {
   bool operator==(const LegPair&) const = default;
 };
 
-/// Echoes by way of the boundaries, and how many of each kind.
+/// Echoes by the boundaries, and how many of each kind.
 struct Multipath {
   Echoes echoes;
   std::vector<std::uint32_t> surfel{};  ///< of every echo, index in the scene
@@ -38,7 +38,7 @@ struct View {
 
 struct MultipathOptions {
   /// Captured surfels that lie (within 60 degrees) along a boundary and are nearer to it than this [m], and three times
-  /// its rms relief, are taken for the boundary itself: they neither block a bounce off it nor are heard by one.
+  /// its rms relief, are taken for the boundary itself: they neither block a bounce off it nor give an echo by one.
   double boundary_tolerance = 0.3;
 };
 
@@ -63,7 +63,8 @@ struct MultipathOptions {
 /// direct   what the head sees directly, of the same view. Its patches keep places and amplitude xi on all their paths;
 ///          those seen only by a boundary are found and split here. With rays it is not used: patches are surfels then,
 ///          whose xi is not that of the rays.
-/// LegSet by a boundary are straight also where direct ones were bent, and take the smooth surfel for the facet.
+///
+/// Legs by a boundary are straight also where direct ones were bent, and take the smooth surfel for the facet.
 /// Does not depend on the thread count. Throws Error if there is no boundary, the head is not in the water, or an
 /// invalid environment, pulse or medium is met.
 Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,

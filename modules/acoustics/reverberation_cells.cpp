@@ -52,19 +52,6 @@ void require_few(double directions, const ReverberationCells& cells, const char*
          " cells, must be at most 2^27; lower cells_per_resolution or max_range");
 }
 
-double elevation_pattern_of(const EchoOptions& echo_options, double elevation) {
-  return echo_options.elevation_width > 0
-             ? elevation_response(echo_options.elevation_shape, echo_options.elevation_width,
-                                  elevation - echo_options.elevation_centre)
-             : 1;
-}
-
-double transmit_pattern_of(const EchoOptions& echo_options, double azimuth) {
-  return echo_options.transmit_width > 0
-             ? transmit_response(echo_options.transmit_width, std::remainder(azimuth, 2 * pi))
-             : 1;
-}
-
 std::complex<double> cell_amplitude(const EchoOptions& echo_options, RandomStage stage, const RandomCounter& counter) {
   if (echo_options.amplitude == SurfaceAmplitude::mean_power) return 1;
   return random_complex_normal(echo_options.seed, stage, counter);
@@ -86,7 +73,7 @@ ElevationLaw::ElevationLaw(const BeamFan& fan, const EchoOptions& echo_options) 
   sum_.assign(steps + 1, 0);
   for (std::size_t i = 0; i < steps; ++i) {
     const double elevation = low_ + (static_cast<double>(i) + 0.5) * step;
-    const double pattern = elevation_pattern_of(echo_options, elevation);
+    const double pattern = elevation_pattern(echo_options, elevation);
     sum_[i + 1] = sum_[i] + pattern * pattern * std::cos(elevation) * step;
   }
   integral_ = sum_.back();

@@ -30,11 +30,6 @@ ReverberationCells reverberation_cells(const BeamFan& fan, const RangeGate& gate
 /// Throws Error if slices x directions exceed 2^27.
 void require_few(double directions, const ReverberationCells& cells, const char* who);
 
-/// Two-way elevation response of the head, 1 without a pattern.
-double elevation_pattern_of(const EchoOptions& echo_options, double elevation);
-/// The transmitter's, 1 without a pattern; any azimuth.
-double transmit_pattern_of(const EchoOptions& echo_options, double azimuth);
-
 /// Amplitude of one cell, complex normal; 1 for SurfaceAmplitude::mean_power.
 std::complex<double> cell_amplitude(const EchoOptions& echo_options, RandomStage stage, const RandomCounter& counter);
 

@@ -1,3 +1,12 @@
+// Echoes of the water and of plane boundaries, as sums over cells of complex-normal amplitude (the sonar equation's volume
+// and boundary reverberation, Urick, Principles of Underwater Sound, ch. 8; E49 to E51). Steps:
+//   1. reverberation_cells   slices of range, a fraction of a pulse long, across gate and sector
+//   2. the number of cells is checked before any work
+//   3. each cell             one echo at a random place in it, its power that of the whole cell; places and amplitudes
+//                            are counted by ping (or place of the head), slice and direction, never drawn in sequence
+// Planes are cut into range x azimuth, the water into range x azimuth x layers of equal share of the elevation pattern.
+// Cost: slices x directions (x layers) echoes of constant cost, at most 2^27, in parallel blocks of slices joined in
+// order.
 #include "acoustics/reverberation_echoes.hpp"
 
 #include <algorithm>
@@ -5,6 +14,7 @@
 
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/reverberation_cells_internal.hpp"
+#include "acoustics/scattering.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
@@ -15,26 +25,28 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t slices_per_block = 64;
-constexpr double pattern_floor = 1e-4;  // -80 dB: cells below it are silent
+constexpr double pattern_floor = 1e-4;  // -80 dB: cells below it are left out
 constexpr double metres_per_second_per_knot = 1852.0 / 3600.0;
 
 /// A plane that scatters, as seen from the head.
 struct ScatteringPlane {
-  double distance;              ///< from the head, > 0 [m]
-  double side;                  ///< 1: above the head, -1: below
-  double strength, lambert_mu;  ///< cross-section per area: strength + lambert_mu sin^2(grazing)
+  double distance;    ///< from the head, > 0 [m]
+  double side;        ///< 1: above the head, -1: below
+  double strength;    ///< cross-section per area at all angles, which adds to that of the material
+  Material material;  ///< of lambert_mu 0 where `strength` is all
   RandomStage stage;
   std::uint64_t first;  ///< of the random counter
 };
 
-class PlaneListener {
+class PlaneEchoes {
  public:
-  PlaneListener(const ScatteringPlane& plane, const ReverberationCells& cells, const Pose& world_from_head,
-                const Transmission& sent, const char* who)
+  PlaneEchoes(const ScatteringPlane& plane, const ReverberationCells& cells, const Pose& world_from_head,
+              const Transmission& sent, const char* who)
       : plane_(plane),
         cells_(cells),
         echo_options_(sent.echo_options),
         source_(source_pressure(sent.pulse)),
+        frequency_(sent.pulse.centre_frequency),
         two_over_c_(2 / sent.medium.sound_speed) {
     const Eigen::Matrix3d to_head = world_from_head.linear().transpose();
     forward_ = to_head.col(0);
@@ -47,7 +59,7 @@ class PlaneListener {
     for (std::size_t j = 0; j < directions_; ++j) centre_.push_back(direction((static_cast<double>(j) + 0.5) * step_));
   }
 
-  Echoes hear() const {
+  Echoes echoes() const {
     return collect_echoes(cells_.slices, slices_per_block, echo_options_.threads,
                           [&](std::size_t begin, std::size_t end, Echoes& out) {
                             for (std::size_t k = begin; k < end; ++k) slice_echo(k, out);
@@ -81,11 +93,12 @@ class PlaneListener {
     const double rho = std::sqrt(std::max(0.0, (r - plane_.distance) * (r + plane_.distance)));
     const Vector3d place = to_plane_ + rho * direction((static_cast<double>(j) + jitter[3]) * step_);
     const double v = std::clamp(place.z() / r, -1.0, 1.0);
-    const double pattern = elevation_pattern_of(echo_options_, std::asin(v));
+    const double pattern = elevation_pattern(echo_options_, std::asin(v));
     if (!(std::abs(pattern) >= pattern_floor)) return;
-    const double sine = plane_.distance / r;                                          // of the grazing angle
-    const double sigma = (plane_.strength + plane_.lambert_mu * sine * sine) * area;  // (E50, E51)
-    const double transmitted = transmit_pattern_of(echo_options_, std::atan2(place.y(), place.x()));
+    const double sine = plane_.distance / r;  // of the grazing angle
+    const double sigma =
+        plane_.strength * area + cross_section(plane_.material, {sine, sine, sine * area}, frequency_);  // (E50, E51)
+    const double transmitted = transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
     add_echo(out, two_over_c_ * r, place.y() / r, v,
              source_ * std::sqrt(sigma) * pattern * transmitted / (r * r) *
                  cell_amplitude(echo_options_, plane_.stage, counter));
@@ -94,7 +107,7 @@ class PlaneListener {
   const ScatteringPlane& plane_;
   const ReverberationCells& cells_;
   const EchoOptions& echo_options_;
-  double source_, two_over_c_, step_ = 0;
+  double source_, frequency_, two_over_c_, step_ = 0;
   Vector3d forward_, left_, to_plane_;  // in head axes; to_plane_: to the foot of the head's perpendicular
   std::size_t directions_ = 0;
   std::vector<Vector3d> centre_;
@@ -110,20 +123,20 @@ std::uint64_t place_counter(const Vector3d& place, double step) {
   return counter;
 }
 
-/// The water's own scatterers. Beams that tell elevations apart need several echoes per cell, one for each equal part of
-/// the elevation pattern: layers.
-class VolumeListener {
+/// Echoes of the water. Beams that resolve elevations need several echoes per cell, one for each equal part of the
+/// elevation pattern: layers.
+class VolumeEchoes {
  public:
-  VolumeListener(double scattering_db, const ReverberationCells& cells, const BeamFan& fan, const Transmission& sent,
-                 const ReverberationOptions& options, const char* who)
+  VolumeEchoes(double scattering_db, const ReverberationCells& cells, const BeamFan& fan, const Transmission& sent,
+               const ReverberationOptions& options, const char* who)
       : cells_(cells),
         echo_options_(sent.echo_options),
         law_(fan, sent.echo_options),
         ping_(static_cast<std::uint64_t>(options.ping)),
         two_over_c_(2 / sent.medium.sound_speed) {
     const double row = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
-    const bool tells = fan.row_width > 0 || !(echo_options_.elevation_width > 0);
-    const double layers = tells ? std::ceil(options.cells_per_resolution * law_.extent() / row) : 1;
+    const bool resolved = fan.row_width > 0 || !(echo_options_.elevation_width > 0);
+    const double layers = resolved ? std::ceil(options.cells_per_resolution * law_.extent() / row) : 1;
     const double azimuths = std::ceil(cells.azimuths * cells.sector / (2 * pi));
     require_few(azimuths * layers, cells, who);
     azimuths_ = static_cast<std::size_t>(azimuths);
@@ -133,7 +146,7 @@ class VolumeListener {
               std::sqrt(power_from_db(scattering_db) * step_ * law_.integral() / layers);  // (E49)
   }
 
-  Echoes hear() const {
+  Echoes echoes() const {
     return collect_echoes(cells_.slices, slices_per_block, echo_options_.threads,
                           [&](std::size_t begin, std::size_t end, Echoes& out) {
                             for (std::size_t k = begin; k < end; ++k)
@@ -146,14 +159,13 @@ class VolumeListener {
   void cell_echo(std::size_t k, std::size_t a, std::size_t e, Echoes& out) const {
     const RandomCounter counter{ping_, cells_.first + k, a * layers_ + e};
     const auto jitter = random_uniform(echo_options_.seed, RandomStage::volume, counter);
-    const TwoUniform upwards_and_out = split_uniform(jitter[2]);
+    const TwoUniform upward_outward = split_uniform(jitter[2]);
     const double cube1 = std::pow(cells_.begin(k), 3), cube2 = std::pow(cells_.end(k), 3);
-    const double r = std::cbrt(cube1 + upwards_and_out.rest * (cube2 - cube1));
+    const double r = std::cbrt(cube1 + upward_outward.rest * (cube2 - cube1));
     const double azimuth = cells_.min_azimuth + (static_cast<double>(a) + jitter[3]) * step_;
-    const double part = (static_cast<double>(e) + upwards_and_out.leading) / static_cast<double>(layers_);
+    const double part = (static_cast<double>(e) + upward_outward.leading) / static_cast<double>(layers_);
     const double elevation = law_.elevation_at(part);
-    const double size =
-        source_ * std::sqrt((cube2 - cube1) / 3) * transmit_pattern_of(echo_options_, azimuth) / (r * r);
+    const double size = source_ * std::sqrt((cube2 - cube1) / 3) * transmit_pattern(echo_options_, azimuth) / (r * r);
     add_echo(out, two_over_c_ * r, std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
              size * cell_amplitude(echo_options_, RandomStage::volume, counter));
   }
@@ -174,7 +186,7 @@ Echoes volume_echoes(const Environment& environment, const BeamFan& fan, const R
   require_valid(environment, me);
   if (!environment.volume_scattering_db) fail(ErrorKind::argument, me, ": environment has no volume_scattering_db");
   const ReverberationCells cells = reverberation_cells(fan, gate, transmission, options, me);
-  return VolumeListener(*environment.volume_scattering_db, cells, fan, transmission, options, me).hear();
+  return VolumeEchoes(*environment.volume_scattering_db, cells, fan, transmission, options, me).echoes();
 }
 
 Echoes surface_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
@@ -191,10 +203,10 @@ Echoes surface_echoes(const Environment& environment, const Pose& world_from_hea
   const ScatteringPlane plane{height - head,
                               1,
                               power_from_db(*environment.surface->scattering_strength_db),
-                              0,
+                              {"sea surface", 0},
                               RandomStage::sea_surface,
                               static_cast<std::uint64_t>(options.ping)};
-  return PlaneListener(plane, cells, world_from_head, transmission, me).hear();
+  return PlaneEchoes(plane, cells, world_from_head, transmission, me).echoes();
 }
 
 Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
@@ -211,10 +223,10 @@ Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head
   const ScatteringPlane plane{head - height,
                               -1,
                               0,
-                              *environment.bottom->lambert_mu,
+                              {"flat bottom", *environment.bottom->lambert_mu},
                               RandomStage::flat_bottom,
                               place_counter(world_from_head.translation(), cells.length)};
-  return PlaneListener(plane, cells, world_from_head, transmission, me).hear();
+  return PlaneEchoes(plane, cells, world_from_head, transmission, me).echoes();
 }
 
 double chapman_harris_strength_db(double frequency, double wind_speed, double grazing) {

@@ -17,17 +17,17 @@ struct ReverberationOptions {
 };
 
 // All of these fill the gate, and a pulse's reach on either side of it, over the fan's sector in azimuth; the
-// transmitter's pattern (E57) counts where there is one. They take no heed of the scene: it casts no shadow on them.
-// The result does not depend on the thread count. They throw Error if what they hear is absent from the environment,
+// transmitter's pattern (E57) counts where there is one. The scene is left out of account: it casts no shadow on them.
+// The result does not depend on the thread count. They throw Error if what scatters is absent from the environment,
 // for invalid arguments, and if there would be more than 2^27 cells.
 
 /// Echoes of the water's own scatterers (E49): the variance of a cell's amplitude is Sv dV 2 p0^2 / r^4, with
 ///
 ///   dV = r^2 dr dtheta integral b_E^2(e) cos(e) de
 ///
-/// b_E the two-way elevation pattern. It is used up by that: the echo stands at an elevation drawn from b_E^2 cos(e),
-/// which gives u and v the spread they have, and is not weighted again. A fan of several rows, or of a planar array, has
-/// as many such echoes per cell as it can tell apart. The water goes on beyond surface and bottom.
+/// b_E the two-way elevation pattern. The variance holds the pattern, so the echo is not weighted by it again: its elevation
+/// is drawn from b_E^2 cos(e), which gives u and v their right distribution. A fan of several rows, or of a planar array,
+/// has as many such echoes per cell as it resolves. The water goes on beyond surface and bottom.
 Echoes volume_echoes(const Environment& environment, const BeamFan& fan, const RangeGate& gate,
                      const Transmission& transmission, const ReverberationOptions& options = {});
 
@@ -38,8 +38,8 @@ Echoes surface_echoes(const Environment& environment, const Pose& world_from_hea
                       const ReverberationOptions& options = {});
 
 /// Echoes of the flat bottom by Lambert's law, mu sin^2(grazing) dA (E51). Cells are bound to the world's directions
-/// and to the place of the head, rounded to a range cell: a head at rest or turning where it stands hears the same
-/// bottom in every ping, one that has moved on hears another. Throws Error if the head is not above the bottom.
+/// and to the place of the head, rounded to a range cell: a head at rest, or turning about its place, gets
+/// the echoes of the same bottom in every ping, a head that has moved those of another. Throws Error if the head is not above the bottom.
 Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
                      const RangeGate& gate, const Transmission& transmission, const ReverberationOptions& options = {});
 

@@ -5,14 +5,15 @@
 namespace insonify {
 
 void require_valid(const Material& material, const char* who, ErrorKind kind) {
-  const auto require = [&](bool good, const char* name, double value, const char* rule) {
-    if (!good) fail(kind, who, ": ", name, " of material '", material.name, "' = ", value, rule);
-  };
-  const auto at_least_0 = [](double value) { return value >= 0 && std::isfinite(value); };
-  require(at_least_0(material.lambert_mu), "lambert_mu", material.lambert_mu, " 1/sr, must be finite and >= 0");
-  require(material.coherent_fraction >= 0 && material.coherent_fraction <= 1, "coherent_fraction",
-          material.coherent_fraction, ", must be within 0 and 1");
-  require(at_least_0(material.relief_slope), "relief_slope", material.relief_slope, ", must be finite and >= 0");
+  for (const MaterialNumber& n : material_numbers) {
+    const double value = material.*n.member;
+    if (value >= 0 && value <= n.most && std::isfinite(value)) continue;
+    const std::string unit = *n.unit ? std::string(" ") + n.unit : "";
+    if (std::isinf(n.most))
+      fail(kind, who, ": ", n.name, " of material '", material.name, "' = ", value, unit, ", must be finite and >= 0");
+    fail(kind, who, ": ", n.name, " of material '", material.name, "' = ", value, unit, ", must be within 0 and ",
+         n.most);
+  }
 }
 
 }  // namespace insonify

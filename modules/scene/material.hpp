@@ -1,21 +1,46 @@
 #pragma once
+#include <limits>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 
-/// What a surface does to sound. The Lambert coefficient is the backscattering cross-section per unit area and
-/// unit solid angle at normal incidence; energy conservation bounds it by 1/pi (-4.97 dB).
+/// What a surface does to sound.
 struct Material {
   std::string name = "default";
-  double lambert_mu = 0.001995262314968880;  ///< [1/sr], -27 dB: Mackenzie (1961), the usual default for a sea bed
-  double coherent_fraction =
-      0;                    ///< part of the mean intensity, in [0, 1], whose amplitude is 1 instead of random (E53)
-  double relief_slope = 0;  ///< rms slope [rise over run] of relief finer than the surfels (E52); 0: smooth
+  double lambert_mu = 0.001995262314968880;  ///< [1/sr], cross-section per area and solid angle at normal incidence;
+                                             ///< -27 dB: Mackenzie (1961), the usual default for a sea bed
+  double coherent_fraction = 0;  ///< part of the mean intensity, in [0, 1], whose amplitude is 1, not random (E53)
+  double relief_slope = 0;       ///< rms slope [rise over run] of relief finer than the surfels (E52); 0: smooth
+
+  bool operator==(const Material&) const = default;
 };
 
-/// Throws Error of `kind` unless lambert_mu and relief_slope are finite and >= 0 and coherent_fraction is in [0, 1].
+/// One number of a Material, >= 0: what checks, material files, comment lines of clouds and tiles know of it.
+struct MaterialNumber {
+  double Material::*member;
+  const char* name;      ///< of the member, for messages
+  const char* unit;      ///< "": none
+  double most;           ///< [unit] largest that is computed; infinity: any finite number
+  const char* key;       ///< in material files
+  bool in_decibels;      ///< the key holds 10 log10 of it
+  bool required;         ///< material files must give it
+  double most_in_files;  ///< [unit] largest that material files may give
+  const char* note;      ///< why, for messages; "": none
+};
+
+/// All numbers of a Material. A new one goes last: files written before have its default.
+inline constexpr MaterialNumber material_numbers[] = {
+    {&Material::lambert_mu, "lambert_mu", "1/sr", std::numeric_limits<double>::infinity(), "lambert_mu_db", true, true,
+     1 / pi, "1/pi: no surface sends back more than it receives"},
+    {&Material::coherent_fraction, "coherent_fraction", "", 1, "coherent_fraction", false, false, 1, ""},
+    {&Material::relief_slope, "relief_slope", "", std::numeric_limits<double>::infinity(), "relief_slope", false, false,
+     1, "rise over run, rms: 45 degrees"},
+};
+
+/// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`.
 void require_valid(const Material& material, const char* who, ErrorKind kind = ErrorKind::argument);
 
 }  // namespace insonify

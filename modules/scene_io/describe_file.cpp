@@ -6,7 +6,7 @@
 #include "core/parallel.hpp"
 #include "scene/scene_index.hpp"
 #include "scene_io/complete_scene_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -71,7 +71,7 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
 }  // namespace
 
 FileDescription describe_file(const std::string& path) {
-  const RawCloud raw = read_any(path, {});
+  const RawCloud raw = read_cloud(path, {});
   FileDescription file;
   file.path = raw.path;
   file.format = raw.format;

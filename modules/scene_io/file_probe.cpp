@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
@@ -50,36 +50,16 @@ std::string read_beginning(const std::string& path, std::size_t count) {
 
 std::string what_it_looks_like(const std::string& path) {
   const std::string head = read_beginning(path, 512);
-  const auto begins = [&](const char* magic) { return head.rfind(magic, 0) == 0; };
-  if (begins("ply\n") || begins("ply\r\n")) return "a PLY file; rename it to .ply";
-  if (begins("# .PCD") || begins("VERSION ") || begins("FIELDS ")) return "a PCD file; rename it to .pcd";
-  if (begins("# vtk DataFile")) return "a legacy VTK file; rename it to .vtk";
-  if (begins("<?xml") || begins("<VTKFile")) return "an XML file; a VTK polydata file is named .vtp";
-  if (begins("LASF")) return "a LAS/LAZ file; convert it first: pdal translate in.las out.ply";
-  if (begins("solid ")) return "an ASCII STL file; rename it to .stl";
+  for (const SceneReader& reader : scene_readers())
+    for (const std::string& magic : reader.magic)
+      if (head.starts_with(magic))
+        return reader.name + "; " + (reader.remedy.empty() ? "rename it to " + reader.extensions[0] : reader.remedy);
   const bool text = std::all_of(head.begin(), head.end(),
                                 [](unsigned char c) { return c >= 128 || std::isprint(c) || std::isspace(c); });
   if (!text) return "binary data";
   std::string_view line;
   LineReader(head).next_filled(line);
   return "text beginning with '" + shown(line) + "'";
-}
-
-RawCloud read_any(const std::string& path, const ReadOptions& options) {
-  require_readable(path);
-  const std::string extension = extension_of(path);
-  if (extension == ".pcd") return read_pcd(path, options);
-  if (extension == ".ply") return read_ply(path, options);
-  if (extension == ".obj") return read_obj(path, options);
-  if (extension == ".vtk" || extension == ".vtp" || extension == ".stl") return read_vtk(path, options);
-  for (const char* text : {".xyz", ".txt", ".csv", ".asc"}) {
-    if (extension == text) return read_text_cloud(path, options);
-  }
-  const char* las =
-      extension == ".las" || extension == ".laz" || extension == ".e57" ? "; convert it first: pdal translate in" : "";
-  fail(ErrorKind::content, path, ": unknown extension '", extension,
-       "', expected .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv or .asc; it looks like ", what_it_looks_like(path),
-       las, *las ? extension + " out.ply" : "");
 }
 
 }  // namespace insonify

@@ -47,11 +47,14 @@ struct LoadedScene {
   LoadReport report;
 };
 
-/// Reads a cloud or mesh: .pcd, .ply, .obj, .stl, .vtk, .vtp, .xyz/.txt/.csv/.asc, by extension, fields by name and
-/// type. Clouds without normals get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else
-/// two-sided; without areas, Voronoi areas (E15). Meshes are sampled, area-preserving and stratified; their normals
-/// are the file's, else follow the winding, two-sided if more than 1 % of the shared edges contradict it. Ids are the
-/// file's if unique, else row numbers (meshes: sample numbers).
+/// Extensions of the files that load_scene reads: ".pcd .ply .obj ...", separated by spaces, for messages and help.
+std::string scene_extensions();
+
+/// Reads a cloud or mesh by its extension, one of scene_extensions(), fields by name and type. Clouds without normals
+/// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else two-sided; without areas,
+/// Voronoi areas (E15). Meshes are sampled, area-preserving and stratified; their normals are the file's, else follow
+/// the winding, two-sided if more than 1 % of the shared edges contradict it. Ids are the file's if unique, else row
+/// numbers (meshes: sample numbers).
 /// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
 /// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
 /// are counted. A surfel of a mesh takes the number of its nearest corner. Error(content) lists the file's fields if it

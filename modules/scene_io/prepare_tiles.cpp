@@ -6,8 +6,7 @@
 
 #include "core/error.hpp"
 #include "scene_io/complete_scene_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/row_file_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -188,7 +187,8 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
 
 PreparedTiles prepare_tiles(const std::string& path, const std::string& output, const PrepareTilesOptions& options) {
   check_options(options.load, "prepare_tiles");
-  std::optional<RowFile> rows = find_rows(path);
+  const SceneReader& reader = reader_of(path);
+  std::optional<RowFile> rows = reader.find_rows ? reader.find_rows(path) : std::nullopt;
   if (rows && rows->rows > options.whole_points) return stream(std::move(*rows), output, options);
   LoadedScene loaded = load_scene(path, options.load);
   TileWriterOptions writing;

@@ -103,7 +103,4 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
 RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp, .stl
 
-/// Chooses the reader by extension, after file_probe's checks.
-RawCloud read_any(const std::string& path, const ReadOptions& options);
-
 }  // namespace insonify

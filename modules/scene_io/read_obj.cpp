@@ -6,7 +6,7 @@
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 
-// An own reader, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
+// A reader of our own, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
 namespace insonify {
 namespace {
 

@@ -138,7 +138,7 @@ Header read_header(const std::string& path) {
 
 /// Byte counts of the compressed block against the file and the header.
 void check_compressed(const Header& header, std::size_t held) {
-  // PCL unpacks such points into the wrong rows, without a word.
+  // PCL unpacks such points into the wrong rows, without a message.
   if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; })) {
     fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; save them as ",
          "DATA binary: pcl_convert_pcd_ascii_binary in.pcd out.pcd 1");

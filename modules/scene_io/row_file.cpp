@@ -7,7 +7,6 @@
 #include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
-namespace {
 
 std::optional<RowFile> find_ply_rows(const std::string& path) {
   // Text files are checked line by line when read.
@@ -29,16 +28,6 @@ std::optional<RowFile> find_ply_rows(const std::string& path) {
     }
     file.begin += element.count * stride;
   }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<RowFile> find_rows(const std::string& path) {
-  require_readable(path);
-  const std::string extension = extension_of(path);
-  if (extension == ".ply") return find_ply_rows(path);
-  if (extension == ".pcd") return find_pcd_rows(path);
   return std::nullopt;
 }
 

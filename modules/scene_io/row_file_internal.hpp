@@ -24,7 +24,7 @@ struct RowFile {
 
 /// The layout of a binary PLY or PCD without faces; nothing for files that must be read as a whole. Throws as
 /// load_scene for files that are missing, truncated or of another format than their extension.
-std::optional<RowFile> find_rows(const std::string& path);
+std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
 
 /// `count` rows starting at `first`, in this machine's byte order.

@@ -1,5 +1,6 @@
 #include <array>
 #include <charconv>
+#include <span>
 
 #include "core/error.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
@@ -7,6 +8,10 @@
 
 namespace insonify {
 namespace {
+
+/// A material stands in one line with its first number, and in a second one, "surface", with the others if any of them
+/// is not the default.
+constexpr std::span surface_numbers = std::span(material_numbers).subspan(1);
 
 /// Shortest text that reads back as the same double.
 std::string exact(double value) {
@@ -42,16 +47,20 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     std::size_t index = 0;
     Material material;
     if (!to_number(take_word(rest), index) || index != tags.materials.size()) bad();
-    if (!to_number(take_word(rest), material.lambert_mu)) bad();
+    if (!to_number(take_word(rest), material.*material_numbers[0].member)) bad();
     if (!rest.empty()) rest.remove_prefix(1);
     material.name = std::string(rest);
     tags.materials.push_back(material);
   } else if (key == "surface") {
     std::size_t index = 0;
     if (!to_number(take_word(rest), index) || index >= tags.materials.size()) bad();
-    Material& material = tags.materials[index];
-    if (!to_number(take_word(rest), material.coherent_fraction)) bad();
-    if (!to_number(take_word(rest), material.relief_slope)) bad();
+    std::string_view word = take_word(rest);
+    for (const MaterialNumber& n : surface_numbers) {
+      if (&n > &surface_numbers.front() && word.empty()) break;  // written before there was this number
+      if (!to_number(word, tags.materials[index].*n.member)) bad();
+      word = take_word(rest);
+    }
+    if (!word.empty()) bad();
   }
 }
 
@@ -66,10 +75,15 @@ std::vector<std::string> tag_lines(const SceneCloud& scene) {
       if (c == '\n' || c == '\r') c = ' ';
     }
     const Material& material = scene.materials[m];
-    lines.push_back("insonify material " + std::to_string(m) + " " + exact(material.lambert_mu) + " " + name);
-    if (material.coherent_fraction == 0 && material.relief_slope == 0) continue;
-    lines.push_back("insonify surface " + std::to_string(m) + " " + exact(material.coherent_fraction) + " " +
-                    exact(material.relief_slope));
+    const std::string index = std::to_string(m);
+    lines.push_back("insonify material " + index + " " + exact(material.*material_numbers[0].member) + " " + name);
+    std::string surface = "insonify surface " + index;
+    bool plain = true;
+    for (const MaterialNumber& n : surface_numbers) {
+      surface += " " + exact(material.*n.member);
+      plain = plain && material.*n.member == Material{}.*n.member;
+    }
+    if (!plain) lines.push_back(surface);
   }
   return lines;
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -49,29 +48,34 @@ std::uint64_t checksum(std::span<const char> bytes) {
 std::string pack_materials(const std::vector<Material>& materials) {
   std::string bytes;
   for (const Material& m : materials) {
-    append(bytes, m.lambert_mu);
-    append(bytes, m.coherent_fraction);
-    append(bytes, m.relief_slope);
+    for (const MaterialNumber& n : material_numbers) append(bytes, m.*n.member);
     append(bytes, static_cast<std::uint32_t>(m.name.size()));
     bytes += m.name;
   }
   return bytes;
 }
 
-std::vector<Material> unpack_materials(std::span<const char> bytes, std::size_t count, const std::string& path) {
+std::vector<Material> unpack_materials(std::span<const char> bytes, const TileHeader& header, const std::string& path) {
   const auto require = [&](bool good) {
     if (!good) fail(ErrorKind::content, path, ": the material table is damaged; prepare the scene again");
   };
-  std::vector<Material> materials;
-  for (std::size_t m = 0; m < count; ++m) {
-    std::array<double, 3> numbers;
+  const auto take = [&](auto& value) {
+    require(bytes.size() >= sizeof(value));
+    std::memcpy(&value, bytes.data(), sizeof(value));
+    bytes = bytes.subspan(sizeof(value));
+  };
+  const std::size_t numbers = first_material_numbers + header.added_numbers;
+  if (numbers > std::size(material_numbers))
+    fail(ErrorKind::content, path, ": a material has ", numbers, " numbers, this insonify reads up to ",
+         std::size(material_numbers), "; update insonify, or prepare the scene with this one");
+  std::vector<Material> materials(header.materials <= bytes.size() ? header.materials : 0);
+  require(materials.size() == header.materials);
+  for (Material& m : materials) {
+    for (std::size_t k = 0; k < numbers; ++k) take(m.*material_numbers[k].member);
     std::uint32_t length = 0;
-    require(bytes.size() >= sizeof(numbers) + sizeof(length));
-    std::memcpy(numbers.data(), bytes.data(), sizeof(numbers));
-    std::memcpy(&length, bytes.data() + sizeof(numbers), sizeof(length));
-    bytes = bytes.subspan(sizeof(numbers) + sizeof(length));
+    take(length);
     require(bytes.size() >= length);
-    materials.push_back({std::string(bytes.data(), length), numbers[0], numbers[1], numbers[2]});
+    m.name.assign(bytes.data(), length);
     bytes = bytes.subspan(length);
   }
   require(bytes.empty());

@@ -25,7 +25,8 @@ struct TileHeader {
   double mean_spacing, total_area;    ///< [m], [m^2]
   float largest_area;                 ///< [m^2]
   std::uint32_t materials;
-  char reserved[96];
+  std::uint32_t added_numbers;  ///< of each material, beyond the first three
+  char reserved[92];
   std::uint64_t header_checksum;  ///< of all bytes before it
 };
 static_assert(sizeof(TileHeader) == 256);
@@ -51,9 +52,13 @@ constexpr std::size_t normals_at = 12, areas_at = 24, ids_at = 28, materials_at 
 /// h = h xor (h >> 32). Finds what was damaged, not what was forged.
 std::uint64_t checksum(std::span<const char> bytes);
 
+/// Numbers that a material had when the format was made; all since are announced as added_numbers.
+constexpr std::size_t first_material_numbers = 3;
+
 std::string pack_materials(const std::vector<Material>& materials);
-/// Throws Error(content) if the bytes are not exactly `count` materials.
-std::vector<Material> unpack_materials(std::span<const char> bytes, std::size_t count, const std::string& path);
+/// The materials of a file; numbers that it does not hold keep their defaults. Throws Error(content) if the bytes are not
+/// exactly those that the header announces, or hold numbers that are not known.
+std::vector<Material> unpack_materials(std::span<const char> bytes, const TileHeader& header, const std::string& path);
 
 /// A file read and written at given places, whole or not at all. Errors name the path.
 class BinaryFile {

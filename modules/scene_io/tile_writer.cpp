@@ -1,3 +1,13 @@
+// Writes a scene of any size as tiles of neighbouring surfels, in bounded memory: an external sort by place. Steps:
+//   1. add             records of 48 bytes are appended to a nameless file beside the output
+//   2. sort_by_place   the records' box is cut into 16^3 cells along a Morton curve, whose runs become parts of a second
+//                      file, and so on until a part fits into memory: neighbours are in one part (tile_sort.cpp)
+//   3. write_group     a part is halved across the longest side of its box, as in building a kd-tree, until at most
+//                      tile_surfels are in each piece; each is packed by ascending id, with its enclosing ball
+//   4. fill_areas      only where areas are estimated: Voronoi areas (E15) with the neighbours in the tiles around
+//   5. write_tail      directory, materials and header, with checksums; then the file gets its name
+// Cost: about five passes over the records on the disk and O(n log n) comparisons; tiles are packed in parallel. The bytes
+// do not depend on threads; the memory allowed changes the division into tiles, not the surfels.
 #include "scene_io/tile_writer.hpp"
 
 #include <algorithm>
@@ -224,6 +234,7 @@ void TileWriter::State::write_tail(BinaryFile& file) {
   h.mean_spacing = empty ? 0 : std::sqrt(total_area / static_cast<double>(report.surfels));
   for (const TileEntry& tile : tiles) h.largest_area = std::max(h.largest_area, tile.largest_area);
   h.materials = static_cast<std::uint32_t>(options.materials.size());
+  h.added_numbers = std::size(material_numbers) - first_material_numbers;
   h.header_checksum = checksum(bytes_in(h).first(offsetof(TileHeader, header_checksum)));
   file.write(0, bytes_in(h));
 }

@@ -134,7 +134,7 @@ struct TiledScene::State {
     tiles.resize(header.tiles);
     const std::size_t entry_bytes = tiles.size() * sizeof(TileEntry);
     if (entry_bytes > 0) std::memcpy(static_cast<void*>(tiles.data()), tail.data(), entry_bytes);
-    info.materials = unpack_materials(std::span(tail).subspan(entry_bytes), header.materials, path);
+    info.materials = unpack_materials(std::span(tail).subspan(entry_bytes), header, path);
     std::uint64_t surfels = 0;
     for (const TileEntry& tile : tiles) {
       surfels += tile.count;

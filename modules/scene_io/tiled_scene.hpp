@@ -33,8 +33,12 @@ struct TileSelection {
   double bytes_to_load() const { return 64.0 * static_cast<double>(surfels); }
 };
 
-/// A prepared scene on disk, written by TileWriter, of which only the tiles near a head are read, so that scenes can be
-/// far larger than memory. Opening reads the directory, 80 bytes per tile of at most 4096 surfels.
+/// A prepared scene on disk, of which only the tiles near a head are read: scenes far larger than memory can be pinged.
+/// TileWriter makes one. Steps and cost:
+///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels
+///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
+///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id, so that the cloud is the
+///             whole scene with the others left out
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = resolve_ping(tiled.info().whole, head, pose, environment, options).region;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/scattering.hpp"
 #include "core/units.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
@@ -58,15 +59,13 @@ class Sampler {
 
   /// |echo|^2 by the pattern, and, for the sum over the scene, without it and broadside.
   double echo_power(std::size_t i, double r, double facing, double elevation) {
-    const EchoOptions& echoes = ping_.sent.echo_options;
-    const double pattern =
-        echoes.elevation_width > 0
-            ? elevation_response(echoes.elevation_shape, echoes.elevation_width, elevation - echoes.elevation_centre)
-            : 1;
+    const double pattern = elevation_pattern(ping_.sent.echo_options, elevation);
     const double amplitude = source_ * std::exp(-2 * ping_.sent.medium.absorption.a0 * r) / (r * r);
-    const double mu = scene_.materials[scene_.material[i]].lambert_mu, area = scene_.area[i];
-    sums_.anywhere += lambert_cross_section(mu, 1, area) * amplitude * amplitude;
-    return lambert_cross_section(mu, facing, facing * area) * amplitude * amplitude * pattern * pattern;
+    const Material& material = scene_.materials[scene_.material[i]];
+    const double area = scene_.area[i], frequency = ping_.head.pulse.centre_frequency;
+    sums_.anywhere += cross_section(material, {1, 1, area}, frequency) * amplitude * amplitude;
+    return cross_section(material, {facing, facing, facing * area}, frequency) * amplitude * amplitude * pattern *
+           pattern;
   }
 
   /// What a pulse from beyond the gate still has inside it: a Gaussian, cut where the sampled ranges end.

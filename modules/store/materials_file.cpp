@@ -11,16 +11,20 @@ namespace insonify {
 namespace {
 
 constexpr int materials_schema = 1;
-constexpr double steepest_relief = 1;
-constexpr double highest_mu_db = -4.97;  // 1/pi, rounded as in published tables
 
-// The Lambert coefficient; values above 1/pi, which violate energy conservation, are refused; -inf means no echo.
-double lambert_mu_of(const std::string& path, const TomlValue& entry) {
-  const double mu_db = toml_number(path, entry, "lambert_mu_db");
-  if (!(mu_db <= highest_mu_db))
-    fail_in_file(path, entry.find("lambert_mu_db")->line, "lambert_mu_db = ", mu_db,
-                 " dB, must be at most -4.97 dB (1/pi: no surface sends back more than it receives)");
-  return std::min(power_from_db(mu_db), 1 / pi);
+/// Takes a number of a material from its key. In decibels -inf means 0, and the limit is rounded up to 0.01 dB, as it is
+/// written in tables of materials.
+void read_number(const std::string& path, const TomlValue& entry, const MaterialNumber& n, Material& material) {
+  const TomlValue* value = entry.find(n.key);
+  if (!value && !n.required) return;
+  const double number = toml_number(path, entry, n.key);
+  const std::string note = *n.note ? std::string(" (") + n.note + ")" : "";
+  const double most = n.in_decibels ? std::ceil(100 * db_from_power(n.most_in_files)) / 100 : n.most_in_files;
+  if (n.in_decibels && !(number <= most))
+    fail_in_file(path, value->line, n.key, " = ", number, " dB, must be at most ", most, " dB", note);
+  if (!n.in_decibels && !(number >= 0 && number <= most))
+    fail_in_file(path, value->line, n.key, " = ", number, ", must be within 0 and ", most, note);
+  material.*n.member = n.in_decibels ? std::min(power_from_db(number), n.most_in_files) : number;
 }
 
 int label_of(const std::string& path, const TomlValue& entry, std::size_t place) {
@@ -32,25 +36,14 @@ int label_of(const std::string& path, const TomlValue& entry, std::size_t place)
   return static_cast<int>(label);
 }
 
-double number_within(const std::string& path, const TomlValue& entry, const char* key, double most, const char* rule) {
-  const TomlValue* value = entry.find(key);
-  if (!value) return 0;
-  const double number = toml_number(path, entry, key);
-  if (!(number >= 0 && number <= most)) fail_in_file(path, value->line, key, " = ", number, ", must be ", rule);
-  return number;
-}
-
 SourcedMaterial read_material(const std::string& path, const TomlValue& entry, std::size_t place) {
   if (entry.kind != TomlValue::Kind::table) fail_in_file(path, entry.line, "material must be a table: [[material]]");
-  require_known_keys(
-      path, entry,
-      {"name", "label", "from", "to", "lambert_mu_db", "coherent_fraction", "relief_slope", "status", "source"});
+  std::vector<std::string> keys = {"name", "label", "from", "to", "status", "source"};
+  for (const MaterialNumber& n : material_numbers) keys.push_back(n.key);
+  require_known_keys(path, entry, keys);
   SourcedMaterial result;
   result.material.name = toml_text(path, entry, "name");
-  result.material.lambert_mu = lambert_mu_of(path, entry);
-  result.material.coherent_fraction = number_within(path, entry, "coherent_fraction", 1, "within 0 and 1");
-  result.material.relief_slope =
-      number_within(path, entry, "relief_slope", steepest_relief, "within 0 and 1 (rise over run, rms: 45 degrees)");
+  for (const MaterialNumber& n : material_numbers) read_number(path, entry, n, result.material);
   result.label = label_of(path, entry, place);
   result.status = entry.find("status") ? toml_text(path, entry, "status") : "user";
   if (entry.find("source")) result.source = toml_text(path, entry, "source");

@@ -20,8 +20,8 @@ struct MaterialTable {
   MaterialField field;  ///< intervals refer to materials by label, the index in materials_by_label
 };
 
-/// Reads a table of materials from TOML: [[material]] name, lambert_mu_db, coherent_fraction (0), relief_slope (0),
-/// label (its position), status, source. The top-level key `field` names the scalar field that holds the labels;
+/// Reads a table of materials from TOML: [[material]] name, the keys of material_numbers, label (its
+/// position), status, source. The top-level key `field` names the scalar field that holds the labels;
 /// alternatively each material has a half-open interval of field values, `from` (included) to `to` (excluded), one of
 /// which may be omitted. Unknown keys, overlapping intervals and unphysical values are errors with file and line.
 MaterialTable load_materials(const std::string& path);

@@ -275,7 +275,7 @@ TEST(MultipathEchoes, applies_elevation_patterns_once_per_leg_and_the_transmitte
   ASSERT_EQ(shaped.size(), 3u);
   const double direct = std::asin(-1 / std::hypot(15, 5, 1)), image = std::asin(5 / std::hypot(15, 5, 5));
   const auto two_way = [&](double e) { return elevation_response(ElevationShape::gaussian, radians(30), e); };
-  const double transmit = transmit_response(radians(60), std::atan2(5, 15));
+  const double transmit = gaussian_lobe(radians(60), std::atan2(5, 15));
   const double expected[] = {std::sqrt(two_way(direct) * two_way(image)), std::sqrt(two_way(direct) * two_way(image)),
                              two_way(image)};
   for (int i = 0; i < 3; ++i)
@@ -296,7 +296,7 @@ TEST(MultipathEchoes, pairs_the_transmitters_gain_on_the_leg_out_with_the_direct
   const std::size_t by_surface = e.v[0] > e.v[1] ? 0 : 1;
   EXPECT_NEAR(e.v[by_surface], std::sin(image.elevation), 1e-6);
   EXPECT_NEAR(std::abs(e.amplitude[by_surface]) / std::abs(e.amplitude[1 - by_surface]),
-              transmit_response(0.5, direct.azimuth) / transmit_response(0.5, image.azimuth), 1e-5);
+              gaussian_lobe(0.5, direct.azimuth) / gaussian_lobe(0.5, image.azimuth), 1e-5);
 }
 
 // The captured seabed coincides with the flat bottom: it must not hide bounced legs.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/direct_echoes.hpp"
+#include "acoustics/scattering.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"

@@ -1,4 +1,5 @@
 // Surfaces, points and directions at the limits of what can be seen.
+#include "acoustics/scattering.hpp"
 #include "extreme_cases.hpp"
 
 using namespace insonify;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/scattering.hpp"
 #include "beamforming/beam_pattern.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"

@@ -38,7 +38,7 @@ TEST(BadFile, missing_files_and_folders_are_file_errors) {
 TEST(BadFile, empty_and_unknown_files_say_what_was_expected) {
   expect_bad(own_file("a.ply", ""), {"empty (0 bytes)"});
   expect_bad(own_file("a.blend", "BLENDER"),
-             {"unknown extension '.blend'", ".pcd .ply .obj", "text beginning with 'BLENDER'"});
+             {"unknown extension '.blend'", ".pcd .ply .obj", scene_extensions(), "text beginning with 'BLENDER'"});
   expect_bad(own_file("a.las", "LASF...."), {"unknown extension '.las'", "pdal translate"});
   expect_bad(own_file("noextension", "ply\n"), {"unknown extension ''", "rename it to .ply"});
 }
@@ -49,6 +49,7 @@ TEST(BadFile, a_file_of_another_format_than_its_name_says_is_named) {
   expect_bad(own_file("b.ply", text), {"not a PLY file", "expected 'ply'", "text beginning with '0 0 0'"});
   expect_bad(own_file("c.pcd", "ply\nformat ascii 1.0\n"), {"not a PCD file", "rename it to .ply"});
   expect_bad(own_file("d.ply", "# .PCD v0.7\n"), {"not a PLY file", "rename it to .pcd"});
+  expect_bad(own_file("d.ply", "insotile"), {"not a PLY file", "rename it to .tiles"});
   expect_bad(own_file("e.obj", text), {"not an OBJ file", "'v x y z'"});
   expect_bad(own_file("f.stl", text), {"not an STL file", "solid"});
   expect_bad(own_file("g.vtk", text), {"not a legacy VTK file", "# vtk DataFile"});

@@ -87,11 +87,17 @@ TEST(SaveScene, scenes_without_relief_and_coherence_have_the_lines_they_always_h
               ::testing::HasSubstr("comment insonify surface 1 0.10000000000000002 0.3333333333333333\n"));
   EXPECT_THAT(file_bytes(with), ::testing::HasSubstr("comment insonify material 1 0.03333333333333333 rock, grey\n"));
   EXPECT_THAT(file_bytes(without), ::testing::Not(::testing::HasSubstr("insonify surface")));
-  std::string damaged = file_bytes(with);
-  damaged.replace(damaged.find("surface 1"), 9, "surface 7");
-  const std::string path = own_file("damaged.ply", damaged);
-  expect_error(ErrorKind::content, {path, "cannot understand the comment line 'insonify surface 7"},
-               [&] { load_scene(path); });
+  const auto changed = [&](const std::string& old, const std::string& other) {
+    std::string text = file_bytes(with);
+    return own_file("changed.ply", text.replace(text.find(old), old.size(), other));
+  };
+  for (const char* line : {"surface 7 0.1", "surface 1 0.1 x", "surface 1 0.1 0.3 9"}) {
+    const std::string path = changed("surface 1 0.10000000000000002 0.3333333333333333", line);
+    expect_error(ErrorKind::content, {path, std::string("cannot understand the comment line 'insonify ") + line},
+                 [&] { load_scene(path); });
+  }
+  // A number that came after the file was written.
+  EXPECT_EQ(load_scene(changed(" 0.3333333333333333\n", "\n")).scene.materials[1].relief_slope, 0);
 }
 
 TEST(SaveScene, unit_scales_a_saved_scene_too) {

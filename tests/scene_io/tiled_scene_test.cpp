@@ -6,6 +6,7 @@
 #include "core/random.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/surfel_area.hpp"
+#include "scene_io/tile_file_internal.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "test_files.hpp"
 
@@ -229,6 +230,9 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
   refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
   refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
+  const TileHeader newer{.materials = 1, .added_numbers = 1};
+  expect_error(ErrorKind::content, {"a.tiles", "a material has 4 numbers", "update insonify"},
+               [&] { unpack_materials({}, newer, "a.tiles"); });
   expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(own_path("none.tiles")); });
 }
 

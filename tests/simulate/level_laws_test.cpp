@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/direct_echoes.hpp"
+#include "acoustics/scattering.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"

@@ -1,0 +1,52 @@
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
+
+namespace insonify {
+
+const std::vector<SceneReader>& scene_readers() {
+  static const std::vector<SceneReader> readers = {
+      {{".pcd"}, {"# .PCD", "VERSION ", "FIELDS "}, "a PCD file", "", read_pcd, find_pcd_rows},
+      {{".ply"}, {"ply\n", "ply\r\n"}, "a PLY file", "", read_ply, find_ply_rows},
+      {{".obj"}, {}, "an OBJ file", "", read_obj},
+      {{".stl"}, {"solid "}, "an ASCII STL file", "", read_vtk},
+      {{".vtk"}, {"# vtk DataFile"}, "a legacy VTK file", "", read_vtk},
+      {{".vtp"}, {"<?xml", "<VTKFile"}, "an XML file, if of VTK polydata", "", read_vtk},
+      {{".xyz", ".txt", ".csv", ".asc"}, {}, "text", "", read_text_cloud},
+      {{".tiles"}, {"insotile"}, "an insonify tiles file", "", nullptr, nullptr, load_all_tiles},
+      {{".las", ".laz"}, {"LASF"}, "a LAS/LAZ file", "convert it first: pdal translate in.las out.ply"},
+      {{".e57"}, {"ASTM-E57"}, "an E57 file", "convert it first: pdal translate in.e57 out.ply"},
+  };
+  return readers;
+}
+
+std::string scene_extensions() {
+  std::string all;
+  for (const SceneReader& reader : scene_readers())
+    for (const std::string& extension : reader.extensions)
+      if (reader.remedy.empty()) all += (all.empty() ? "" : " ") + extension;
+  return all;
+}
+
+const SceneReader& reader_of(const std::string& path) {
+  require_readable(path);
+  const std::string extension = extension_of(path);
+  std::string remedy;
+  for (const SceneReader& reader : scene_readers()) {
+    if (std::count(reader.extensions.begin(), reader.extensions.end(), extension) == 0) continue;
+    if (reader.remedy.empty()) return reader;
+    remedy = "; " + reader.remedy;
+  }
+  fail(ErrorKind::content, path, ": unknown extension '", extension, "', expected one of ", scene_extensions(),
+       "; it looks like ", what_it_looks_like(path), remedy);
+}
+
+RawCloud read_cloud(const std::string& path, const ReadOptions& options) {
+  const SceneReader& reader = reader_of(path);
+  if (!reader.read) fail(ErrorKind::content, path, ": is ", reader.name, ", a prepared scene; give a cloud or mesh");
+  return reader.read(path, options);
+}
+
+}  // namespace insonify

@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
+
+// Private to scene_io: which files a scene is read from. A new reader is one line in the table of scene_readers.cpp.
+namespace insonify {
+
+/// One kind of file.
+struct SceneReader {
+  std::vector<std::string> extensions;  ///< in lower case, with their dots; the first is the usual one
+  std::vector<std::string> magic;       ///< what such files begin with; none: no sign
+  std::string name;                     ///< "a PLY file"
+  std::string remedy;                   ///< how to get a file that is read, of files that are not; else empty
+  RawCloud (*read)(const std::string& path, const ReadOptions& options) = nullptr;
+  std::optional<RowFile> (*find_rows)(const std::string& path) = nullptr;  ///< null: read as a whole only
+  LoadedScene (*load)(const std::string& path,
+                      const LoadOptions& options) = nullptr;  ///< of complete scenes, instead of read
+};
+
+const std::vector<SceneReader>& scene_readers();
+
+/// The reader of `path`, by its extension. Throws Error(file) if the file cannot be opened, Error(content) if it is empty
+/// or its extension is none of scene_extensions().
+const SceneReader& reader_of(const std::string& path);
+
+/// Reads by the reader of `path`. Throws Error(content) for a complete scene too, which has no raw columns.
+RawCloud read_cloud(const std::string& path, const ReadOptions& options);
+
+/// A .tiles file as a whole.
+LoadedScene load_all_tiles(const std::string& path, const LoadOptions& options);
+
+}  // namespace insonify
