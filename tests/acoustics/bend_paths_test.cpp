@@ -52,7 +52,7 @@ RayState march(const SoundSpeedProfile& p, double z, double slope, double end, i
 }
 
 std::string refusal(const SoundSpeedProfile& p, double from, double to, double horizontal) {
-  return error_of([&] { find_eigenray(p, from, to, horizontal); });
+  return error_with_kind([&] { find_eigenray(p, from, to, horizontal); });
 }
 
 const SoundSpeedProfile one_gradient{{-1e4, 1e4}, {1300, 1700}};  // 0.02 /s
@@ -229,8 +229,9 @@ TEST(FindEigenray, finds_no_ray_into_a_shadow_zone) {
   EXPECT_EQ(refusal(split, 15, 25, 20), "no error");
   // From 5 m above the maximum to 5 m below it, R = c/g = 760 m: at most 2 sqrt(2 R 5) = 174 m.
   EXPECT_EQ(refusal(split, 15, 25, 170), "no error");
-  EXPECT_EQ(refusal(split, 15, 25, 180),
-            "find_eigenray: no ray joins depths 15 m and 25 m over 180 m: a shadow zone of the sound speed profile");
+  EXPECT_EQ(
+      refusal(split, 15, 25, 180),
+      "content: find_eigenray: no ray joins depths 15 m and 25 m over 180 m: a shadow zone of the sound speed profile");
 }
 
 TEST(FindEigenray, has_no_gap_where_a_ray_comes_to_turn_or_to_reach_another_layer) {
@@ -259,9 +260,9 @@ TEST(FindEigenray, handles_very_large_and_very_small_gradients) {
 }
 
 TEST(FindEigenray, is_refused_with_value_and_rule) {
-  EXPECT_EQ(refusal(duct, NAN, 1, 1), "find_eigenray: depths nan m and 1 m, must be finite");
-  EXPECT_EQ(refusal(duct, 1, 1, -1), "find_eigenray: horizontal = -1 m, must be finite and >= 0");
-  EXPECT_EQ(refusal({}, 1, 1, 1), "find_eigenray: sound speed profile has no entry, must have one at least");
+  EXPECT_EQ(refusal(duct, NAN, 1, 1), "argument: find_eigenray: depths nan m and 1 m, must be finite");
+  EXPECT_EQ(refusal(duct, 1, 1, -1), "argument: find_eigenray: horizontal = -1 m, must be finite and >= 0");
+  EXPECT_EQ(refusal({}, 1, 1, 1), "argument: find_eigenray: sound speed profile has no entry, must have one at least");
 }
 
 TEST(BendPaths, leaves_scatterers_alone_where_sound_speed_is_the_same) {

@@ -24,7 +24,7 @@ LineArray uniform_array(std::size_t elements, double spacing) { return {spacing,
 
 }  // namespace
 
-TEST(ExtremeCase, n24_beam_too_narrow_for_any_array_is_refused) {
+TEST(ExtremeArrays, n24_beam_too_narrow_for_any_array_is_refused) {
   SonarSpec s = small_sonar();
   for (const double width_deg : {1e-3, 1e-6, 1e-300}) {
     s.beam_width = radians(width_deg);
@@ -38,7 +38,7 @@ TEST(ExtremeCase, n24_beam_too_narrow_for_any_array_is_refused) {
 }
 
 // Mean power over echoes from all directions of u is the width of the beam: it falls as 1 / elements.
-TEST(ExtremeCase, n24_energy_in_a_beam_falls_as_its_width) {
+TEST(ExtremeArrays, n24_energy_in_a_beam_falls_as_its_width) {
   const auto energy = [](std::size_t elements) {
     const LineArray array = uniform_array(elements, 0.5);
     double sum = 0;
@@ -48,7 +48,7 @@ TEST(ExtremeCase, n24_energy_in_a_beam_falls_as_its_width) {
   for (const std::size_t n : {8UL, 64UL, 512UL, 2048UL}) EXPECT_NEAR(energy(n) * static_cast<double>(n), 1, 1e-3) << n;
 }
 
-TEST(ExtremeCase, n25_beam_of_180_degrees_is_one_omnidirectional_element) {
+TEST(ExtremeArrays, n25_beam_of_180_degrees_is_one_omnidirectional_element) {
   SonarSpec s = small_sonar();
   s.beam_width = pi;
   for (const double side_lobes : {0.0, -30.0}) {
@@ -63,12 +63,12 @@ TEST(ExtremeCase, n25_beam_of_180_degrees_is_one_omnidirectional_element) {
   expect_error(ErrorKind::argument, {"beam_width_deg = 181 deg", "at most 180"}, [&] { make_head(s, 1500); });
 }
 
-TEST(ExtremeCase, n25_one_element_is_omnidirectional_whatever_its_spacing) {
+TEST(ExtremeArrays, n25_one_element_is_omnidirectional_whatever_its_spacing) {
   for (const double spacing : {1e-300, 1e-3, 1.0, 1e6, 1e300})
     EXPECT_EQ(array_beam_width(uniform_array(1, spacing), 0.003), pi) << spacing;
 }
 
-TEST(ExtremeCase, n26_array_shorter_than_a_wavelength_has_no_null) {
+TEST(ExtremeArrays, n26_array_shorter_than_a_wavelength_has_no_null) {
   const LineArray array = uniform_array(4, 0.2);  // 0.8 wavelengths
   for (int i = -100; i <= 100; ++i) EXPECT_GT(std::abs(array_response(array, 1, 0.01 * i, 0)), 0.1);
   // The closed form of a uniform row: sin(N x / 2) / (N sin(x / 2)), x = 2 pi d u / lambda.
@@ -77,7 +77,7 @@ TEST(ExtremeCase, n26_array_shorter_than_a_wavelength_has_no_null) {
 }
 
 // Lobes of full height at sin g = sin s + n lambda / d.
-TEST(ExtremeCase, n27_grating_lobes_stand_where_they_must_and_symmetric) {
+TEST(ExtremeArrays, n27_grating_lobes_stand_where_they_must_and_symmetric) {
   const struct { double spacing, lobe_deg; } cases[] = {{1, 90}, {1.5, 41.81031}, {2, 30}, {2, 90}};
   for (const auto& c : cases) {
     const LineArray array = uniform_array(16, c.spacing);
@@ -91,7 +91,7 @@ TEST(ExtremeCase, n27_grating_lobes_stand_where_they_must_and_symmetric) {
   EXPECT_NEAR(std::abs(array_response(array, 1, -1, 1 / 0.75 - 1)), 1, 1e-9);
 }
 
-TEST(ExtremeCase, n28_beams_beyond_the_circle_are_refused) {
+TEST(ExtremeArrays, n28_beams_beyond_the_circle_are_refused) {
   SonarSpec s = small_sonar();
   s.beams = 3;
   for (const double azimuth : {3.15, -4.0, infinity, not_a_number}) {
@@ -100,7 +100,7 @@ TEST(ExtremeCase, n28_beams_beyond_the_circle_are_refused) {
   }
 }
 
-TEST(ExtremeCase, n29_patterns_have_their_limits_where_sine_over_sine_is_0_over_0) {
+TEST(ExtremeArrays, n29_patterns_have_their_limits_where_sine_over_sine_is_0_over_0) {
   EXPECT_EQ(elevation_response(ElevationShape::line, 0.3, 0), 1);
   EXPECT_NEAR(elevation_response(ElevationShape::line, 0.3, 1e-12), 1, 1e-12);
   for (const std::size_t n : {1UL, 2UL, 3UL, 8UL, 101UL})  // x = 2 pi k: the limit is (-1)^(k (N-1))
@@ -108,7 +108,7 @@ TEST(ExtremeCase, n29_patterns_have_their_limits_where_sine_over_sine_is_0_over_
       EXPECT_NEAR(array_response(uniform_array(n, 2), 1, 0.5 * k, 0), k % 2 == 0 || n % 2 == 1 ? 1 : -1, 1e-12);
 }
 
-TEST(ExtremeCase, n29_patterns_of_any_width_are_between_minus_1_and_1) {
+TEST(ExtremeArrays, n29_patterns_of_any_width_are_between_minus_1_and_1) {
   for (const ElevationShape shape : {ElevationShape::gaussian, ElevationShape::line, ElevationShape::sector})
     for (const double width : {1e-320, 1e-300, 1e-12, 0.1, pi, 10.0, 1e300})
       for (const double off : {-pi / 2, -1e-9, 0.0, 1e-300, 0.3, pi / 2}) {
@@ -119,7 +119,7 @@ TEST(ExtremeCase, n29_patterns_of_any_width_are_between_minus_1_and_1) {
 }
 
 // 4096 scatterers in one bin and one direction: the sum keeps its tolerance, for any number of threads.
-TEST(ExtremeCase, n40_everything_in_one_place_adds_up) {
+TEST(ExtremeArrays, n40_everything_in_one_place_adds_up) {
   const SonarHead head = single_beam({900e3, 29.5e3, 220}, 4, 6);
   const Scatterers targets = targets_at(std::vector<double>(4096, 5.0));
   const Echoes echoes = echoes_of(targets, head.pulse, clear_water());
@@ -129,7 +129,7 @@ TEST(ExtremeCase, n40_everything_in_one_place_adds_up) {
     EXPECT_TRUE(same(synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = threads}), one));
 }
 
-TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_received) {
+TEST(ExtremeArrays, n40_cloud_of_identical_points_is_indexed_and_received) {
   SceneCloud scene;
   for (int i = 0; i < 5000; ++i) add_surfel(scene, {5, 0.5, 0.1}, Eigen::Vector3d(-5, -0.5, -0.1).normalized(), 1e-2);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
@@ -140,7 +140,7 @@ TEST(ExtremeCase, n40_cloud_of_identical_points_is_indexed_and_received) {
   }
 }
 
-TEST(ExtremeCase, n41_thousands_of_beams_are_what_each_is_alone) {
+TEST(ExtremeArrays, n41_thousands_of_beams_are_what_each_is_alone) {
   SonarHead head = small_head();
   head.array = uniform_array(256, head.array.spacing);
   head.gate = {4, 5, 0.0157};
@@ -156,7 +156,7 @@ TEST(ExtremeCase, n41_thousands_of_beams_are_what_each_is_alone) {
   }
 }
 
-TEST(ExtremeCase, n41_image_that_no_memory_holds_is_refused_with_its_size) {
+TEST(ExtremeArrays, n41_image_that_no_memory_holds_is_refused_with_its_size) {
   SonarSpec s = small_sonar();
   s.beams = 65536;
   s.bin_size = 1e-5;
@@ -172,13 +172,13 @@ TEST(ExtremeCase, n41_image_that_no_memory_holds_is_refused_with_its_size) {
                [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
 }
 
-TEST(ExtremeCase, n41_more_parts_than_memory_holds_are_refused_with_their_number) {
+TEST(ExtremeArrays, n41_more_parts_than_memory_holds_are_refused_with_their_number) {
   // 90 000 surfels in 4096 parts each.
   expect_error(ErrorKind::argument, {"90000 surfels", "368640000 scatterers", "2^28", "scatterers_per_cell"},
                [] { ping_of(plate(8, 4, 300), {.sampling = {.scatterers_per_cell = 1e12, .occlusion = false}}); });
 }
 
-TEST(ExtremeCase, n42_prime_numbers_of_bins_beams_and_elements_keep_the_tolerance) {
+TEST(ExtremeArrays, n42_prime_numbers_of_bins_beams_and_elements_keep_the_tolerance) {
   const Echoes echoes = spread_echoes(200);
   for (const auto& [beams, bins, elements] : {std::array{1, 1, 1}, std::array{7, 61, 13}, std::array{13, 67, 31},
                                               std::array{31, 127, 61}, std::array{101, 997, 53}}) {
@@ -193,7 +193,7 @@ TEST(ExtremeCase, n42_prime_numbers_of_bins_beams_and_elements_keep_the_toleranc
   }
 }
 
-TEST(ExtremeCase, n43_beams_even_in_angle_and_in_direction_cosine_agree_where_they_coincide) {
+TEST(ExtremeArrays, n43_beams_even_in_angle_and_in_direction_cosine_agree_where_they_coincide) {
   SonarHead angle = small_head(), cosine = small_head();
   angle.fan.azimuth = {-pi / 6, -pi / 12, 0, pi / 12, pi / 6};  // u = -0.5 and 0.5 are in both
   cosine.fan.azimuth = {-pi / 6, std::asin(-0.25), 0, std::asin(0.25), pi / 6};

@@ -19,7 +19,7 @@ double peak(const SimulatedPing& p) { return image(p).abs().maxCoeff(); }
 
 }  // namespace
 
-TEST(ExtremeCase, n01_grazing_patch_has_no_cross_section_and_divides_by_nothing) {
+TEST(ExtremeGeometry, n01_grazing_patch_has_no_cross_section_and_divides_by_nothing) {
   EXPECT_EQ(lambert_cross_section(0.1, 0, 0), 0);
   for (const bool oriented : {true, false}) {
     SceneCloud scene = one_surfel({5, 0, 0}, {0, 0, 1});
@@ -35,7 +35,7 @@ TEST(ExtremeCase, n01_grazing_patch_has_no_cross_section_and_divides_by_nothing)
   EXPECT_NEAR(db_from_amplitude(peak(tilted) / peak(upright)), -100, 0.01);
 }
 
-TEST(ExtremeCase, n02_back_of_an_oriented_patch_is_silent_and_of_an_unoriented_one_is_not) {
+TEST(ExtremeGeometry, n02_back_of_an_oriented_patch_is_silent_and_of_an_unoriented_one_is_not) {
   SceneCloud scene = one_surfel({5, 0, 0}, {1, 0, 0});
   const SimulatedPing oriented = ping_of(scene, coherent);
   EXPECT_EQ(peak(oriented), 0);
@@ -44,7 +44,7 @@ TEST(ExtremeCase, n02_back_of_an_oriented_patch_is_silent_and_of_an_unoriented_o
   EXPECT_EQ(peak(ping_of(scene, coherent)), peak(ping_of(one_surfel({5, 0, 0}, {-1, 0, 0}), coherent)));
 }
 
-TEST(ExtremeCase, n03_flipped_normals_without_sides_give_the_image_of_oriented_ones) {
+TEST(ExtremeGeometry, n03_flipped_normals_without_sides_give_the_image_of_oriented_ones) {
   const ComplexGrid oriented = image(ping_of(plate(5, 2, 20)));
   SceneCloud mixed = plate(5, 2, 20);
   mixed.normals_oriented = false;
@@ -55,7 +55,7 @@ TEST(ExtremeCase, n03_flipped_normals_without_sides_give_the_image_of_oriented_o
   EXPECT_GT(oriented.abs().maxCoeff(), 0);
 }
 
-TEST(ExtremeCase, n04_n05_n06_scene_in_memory_with_unusable_points_or_normals_is_refused) {
+TEST(ExtremeGeometry, n04_n05_n06_scene_in_memory_with_unusable_points_or_normals_is_refused) {
   const auto refused = [](auto&& damage, const std::vector<std::string>& parts) {
     SceneCloud scene = plate(5, 2, 3);
     damage(scene);
@@ -71,7 +71,7 @@ TEST(ExtremeCase, n04_n05_n06_scene_in_memory_with_unusable_points_or_normals_is
   refused([&](SceneCloud& s) { s.area[8] = nan; }, {"scene.area[8] = nan m^2", "finite"});
 }
 
-TEST(ExtremeCase, n07_point_at_the_head_itself_gives_no_echo_and_hides_nothing) {
+TEST(ExtremeGeometry, n07_point_at_the_head_itself_gives_no_echo_and_hides_nothing) {
   SceneCloud scene = plate(5, 2, 20);
   const ComplexGrid alone = image(ping_of(scene));
   add_surfel(scene, {0, 0, 0}, {-1, 0, 0}, 0.01);
@@ -81,7 +81,7 @@ TEST(ExtremeCase, n07_point_at_the_head_itself_gives_no_echo_and_hides_nothing) 
 }
 
 // The gate begins at 1 m, and a pulse is 5 cm long at most.
-TEST(ExtremeCase, n08_points_nearer_than_the_gate_give_no_echo_and_overflow_nothing) {
+TEST(ExtremeGeometry, n08_points_nearer_than_the_gate_give_no_echo_and_overflow_nothing) {
   for (const double r : {1e-30, 1e-7, 1e-6, 1e-3, 0.5, 0.95}) {
     const SimulatedPing p = ping_of(one_surfel({r, 0, 0}, {-1, 0, 0}, 1e-6));
     EXPECT_TRUE(all_finite(p)) << r;
@@ -97,7 +97,7 @@ TEST(ExtremeCase, n08_points_nearer_than_the_gate_give_no_echo_and_overflow_noth
   });
 }
 
-TEST(ExtremeCase, n12_scene_without_points_is_silent) {
+TEST(ExtremeGeometry, n12_scene_without_points_is_silent) {
   const SimulatedPing p = ping_of(SceneCloud{});
   EXPECT_TRUE(all_finite(p));
   EXPECT_GT(p.ping.pressure.size(), 0);
@@ -109,7 +109,7 @@ TEST(ExtremeCase, n12_scene_without_points_is_silent) {
 }
 
 // SL 220 dB, 10 m, 0.2994626 dB/m, target strength -20 dB: 220 - 2 (20 + 2.994626) - 20 dB.
-TEST(ExtremeCase, n13_one_point_has_the_level_of_the_sonar_equation) {
+TEST(ExtremeGeometry, n13_one_point_has_the_level_of_the_sonar_equation) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const Medium medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
   const SonarHead head = single_beam(pulse, 9, 11);
@@ -121,7 +121,7 @@ TEST(ExtremeCase, n13_one_point_has_the_level_of_the_sonar_equation) {
   }
 }
 
-TEST(ExtremeCase, n14_one_beam_and_one_ray_meet_the_wall_before_them) {
+TEST(ExtremeGeometry, n14_one_beam_and_one_ray_meet_the_wall_before_them) {
   SonarSpec s = small_sonar();
   s.beams = 1;
   s.field_of_view = 0;  // one beam looks straight ahead, whatever the field of view
@@ -133,7 +133,7 @@ TEST(ExtremeCase, n14_one_beam_and_one_ray_meet_the_wall_before_them) {
   EXPECT_GT(peak(p), 0);
 }
 
-TEST(ExtremeCase, n16_copies_of_a_point_add_amplitudes_if_coherent_and_powers_if_not) {
+TEST(ExtremeGeometry, n16_copies_of_a_point_add_amplitudes_if_coherent_and_powers_if_not) {
   const auto copies = [](int k) {
     SceneCloud scene;
     for (int i = 0; i < k; ++i) add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, 0.01);
@@ -147,7 +147,7 @@ TEST(ExtremeCase, n16_copies_of_a_point_add_amplitudes_if_coherent_and_powers_if
   EXPECT_NEAR(power / std::pow(peak(ping_of(copies(1), coherent)), 2), 7, 7 * 0.15);
 }
 
-TEST(ExtremeCase, n30_abeam_is_received_and_astern_is_behind_the_baffle) {
+TEST(ExtremeGeometry, n30_abeam_is_received_and_astern_is_behind_the_baffle) {
   SonarSpec s = small_sonar();
   s.beams = 5;
   s.azimuths = {-pi / 2, -pi / 4, 0, pi / 4, pi / 2};
@@ -169,7 +169,7 @@ TEST(ExtremeCase, n30_abeam_is_received_and_astern_is_behind_the_baffle) {
   expect_error(ErrorKind::argument, {"azimuth[0] = -3.2 rad", "within +-pi"}, [&] { make_head(s, 1500); });
 }
 
-TEST(ExtremeCase, n31_straight_up_and_down_have_no_azimuth_and_a_level) {
+TEST(ExtremeGeometry, n31_straight_up_and_down_have_no_azimuth_and_a_level) {
   SonarSpec s = small_sonar();
   for (const double elevation : {-pi / 2, pi / 2}) {
     s.elevation = elevation;
@@ -184,7 +184,7 @@ TEST(ExtremeCase, n31_straight_up_and_down_have_no_azimuth_and_a_level) {
   expect_error(ErrorKind::argument, {"elevation_deg = 91.67", "within -90 and 90"}, [&] { make_head(s, 1500); });
 }
 
-TEST(ExtremeCase, n54_behind_a_plate_that_fills_the_fan_there_is_nothing) {
+TEST(ExtremeGeometry, n54_behind_a_plate_that_fills_the_fan_there_is_nothing) {
   const int n = 60;
   SceneCloud scene = plate(3, 6, n);
   const SceneCloud wall = plate(9, 4, n);

@@ -17,7 +17,7 @@ SonarSpec loud_sonar(double source_level_db) {
 }  // namespace
 
 // 2 alpha r of 80, 200 and 900 Np: beyond single, then beyond double precision.
-TEST(ExtremeCase, n17_absorption_beyond_double_precision_is_silence) {
+TEST(ExtremeLevels, n17_absorption_beyond_double_precision_is_silence) {
   const SonarHead head = single_beam(pulse, 9, 11);
   for (const double alpha : {4.0, 10.0, 45.0, 1e300}) {
     const Medium medium{1500, {alpha, 0, 0}};
@@ -38,7 +38,7 @@ TEST(ExtremeCase, n17_absorption_beyond_double_precision_is_silence) {
 }
 
 // Slope and curvature make exp(b^2 / 4a) overflow where exp(-2 a0 r) underflows: together they are a number.
-TEST(ExtremeCase, n17_absorption_that_varies_over_the_band_stays_finite_however_large) {
+TEST(ExtremeLevels, n17_absorption_that_varies_over_the_band_stays_finite_however_large) {
   const Pulse wide{1e6, 0.9e6, 220};
   for (const double a0 : {0.03, 1.0, 10.0, 100.0}) {
     const Absorption square_law{a0, 2 * a0 / 1e6, a0 / 1e12};  // alpha proportional to f^2
@@ -51,7 +51,7 @@ TEST(ExtremeCase, n17_absorption_that_varies_over_the_band_stays_finite_however_
   }
 }
 
-TEST(ExtremeCase, n19_absorption_that_would_amplify_is_refused) {
+TEST(ExtremeLevels, n19_absorption_that_would_amplify_is_refused) {
   const SonarHead head = single_beam(pulse, 9, 11);
   const Echoes echoes = echoes_of(targets_at({10}), pulse, clear_water());
   for (const auto synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum})
@@ -67,7 +67,7 @@ TEST(ExtremeCase, n19_absorption_that_would_amplify_is_refused) {
   });
 }
 
-TEST(ExtremeCase, n19_materials_that_would_amplify_or_are_no_number_are_refused) {
+TEST(ExtremeLevels, n19_materials_that_would_amplify_or_are_no_number_are_refused) {
   Scatterers s = targets_at({5});
   s.cos_incidence = {1};
   s.projected_area = {0.01F};
@@ -87,7 +87,7 @@ TEST(ExtremeCase, n19_materials_that_would_amplify_or_are_no_number_are_refused)
                  [&] { echoes_of(targets_at({5}), pulse, clear_water(), sigma); });
 }
 
-TEST(ExtremeCase, n32_echoes_below_the_smallest_numbers_change_nothing) {
+TEST(ExtremeLevels, n32_echoes_below_the_smallest_numbers_change_nothing) {
   const SonarHead head = small_head();
   Echoes echoes = echoes_of(targets_at({5}, 0.1), head.pulse, clear_water());
   const SynthesisOptions fine{.tolerance = 1e-12};
@@ -106,7 +106,7 @@ TEST(ExtremeCase, n32_echoes_below_the_smallest_numbers_change_nothing) {
 }
 
 // Two targets 300 dB apart; the weak one keeps its own accuracy.
-TEST(ExtremeCase, n33_weak_echo_keeps_its_accuracy_beside_one_300_db_louder) {
+TEST(ExtremeLevels, n33_weak_echo_keeps_its_accuracy_beside_one_300_db_louder) {
   const SonarHead head = small_head();
   const Scatterers targets = targets_at({3, 9}, 0.1);
   const std::vector<double> sigma{1e30, 81};  // over r^2: 1e15 / 9 and 1 / 9
@@ -119,7 +119,7 @@ TEST(ExtremeCase, n33_weak_echo_keeps_its_accuracy_beside_one_300_db_louder) {
   EXPECT_GT(slow.leftCols(far).abs().maxCoeff() / slow.rightCols(far).abs().maxCoeff(), 0.9e15);
 }
 
-TEST(ExtremeCase, n34_image_scales_with_the_source_level_and_stays_finite) {
+TEST(ExtremeLevels, n34_image_scales_with_the_source_level_and_stays_finite) {
   const SceneCloud scene = plate(5, 2, 10);
   const double reference = pressure_level_db(image(ping_of(scene)).abs().maxCoeff());
   for (const double level : {-400.0, -50.0, 0.0, 260.0, 300.0, 400.0}) {
@@ -133,7 +133,7 @@ TEST(ExtremeCase, n34_image_scales_with_the_source_level_and_stays_finite) {
 }
 
 // complex<float> ends at 3.4e38: what does not fit is refused, not stored as inf.
-TEST(ExtremeCase, n34_pressure_beyond_single_precision_is_refused) {
+TEST(ExtremeLevels, n34_pressure_beyond_single_precision_is_refused) {
   SonarHead head = small_head();
   for (const double level : {900.0, 3000.0, 7000.0}) {
     head.pulse.source_level_db = level;
@@ -148,7 +148,7 @@ TEST(ExtremeCase, n34_pressure_beyond_single_precision_is_refused) {
                [&] { simulate_ping(scene, head, Pose::Identity(), {}, {.sampling = {.scatterers_per_cell = 0}}); });
 }
 
-TEST(ExtremeCase, n35_level_of_nothing_is_the_floor) {
+TEST(ExtremeLevels, n35_level_of_nothing_is_the_floor) {
   const SimulatedPing p = ping_of(SceneCloud{});
   EXPECT_TRUE((level_db(p.ping) == -200).all());
   EXPECT_TRUE((level_db(p.ping, -300) == -300).all());
@@ -157,7 +157,7 @@ TEST(ExtremeCase, n35_level_of_nothing_is_the_floor) {
   EXPECT_EQ(mean_level_db(p.ping, 200, 300), -infinity);
 }
 
-TEST(ExtremeCase, n36_silent_material_sends_nothing_and_shifts_no_other_amplitude) {
+TEST(ExtremeLevels, n36_silent_material_sends_nothing_and_shifts_no_other_amplitude) {
   SceneCloud scene = plate(5, 2, 12);
   scene.materials = {{"sand", 0.002}, {"silent", 0}};
   for (std::size_t i = 0; i < scene.size(); i += 2) scene.material[i] = 1;

@@ -47,7 +47,7 @@ Echoes crowd(const SonarHead& head, std::size_t first, std::size_t last) {
 
 // Beside the echoes: 4 bytes for every tile that an echo touches (one or two of 64 bins, on average 1.25), the image, a
 // tile per thread, the counters of TileLists, and 8 MiB for whatever else the process does.
-TEST(ExtremeCase, ten_million_echoes_take_no_more_memory_than_lists_image_and_tiles) {
+TEST(TenMillionEchoes, ten_million_echoes_take_no_more_memory_than_lists_image_and_tiles) {
   const SonarHead head = modest_head();
   Medium medium;
   medium.sound_speed = sound;
@@ -78,7 +78,7 @@ TEST(ExtremeCase, ten_million_echoes_take_no_more_memory_than_lists_image_and_ti
 }
 
 // A million echoes of one bin at 48 positions: direct sum over the positions with the sum of their amplitudes.
-TEST(ExtremeCase, a_million_echoes_in_one_bin_keep_the_tolerance_in_single_precision) {
+TEST(ManyEchoes, a_million_echoes_in_one_bin_keep_the_tolerance_in_single_precision) {
   constexpr std::size_t count = sanitized ? 50000 : 1000000, places = 48;
   const SonarHead head = modest_head();
   Medium medium;

@@ -14,7 +14,7 @@ const std::vector<Synthesis> methods = {synthesize_direct, synthesize_gridded, s
 }  // namespace
 
 // A plain frequency sum shows a target at 14.017 m in a window of 13.017 m at 1 m, at full level.
-TEST(ExtremeCase, n09_echo_from_beyond_the_gate_does_not_wrap_round) {
+TEST(ExtremeGates, n09_echo_from_beyond_the_gate_does_not_wrap_round) {
   const SonarHead head = single_beam(pulse, 0.5, 13.517);
   for (const double r : {14.017, 14.517, 27.034, 300.0}) {
     const Echoes echoes = echoes_of(targets_at({r}), pulse, clear_water());
@@ -24,7 +24,7 @@ TEST(ExtremeCase, n09_echo_from_beyond_the_gate_does_not_wrap_round) {
   }
 }
 
-TEST(ExtremeCase, n10_n11_the_gate_cuts_an_echo_at_its_edges_but_does_not_change_it) {
+TEST(ExtremeGates, n10_n11_the_gate_cuts_an_echo_at_its_edges_but_does_not_change_it) {
   const Echoes echoes = echoes_of(targets_at({2.0, 8.0}), pulse, clear_water());
   const SonarHead wide = single_beam(pulse, 1, 9), narrow = single_beam(pulse, 2, 8);
   const auto skipped = static_cast<Eigen::Index>(std::llround((2.0 - 1.0) / 0.002));
@@ -37,7 +37,7 @@ TEST(ExtremeCase, n10_n11_the_gate_cuts_an_echo_at_its_edges_but_does_not_change
   }
 }
 
-TEST(ExtremeCase, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_and_detected) {
+TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_and_detected) {
   for (const double r : {1.0, 12.0}) {
     SceneCloud scene;
     add_surfel(scene, {r, 0, 0}, {-1, 0, 0}, 0.01);
@@ -60,7 +60,7 @@ TEST(ExtremeCase, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_a
   }
 }
 
-TEST(ExtremeCase, n18_without_absorption_pressure_falls_as_one_over_range_squared) {
+TEST(ExtremeGates, n18_without_absorption_pressure_falls_as_one_over_range_squared) {
   const SonarHead head = single_beam(pulse, 1, 20);
   double first = 0;
   for (const double r : {1.0, 2.0, 5.0, 10.0, 20.0}) {
@@ -71,7 +71,7 @@ TEST(ExtremeCase, n18_without_absorption_pressure_falls_as_one_over_range_square
   }
 }
 
-TEST(ExtremeCase, n20_pulse_longer_than_the_gate_is_refused) {
+TEST(ExtremeGates, n20_pulse_longer_than_the_gate_is_refused) {
   SonarSpec s = small_sonar();
   s.bandwidth = 50;  // c / 2B = 15 m in a gate of 11 m
   expect_error(ErrorKind::argument, {"make_head", "bandwidth_hz = 50 Hz", "15 m", "11 m"}, [&] { make_head(s, 1500); });
@@ -83,7 +83,7 @@ TEST(ExtremeCase, n20_pulse_longer_than_the_gate_is_refused) {
   }
 }
 
-TEST(ExtremeCase, n20_pulse_longer_than_the_window_of_a_head_made_by_hand_is_flat_across_it) {
+TEST(ExtremeGates, n20_pulse_longer_than_the_window_of_a_head_made_by_hand_is_flat_across_it) {
   const Pulse tone{900e3, 1, 220};
   const SonarHead head = single_beam(tone, 4, 6);
   const ComplexGrid p = synthesize_gridded(echoes_of(targets_at({5}), tone, clear_water()), head, clear_water());
@@ -91,7 +91,7 @@ TEST(ExtremeCase, n20_pulse_longer_than_the_window_of_a_head_made_by_hand_is_fla
   EXPECT_NEAR(p.abs().minCoeff() / p.abs().maxCoeff(), 1, 1e-4);
 }
 
-TEST(ExtremeCase, n21_bandwidth_of_twice_the_centre_frequency_is_refused) {
+TEST(ExtremeGates, n21_bandwidth_of_twice_the_centre_frequency_is_refused) {
   SonarSpec s = small_sonar();
   s.bandwidth = 900e3;
   expect_error(ErrorKind::argument, {"bandwidth_hz = 900000 Hz", "below twice centre_frequency_hz"},
@@ -102,7 +102,7 @@ TEST(ExtremeCase, n21_bandwidth_of_twice_the_centre_frequency_is_refused) {
                [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
 }
 
-TEST(ExtremeCase, n21_head_that_is_not_valid_is_named_by_the_call_that_got_it) {
+TEST(ExtremeGates, n21_head_that_is_not_valid_is_named_by_the_call_that_got_it) {
   const auto refused = [](auto&& damage, const std::vector<std::string>& parts) {
     SonarHead head = small_head();
     damage(head);
@@ -115,7 +115,7 @@ TEST(ExtremeCase, n21_head_that_is_not_valid_is_named_by_the_call_that_got_it) {
   refused([](SonarHead& h) { h.gate.bin_size = not_a_number; }, {"simulate_ping", "bin_size = nan m"});
 }
 
-TEST(ExtremeCase, n23_bin_that_would_under_sample_the_pulse_is_refused) {
+TEST(ExtremeGates, n23_bin_that_would_under_sample_the_pulse_is_refused) {
   SonarSpec s = small_sonar();
   const double coarsest = 0.44 * 1500 / (2 * s.bandwidth);
   s.bin_size = 1.01 * coarsest;

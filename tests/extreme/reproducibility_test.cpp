@@ -4,7 +4,7 @@
 using namespace insonify;
 using namespace insonify::extreme;
 
-TEST(ExtremeCase, n49_one_to_seven_threads_give_the_same_bits) {
+TEST(Reproducibility, n49_one_to_seven_threads_give_the_same_bits) {
   const SceneCloud scene = plate(6, 4, 40);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
     const SimulatedPing one = ping_of(scene, {.sampling = {.kind = kind}, .threads = 1});
@@ -19,7 +19,7 @@ TEST(ExtremeCase, n49_one_to_seven_threads_give_the_same_bits) {
   }
 }
 
-TEST(ExtremeCase, n49_every_synthesis_gives_the_same_bits_for_any_number_of_threads) {
+TEST(Reproducibility, n49_every_synthesis_gives_the_same_bits_for_any_number_of_threads) {
   const SonarHead head = small_head();
   const Echoes echoes = echoes_of(targets_at({2, 3, 5, 5.001, 7, 11.9}, 0.1), head.pulse, clear_water());
   for (const auto synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
@@ -31,7 +31,7 @@ TEST(ExtremeCase, n49_every_synthesis_gives_the_same_bits_for_any_number_of_thre
 
 // 9 beams x some 60 cells of a plate, 40 pairs of seeds: the mean correlation of independent speckle is about
 // 0.04, and the mean level has a standard deviation of 0.03 dB.
-TEST(ExtremeCase, n50_another_seed_gives_other_speckle_of_the_same_level) {
+TEST(Reproducibility, n50_another_seed_gives_other_speckle_of_the_same_level) {
   const SceneCloud scene = plate(6, 4, 40);
   const auto seeded = [&](std::uint64_t seed) { return image(ping_of(scene, {.seed = seed})); };
   Complex product = 0;

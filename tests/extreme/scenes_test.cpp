@@ -27,14 +27,14 @@ LoadedScene load_rows(const std::string& rows) {
 
 }  // namespace
 
-TEST(ExtremeCase, n04_points_that_are_no_numbers_are_dropped_and_counted) {
+TEST(ExtremeScenes, n04_points_that_are_no_numbers_are_dropped_and_counted) {
   const LoadedScene loaded = load_rows(plate_rows(10) + "nan 0 0 -1 0 0\n1 inf 0 -1 0 0\n");
   EXPECT_EQ(loaded.report.dropped_not_finite, 2U);
   EXPECT_EQ(loaded.scene.size(), 100U);
   EXPECT_TRUE(same(image(ping_of(loaded.scene)), image(ping_of(load_rows(plate_rows(10)).scene))));
 }
 
-TEST(ExtremeCase, n05_n06_unusable_normals_are_repaired_and_counted_and_long_ones_shortened) {
+TEST(ExtremeScenes, n05_n06_unusable_normals_are_repaired_and_counted_and_long_ones_shortened) {
   std::string rows = plate_rows(10);
   const auto replace_row = [&rows](int row, const std::string& normal) {
     std::size_t begin = 0;
@@ -51,14 +51,14 @@ TEST(ExtremeCase, n05_n06_unusable_normals_are_repaired_and_counted_and_long_one
   EXPECT_LT(relative_l2(image(ping_of(loaded.scene)), image(ping_of(load_rows(plate_rows(10)).scene))), 1e-4);
 }
 
-TEST(ExtremeCase, n16_duplicates_in_a_file_are_dropped_and_counted) {
+TEST(ExtremeScenes, n16_duplicates_in_a_file_are_dropped_and_counted) {
   const LoadedScene loaded = load_rows(plate_rows(10) + plate_rows(10));
   EXPECT_EQ(loaded.report.dropped_duplicates, 100U);
   EXPECT_TRUE(same(image(ping_of(loaded.scene)), image(ping_of(load_rows(plate_rows(10)).scene))));
 }
 
 // Single precision has a step of 0.5 m at 4 500 000 m: coordinates must be made relative in double.
-TEST(ExtremeCase, n38_cloud_in_map_coordinates_gives_the_image_of_a_centred_one) {
+TEST(ExtremeScenes, n38_cloud_in_map_coordinates_gives_the_image_of_a_centred_one) {
   const Eigen::Vector3d offset(565000, 4500000, 0);
   const LoadedScene near = load_rows(plate_rows(16)), far = load_rows(plate_rows(16, offset.x(), offset.y()));
   const SonarHead head = make_head(small_sonar(), sound_speed({}));
@@ -69,7 +69,7 @@ TEST(ExtremeCase, n38_cloud_in_map_coordinates_gives_the_image_of_a_centred_one)
 }
 
 // Half of a plate sampled k^2 times as densely as the other: its sum of cross-sections must not follow.
-TEST(ExtremeCase, n39_cross_section_follows_the_area_and_not_the_density) {
+TEST(ExtremeScenes, n39_cross_section_follows_the_area_and_not_the_density) {
   for (const int k : {1, 2, 3}) {
     std::ostringstream rows;
     const auto half = [&rows](double left, double step) {
@@ -88,7 +88,7 @@ TEST(ExtremeCase, n39_cross_section_follows_the_area_and_not_the_density) {
   }
 }
 
-TEST(ExtremeCase, n51_triangles_without_area_are_dropped_and_counted) {
+TEST(ExtremeScenes, n51_triangles_without_area_are_dropped_and_counted) {
   const std::string path = own_file("in.obj",
                                     "v 5 -1 -1\nv 5 1 -1\nv 5 1 1\nv 5 -1 1\nv 5 0 0\n"
                                     "f 1 3 2\nf 1 4 3\nf 1 1 2\nf 1 5 3\n");  // a point twice; three on one line
@@ -102,7 +102,7 @@ TEST(ExtremeCase, n51_triangles_without_area_are_dropped_and_counted) {
   EXPECT_TRUE(all_finite(ping_of(loaded.scene)));
 }
 
-TEST(ExtremeCase, n52_holes_of_an_organised_cloud_are_dropped_and_counted) {
+TEST(ExtremeScenes, n52_holes_of_an_organised_cloud_are_dropped_and_counted) {
   std::string rows;
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 8; ++j)
@@ -120,7 +120,7 @@ TEST(ExtremeCase, n52_holes_of_an_organised_cloud_are_dropped_and_counted) {
   EXPECT_TRUE(all_finite(ping_of(loaded.scene)));
 }
 
-TEST(ExtremeCase, n53_cloud_without_materials_gets_the_default_and_says_so) {
+TEST(ExtremeScenes, n53_cloud_without_materials_gets_the_default_and_says_so) {
   const LoadedScene loaded = load_rows(plate_rows(10));
   EXPECT_FALSE(loaded.report.materials_found);
   ASSERT_EQ(loaded.scene.materials.size(), 1U);

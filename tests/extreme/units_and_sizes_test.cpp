@@ -82,7 +82,7 @@ std::string room(double unit) {
 
 // A ping needs 34 bytes per surfel of the scene and the arrays of the surfels in view, which grow linearly with their
 // number: 120 bytes per surfel when this was written. Scenes larger than memory are not covered here.
-TEST(ExtremeCase, n15_memory_grows_with_the_points_in_view_and_no_faster) {
+TEST(MemoryInView, n15_memory_grows_with_the_points_in_view_and_no_faster) {
   if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   constexpr double bytes_per_surfel = 250;
   const double half = memory_of_ping(wall(1000)), full = memory_of_ping(wall(1414));
@@ -94,7 +94,7 @@ TEST(ExtremeCase, n15_memory_grows_with_the_points_in_view_and_no_faster) {
 // Points that are neither in the gate nor can occlude it are discarded at once: two million of them beyond the gate
 // cost a ping of one small plate no more than sorting them into blocks (two keys of 8 bytes each), and do not change a
 // bit of the result.
-TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
+TEST(MemoryOutOfView, n15_points_out_of_view_cost_a_ping_no_memory) {
   if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   const SceneCloud near = plate(6, 1, 30);
   SceneCloud far = wall(1414, 40);
@@ -117,7 +117,7 @@ TEST(ExtremeCase, n15_points_out_of_view_cost_a_ping_no_memory) {
 
 // A Gaussian spectrum cut off at +-Bs/2 loses erfc(sqrt(2 ln2) Bs / 2B) of its peak: -24.6 dB for the band that the
 // default bins can hold (Bs = 2.27 B), -38 dB at 3 B. The spectrum form takes 10 B whatever the bins: e^-34.
-TEST(ExtremeCase, n22_spectrum_is_so_wide_that_its_truncation_is_negligible) {
+TEST(ExtremeSizes, n22_spectrum_is_so_wide_that_its_truncation_is_negligible) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const auto lost_db = [](double band) {
     return db_from_amplitude(std::erfc(std::sqrt(2 * std::log(2)) * 0.5 * band));
@@ -137,7 +137,7 @@ TEST(ExtremeCase, n22_spectrum_is_so_wide_that_its_truncation_is_negligible) {
 }
 
 // No range side lobes between two targets: the spectrum form is as silent there as the pulse itself.
-TEST(ExtremeCase, n22_nothing_rings_between_two_echoes) {
+TEST(ExtremeSizes, n22_nothing_rings_between_two_echoes) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const SonarHead head = single_beam(pulse, 4, 6);
   const Echoes echoes = echoes_of(targets_at({4.5, 5.5}), pulse, clear_water());
@@ -146,7 +146,7 @@ TEST(ExtremeCase, n22_nothing_rings_between_two_echoes) {
   EXPECT_LT(p.row(0).segment(at(4.6), at(5.4) - at(4.6)).abs().maxCoeff(), 1e-13 * std::abs(echoes.amplitude[0]));
 }
 
-TEST(ExtremeCase, n37_cloud_in_millimetres_is_suspected_with_the_unit_to_give) {
+TEST(ExtremeSizes, n37_cloud_in_millimetres_is_suspected_with_the_unit_to_give) {
   const std::string path = own_file("room_mm.xyz", room(0.001)), metres = own_file("room_m.xyz", room(1)),
                     kilometres = own_file("room_km.xyz", room(1000));
   const auto problems = [](const std::string& file) {
@@ -165,7 +165,7 @@ TEST(ExtremeCase, n37_cloud_in_millimetres_is_suspected_with_the_unit_to_give) {
 }
 
 // Kilohertz for hertz, kilometres a second for metres, degrees for radians: refused, naming value, unit and rule.
-TEST(ExtremeCase, n37_values_in_other_units_are_refused_with_the_unit_wanted) {
+TEST(ExtremeSizes, n37_values_in_other_units_are_refused_with_the_unit_wanted) {
   SonarSpec kilohertz = small_sonar();
   kilohertz.centre_frequency /= 1000;
   expect_error(ErrorKind::argument, {"bandwidth_hz", "20000 Hz"}, [&] { make_head(kilohertz, 1500); });
@@ -180,7 +180,7 @@ TEST(ExtremeCase, n37_values_in_other_units_are_refused_with_the_unit_wanted) {
 
 // 2 m/s towards a patch at 30 m, 900 kHz, 1500 m/s: carrier up by 2 v f / (c - v) = 2403 Hz, range short by v / (c + v)
 // of itself, 40 mm.
-TEST(ExtremeCase, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_40_mm_less) {
+TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_40_mm_less) {
   const double r = 30, v = 2, c = 1500;
   SceneCloud scene;
   scene.origin = {r, 0, 0};
@@ -218,7 +218,7 @@ TEST(ExtremeCase, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_40
   EXPECT_NEAR(2 * pi * 2403 / 29.5e3, 0.51, 0.005);
 }
 
-TEST(ExtremeCase, n44_head_with_no_velocity_gives_the_image_of_one_at_rest_bit_for_bit) {
+TEST(ExtremeSizes, n44_head_with_no_velocity_gives_the_image_of_one_at_rest_bit_for_bit) {
   const SceneCloud scene = plate(6, 4, 40);
   SimulationOptions still;
   still.effects.motion = {Eigen::Vector3d(0, -0.0, 0), Eigen::Vector3d(-0.0, 0, 0)};
@@ -227,7 +227,7 @@ TEST(ExtremeCase, n44_head_with_no_velocity_gives_the_image_of_one_at_rest_bit_f
 
 // A bottom 3 m below, at 10 to 12 m: r^2 dphi / h sets how far apart rays meet it. 64 rays over 40 degrees and more
 // leave most cells empty, and the ping says so with the number it takes; surfels leave none.
-TEST(ExtremeCase, n55_rays_too_few_for_a_grazing_plane_are_noted_with_the_number_it_takes) {
+TEST(ExtremeSizes, n55_rays_too_few_for_a_grazing_plane_are_noted_with_the_number_it_takes) {
   SceneCloud scene;
   for (int i = 0; i < 240; ++i)
     for (int j = 0; j < 200; ++j) add_surfel(scene, {4 + 0.04 * i, 0.04 * j - 4, -3}, {0, 0, 1}, 0.0016);

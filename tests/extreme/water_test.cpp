@@ -4,7 +4,7 @@
 using namespace insonify;
 using namespace insonify::extreme;
 
-TEST(ExtremeCase, n45_sound_speed_of_zero_or_no_number_is_refused) {
+TEST(ExtremeWater, n45_sound_speed_of_zero_or_no_number_is_refused) {
   for (const double c : {0.0, -1500.0, not_a_number, infinity}) {
     expect_error(ErrorKind::argument, {"make_head: sound_speed = ", "m/s", "> 0"},
                  [&] { make_head(small_sonar(), c); });
@@ -19,7 +19,7 @@ TEST(ExtremeCase, n45_sound_speed_of_zero_or_no_number_is_refused) {
   }
 }
 
-TEST(ExtremeCase, n46_water_outside_the_formulas_validity_is_computed) {
+TEST(ExtremeWater, n46_water_outside_the_formulas_validity_is_computed) {
   for (const Water& water : {Water{-2, 35, 0, 8}, Water{45, 45, 0, 8}, Water{4, 35, 11000, 8}, Water{30, 0, 9000, 7}}) {
     const double c = sound_speed(water);
     EXPECT_GT(c, 1350) << water.temperature_c;
@@ -30,7 +30,7 @@ TEST(ExtremeCase, n46_water_outside_the_formulas_validity_is_computed) {
   }
 }
 
-TEST(ExtremeCase, n46_water_that_cannot_be_is_refused) {
+TEST(ExtremeWater, n46_water_that_cannot_be_is_refused) {
   const auto refused = [](const Water& water, const std::vector<std::string>& parts) {
     expect_error(ErrorKind::argument, parts, [&] { sound_speed(water); });
     expect_error(ErrorKind::argument, parts, [&] { absorption_db_per_m(water, 900e3); });
@@ -44,7 +44,7 @@ TEST(ExtremeCase, n46_water_that_cannot_be_is_refused) {
 }
 
 // Boric acid's relaxation frequency is 0 in fresh water: 0 x 0 must not become 0 / 0.
-TEST(ExtremeCase, n47_fresh_water_absorbs_by_its_own_term_alone) {
+TEST(ExtremeWater, n47_fresh_water_absorbs_by_its_own_term_alone) {
   for (const double ph : {0.0, 8.0, 14.0}) {
     const Water fresh{10, 0, 0, ph};
     EXPECT_NEAR(absorption_db_per_m(fresh, 900e3), 0.251748, 1e-6);
@@ -56,7 +56,7 @@ TEST(ExtremeCase, n47_fresh_water_absorbs_by_its_own_term_alone) {
   }
 }
 
-TEST(ExtremeCase, n48_absorption_steps_by_less_than_a_thousandth_at_20_degrees) {
+TEST(ExtremeWater, n48_absorption_steps_by_less_than_a_thousandth_at_20_degrees) {
   for (const double frequency : {50e3, 900e3, 3e6}) {
     const double below = absorption_db_per_m({20, 35, 0, 8}, frequency),
                  above = absorption_db_per_m({std::nextafter(20, 21), 35, 0, 8}, frequency);

@@ -150,7 +150,7 @@ TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
     RangeGate gate = long_gate();
     SamplingOptions options;
     damage(scene, pose, gate, options);
-    return error_of([&] { find_scatterers(scene, pose, wide_fan(), gate, options); });
+    return error_with_kind([&] { find_scatterers(scene, pose, wide_fan(), gate, options); });
   };
   using O = SamplingOptions;
   EXPECT_EQ(message([](auto&, auto&, auto&, O&) {}), "no error");
@@ -166,7 +166,8 @@ TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
               HasSubstr("elevation_half_extent = -0.1"));
   EXPECT_THAT(message([](auto&, auto&, RangeGate& g, O&) { g.max_range = 0.05; }),
               HasSubstr("find_scatterers: gate.max_range = 0.05 m"));
-  EXPECT_THAT(message([](SceneCloud& s, auto&, auto&, O&) { s.normal[0].setZero(); }), HasSubstr("scene.normal[0]"));
+  EXPECT_THAT(message([](SceneCloud& s, auto&, auto&, O&) { s.normal[0].setZero(); }),
+              HasSubstr("content: find_scatterers: scene.normal[0]"));
   EXPECT_THAT(message([](auto&, Pose& p, auto&, O&) { p.linear() *= 2; }), HasSubstr("must be a rotation"));
   EXPECT_THAT(message([](auto&, Pose& p, auto&, O&) { p.translation().x() = std::nan(""); }),
               HasSubstr("must be finite"));

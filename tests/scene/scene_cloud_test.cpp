@@ -60,12 +60,13 @@ TEST(RequireValid, names_what_is_wrong) {
   const auto message = [](const std::function<void(SceneCloud&)>& damage) {
     SceneCloud scene = two_surfels();
     damage(scene);
-    return error_of([&] { require_valid(scene, "someone"); });
+    return error_with_kind([&] { require_valid(scene, "someone"); });
   };
   EXPECT_EQ(message([](SceneCloud&) {}), "no error");
-  EXPECT_THAT(message([](SceneCloud& s) { s.area.pop_back(); }), HasSubstr("someone: scene.area has 1 entries"));
+  EXPECT_THAT(message([](SceneCloud& s) { s.area.pop_back(); }),
+              HasSubstr("argument: someone: scene.area has 1 entries"));
   EXPECT_THAT(message([](SceneCloud& s) { s.id.push_back(9); }), HasSubstr("scene.id has 3 entries"));
-  EXPECT_THAT(message([&](SceneCloud& s) { s.point[1].y() = nan; }), HasSubstr("scene.point[1]"));
+  EXPECT_THAT(message([&](SceneCloud& s) { s.point[1].y() = nan; }), HasSubstr("content: someone: scene.point[1]"));
   EXPECT_THAT(message([](SceneCloud& s) { s.normal[0].setZero(); }), HasSubstr("scene.normal[0] = (0, 0, 0)"));
   EXPECT_THAT(message([](SceneCloud& s) { s.normal[0] *= 1.01f; }), HasSubstr("unit vector"));
   EXPECT_THAT(message([&](SceneCloud& s) { s.normal[1].x() = nan; }), HasSubstr("scene.normal[1]"));

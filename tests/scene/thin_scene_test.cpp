@@ -120,5 +120,6 @@ TEST(ThinScene, says_what_is_wrong_with_its_arguments) {
   EXPECT_THAT(message(1e-5, 0.5), testing::HasSubstr("too small for a scene of this extent"));
   EXPECT_THAT(message(1, 2), testing::HasSubstr("normal_angle = 2 rad"));
   scene.normal[0].setZero();
-  EXPECT_THAT(message(1, 0.5), testing::StartsWith("thin_scene: scene.normal[0]"));
+  EXPECT_THAT(error_of([&] { thin_scene(scene, 1); }, ErrorKind::content),
+              testing::StartsWith("thin_scene: scene.normal[0]"));
 }

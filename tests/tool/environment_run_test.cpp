@@ -136,8 +136,8 @@ TEST_F(EnvironmentRun, trajectory_is_the_pose_and_motion_between_its_entries) {
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,20,0,-3,40,10,0\n");
   write("straight.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,-2,0,-3,0,10,0\n2,2,0,-3,0,10,0\n");
   succeed("ping harbour.ply -o moved --trajectory straight.csv --time 1" + sonar);
-  succeed("ping harbour.ply -o told --velocity 2,0,0 --time 1" + sonar + level_pose);
-  EXPECT_LT(difference("moved", "told"), 1e-6);
+  succeed("ping harbour.ply -o stated --velocity 2,0,0 --time 1" + sonar + level_pose);
+  EXPECT_LT(difference("moved", "stated"), 1e-6);
   EXPECT_EQ(manifest("moved")["motion"]["velocity_m_s"], json({2.0, 0.0, 0.0}));
   succeed("ping harbour.ply -o still --time 1" + sonar + level_pose);
   EXPECT_FALSE(manifest("still").contains("motion"));

@@ -81,7 +81,7 @@ TEST_F(ImageVerb, grey_png_has_one_pixel_per_sample) {
   EXPECT_EQ(png[25], 0);  // grey
 }
 
-// 20 dB per decade instead of 40: 20 log10(r) less, so a grey picture whose brightest level is told apart by that.
+// 20 dB per decade instead of 40: 20 log10(r) less, so a grey picture whose brightest level shows which it was.
 TEST_F(ImageVerb, tvg_gives_back_what_it_says) {
   const Cube cube = read_cube(path("out/cube.h5"));
   const std::size_t beams = 24, bins = cube.pings[0].gate.bins();

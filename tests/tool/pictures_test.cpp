@@ -124,7 +124,7 @@ TEST_F(Pictures, of_a_fan_show_the_cubes_own_levels_at_the_echoes_places) {
       beam += beams_off;
       const Point2 at = layout.at(-fan.azimuth[beam] + radians(0.15), gate.centre(bin));
       const double expected = level(static_cast<Eigen::Index>(beam), static_cast<Eigen::Index>(bin));
-      ASSERT_GT(expected, max_db - window_db + 1) << "a probe below the window tells nothing";
+      ASSERT_GT(expected, max_db - window_db + 1) << "a probe below the window shows nothing";
       EXPECT_NEAR(level_of(png.at(at.x, at.y)), expected, 1.01 * window_db / 256)
           << target.bearing_deg << ", " << beams_off << ", " << bins_off;
     }

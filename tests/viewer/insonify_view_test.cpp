@@ -11,7 +11,7 @@
 #include "tool/tool_runner.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/desktop.hpp"
-#include "viewer/viewer_data.hpp"
+#include "viewer/three_targets.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 using namespace insonify;

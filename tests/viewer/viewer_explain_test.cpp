@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "viewer/viewer_data.hpp"
+#include "viewer/three_targets.hpp"
 #include "viewer/viewer_inspect.hpp"
 
 using namespace insonify;

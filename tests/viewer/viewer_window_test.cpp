@@ -6,7 +6,7 @@
 #include "core/units.hpp"
 #include "support/errors.hpp"
 #include "view/test_pictures.hpp"
-#include "viewer/viewer_data.hpp"
+#include "viewer/three_targets.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 using namespace insonify;

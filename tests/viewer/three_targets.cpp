@@ -1,4 +1,4 @@
-#include "viewer/viewer_data.hpp"
+#include "viewer/three_targets.hpp"
 
 #include <cmath>
 
