@@ -29,8 +29,8 @@ struct ViewSpec {
   const char* shows;                           ///< what --help says
   std::vector<std::string> options = {};       ///< that this view takes and not all views do
   void (*draw)(const ViewJob& job) = nullptr;  ///< of a run that has been read
-  /// The highest level that the view chooses for a ping if --max is not given; a series of pictures takes the highest of
-  /// all pings, so that it does not flicker. Null for a view that makes no series (--animate).
+  /// The highest level that the view chooses for a ping if --max is not given; a series of pictures takes the highest
+  /// of all pings, so that it does not flicker. Null for a view that makes no series (--animate).
   double (*max_db)(const ImageRun& run, const ImageOptions& options, std::size_t ping) = nullptr;
   const char* beam_word = "";                   ///< that --beam takes beside a number
   BeamChoice beam_choice = BeamChoice::one;     ///< that the word means

@@ -7,93 +7,50 @@
 
 namespace insonify::tool {
 
-Option& Option::required(bool is_required) {
-  option_->required(is_required);
-  return *this;
+namespace {
+
+CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue& value, const std::string& help) {
+  using Function = std::function<void(const std::string&)>;
+  if (bool* const* flag = std::get_if<bool*>(&value)) return app.add_flag(name, **flag, help);
+  if (const auto* text = std::get_if<std::optional<std::string>*>(&value))
+    return app.add_option(name, **text, help)->expected(0, 1);
+  if (const auto* function = std::get_if<Function>(&value))
+    return app.add_option_function<std::string>(name, *function, help);
+  return std::visit(
+      [&](const auto& target) -> CLI::Option* {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(target)>, Function>)
+          return app.add_option(name, *target, help);
+        return nullptr;
+      },
+      value);
 }
 
-Option& Option::one_of(const std::vector<std::string>& words) {
-  option_->check(CLI::IsMember(words));
-  return shown_as("WORD");
-}
-
-Option& Option::within(int lowest, int highest) {
-  option_->check([=](const std::string& text) {
+/// Checks that the text is an integer within limits.
+std::function<std::string(const std::string&)> range_check(std::pair<int, int> limits) {
+  return [limits](const std::string& text) {
     const int value = std::atoi(text.c_str());
-    return value >= lowest && value <= highest
-               ? ""
-               : text + " must be within " + std::to_string(lowest) + " and " + std::to_string(highest);
-  });
-  return *this;
+    if (value >= limits.first && value <= limits.second) return std::string();
+    return text + " must be within " + std::to_string(limits.first) + " and " + std::to_string(limits.second);
+  };
 }
 
-Option& Option::positive() {
-  option_->check(CLI::PositiveNumber);
-  return shown_as("FLOAT");
+}  // namespace
+
+void OptionList::add(const std::string& name, const OptionValue& value, const std::string& help,
+                     const OptionRules& rules) {
+  CLI::Option* option = add_value(*app_, name, value, help);
+  option->required(rules.required);
+  if (!rules.words.empty()) option->check(CLI::IsMember(rules.words))->option_text("WORD");
+  if (rules.within) option->check(range_check(*rules.within));
+  if (rules.positive) option->check(CLI::PositiveNumber)->option_text("FLOAT");
+  if (rules.one_each) option->allow_extra_args(false);
+  if (rules.comma_separated) option->delimiter(',');
+  if (rules.excludes) option->excludes(app_->get_option(rules.excludes));
+  if (rules.group) option->group(rules.group);
+  if (rules.shown_as) option->option_text(rules.shown_as);
 }
 
-Option& Option::excludes(const Option& other) {
-  option_->excludes(other.option_);
-  return *this;
-}
-
-Option& Option::comma_separated() {
-  option_->delimiter(',');
-  return *this;
-}
-
-Option& Option::one_each() {
-  option_->allow_extra_args(false);
-  return *this;
-}
-
-Option& Option::value_optional() {
-  option_->expected(0, 1);
-  return *this;
-}
-
-Option& Option::group(const char* title) {
-  option_->group(title);
-  return *this;
-}
-
-Option& Option::shown_as(const char* value) {
-  option_->option_text(value);
-  return *this;
-}
-
-Option OptionList::add(const std::string& name, std::string& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, double& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, int& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, std::uint64_t& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, std::vector<std::string>& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, std::optional<std::string>& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, bool& value, const std::string& help) {
-  return Option(app_->add_flag(name, value, help));
-}
-
-Option OptionList::add(const std::string& name, const std::function<void(const std::string&)>& read,
-                       const std::string& help) {
-  return Option(app_->add_option_function<std::string>(name, read, help));
-}
+void OptionList::release(const std::string& name) { app_->get_option(name)->required(false); }
 
 CommandLine::CommandLine(const std::string& name, const std::string& purpose, const std::string& footer)
     : app_(std::make_unique<CLI::App>(purpose, name)) {

@@ -4,32 +4,32 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace CLI {
 class App;
-class Option;
-}  // namespace CLI
+}
 
 namespace insonify::tool {
 
-/// An option that has been added: rules beyond its name, value and help. Each returns the option itself.
-class Option {
- public:
-  explicit Option(CLI::Option* option) : option_(option) {}
-  Option& required(bool is_required = true);
-  Option& one_of(const std::vector<std::string>& words);
-  Option& within(int lowest, int highest);
-  Option& positive();
-  Option& excludes(const Option& other);
-  Option& comma_separated();         ///< of a list: "a,b" is two entries
-  Option& one_each();                ///< of a list: one entry each time that the option is given
-  Option& value_optional();          ///< the option may stand without a value
-  Option& group(const char* title);  ///< where --help lists it; "": nowhere
-  Option& shown_as(const char* value);
+/// Where the value of an option goes. A bool is a flag: true if it is given, or what --name=false says. An
+/// optional<string> is an option that may stand without a value. A function is called with the value.
+using OptionValue = std::variant<std::string*, double*, int*, std::uint64_t*, bool*, std::vector<std::string>*,
+                                 std::optional<std::string>*, std::function<void(const std::string&)>>;
 
- private:
-  CLI::Option* option_;
+/// Rules of an option beyond its name, value and help.
+struct OptionRules {
+  bool required = false;
+  std::vector<std::string> words = {};             ///< allowed values; empty: any
+  std::optional<std::pair<int, int>> within = {};  ///< lowest and highest value of an integer
+  bool positive = false;                           ///< of a number: must be > 0
+  bool one_each = false;                           ///< of a list: one entry each time that the option is given
+  bool comma_separated = false;                    ///< of a list: "a,b" is two entries
+  const char* excludes = nullptr;                  ///< an option, added before, that must not stand beside this one
+  const char* group = nullptr;                     ///< title under which --help lists it; "": nowhere
+  const char* shown_as = nullptr;                  ///< the value in --help; null: its type
 };
 
 /// The options of a program or of one of its verbs. Values are written by CommandLine::parse, in the order in which the
@@ -38,16 +38,9 @@ class Option {
 class OptionList {
  public:
   explicit OptionList(CLI::App* app) : app_(app) {}
-  Option add(const std::string& name, std::string& value, const std::string& help);
-  Option add(const std::string& name, double& value, const std::string& help);
-  Option add(const std::string& name, int& value, const std::string& help);
-  Option add(const std::string& name, std::uint64_t& value, const std::string& help);
-  Option add(const std::string& name, std::vector<std::string>& value, const std::string& help);
-  Option add(const std::string& name, std::optional<std::string>& value, const std::string& help);
-  /// A flag: true if it is given, or what --name=false says.
-  Option add(const std::string& name, bool& value, const std::string& help);
-  /// An option whose value is handed to `read`.
-  Option add(const std::string& name, const std::function<void(const std::string&)>& read, const std::string& help);
+  void add(const std::string& name, const OptionValue& value, const std::string& help, const OptionRules& rules = {});
+  /// Makes a required option optional.
+  void release(const std::string& name);
 
  private:
   CLI::App* app_;
@@ -66,8 +59,8 @@ class CommandLine {
   /// Options of a verb; once there is one, a command line must name a verb.
   OptionList add_verb(const std::string& name, const std::string& purpose, const std::string& footer);
 
-  /// Parses. Returns an exit code if there is nothing left to do: 0 after --help and --version, which go to stdout, 2
-  /// after an error of usage, which goes to stderr. Throws what the readers of options throw.
+  /// Parses. Returns an exit code if nothing is left to do: 0 after --help and --version, which go to stdout, 2 after
+  /// an error of usage, which goes to stderr. Throws what the functions of options throw.
   std::optional<int> parse(int argc, char** argv);
   /// The verb that was named.
   std::string verb() const;

@@ -1,7 +1,5 @@
 #include "tool/ping_options.hpp"
 
-#include <memory>
-
 #include "tool/run_settings.hpp"
 #include "tool/shared_options.hpp"
 
@@ -9,18 +7,18 @@ namespace insonify::tool {
 
 void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
   // Values are written in the order of the options, so --run comes first and all others override it.
-  const auto of_run = std::make_shared<std::vector<Option>>();
+  const auto load_run = [list, &command](const std::string& path) mutable {
+    command.options = command.of_run.emplace(load_ping_settings(path));
+    list.release("SCENE");
+    list.release("--sonar");
+  };
   list.add(
-      "--run",
-      [of_run, &command](const std::string& path) {
-        command.options = command.of_run.emplace(load_ping_settings(path));
-        for (Option& option : *of_run) option.required(false);
-      },
+      "--run", load_run,
       "run.toml of an earlier ping: the same again, but for the options given beside it; then SCENE and --sonar need "
       "not be given, and a flag is switched off by e.g. --noise=false");
   PingOptions& o = command.options;
-  of_run->push_back(add_scene(list, o.scene));
-  of_run->push_back(add_sonar(list, o.common, o.run));
+  add_settings(list, scene_settings(o.scene));
+  add_sonar(list, o.common, o.run);
   if (with_output) add_output(list, o.run);
   add_settings(list, ping_settings(o));
   add_common(list, o.common, true);

@@ -5,8 +5,8 @@
 
 namespace insonify::tool {
 
-/// The plan as it stands in the manifest: stages with name, included, why, bound_db, bound_relative (null: no bound), and
-/// the parameters of the synthesis.
+/// The plan for the manifest: stages with name, included, why, bound_db, bound_relative (null: no bound), and the
+/// parameters of the synthesis.
 nlohmann::ordered_json plan_json(const PingPlan& plan);
 
 /// The plan as a table on stdout.

@@ -33,6 +33,22 @@ std::string as_toml(const std::vector<std::string>& words) {
   return "[" + list + "]";
 }
 
+/// Calls `use` with the value of a setting.
+template <typename Use>
+void visit_value(const RunSetting& setting, const Use& use) {
+  std::visit(
+      [&](const auto& value) {
+        if constexpr (requires { as_toml(*value); }) use(*value);
+      },
+      setting.value);
+}
+
+std::string toml_value(const RunSetting& setting) {
+  std::string text;
+  visit_value(setting, [&](const auto& value) { text = as_toml(value); });
+  return text;
+}
+
 /// A value of run.toml with what an error must name.
 struct FileValue {
   const std::string& path;
@@ -45,7 +61,7 @@ struct FileValue {
   }
   std::string text(const TomlValue& item) const {
     if (item.kind != Kind::text) refuse(" must be text in quotes");
-    const auto& words = setting.words;
+    const auto& words = setting.rules.words;
     if (!words.empty() && std::find(words.begin(), words.end(), item.text) == words.end())
       refuse(" = '", item.text, "', must be one of ", fmt::format("{}", fmt::join(words, ", ")));
     return item.text;
@@ -71,9 +87,9 @@ void read(const FileValue& from, double& number) {
 void read(const FileValue& from, int& number) {
   if (from.value.kind != Kind::integer || std::abs(from.value.number) > 1e9) from.refuse(" must be an integer");
   number = static_cast<int>(from.value.number);
-  const auto [lowest, highest] = from.setting.limits;
-  if (lowest != highest && (number < lowest || number > highest))
-    from.refuse(" = ", number, ", must be within ", lowest, " and ", highest);
+  const auto& limits = from.setting.rules.within;
+  if (limits && (number < limits->first || number > limits->second))
+    from.refuse(" = ", number, ", must be within ", limits->first, " and ", limits->second);
 }
 
 void read(const FileValue& from, std::uint64_t& number) {
@@ -109,7 +125,7 @@ void read_section(const std::string& path, const TomlValue& table, const std::st
   require_known_keys(path, table, known);
   for (const RunSetting& setting : settings)
     if (const TomlValue* found = setting.section == section ? table.find(setting.key) : nullptr)
-      std::visit([&](auto* value) { read({path, setting, *found}, *value); }, setting.value);
+      visit_value(setting, [&](auto& value) { read({path, setting, *found}, value); });
 }
 
 const TomlValue& table_of(const TomlValue& document, const std::string& section) {
@@ -125,8 +141,7 @@ std::string settings_as_toml(const std::vector<RunSetting>& settings) {
   std::string text, section;
   for (const RunSetting& setting : settings) {
     if (section != setting.section) text += fmt::format("\n[{}]\n", section = setting.section);
-    text +=
-        fmt::format("{} = {}\n", setting.key, std::visit([](auto* value) { return as_toml(*value); }, setting.value));
+    text += fmt::format("{} = {}\n", setting.key, toml_value(setting));
   }
   return text;
 }

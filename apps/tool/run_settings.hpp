@@ -1,8 +1,5 @@
 #pragma once
-#include <cstdint>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "tool/option_list.hpp"
@@ -12,18 +9,15 @@
 /// of the command line, the keys of run.toml and their checks are made.
 namespace insonify::tool {
 
-/// A setting: where its value is, what the command line and run.toml call it, and what it may be.
+/// A setting: what run.toml and the command line call it, where its value is, and what it may be.
 struct RunSetting {
-  using Value = std::variant<std::string*, double*, int*, std::uint64_t*, bool*, std::vector<std::string>*>;
   const char* section;  ///< table of run.toml, or "": top level
   const char* key;      ///< in run.toml
   const char* option;   ///< on the command line
-  Value value;
+  OptionValue value;    ///< never a function
   const char* help;
-  std::vector<std::string> words = {};  ///< that are allowed; empty: any
-  std::pair<int, int> limits = {0, 0};  ///< of an integer; {0, 0}: none
-  bool positive = false;                ///< of a number: must be > 0 if it is given
-  bool is_path = false;                 ///< relative to the current folder, or to the folder of run.toml
+  OptionRules rules = {};
+  bool is_path = false;  ///< relative to the current folder, or to the folder of run.toml
 };
 
 /// Rows of [scene]: how a cloud is read and completed.
@@ -37,17 +31,15 @@ RunSetting seed_setting(CommonOptions& options);
 /// All settings of a ping, in the order of run.toml.
 std::vector<RunSetting> all_settings(PingOptions& options);
 
-/// Adds one setting, or several, to a command line.
-Option add_setting(OptionList list, const RunSetting& setting);
 void add_settings(OptionList list, const std::vector<RunSetting>& settings);
 
 /// The settings as TOML: "key = value" lines under their tables.
 std::string settings_as_toml(const std::vector<RunSetting>& settings);
 
 /// Reads all settings of a ping from the run.toml at `path`: what the file does not mention keeps its default. Sonar
-/// and environment are the file itself. Relative paths in it are looked up from the current folder, then from the folder of
-/// run.toml, then from the folder above it; a path that is in none of them stays as it is. Throws Error(content) with
-/// path and line for an unknown key or a value that is not allowed, Error(file) if there is no such file.
+/// and environment are the file itself. Relative paths in it are looked up from the current folder, then from the
+/// folder of run.toml, then from the folder above it; a path that is in none of them stays as it is. Throws
+/// Error(content) with path and line for an unknown key or a value that is not allowed, Error(file) without a file.
 PingOptions load_ping_settings(const std::string& path);
 
 /// Reads [scene] alone, in the same way.

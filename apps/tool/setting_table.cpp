@@ -1,29 +1,29 @@
 #include "tool/run_settings.hpp"
 
 namespace insonify::tool {
+namespace {
+
+const OptionRules scene{.required = true}, file, positive{.positive = true}, stages{.one_each = true};
+const OptionRules methods{.words = {"gridded", "direct", "element-exact", "incoherent"}};
+const OptionRules worlds{.words = {"z-up", "ned"}};
+const OptionRules samplings{.words = {"surfels", "rays"}};
+const OptionRules amplitudes{.words = {"speckle", "random-phase", "coherent"}};
+const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonification", "paths"},
+                          .one_each = true,
+                          .comma_separated = true};
+const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
+const OptionRules absorption_orders{.within = std::pair(0, 2), .shown_as = "INT"};
+
+}  // namespace
 
 std::vector<RunSetting> scene_settings(SceneOptions& o) {
   return {
-      {"scene",
-       "path",
-       "SCENE",
-       &o.path,
-       "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv; or .tiles",
-       {},
-       {},
-       false,
-       true},
+      {"scene", "path", "SCENE", &o.path, "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv; or .tiles",
+       scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
        "x,y,z [m] where the capture stood; orients estimated normals"},
-      {"scene",
-       "materials",
-       "--materials",
-       &o.materials_file,
-       "TOML table of materials for the labels of the cloud",
-       {},
-       {},
-       false,
-       true},
+      {"scene", "materials", "--materials", &o.materials_file, "TOML table of materials for the labels of the cloud",
+       file, true},
       {"scene", "material_field", "--material-field", &o.material_field,
        "field of the cloud that means materials, e.g. classification"},
       {"scene", "material", "--material", &o.material, "one material for everything, by name, e.g. sand"},
@@ -36,13 +36,10 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
 std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   return {
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
-      {"",
-       "method",
-       "--method",
-       &o.method,
+      {"", "method", "--method", &o.method,
        "gridded, direct: the slow referee, element-exact: true delays per element, or incoherent: the expected level, "
        "no speckle",
-       {"gridded", "direct", "element-exact", "incoherent"}},
+       methods},
   };
 }
 
@@ -53,72 +50,40 @@ RunSetting seed_setting(CommonOptions& o) {
 std::vector<RunSetting> ping_settings(PingOptions& o) {
   return {
       {"ping", "pose", "--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down"},
-      {"ping",
-       "trajectory",
-       "--trajectory",
-       &o.trajectory,
-       "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg",
-       {},
-       {},
-       false,
-       true},
+      {"ping", "trajectory", "--trajectory", &o.trajectory,
+       "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg", file, true},
       {"ping", "time", "--time", &o.time, "of transmission on the trajectory [s]"},
-      {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", {"z-up", "ned"}},
-      {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", {"surfels", "rays"}},
+      {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", worlds},
+      {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", samplings},
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
        "surfels are split until a resolution cell holds so many"},
       {"ping", "rays_per_beam", "--rays-per-beam", &o.rays_per_beam, "with --sampling rays"},
       {"ping", "level_error_db", "--level-error-db", &o.level_error_db,
        "[dB] sampling is refined until 99 % of the cells have a smaller error of their expected level"},
-      {"ping",
-       "amplitude",
-       "--amplitude",
-       &o.amplitude,
-       "speckle, random-phase or coherent",
-       {"speckle", "random-phase", "coherent"}},
+      {"ping", "amplitude", "--amplitude", &o.amplitude, "speckle, random-phase or coherent", amplitudes},
       {"ping", "noise", "--noise", &o.noise,
        "add thermal noise, and the wind's and the platform's if the environment has them"},
       {"ping", "multipath", "--multipath", &o.multipath, "add echoes by way of the environment's surface and bottom"},
-      {"ping",
-       "keep",
-       "--keep",
-       &o.keep,
+      {"ping", "keep", "--keep", &o.keep,
        "elements: also write elements.h5, the series of every element of a line array; mask: mark in the cube where "
-       "the "
-       "scan has holes; contributors: write contributors.h5, the strongest surfels of every pixel; insonification: "
+       "the scan has holes; contributors: write contributors.h5, the strongest surfels of every pixel; insonification: "
        "write the scene with the levels received from it as .ply and .pcd; paths: write paths.vtp, the paths of the "
        "strongest echoes as lines; several with commas",
-       {"elements", "mask", "contributors", "insonification", "paths"}},
-      {"ping",
-       "contributors",
-       "--contributors",
-       &o.contributors,
-       "how many of each pixel, with --keep contributors",
-       {},
-       {1, 255}},
+       outputs},
+      {"ping", "contributors", "--contributors", &o.contributors, "how many of each pixel, with --keep contributors",
+       contributor_numbers},
       {"ping", "layers", "--layers", &o.layers, "keep each kind of echo as a layer of the cube"},
-      {"ping",
-       "absorption_order",
-       "--absorption-order",
-       &o.absorption_order,
-       "0: one absorption for the pulse; 1, 2: slope, curvature",
-       {},
-       {0, 2}},
+      {"ping", "absorption_order", "--absorption-order", &o.absorption_order,
+       "0: one absorption for the pulse; 1, 2: slope, curvature", absorption_orders},
       {"ping", "velocity", "--velocity", &o.velocity, "vx,vy,vz [m/s] of the head in the world"},
       {"ping", "turn_rate", "--turn-rate", &o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world"},
       {"ping", "threshold_db", "--threshold", &o.threshold_db, "[dB] of a detection above the noise floor"},
       {"ping", "all_bins_above", "--all-bins-above", &o.all_bins_above,
        "[dB re 1 uPa] every bin above is a returned point"},
-      {"ping",
-       "memory_limit_gib",
-       "--memory-limit",
-       &o.memory_limit,
-       "[GiB] that a .tiles scene may take; more is refused before it is read; default: what is available",
-       {},
-       {},
-       true},
-      {"ping", "with", "--with", &o.with, "force a stage of the plan in, any number of times"},
-      {"ping", "without", "--without", &o.without, "force a stage of the plan out, any number of times"},
+      {"ping", "memory_limit_gib", "--memory-limit", &o.memory_limit,
+       "[GiB] that a .tiles scene may take; more is refused before it is read; default: what is available", positive},
+      {"ping", "with", "--with", &o.with, "force a stage of the plan in, any number of times", stages},
+      {"ping", "without", "--without", &o.without, "force a stage of the plan out, any number of times", stages},
   };
 }
 
@@ -129,21 +94,8 @@ std::vector<RunSetting> all_settings(PingOptions& o) {
   return all;
 }
 
-Option add_setting(OptionList list, const RunSetting& setting) {
-  Option option =
-      std::visit([&](auto* value) { return list.add(setting.option, *value, setting.help); }, setting.value);
-  if (!setting.words.empty()) option.one_of(setting.words);
-  if (setting.limits != std::pair(0, 0)) option.within(setting.limits.first, setting.limits.second);
-  if (setting.positive) option.positive();
-  if (std::holds_alternative<std::vector<std::string>*>(setting.value)) {
-    option.one_each();
-    if (!setting.words.empty()) option.comma_separated();
-  }
-  return option;
-}
-
 void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
-  for (const RunSetting& setting : settings) add_setting(list, setting);
+  for (const RunSetting& s : settings) list.add(s.option, s.value, s.help, s.rules);
 }
 
 }  // namespace insonify::tool

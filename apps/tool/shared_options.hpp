@@ -11,10 +11,8 @@ void add_common(OptionList list, CommonOptions& options, bool json);
 void add_work(OptionList list, CommonOptions& options);
 /// How a scene is completed: viewpoint, materials, unit.
 void add_completion(OptionList list, SceneOptions& options);
-/// SCENE, which is returned and required, and how it is completed.
-Option add_scene(OptionList list, SceneOptions& options);
-/// --sonar, which is returned and required, the environment and the synthesis.
-Option add_sonar(OptionList list, CommonOptions& common, RunOptions& options);
+/// --sonar, which is required, the environment and the synthesis.
+void add_sonar(OptionList list, CommonOptions& common, RunOptions& options);
 /// The run directory to make.
 void add_output(OptionList list, RunOptions& options);
 /// --world, beside a --pose.

@@ -34,21 +34,21 @@ struct AccuracyOptions {
 
 void add_options(OptionList list, AccuracyOptions& o) {
   o.run.output = "accuracy";
-  list.add("-o,--output", o.run.output, "run directory to make; default: accuracy");
-  list.add("--scene", o.scene.path, "measure on the echoes of your own ping; with --sonar and --pose");
-  list.add("--sonar", o.run.sonar, "preset (see `insonify sonars`) or a .toml file");
-  list.add("--pose", o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
+  list.add("-o,--output", &o.run.output, "run directory to make; default: accuracy");
+  list.add("--scene", &o.scene.path, "measure on the echoes of your own ping; with --sonar and --pose");
+  list.add("--sonar", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file");
+  list.add("--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
   add_world(list, o.world);
-  list.add("--range", o.run.range, "min:max [m]; default: the sonar's");
-  list.add("--material", o.scene.material, "one material for everything, by name, e.g. sand");
-  list.add("--methods", o.methods, "only these, e.g. gridded,direct").comma_separated();
-  list.add("--tolerances", o.tolerances, "of gridded, e.g. 1e-3,1e-6").comma_separated();
-  list.add("--repeats", o.repeats, "timed runs of each, after one to warm up; fewer if they take long");
-  list.add("--full", o.full, "larger tasks and all tolerances: some ten minutes");
-  list.add("--quick", o.quick, "tiny tasks: seconds").group("");
-  list.add("--set", o.common.settings, "SECTION.KEY=VALUE of sonar or environment").one_each();
-  list.add("--force", o.run.force, "replace an existing run directory");
-  list.add("--no-picture", o.run.no_picture, "do not draw the charts");
+  list.add("--range", &o.run.range, "min:max [m]; default: the sonar's");
+  list.add("--material", &o.scene.material, "one material for everything, by name, e.g. sand");
+  list.add("--methods", &o.methods, "only these, e.g. gridded,direct", {.comma_separated = true});
+  list.add("--tolerances", &o.tolerances, "of gridded, e.g. 1e-3,1e-6", {.comma_separated = true});
+  list.add("--repeats", &o.repeats, "timed runs of each, after one to warm up; fewer if they take long");
+  list.add("--full", &o.full, "larger tasks and all tolerances: some ten minutes");
+  list.add("--quick", &o.quick, "tiny tasks: seconds", {.group = ""});
+  list.add("--set", &o.common.settings, "SECTION.KEY=VALUE of sonar or environment", {.one_each = true});
+  list.add("--force", &o.run.force, "replace an existing run directory");
+  list.add("--no-picture", &o.run.no_picture, "do not draw the charts");
   add_common(list, o.common, true);
   add_work(list, o.common);
 }

@@ -21,9 +21,9 @@ struct ExportOptions {
 };
 
 void add_options(OptionList list, ExportOptions& o) {
-  list.add("RUN", o.run, "run directory or cube.h5").required();
-  list.add("-o,--output", o.output, "directory to make").required();
-  list.add("--force", o.force, "replace an existing directory of an earlier export");
+  list.add("RUN", &o.run, "run directory or cube.h5", {.required = true});
+  list.add("-o,--output", &o.output, "directory to make", {.required = true});
+  list.add("--force", &o.force, "replace an existing directory of an earlier export");
   add_common(list, o.common, false);
 }
 

@@ -21,18 +21,16 @@ namespace fs = std::filesystem;
 /// The options of view scene, which stand in a group of their own.
 void add_scene_view(OptionList list, ImageOptions& o) {
   const char* group = "Of view scene";
-  list.add("--scene", o.scene, "the run's scene, if it is not where run.toml says").group(group);
-  list.add("--sonar", o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run").group(group);
-  list.add("--pose", o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]").group(group);
-  list.add("--range", o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's").group(group);
-  list.add("--world", o.world, "z-up or ned").one_of({"z-up", "ned"}).group(group);
-  list.add("--camera", o.camera, "auto, behind (the head), top, side or iso")
-      .one_of({"auto", "behind", "top", "side", "iso"})
-      .group(group);
-  list.add("--normals", o.normals, "draw some 4000 normals as lines").group(group);
-  list.add("--colour", o.colour, "height, material, visibility, level, grazing or incidence; default: what suits")
-      .one_of({"height", "material", "visibility", "level", "grazing", "incidence"})
-      .group(group);
+  list.add("--scene", &o.scene, "the run's scene, if it is not where run.toml says", {.group = group});
+  list.add("--sonar", &o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run", {.group = group});
+  list.add("--pose", &o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]", {.group = group});
+  list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's", {.group = group});
+  list.add("--world", &o.world, "z-up or ned", {.words = {"z-up", "ned"}, .group = group});
+  list.add("--camera", &o.camera, "auto, behind (the head), top, side or iso",
+           {.words = {"auto", "behind", "top", "side", "iso"}, .group = group});
+  list.add("--normals", &o.normals, "draw some 4000 normals as lines", {.group = group});
+  list.add("--colour", &o.colour, "height, material, visibility, level, grazing or incidence; default: what suits",
+           {.words = {"height", "material", "visibility", "level", "grazing", "incidence"}, .group = group});
 }
 
 void add_options(OptionList list, ImageOptions& o) {
@@ -41,29 +39,28 @@ void add_options(OptionList list, ImageOptions& o) {
     names.emplace_back(view.name);
     views.push_back(fmt::format("{}: {}", view.name, view.shows));
   }
-  list.add("RUN", o.run, "run directory or cube.h5; for view scene also a cloud or mesh").required();
-  list.add("-o,--output", o.output, "picture to write, .png (grey also .pgm); with --animate a folder").required();
-  list.add("--view", o.view, fmt::format("{}", fmt::join(views, "; "))).one_of(names);
-  list.add("--bits", o.bits, "of grey: 8 or 16").one_of({"8", "16"}).shown_as("INT");
-  list.add("--layer", o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
-  list.add("--ping", o.ping, "which ping, from 0");
-  list.add("--beam", o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
-  Option raw = list.add("--raw", o.raw, "levels as received; default: range compensated; excludes --tvg");
-  list.add("--tvg", o.tvg, "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's")
-      .excludes(raw.shown_as(" "))
-      .shown_as("FLOAT");
-  list.add("--window", o.window_db, "[dB] from darkest to brightest");
-  list.add("--max", o.max_db, "[dB] brightest level; default: automatic");
-  list.add("--colormap", o.colour_map, "copper, viridis, amber, grey or jet");
-  list.add("--size", o.size, "WIDTHxHEIGHT [pixels]");
-  list.add("--title", o.title, "default: sonar and ping");
-  list.add("--dark", o.dark, "dark background");
-  list.add("--annotate", o.annotate,
-           "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text")
-      .value_optional()
-      .shown_as("[N|CSV]");
-  list.add("--animate", o.animate, "one picture per ping in the folder -o, all with the same levels");
-  list.add("--force", o.force, "replace existing pictures");
+  list.add("RUN", &o.run, "run directory or cube.h5; for view scene also a cloud or mesh", {.required = true});
+  list.add("-o,--output", &o.output, "picture to write, .png (grey also .pgm); with --animate a folder",
+           {.required = true});
+  list.add("--view", &o.view, fmt::format("{}", fmt::join(views, "; ")), {.words = names});
+  list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
+  list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
+  list.add("--ping", &o.ping, "which ping, from 0");
+  list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
+  list.add("--raw", &o.raw, "levels as received; default: range compensated; excludes --tvg");
+  list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's",
+           {.excludes = "--raw", .shown_as = "FLOAT"});
+  list.add("--window", &o.window_db, "[dB] from darkest to brightest");
+  list.add("--max", &o.max_db, "[dB] brightest level; default: automatic");
+  list.add("--colormap", &o.colour_map, "copper, viridis, amber, grey or jet");
+  list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]");
+  list.add("--title", &o.title, "default: sonar and ping");
+  list.add("--dark", &o.dark, "dark background");
+  list.add("--annotate", &o.annotate,
+           "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text",
+           {.shown_as = "[N|CSV]"});
+  list.add("--animate", &o.animate, "one picture per ping in the folder -o, all with the same levels");
+  list.add("--force", &o.force, "replace existing pictures");
   add_scene_view(list, o);
   add_common(list, o.common, false);
 }

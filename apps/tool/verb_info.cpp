@@ -24,7 +24,7 @@ struct InfoOptions {
 };
 
 void add_options(OptionList list, InfoOptions& o) {
-  list.add("FILE", o.files, "cloud, mesh, sonar .toml, cube.h5 or run directory").required();
+  list.add("FILE", &o.files, "cloud, mesh, sonar .toml, cube.h5 or run directory", {.required = true});
   add_common(list, o.common, true);
 }
 

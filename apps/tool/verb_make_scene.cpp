@@ -27,15 +27,15 @@ struct MakeSceneOptions {
 };
 
 void add_options(OptionList list, MakeSceneOptions& o) {
-  list.add("NAME", o.name, "harbour, plane, sphere, wall or poles").required();
-  list.add("-o,--output", o.output, "scene to write, .ply or .pcd; or .tiles, for any size").required();
-  list.add("--points", o.points, "surfels wanted");
-  list.add("--size", o.size, "plane: x,y extent; wall: width,height [m]");
-  list.add("--radius", o.radius, "of the sphere [m]");
-  list.add("--mu-db", o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
-  list.add("--force", o.force, "replace an existing file");
+  list.add("NAME", &o.name, "harbour, plane, sphere, wall or poles", {.required = true});
+  list.add("-o,--output", &o.output, "scene to write, .ply or .pcd; or .tiles, for any size", {.required = true});
+  list.add("--points", &o.points, "surfels wanted");
+  list.add("--size", &o.size, "plane: x,y extent; wall: width,height [m]");
+  list.add("--radius", &o.radius, "of the sphere [m]");
+  list.add("--mu-db", &o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
+  list.add("--force", &o.force, "replace an existing file");
   add_common(list, o.common, false);
-  list.add("--seed", o.common.seed, "of jitter and ripples; same seed, same bytes");
+  list.add("--seed", &o.common.seed, "of jitter and ripples; same seed, same bytes");
 }
 
 void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {

@@ -24,9 +24,9 @@ struct MergeOptions {
 };
 
 void add_options(OptionList list, MergeOptions& o) {
-  list.add("RUN", o.runs, "run directories or cubes with the same fan and gate").required();
-  list.add("-o,--output", o.output, "run directory to make").required();
-  list.add("--force", o.force, "replace an existing run directory");
+  list.add("RUN", &o.runs, "run directories or cubes with the same fan and gate", {.required = true});
+  list.add("-o,--output", &o.output, "run directory to make", {.required = true});
+  list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common, true);
 }
 

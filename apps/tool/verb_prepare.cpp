@@ -9,6 +9,7 @@
 #include "scene_io/tile_writer.hpp"
 #include "tool/head_setup.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -28,12 +29,13 @@ struct PrepareOptions {
 };
 
 void add_options(OptionList list, PrepareOptions& o) {
-  add_scene(list, o.scene);
-  list.add("-o,--output", o.output, "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees")
-      .required();
-  list.add("--thin", o.thin, "[m] between surfels: denser parts are thinned, area and materials kept").positive();
-  list.add("--force", o.force, "replace an existing file");
-  list.add("--normals", o.normals, "accepted for clarity: missing normals are always estimated");
+  add_settings(list, scene_settings(o.scene));
+  list.add("-o,--output", &o.output, "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees",
+           {.required = true});
+  list.add("--thin", &o.thin, "[m] between surfels: denser parts are thinned, area and materials kept",
+           {.positive = true});
+  list.add("--force", &o.force, "replace an existing file");
+  list.add("--normals", &o.normals, "accepted for clarity: missing normals are always estimated");
   add_common(list, o.common, true);
   add_work(list, o.common);
 }

@@ -17,7 +17,7 @@ struct SonarsOptions {
 };
 
 void add_options(OptionList list, SonarsOptions& o) {
-  list.add("NAME", o.name, "preset or .toml file");
+  list.add("NAME", &o.name, "preset or .toml file");
   add_common(list, o.common, true);
 }
 

@@ -24,7 +24,8 @@ struct SynthesizeOptions {
 };
 
 void add_options(OptionList list, SynthesizeOptions& o) {
-  list.add("SCATTERERS", o.scatterers, "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im").required();
+  list.add("SCATTERERS", &o.scatterers, "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im",
+           {.required = true});
   add_sonar(list, o.common, o.run);
   add_output(list, o.run);
   add_common(list, o.common, true);

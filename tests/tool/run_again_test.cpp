@@ -14,7 +14,7 @@ namespace {
 /// Gives a setting a value that is allowed and is not its default.
 void change(const RunSetting& setting) {
   const auto other_word = [&](const std::string& word) {
-    for (const std::string& candidate : setting.words)
+    for (const std::string& candidate : setting.rules.words)
       if (candidate != word) return candidate;
     return std::string("other \"word\" \\");
   };
@@ -26,6 +26,10 @@ void change(const RunSetting& setting) {
     void operator()(std::uint64_t* number) const { *number = ~std::uint64_t{0}; }
     void operator()(bool* flag) const { *flag = !*flag; }
     void operator()(std::vector<std::string>* words) const { *words = {word(""), word("")}; }
+    template <typename Other>
+    void operator()(const Other&) const {
+      FAIL() << "no value that run.toml holds";
+    }
   };
   std::visit(Change{other_word}, setting.value);
 }
