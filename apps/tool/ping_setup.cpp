@@ -35,12 +35,11 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
   s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
   if (s.outputs.elements && s.synthesis.method == SynthesisMethod::incoherent)
-    fail(ErrorKind::argument,
-         "--keep elements: elements hear pressures, and --method incoherent has none; use gridded");
+    fail(ErrorKind::argument, "--keep elements: --method incoherent gives no pressures at elements; use gridded");
   s.sampling.level_error_db = o.level_error_db;
   if (!(s.sampling.level_error_db >= 0 && std::isfinite(s.sampling.level_error_db)))
     fail(ErrorKind::argument, "--level-error-db = ", s.sampling.level_error_db,
-         " dB, must be finite and > 0; 0: taken as it is");
+         " dB, must be finite and >= 0; 0: sampling is not refined");
   s.effects.absorption_order = o.absorption_order;
   if (!o.velocity.empty()) s.effects.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
   if (!o.turn_rate.empty())
