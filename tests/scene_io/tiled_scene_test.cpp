@@ -230,7 +230,8 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
   refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
   refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
-  const TileHeader newer{.materials = 1, .added_numbers = 1};
+  TileHeader newer{};
+  newer.materials = newer.added_numbers = 1;
   expect_error(ErrorKind::content, {"a.tiles", "a material has 4 numbers", "update insonify"},
                [&] { unpack_materials({}, newer, "a.tiles"); });
   expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(own_path("none.tiles")); });

@@ -8,7 +8,7 @@
 #include "support/heads.hpp"
 
 using namespace insonify;
-using HasSubstr;
+using testing::HasSubstr;
 
 namespace {
 

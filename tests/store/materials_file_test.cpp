@@ -37,8 +37,10 @@ TEST(Materials, are_read_with_their_origin) {
   EXPECT_EQ(list[0].source, "a paper");
   EXPECT_EQ(list[1].label, 5);
   EXPECT_EQ(list[1].status, "user");
-  for (const MaterialNumber& n : material_numbers)
-    if (!n.required) EXPECT_EQ(list[0].material.*n.member, Material{}.*n.member) << n.key;
+  for (const MaterialNumber& n : material_numbers) {
+    if (n.required) continue;
+    EXPECT_EQ(list[0].material.*n.member, Material{}.*n.member) << n.key;
+  }
   EXPECT_EQ(list[1].material.coherent_fraction, 0.25);
   EXPECT_EQ(list[1].material.relief_slope, 0.1);
 }
