@@ -15,7 +15,7 @@ struct RunSetting {
   const char* key;      ///< in run.toml
   const char* option;   ///< on the command line
   OptionValue value;    ///< never a function
-  const char* help;
+  std::string help;
   OptionRules rules = {};
   bool is_path = false;  ///< relative to the current folder, or to the folder of run.toml
 };

@@ -1,3 +1,4 @@
+#include "scene_io/load_scene.hpp"
 #include "tool/run_settings.hpp"
 
 namespace insonify::tool {
@@ -18,8 +19,7 @@ const OptionRules absorption_orders{.within = std::pair(0, 2), .shown_as = "INT"
 
 std::vector<RunSetting> scene_settings(SceneOptions& o) {
   return {
-      {"scene", "path", "SCENE", &o.path, "cloud or mesh: .pcd .ply .obj .stl .vtk .vtp .xyz .txt .csv; or .tiles",
-       scene, true},
+      {"scene", "path", "SCENE", &o.path, "cloud or mesh: " + scene_extensions(), scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
        "x,y,z [m] where the capture stood; orients estimated normals"},
       {"scene", "materials", "--materials", &o.materials_file, "TOML table of materials for the labels of the cloud",

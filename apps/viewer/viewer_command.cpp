@@ -1,5 +1,6 @@
 #include "viewer/viewer_command.hpp"
 
+#include "scene_io/load_scene.hpp"
 #include "tool/shared_options.hpp"
 #include "viewer/viewer_state.hpp"
 
@@ -17,7 +18,7 @@ std::string footer() {
 }
 
 void add_options(tool::OptionList list, ViewerCommand& c) {
-  list.add("TARGET", &c.target, "run directory, cube.h5, or a scene to inspect: .pcd .ply .obj .stl .vtk .xyz ...",
+  list.add("TARGET", &c.target, "run directory, cube.h5, or a scene to inspect: " + scene_extensions(),
            {.required = true});
   list.add("--ping", &c.ping, "which ping to begin with, from 0");
   list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");

@@ -37,7 +37,7 @@ struct Places {
 
 /// One echo after another onto one tile: argument 0 is the number of digits of the kernel.
 template <typename Real>
-void grid(benchmark::State& state) {
+void grid_tile(benchmark::State& state) {
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   const GriddingKernel kernel(tolerance);
   const std::size_t rows = 10 + 2 * static_cast<std::size_t>(state.range(0));
@@ -60,8 +60,8 @@ void grid(benchmark::State& state) {
   state.counters["width"] = static_cast<double>(kernel.width());
   state.counters["rows"] = static_cast<double>(rows);
 }
-BENCHMARK(grid<float>)->Arg(2)->Arg(4)->Arg(6);
-BENCHMARK(grid<double>)->Arg(4)->Arg(8)->Arg(12);
+BENCHMARK(grid_tile<float>)->Arg(2)->Arg(4)->Arg(6);
+BENCHMARK(grid_tile<double>)->Arg(4)->Arg(8)->Arg(12);
 
 /// 512 beams out of one tile of 64 bins: argument 0 is the width of the kernel.
 template <typename Real>

@@ -54,7 +54,7 @@ TEST_F(Plan, refuses_stages_that_are_unknown_or_have_no_cause) {
 // Left out is what is in: an expected level stays one, and the direct sum takes a tolerance that gridding refuses.
 TEST_F(Plan, forces_and_checks_only_the_method_in_force) {
   succeed("ping " + ping + " -q -o level --no-picture --method incoherent --without true-delays --without direct-sum");
-  EXPECT_TRUE(read_cube(path("level/cube.h5")).pings[0].expected_level);
+  EXPECT_TRUE(insonify::read_cube(path("level/cube.h5")).pings[0].expected_level);
   EXPECT_NE(succeed("plan " + ping + " --method direct --tolerance 1e-14").find("direct-sum         in"),
             std::string::npos);
   expect_refused("plan " + ping + " --tolerance 1e-14", 2, {"tolerance = 1e-14", "at least 1e-13", "use direct"});

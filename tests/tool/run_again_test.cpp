@@ -18,20 +18,24 @@ void change(const RunSetting& setting) {
       if (candidate != word) return candidate;
     return std::string("other \"word\" \\");
   };
-  struct Change {
-    const decltype(other_word)& word;
-    void operator()(std::string* text) const { *text = word(*text); }
-    void operator()(double* number) const { *number += 0.1; }
-    void operator()(int* number) const { *number += 1; }
-    void operator()(std::uint64_t* number) const { *number = ~std::uint64_t{0}; }
-    void operator()(bool* flag) const { *flag = !*flag; }
-    void operator()(std::vector<std::string>* words) const { *words = {word(""), word("")}; }
-    template <typename Other>
-    void operator()(const Other&) const {
+  const auto change_value = [&](auto value) {
+    using Value = decltype(value);
+    if constexpr (std::is_same_v<Value, std::string*>)
+      *value = other_word(*value);
+    else if constexpr (std::is_same_v<Value, double*>)
+      *value += 0.1;
+    else if constexpr (std::is_same_v<Value, int*>)
+      *value += 1;
+    else if constexpr (std::is_same_v<Value, std::uint64_t*>)
+      *value = ~std::uint64_t{0};
+    else if constexpr (std::is_same_v<Value, bool*>)
+      *value = !*value;
+    else if constexpr (std::is_same_v<Value, std::vector<std::string>*>)
+      *value = {other_word(""), other_word("")};
+    else
       FAIL() << "no value that run.toml holds";
-    }
   };
-  std::visit(Change{other_word}, setting.value);
+  std::visit(change_value, setting.value);
 }
 
 class RunAgain : public ToolTest {
