@@ -47,7 +47,7 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
   list.add("--ping", &o.ping, "which ping, from 0");
   list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
-  list.add("--raw", &o.raw, "levels as received; default: range compensated; excludes --tvg");
+  list.add("--raw", &o.raw, "levels as received; default: range compensated; excludes --tvg", {.shown_as = " "});
   list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's",
            {.excludes = "--raw", .shown_as = "FLOAT"});
   list.add("--window", &o.window_db, "[dB] from darkest to brightest");
