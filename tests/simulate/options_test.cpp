@@ -35,8 +35,6 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
       {{.sampling = {.level_error_db = not_a_number}}, "sampling.level_error_db = nan, must be"},
       {{.sampling = {.level_error_db = infinity}}, "sampling.level_error_db = inf, must be"},
       {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2"},
-      {{.effects = {.multipath = true}},
-       "effects.multipath = true, but the environment has neither surface nor bottom"},
       {{.outputs = {.paths = -1}}, "outputs.paths = -1, must be at least 0"},
       {{.outputs = {.contributors = 300}}, "outputs.contributors = 300, must be within 0 and 255"},
       {{.outputs = {.contributors = -1}}, "outputs.contributors = -1, must be within 0 and 255"},

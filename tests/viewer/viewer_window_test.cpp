@@ -246,8 +246,8 @@ TEST_F(Window, a_run_without_scene_shows_its_fan_alone) {
 }
 
 TEST_F(Window, refuses_what_cannot_be_shown) {
-  const auto refuses = [&](const ViewerData& data, const ViewerOptions& options) {
-    return error_of([&] { ViewerWindow window(data, options, ViewerScreen::off_screen); });
+  const auto refuses = [&](const ViewerData& data, const ViewerOptions& options, ErrorKind kind = ErrorKind::argument) {
+    return error_of([&] { ViewerWindow window(data, options, ViewerScreen::off_screen); }, kind);
   };
   ViewerOptions options;
   options.start.ping = 1;
@@ -255,8 +255,8 @@ TEST_F(Window, refuses_what_cannot_be_shown) {
   options.start.ping = 0;
   options.width = 300;
   EXPECT_THAT(refuses(made_.data, options), HasSubstr("window of 300 x 1000 pixels"));
-  EXPECT_THAT(refuses({}, {}), HasSubstr("no pings"));
+  EXPECT_THAT(refuses({}, {}, ErrorKind::content), HasSubstr("no pings"));
   ViewerData uneven = made_.data;
   uneven.pings[0].pressure.resize(3, 3);
-  EXPECT_THAT(refuses(uneven, {}), HasSubstr("3 x 3 samples"));
+  EXPECT_THAT(refuses(uneven, {}, ErrorKind::content), HasSubstr("3 x 3 samples"));
 }
