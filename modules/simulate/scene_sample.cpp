@@ -18,6 +18,7 @@ class Sampler {
   Sampler(const SceneCloud& scene, const ResolvedPing& ping)
       : scene_(scene),
         ping_(ping),
+        sector_(ping.sector),
         gate_(ping.view.gate),
         to_head_(ping.view.world_from_head.linear().transpose()),
         shift_(scene.origin - ping.view.world_from_head.translation()),
@@ -30,10 +31,7 @@ class Sampler {
     const double cosine = -(to_head_ * scene_.normal[i].cast<double>()).dot(p) / r;
     const double facing = scene_.normals_oriented ? std::max(0.0, cosine) : std::abs(cosine);
     const Direction d = direction_of(p);
-    const Sector& sector = ping_.sector;
-    const bool in_azimuth = std::abs(std::remainder(d.azimuth - 0.5 * (sector.min_azimuth + sector.max_azimuth),
-                                                    2 * pi)) <= 0.5 * (sector.max_azimuth - sector.min_azimuth);
-    const bool in_elevation = d.elevation >= sector.min_elevation && d.elevation <= sector.max_elevation;
+    const bool in_azimuth = sector_.in_cones(p), in_elevation = sector_.in_elevations(p);
     const bool in_gate = r >= gate_.min_range && r <= gate_.max_range;
 
     const double power = echo_power(i, r, facing, d.elevation);
@@ -97,6 +95,7 @@ class Sampler {
 
   const SceneCloud& scene_;
   const ResolvedPing& ping_;
+  SectorBounds sector_;
   const RangeGate& gate_;  // the sampled one
   Eigen::Matrix3d to_head_;
   Eigen::Vector3d shift_;
