@@ -24,6 +24,7 @@ void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
   to.area.push_back(from.area[i]);
   to.material.push_back(from.material[i]);
   to.id.push_back(from.id[i]);
+  if (!from.noise.empty()) to.noise.push_back(from.noise[i]);
 }
 
 bool above_surface(const std::vector<Boundary>& boundaries, double z) {

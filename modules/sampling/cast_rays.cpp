@@ -81,7 +81,7 @@ CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& su
   const std::vector<CastRay> cast =
       projection == Projection::raster
           ? cast_by_raster(surfels, rays, options)
-          : cast_by_index(surfels, DirectionIndex(surfels, projection, options.threads), rays, options);
+          : cast_by_index(surfels, DirectionIndex(surfels, projection, 1, options.threads), rays, options);
   CastResult result;
   Scatterers& out = result.scatterers;
   for (std::size_t r = 0; r < rays.size(); ++r) {

@@ -16,10 +16,11 @@ constexpr float chord_slack = 1e-6f, chord_factor = 1.0001f, nearest_factor = 0.
 
 }  // namespace
 
-DirectionIndex::DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, int threads) {
+DirectionIndex::DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, float reach,
+                               int threads) {
   std::map<int, std::vector<std::uint32_t>, std::greater<>> members;
   for (std::uint32_t s = 0; s < surfels.size(); ++s) {
-    const float sine = surfels[s].radius / surfels[s].range;
+    const float sine = reach * surfels[s].radius / surfels[s].range;
     if (!(sine > 0)) continue;  // no area: occludes nothing
     if (projection == Projection::brute_force || sine > widest_indexed)
       wide_.push_back(s);
@@ -38,8 +39,8 @@ DirectionIndex::DirectionIndex(const std::vector<GatedSurfel>& surfels, Projecti
     float chord = 0;
     for (const std::uint32_t s : octave.members) {
       directions.push_back(surfels[s].position / surfels[s].range);
-      chord = std::max(chord, squared_footprint_chord(surfels[s]));
-      octave.nearest = std::min(octave.nearest, (surfels[s].range - surfels[s].radius) * nearest_factor);
+      chord = std::max(chord, squared_chord_of(reach * surfels[s].radius / surfels[s].range));
+      octave.nearest = std::min(octave.nearest, (surfels[s].range - reach * surfels[s].radius) * nearest_factor);
     }
     octave.chord = std::sqrt(chord) * chord_factor + chord_slack;
     octave.index = SceneIndex(directions);

@@ -17,7 +17,8 @@ namespace insonify {
 /// octave plus the surfels found.
 class DirectionIndex {
  public:
-  DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, int threads);
+  /// reach   how far from its centre a surfel is to be found, in radii of its disc
+  DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, float reach, int threads);
 
   /// Calls test(surfel) for candidates in `direction`, among them all surfels that cover it and are nearer than `range`
   /// [m], until a call returns true; returns whether one did. `scratch` is overwritten.

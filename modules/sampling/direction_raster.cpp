@@ -26,11 +26,10 @@ struct Extent {
 bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Extent& box) {
   const int k = static_cast<int>(face / 2), i = (k + 1) % 3, j = (k + 2) % 3;
   const float sign = face % 2 == 0 ? 1.0f : -1.0f, d = sign * s.position[k], nf = sign * s.away[k];
-  const float least = footprint == Footprint::cone ? s.radius : std::min(s.radius, 0.5f * s.spacing);
-  // Half extents of disc and ball along a vector of squared length w2 with n . w = nw.
+  // Half extents of disc or ball along a vector of squared length w2 with n . w = nw.
   const auto reach = [&](float w2, float nw) {
-    const float disc = footprint == Footprint::cone ? 0 : s.radius * s.radius * (w2 - nw * nw);
-    return std::sqrt(std::max(disc, least * least * w2));
+    if (footprint == Footprint::cone) return s.radius * std::sqrt(w2);
+    return hiding_reach * s.radius * std::sqrt(std::max(0.0f, w2 - nw * nw));
   };
   const float front = d - reach(1, nf);
   if (!(front > 0)) return false;

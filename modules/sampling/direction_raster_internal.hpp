@@ -22,7 +22,7 @@ CubePoint on_cube(const Eigen::Vector3f& v);
 
 /// Which footprint of a surfel is rasterised.
 enum class Footprint {
-  disc,  ///< where it may occlude another surfel (`hides`): its disc, and a ball of half a spacing around its centre
+  disc,  ///< where it may help to occlude another surfel (`cover`): its disc, hiding_reach times as wide
   cone   ///< where a ray may hit it (`hit_surface`): the cone around a ball of its radius
 };
 
@@ -124,8 +124,9 @@ class DirectionRaster {
   void sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads);
   void sort_queries(std::span<const CubePoint> queries, int threads);
 
-  // Below 1/4, a disc that overlaps the directions of a face lies entirely in front of the head along the face's axis.
-  static constexpr float widest_ = 0.25f;
+  // Below 0.244, a disc of hiding_reach that overlaps the directions of a face lies entirely in front of the head along
+  // the face's axis.
+  static constexpr float widest_ = 0.24f;
 
   std::array<Face, 6> faces_;
   float cell_ = 1;

@@ -19,8 +19,8 @@
 //      (gate_surfels; a prepared scene visits only the blocks that overlap the region);
 //   2. project: find the surfels that cover a direction, by KD-trees over unit vectors, one per octave of angular
 //      footprint (direction_index), or by a raster with a depth buffer (direction_raster), with the same result;
-//   3. decide: a surfel is hidden if a disc in front of it covers it (surfel_visibility); a ray hits the front cluster
-//      of the surfels that cover it (hit_rule, cast_rays);
+//   3. decide: a surfel is hidden if those in front of it cover it on more than one side (surfel_visibility); a ray
+//      hits the front cluster of the surfels that cover it (hit_rule, cast_rays);
 //   4. split visible surfels into parts, several per resolution cell (split_surfels);
 //   5. tilt the normals of rough materials by micro-relief (tilt_by_relief).
 // Cost: O(n) for the gate, O(m log m) for the m surfels inside by KD-trees, about O(m) by the raster; parallel.

@@ -26,7 +26,7 @@ struct Gate {
     const double r2 = p.squaredNorm();
     if (!(r2 <= range.max_range * range.max_range) || r2 < min_distance * min_distance) return;
     const double spacing = std::sqrt(static_cast<double>(scene.area[i])), radius = footprint * spacing;
-    if (!sector.holds(p, radius)) return;
+    if (!sector.holds(p, hiding_reach * radius)) return;
 
     const double r = std::sqrt(r2);
     const Vector3d normal = head.direction(scene.normal[i].cast<double>());
@@ -38,6 +38,7 @@ struct Gate {
     s.plane_distance = static_cast<float>(std::abs(along));
     s.radius = static_cast<float>(radius);
     s.spacing = static_cast<float>(spacing);
+    s.noise = scene.noise.empty() ? 0 : scene.noise[i];
     s.surfel = static_cast<std::uint32_t>(i);
     s.in_gate = r >= range.min_range && sector.holds(p);
     s.facing = scene.normals_oriented ? along < 0 : along != 0;
@@ -52,7 +53,7 @@ bool reaches(const Vector3d& centre, double radius, double largest_area, const S
              double footprint) {
   constexpr double rounding = 1 + 1e-9;
   if (centre.norm() > (max_range + radius) * rounding) return false;
-  return sector.holds(centre, (radius + footprint * std::sqrt(largest_area)) * rounding + min_distance);
+  return sector.holds(centre, (radius + hiding_reach * footprint * std::sqrt(largest_area)) * rounding + min_distance);
 }
 
 bool reaches(const SurfelBlock& block, const Gate& gate) {

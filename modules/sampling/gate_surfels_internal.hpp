@@ -21,10 +21,14 @@ struct GatedSurfel {
   float plane_distance;      ///< from the head to the tangent plane [m], >= 0; 0: seen edge-on
   float radius;              ///< of the disc [m]
   float spacing;             ///< sqrt(area) [m]
+  float noise;               ///< of the surface [m]
   std::uint32_t surfel;      ///< index in the scene
   bool in_gate;              ///< inside sector and gate; else it can only occlude
   bool facing;               ///< front side towards the head (either side if normals are not oriented)
 };
+
+/// Distance from a surfel's centre within which it helps to occlude others, in radii of its disc.
+inline constexpr float hiding_reach = 1.5f;
 
 /// Transforms scene points to head axes in double: subtracts the large world coordinates first.
 class HeadFrame {

@@ -72,15 +72,34 @@ bool passes_beside(const std::vector<GatedSurfel>& surfels, std::span<const std:
 
 }  // namespace
 
-float squared_footprint_chord(const GatedSurfel& s) {
-  const float sine = s.radius / s.range;
-  return sine < 1 ? 2 - 2 * std::sqrt(1 - sine * sine) : 4.0f;
+Cover cover(const GatedSurfel& front, const LineOfSight& line) {
+  const GatedSurfel& behind = *line.end;
+  const float depth = front.away.dot(behind.position);  // of `behind`, along the normal of `front`
+  if (!(depth - front.plane_distance > hiding_depth(front, behind))) return 0;
+  // The line meets the plane at position x plane_distance / depth; multiplied by depth > 0, nothing is divided.
+  const Eigen::Vector3f miss = front.position * depth - behind.position * front.plane_distance;
+  const float reach = hiding_reach * front.radius * depth, core = std::min(0.65f * front.spacing, front.radius) * depth;
+  const float off = miss.squaredNorm();
+  if (off > reach * reach) return 0;
+  if (off <= core * core) return whole_cover;
+
+  // Across the line, with the foreshortening of the tangent plane undone.
+  const float cosine = depth / behind.range;
+  Eigen::Vector3f across = miss - line.along * miss.dot(line.along);
+  const Eigen::Vector3f slope = front.away - line.along * cosine;
+  const float steepness = slope.squaredNorm();
+  if (steepness > 1e-8f) across += slope * ((1 / cosine - 1) * across.dot(slope) / steepness);
+  const float turn = std::atan2(line.up.dot(across), line.right.dot(across));
+  const int sector = static_cast<int>((turn / static_cast<float>(pi) + 1) * 16);
+  return Cover{1} << std::clamp(sector, 0, 31);
 }
+
+float squared_chord_of(float sine) { return sine < 1 ? 2 - 2 * std::sqrt(1 - sine * sine) : 4.0f; }
 
 void keep_covering(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
                    std::vector<std::uint32_t>& candidates) {
   std::erase_if(candidates, [&](std::uint32_t c) {
-    return !(squared_chord(direction, surfels[c]) <= squared_footprint_chord(surfels[c]));
+    return !(squared_chord(direction, surfels[c]) <= squared_chord_of(surfels[c].radius / surfels[c].range));
   });
 }
 

@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,20 +12,36 @@
 
 namespace insonify {
 
-/// Returns true if `front` occludes `behind` (E16): the line of sight to `behind` crosses the disc of `front`, or
-/// passes within half a spacing of its centre (so that sound does not leak through discs of rough surfaces seen
-/// edge-on), and `behind` is deeper below the tangent plane of `front` than the roughness of one surface, the larger of
-/// the two spacings. A grazing or rough surface therefore does not occlude itself.
-inline bool hides(const GatedSurfel& front, const GatedSurfel& behind) {
-  const float depth = front.away.dot(behind.position);  // of `behind`, along the normal of `front`
-  const float roughness = std::max(front.spacing, behind.spacing);
-  if (!(depth - front.plane_distance > roughness)) return false;
-  // The line of sight meets the plane at position x plane_distance / depth; multiplying by depth > 0 avoids a division.
-  const Eigen::Vector3f miss = behind.position * front.plane_distance - front.position * depth;
-  if (miss.squaredNorm() <= front.radius * front.radius * depth * depth) return true;
-  const float along = front.position.dot(behind.position) / (behind.range * behind.range);  // 1: at `behind`
-  const float core = std::min(front.radius, 0.5f * front.spacing);
-  return along > 0 && along < 1 && (front.position - behind.position * along).squaredNorm() <= core * core;
+/// The line of sight to a surfel, and two axes across it.
+struct LineOfSight {
+  const GatedSurfel* end;
+  Eigen::Vector3f along, right, up;  ///< unit vectors
+
+  explicit LineOfSight(const GatedSurfel& s)
+      : end(&s), along(s.position / s.range), right(along.unitOrthogonal()), up(along.cross(right)) {}
+};
+
+/// Directions round a line of sight, one bit for each of 32 equal sectors, in which surfaces stand that cover it.
+using Cover = std::uint32_t;
+inline constexpr Cover whole_cover = ~Cover{0};
+
+/// How deep below the tangent plane of one surfel another must lie to be behind it [m]: the larger spacing, which allows for
+/// roughness, and three standard deviations of noise (E16).
+inline float hiding_depth(const GatedSurfel& a, const GatedSurfel& b) {
+  return std::max(a.spacing, b.spacing) + 3 * std::sqrt(a.noise * a.noise + b.noise * b.noise);
+}
+
+/// What `front` covers of the line of sight to a surfel that lies deeper below its tangent plane than the hiding depth
+/// (E16): all of it, if the line crosses the plane within 0.65 spacings of the centre; the sector in which the centre lies,
+/// seen in the tangent plane, if within hiding_reach radii; else nothing.
+Cover cover(const GatedSurfel& front, const LineOfSight& line);
+
+/// True if covers stand on more than one side: spread over 120 degrees, as round the cell of a surface's last surfel. So
+/// surfaces have no gaps between surfels, and do not grow at their edges.
+inline bool hides(Cover c) {
+  const auto shorter = [](Cover gaps, int by) { return gaps & std::rotr(gaps, by); };
+  // What is left of the gaps that are 21 sectors wide: 21 = 1 + 1 + 2 + 4 + 8 + 5.
+  return c != 0 && shorter(shorter(shorter(shorter(shorter(~c, 1), 2), 4), 8), 5) == 0;
 }
 
 /// Returns the squared chord between a unit vector and the direction of a surfel.
@@ -30,8 +49,8 @@ inline float squared_chord(const Eigen::Vector3f& direction, const GatedSurfel& 
   return (direction - s.position / s.range).squaredNorm();
 }
 
-/// Returns the squared chord of the cone around the ball of a surfel's disc radius, as seen from the head.
-float squared_footprint_chord(const GatedSurfel& s);
+/// Returns the squared chord of a cone whose half-angle has this sine; of the whole sphere from 1 on.
+float squared_chord_of(float sine);
 
 /// Removes the candidates whose footprint cone does not contain the direction.
 void keep_covering(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,

@@ -8,45 +8,48 @@
 #include "sampling/list_where_internal.hpp"
 #include "sampling/surfel_visibility_internal.hpp"
 
-// Finds the surfels hidden behind the disc of another one (E16), by one of two equivalent methods:
-//   KD-trees: for each surfel query the surfels whose footprint contains its direction, and apply `hides` to each;
+// Finds the surfels hidden behind others (E16): collects the sectors around each line of sight that nearer surfels
+// cover, in a bit mask, by one of two equivalent methods:
+//   KD-trees: for each surfel query the surfels whose footprint contains its direction, and apply `cover` to each;
 //   raster:   1. project the queried centres onto the faces of a cube and bin them into tiles of cells;
 //             2. per tile, rasterise the footprints into a depth buffer, as in z-buffering of splats: for each cell the
 //                inverse of the least depth at which a surfel may be hidden, rounded to the safe side;
-//             3. surfels in front of the buffer are visible; apply `hides` to the others with each footprint that
+//             3. surfels in front of the buffer are visible; apply `cover` to the others with each footprint that
 //                overlaps their cell; wide surfels are tested against all.
 // Cost: O(n log n) by KD-trees, O(n x cells per footprint) by the raster; parallel over surfels or tiles. The exact
-// decision is always that of `hides`, so both methods and all thread counts give the same bytes.
+// decision is always that of `cover` and `hides`, so both methods and all thread counts give the same bytes.
 namespace insonify {
 namespace {
 
 // Queries the KD-trees for each surfel.
-std::vector<std::uint8_t> hidden_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
-                                          int threads) {
-  std::vector<std::uint8_t> hidden(surfels.size(), 0);
+std::vector<Cover> covers_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index, int threads) {
+  std::vector<Cover> covers(surfels.size(), 0);
   parallel_blocks(surfels.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> scratch;
     for (std::size_t i = begin; i < end; ++i) {
       const GatedSurfel& s = surfels[i];
       if (!s.in_gate || !s.facing) continue;
       // A surfel cannot hide itself: it does not lie below its own tangent plane.
-      hidden[i] = index.any(s.position / s.range, s.range, scratch,
-                            [&](std::uint32_t other) { return hides(surfels[other], s); });
+      const LineOfSight line(s);
+      index.any(line.along, s.range, scratch, [&](std::uint32_t other) {
+        covers[i] |= cover(surfels[other], line);
+        return hides(covers[i]);
+      });
     }
   });
-  return hidden;
+  return covers;
 }
 
 // Depth beyond which a surfel may occlude. In the coordinates of a cube face its tangent plane is at depth
-// plane_distance / g(x, y) with g linear, and occluded points are deeper than (plane_distance + spacing) / g. Stores
-// the inverse of that bound, slightly enlarged for rounding.
+// plane_distance / g(x, y) with g linear, and occluded points are deeper than (plane_distance + spacing + 3 noise) / g.
+// Stores the inverse of that bound, slightly enlarged for rounding.
 struct HidingDepth {
   float constant, along_x, along_y;  // inverse depth and its slopes [1/m]
 
   HidingDepth(const GatedSurfel& s, std::uint32_t face) {
     constexpr float rounding = 1 + 1e-5f, slack = 2e-6f;
     const int k = static_cast<int>(face / 2);
-    const float scale = rounding / (s.plane_distance + s.spacing);
+    const float scale = rounding / (s.plane_distance + s.spacing + 3 * s.noise);
     constant = ((face % 2 == 0 ? s.away[k] : -s.away[k]) + slack) * scale;
     along_x = s.away[(k + 1) % 3] * scale;
     along_y = s.away[(k + 2) % 3] * scale;
@@ -62,22 +65,21 @@ class DepthTile {
             std::span<const CubePoint> queries)
       : surfels_(surfels), asked_(asked), queries_(queries) {}
 
-  void find_hidden(const DirectionTile& tile, std::vector<std::uint8_t>& hidden) {
+  void find_covers(const DirectionTile& tile, std::vector<Cover>& covers) {
     nearest_.fill(0);
     for (const TileBox& box : tile.boxes) draw(tile, box);
     for (const std::uint32_t query : tile.queries) {
       const CubePoint& q = queries_[query];
       const std::size_t cell = tile.cell_of(q);
-      if (q.depth * nearest_[cell] >= 1) open_.add({q, asked_[query], false}, cell);
+      if (q.depth * nearest_[cell] >= 1) open_.add({q, LineOfSight(surfels_[asked_[query]]), asked_[query]}, cell);
     }
     if (open_.empty()) return;
     for (const TileBox& box : tile.boxes) {
       const GatedSurfel& front = surfels_[box.surfel];
       const HidingDepth depth(front, tile.face);
       open_.for_each(box, [&](Open& behind) {
-        if (behind.hidden || !depth.before(behind.place) || !hides(front, surfels_[behind.surfel])) return;
-        behind.hidden = true;
-        hidden[behind.surfel] = 1;
+        Cover& so_far = covers[behind.surfel];
+        if (!hides(so_far) && depth.before(behind.place)) so_far |= cover(front, behind.line);
       });
     }
   }
@@ -85,8 +87,8 @@ class DepthTile {
  private:
   struct Open {
     CubePoint place;
+    LineOfSight line;
     std::uint32_t surfel;
-    bool hidden;
   };
   static constexpr std::size_t side = DirectionTile::side;
 
@@ -110,7 +112,7 @@ class DepthTile {
   CellLists<Open> open_;
 };
 
-std::vector<std::uint8_t> hidden_by_raster(const std::vector<GatedSurfel>& surfels, int threads) {
+std::vector<Cover> covers_by_raster(const std::vector<GatedSurfel>& surfels, int threads) {
   const auto asked =
       list_where(surfels.size(), threads, [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing; });
   std::vector<CubePoint> queries(asked.size());
@@ -118,25 +120,30 @@ std::vector<std::uint8_t> hidden_by_raster(const std::vector<GatedSurfel>& surfe
     for (std::size_t k = begin; k < end; ++k) queries[k] = on_cube(surfels[asked[k]].position);
   });
   const DirectionRaster raster(surfels, queries, Footprint::disc, threads);
-  std::vector<std::uint8_t> hidden(surfels.size(), 0);
+  std::vector<Cover> covers(surfels.size(), 0);
   parallel_for(raster.tiles(), threads, [&](std::size_t t) {
     const DirectionTile tile = raster.tile(t);
-    if (!tile.queries.empty()) DepthTile(surfels, asked, queries).find_hidden(tile, hidden);
+    if (!tile.queries.empty()) DepthTile(surfels, asked, queries).find_covers(tile, covers);
   });
   if (!raster.wide().empty())
     parallel_blocks(asked.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         for (const std::uint32_t w : raster.wide())
-          if (!hidden[asked[k]]) hidden[asked[k]] = hides(surfels[w], surfels[asked[k]]);
+          if (!hides(covers[asked[k]])) covers[asked[k]] |= cover(surfels[w], LineOfSight(surfels[asked[k]]));
     });
-  return hidden;
+  return covers;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, Projection projection, int threads) {
-  if (projection == Projection::raster) return hidden_by_raster(surfels, threads);
-  return hidden_by_index(surfels, DirectionIndex(surfels, projection, threads), threads);
+  const std::vector<Cover> covers =
+      projection == Projection::raster
+          ? covers_by_raster(surfels, threads)
+          : covers_by_index(surfels, DirectionIndex(surfels, projection, hiding_reach, threads), threads);
+  std::vector<std::uint8_t> hidden(surfels.size());
+  std::transform(covers.begin(), covers.end(), hidden.begin(), [](Cover c) { return hides(c); });
+  return hidden;
 }
 
 }  // namespace insonify

@@ -29,6 +29,8 @@ void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* wh
          ", must be a unit vector; normalise the normals or estimate them");
   if (!(scene.area[i] >= 0 && std::isfinite(scene.area[i])))
     fail(ErrorKind::content, who, ": scene.area[", i, "] = ", scene.area[i], " m^2, must be finite and >= 0");
+  if (!scene.noise.empty() && !(scene.noise[i] >= 0 && std::isfinite(scene.noise[i])))
+    fail(ErrorKind::content, who, ": scene.noise[", i, "] = ", scene.noise[i], " m, must be finite and >= 0");
   if (scene.material[i] >= scene.materials.size())
     fail(ErrorKind::content, who, ": scene.material[", i, "] = ", scene.material[i],
          ", must be below the number of materials, ", scene.materials.size());
@@ -46,6 +48,7 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
   scene.area.push_back(static_cast<float>(area));
   scene.material.push_back(material);
   scene.id.push_back(scene.id.empty() ? 0 : scene.id.back() + 1);
+  if (!scene.noise.empty()) scene.noise.push_back(0);
 }
 
 void require_valid(const SceneCloud& scene, const char* who) {
@@ -53,6 +56,7 @@ void require_valid(const SceneCloud& scene, const char* who) {
   require_length(scene.area.size(), scene.size(), "area", who);
   require_length(scene.material.size(), scene.size(), "material", who);
   require_length(scene.id.size(), scene.size(), "id", who);
+  if (!scene.noise.empty()) require_length(scene.noise.size(), scene.size(), "noise", who);
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
   for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
   for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
@@ -84,6 +88,7 @@ SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& kee
   gather(scene.area, part.area);
   gather(scene.material, part.material);
   gather(scene.id, part.id);
+  if (!scene.noise.empty()) gather(scene.noise, part.noise);
   return part;
 }
 

@@ -18,8 +18,9 @@ struct WholeScene {
   float largest_area = 0;   ///< area of the largest surfel [m^2]
 };
 
-/// The captured scene: surfels (small oriented patches) as a structure of arrays, one entry per surfel in each array.
-/// World frame; coordinates are stored in single precision relative to `origin`, which is subtracted in double.
+/// The captured scene: surfels (small oriented patches) as a structure of arrays, one entry per surfel in each array but
+/// `noise`, which may be empty. World frame; coordinates are stored in single precision relative to `origin`, which is
+/// subtracted in double.
 struct SceneCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; world position = origin + point
   std::vector<Eigen::Vector3f> point;                ///< [m], relative to origin
@@ -27,6 +28,7 @@ struct SceneCloud {
   std::vector<float> area;                           ///< true surface area [m^2]
   std::vector<std::uint16_t> material;               ///< index into `materials`
   std::vector<std::uint32_t> id;                     ///< unique; speckle is bound to it
+  std::vector<float> noise;                          ///< standard deviation across the surface [m]; empty: 0 everywhere
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;         ///< false: the sign of a normal has no meaning and both sides reflect
   std::optional<WholeScene> part_of{};  ///< set if this cloud is part of a larger scene
@@ -40,7 +42,7 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
                 std::uint16_t material = 0);
 
 /// Throws Error unless all arrays have the same length, points are finite, normals have unit length within 1e-3, areas
-/// are finite and >= 0, and materials exist and are valid. `who` names the caller in the message.
+/// and noise are finite and >= 0, and materials exist and are valid. `who` names the caller in the message.
 void require_valid(const SceneCloud& scene, const char* who);
 
 /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.

@@ -19,4 +19,18 @@ struct AreaOptions {
 std::vector<float> estimate_surfel_areas(std::span<const Eigen::Vector3f> points,
                                          std::span<const Eigen::Vector3f> normals, const AreaOptions& options = {});
 
+struct SurfelShapes {
+  std::vector<Eigen::Vector3f> normal;  ///< unit vectors, on the side of the base normals
+  std::vector<float> area;              ///< [m^2]
+  std::size_t strays = 0;  ///< cells more than 16 times as large as those around them, cut down to their median
+};
+
+/// Normals and areas of points that have none, fitting each other (E68). `base_normals`, unit vectors, are those of planes
+/// through wide neighbourhoods. Where points leave these planes by relief, the normal is that of the facets between a point
+/// and the neighbours round its cell, and the area that of the cell on the base plane over the cosine between them: so the
+/// cells of a height field cover its plan, rough or smooth. Where they leave it by noise, base normal and cell stay.
+/// The cell is sought among twice options.neighbours. Lengths and degenerate input as for estimate_surfel_areas.
+SurfelShapes estimate_surfel_shapes(std::span<const Eigen::Vector3f> points,
+                                    std::span<const Eigen::Vector3f> base_normals, const AreaOptions& options = {});
+
 }  // namespace insonify

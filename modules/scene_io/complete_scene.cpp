@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "scene/surfel_area.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
@@ -65,23 +64,6 @@ void complete_ids(RawCloud& raw, LoadReport& report) {
   if (!raw.id.empty()) return;
   raw.id.resize(raw.point.size());
   std::iota(raw.id.begin(), raw.id.end(), 0u);
-}
-
-/// Uses the file's areas where valid, else Voronoi areas (E15).
-void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
-  const auto bad = [](float area) { return !(std::isfinite(area) && area >= 0); };
-  const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));
-  if (!raw.area.empty() && wrong == 0) return;
-  std::vector<float> estimates = estimate_surfel_areas(raw.point, raw.normal, {.threads = options.threads});
-  report.areas_estimated = true;
-  if (raw.area.empty()) {
-    raw.area = std::move(estimates);
-    return;
-  }
-  report.notes.push_back(share(wrong, raw.area.size(), "areas") + " were negative or NaN: estimated");
-  for (std::size_t i = 0; i < raw.area.size(); ++i) {
-    if (bad(raw.area[i])) raw.area[i] = estimates[i];
-  }
 }
 
 /// Assigns one material to all surfels.
@@ -174,6 +156,9 @@ void check_options(const LoadOptions& options, const char* who) {
   if (options.normal_neighbours < 3) {
     fail(ErrorKind::argument, who, ": normal_neighbours = ", options.normal_neighbours, ", must be at least 3");
   }
+  if (options.scan_noise && !(*options.scan_noise >= 0 && std::isfinite(*options.scan_noise))) {
+    fail(ErrorKind::argument, who, ": scan_noise = ", *options.scan_noise, " m, must be finite and >= 0");
+  }
   if (options.viewpoint && !options.viewpoint->allFinite()) {
     fail(ErrorKind::argument, who, ": viewpoint must be finite");
   }
@@ -232,6 +217,7 @@ void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
   keep_only(raw.point, keep);
   keep_only(raw.normal, keep);
   keep_only(raw.area, keep);
+  keep_only(raw.noise, keep);
   keep_only(raw.label, keep);
   keep_only(raw.id, keep);
 }
@@ -254,6 +240,9 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     scene.area = std::move(raw.area);
     scene.material = std::move(raw.label);
     scene.id = std::move(raw.id);
+    scene.noise = std::move(raw.noise);
+    scene.origin = raw.origin;
+    complete_noise(raw, options, result);
   } else {
     sample_mesh(raw, options, result);
   }

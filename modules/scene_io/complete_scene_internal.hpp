@@ -26,6 +26,12 @@ std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>
 /// Gives every point of `raw` a unit normal, drops points without one, and reports the changes.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
+/// Uses the file's areas where valid, else estimates them (E15, E68); with estimated normals, refines these too.
+void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report);
+
+/// Uses the file's noise, else that of the options, else estimates it (E67).
+void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
+
 /// Scales usable normals to unit length unless save_scene wrote them (`prepared`). Returns the number whose length was
 /// off by more than 1e-3.
 std::size_t renormalise(std::vector<Eigen::Vector3f>& normals, bool prepared);

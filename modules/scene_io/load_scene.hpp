@@ -13,14 +13,17 @@ namespace insonify {
 
 struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< where the capture stood [m, world]; orients normals without sides
-  int normal_neighbours = 16;                ///< for estimated normals
+  int normal_neighbours = 32;                ///< for the planes of estimated normals
   double mesh_spacing = 0;                   ///< [m] between surfels of a mesh; 0: about 200 000 surfels in all
   double unit = 1;                           ///< metres per unit of the file, e.g. 0.001 for millimetres
   std::vector<Material> materials;           ///< by label; empty: those in the file, else a default one per label
   std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
   std::uint64_t seed = 1;                    ///< of mesh sampling
   int threads = 0;                           ///< 0: all cores
-  MaterialField material_field{};            ///< which scalar field says the material, and how; unused with `material`
+  /// Standard deviation of the scan across its surfaces [m], of all points; a `noise` field of the file wins. Empty:
+  /// estimated, unless the file is a prepared one, a mesh or tiles.
+  std::optional<double> scan_noise{};
+  MaterialField material_field{};  ///< which scalar field says the material, and how; unused with `material`
 };
 
 /// What was in the file and what was done to it. Everything dropped or repaired is counted here.
@@ -35,6 +38,8 @@ struct LoadReport {
   std::size_t dropped_without_normal = 0;  ///< points whose normal could not be estimated
   bool normals_estimated = false;
   bool areas_estimated = false;
+  bool noise_estimated = false;
+  std::size_t strays = 0;  ///< points far from all others, whose areas were cut down
   bool materials_found = false;
   std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
@@ -52,9 +57,10 @@ std::string scene_extensions();
 
 /// Reads a cloud or mesh by its extension, one of scene_extensions(), fields by name and type. Clouds without normals
 /// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else two-sided; without areas,
-/// Voronoi areas (E15). Meshes are sampled, area-preserving and stratified; their normals are the file's, else follow
-/// the winding, two-sided if more than 1 % of the shared edges contradict it. Ids are the file's if unique, else row
-/// numbers (meshes: sample numbers).
+/// estimated ones (E15, E68); without noise, estimated noise (E67), raised where a line of sight of an organised cloud
+/// with a viewpoint proves that a surfel hides nothing. Meshes are sampled, area-preserving and stratified; their
+/// normals are the file's, else follow the winding, two-sided if more than 1 % of the shared edges contradict it. Ids
+/// are the file's if unique, else row numbers (meshes: sample numbers).
 /// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
 /// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
 /// are counted. A surfel of a mesh takes the number of its nearest corner. Error(content) lists the file's fields if it

@@ -66,6 +66,7 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
   rows.columns.push_back({"area", NumberType::float32});
   rows.columns.push_back({"material", ply ? NumberType::uint16 : NumberType::uint32});
   rows.columns.push_back({"id", NumberType::uint32});
+  if (!scene.noise.empty()) rows.columns.push_back({"noise", NumberType::float32});
   rows.write_row = [&scene, wide, ply](std::size_t i, char* out) {
     put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
     for (const float n : scene.normal[i]) put(out, n);
@@ -75,6 +76,7 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
     else
       put(out, std::uint32_t{scene.material[i]});
     put(out, scene.id[i]);
+    if (!scene.noise.empty()) put(out, scene.noise[i]);
   };
   return rows;
 }

@@ -40,7 +40,8 @@ void put(char*& out, T value) {
 /// but the coordinates named `prefix` + name. Throws Error(argument) unless all columns have one length.
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who);
 
-/// x y z (double if `wide`), normal, area (float32), material (uint16 in PLY, uint32 in PCD), id (uint32).
+/// x y z (double if `wide`), normal, area (float32), material (uint16 in PLY, uint32 in PCD), id (uint32), noise (float32) if the
+/// scene has it.
 enum class CloudFormat { ply, pcd };
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
 

@@ -42,6 +42,7 @@ struct RawCloud {
   std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite
   std::vector<Eigen::Vector3f> normal;
   std::vector<float> area;           ///< [m^2]
+  std::vector<float> noise;          ///< [m]
   std::vector<std::uint16_t> label;  ///< no_label where the number is not an index, or in no interval
   std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;

@@ -49,7 +49,7 @@ const RowTable::Column* find_label(const RowTable& table, const std::string& pat
 
 struct Columns {
   std::array<const RowTable::Column*, 3> position, normal;
-  const RowTable::Column *area, *label, *id;
+  const RowTable::Column *area, *label, *id, *noise;
 };
 
 Columns find_columns(const RowTable& table, const std::string& path, const std::string& material_field) {
@@ -59,6 +59,7 @@ Columns find_columns(const RowTable& table, const std::string& path, const std::
                   find_column(table, {"nz", "normal_z"})};
   found.area = find_column(table, {"area"});
   found.id = find_column(table, {"id"});
+  found.noise = find_column(table, {"noise"});
   if (!found.position[0] || !found.position[1] || !found.position[2]) {
     fail(ErrorKind::content, path, ": expected fields x y z, found '", names_of(table),
          "'; rename the coordinate fields");
@@ -192,6 +193,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   const bool normals = found.normal[0] && found.normal[1] && found.normal[2];
   if (normals) raw.normal.resize(table.rows);
   if (found.area) raw.area.resize(table.rows);
+  if (found.noise) raw.noise.resize(table.rows);
   if (found.label) {
     raw.label.resize(table.rows);
     raw.label_field = found.label->name;
@@ -209,6 +211,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
                                        : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
       if (normals) raw.normal[first + i] = read_triple(found.normal, row).cast<float>();
       if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
+      if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * options.unit);
       if (found.label) raw.label[first + i] = label_from(number(*found.label), options.material_field.intervals);
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
     }

@@ -65,7 +65,7 @@ std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping,
   return found;
 }
 
-// The nearest surfel of the scene that hides one of `hidden`, by the hit rule.
+// The nearest surfel of the scene that helps to hide one of `hidden`, by the hit rule.
 void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& visibility) {
   const SamplingOptions& sampling = view.sampling;
   const std::vector<GatedSurfel> gated =
@@ -79,7 +79,7 @@ void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& v
   float nearest = std::numeric_limits<float>::infinity();
   for (const GatedSurfel& front : gated)
     for (const GatedSurfel* s : behind)
-      if (front.range < nearest && front.range < s->range && hides(front, *s)) {
+      if (front.range < nearest && front.range < s->range && cover(front, LineOfSight(*s)) != 0) {
         nearest = front.range;
         visibility.occluder_range = static_cast<double>(front.range);
         visibility.occluder_surfel = front.surfel;

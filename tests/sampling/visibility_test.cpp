@@ -160,16 +160,35 @@ TEST(Visibility, flipped_normals_of_an_unoriented_cloud_change_nothing) {
   EXPECT_EQ(seen(scene, at(0, 0, 0)), straight);
 }
 
-// The disc of a rough surface may be seen edge-on; its core of half a spacing still hides the surfels behind.
-TEST(Visibility, behind_the_core_of_a_disc_seen_edge_on_is_hidden) {
-  const auto surfel = [](float x, float y) {
-    const Eigen::Vector3f place(x, y, 0);
-    return GatedSurfel{place, place.norm(), {0, 1, 0}, y, 0.1f, 0.05f, 0, true, true};
+// Before a surfel at x = 6 m stand others in the plane x = 3 m, which its line of sight crosses at y = 0.
+TEST(Visibility, takes_cover_from_more_than_one_side) {
+  const auto surfel = [](float x, float y, float z = 0, float noise = 0) {
+    const Eigen::Vector3f place(x, y, z);
+    return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.12f, 0.1f, noise, 0, true, true};
   };
-  const GatedSurfel edge_on = surfel(3, 0);
-  EXPECT_TRUE(hides(edge_on, surfel(10, 0.07f)));         // passes the centre at 0.021
-  EXPECT_FALSE(hides(edge_on, surfel(10, 0.1f)));         // at 0.030
-  EXPECT_FALSE(hides(surfel(12, 0), surfel(10, 0.07f)));  // farther away
+  const GatedSurfel far = surfel(6, 0);
+  const LineOfSight line(far);
+  EXPECT_EQ(cover(surfel(3, 0.06f), line), whole_cover);
+  EXPECT_EQ(std::popcount(cover(surfel(3, 0.07f), line)), 1);
+  EXPECT_EQ(std::popcount(cover(surfel(3, 0.175f), line)), 1);
+  EXPECT_EQ(cover(surfel(3, 0.185f), line), 0u);
+  EXPECT_EQ(cover(surfel(5.95f, 0), line), 0u);       // no deeper than a spacing
+  EXPECT_EQ(cover(surfel(7, 0), line), 0u);           // farther away
+  EXPECT_EQ(cover(surfel(5, 0, 0, 0.4f), line), 0u);  // within three standard deviations
+  EXPECT_EQ(cover(surfel(5, 0, 0, 0.2f), line), whole_cover);
+
+  const auto from = [&](double angle) {
+    return cover(surfel(3, 0.1f * static_cast<float>(std::cos(angle)), 0.1f * static_cast<float>(std::sin(angle))),
+                 line);
+  };
+  for (double a = 0; a < 6; a += 0.5) {
+    EXPECT_FALSE(hides(from(a)));
+    EXPECT_FALSE(hides(from(a) | from(a + radians(50)) | from(a + radians(100)))) << a;
+    EXPECT_TRUE(hides(from(a) | from(a + radians(135)))) << a;
+    EXPECT_TRUE(hides(from(a) | from(a + pi))) << a;
+  }
+  EXPECT_FALSE(hides(0));
+  EXPECT_TRUE(hides(whole_cover));
 }
 
 TEST(Visibility, of_surfels_seen_edge_on_gives_no_echo_and_no_division_by_zero) {
@@ -199,7 +218,7 @@ TEST(Visibility, by_kdtree_is_that_by_brute_force) {
     for (int i = 0; i < 3000; ++i) {
       const Vector3d p(5 + 5 * anywhere(random), 5 * anywhere(random), 3 * anywhere(random));
       const Vector3d n(anywhere(random), anywhere(random), anywhere(random));
-      add_surfel(scene, p, n.normalized(), std::pow(10, size(random) - (round % 3)));
+      add_surfel(scene, p, n.normalized(), std::pow(10, size(random) - 0.6 * (round % 3)));
     }
     scene.normals_oriented = round % 2 == 0;
     SamplingOptions options = unsplit();

@@ -5,11 +5,13 @@
 #include <numeric>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "scene/scene_index.hpp"
 
 using namespace insonify;
 using Eigen::Vector3f;
@@ -128,4 +130,98 @@ TEST(SurfelArea, refuses_bad_arguments) {
   const std::vector<Vector3f> points(5, Vector3f::Zero()), normals(4, Vector3f::UnitZ());
   EXPECT_THROW(estimate_surfel_areas(points, normals), Error);
   EXPECT_THROW(estimate_surfel_areas(points, points, {.neighbours = 5}), Error);
+}
+
+namespace {
+
+// Plane normals of 32 neighbours, as load_scene gives them.
+std::vector<Vector3f> base_normals(const std::vector<Vector3f>& points) {
+  const SceneIndex index(points);
+  std::vector<Neighbour> nearest;
+  std::vector<Vector3f> normals;
+  for (const Vector3f& p : points) {
+    index.find_nearest(p, 32, nearest);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Neighbour& n : nearest) mean += points[n.index].cast<double>() / static_cast<double>(nearest.size());
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const Neighbour& n : nearest) {
+      const Eigen::Vector3d d = points[n.index].cast<double>() - mean;
+      moments += d * d.transpose();
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
+    normals.push_back(solver.eigenvectors().col(0).cast<float>());
+  }
+  return normals;
+}
+
+struct HeightField {
+  const char* name;
+  double (*height)(double, double);
+  double dx, dy, jitter, length, width;
+  double tolerance_plan, tolerance_area;
+};
+
+// Hills of decimetres with stones of fifteen spacings and more.
+double stones(double x, double y) {
+  return 0.2 * std::sin(3 * x) + 0.06 * std::sin(12 * x + 3) * std::sin(13 * y) + 0.02 * std::sin(18 * x - 10 * y);
+}
+
+}  // namespace
+
+TEST(SurfelShapes, of_a_height_field_cover_its_plan_and_its_surface) {
+  const HeightField fields[] = {
+      {"plane", [](double, double) { return 0.0; }, 0.02, 0.02, 0.8, 2, 2, 0.01, 0.02},
+      {"scan lines 1:10", [](double, double) { return 0.0; }, 0.01, 0.1, 0, 2, 2, 0.01, 0.02},
+      {"60 degrees", [](double x, double) { return 0.35 * std::sin(5 * x); }, 0.02, 0.02, 0.5, 2, 2, 0.01, 0.02},
+      {"84 degrees, tilted", [](double x, double) { return 9.5 * x; }, 0.005, 0.02, 0.5, 1, 1, 0.01, 0.02},
+      {"84 degrees, wave, stretched", [](double x, double) { return std::sin(9.5 * x); }, 0.0005, 0.005, 0.5, 1, 0.3,
+       0.01, 0.02},
+      {"stones", stones, 0.02, 0.02, 0.3, 2, 2, 0.01, 0.02}};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> half(-0.5, 0.5);
+  for (const HeightField& f : fields) {
+    std::vector<Vector3f> points;
+    for (double x = f.dx / 2; x < f.length; x += f.dx)
+      for (double y = f.dy / 2; y < f.width; y += f.dy) {
+        const double a = x + f.jitter * f.dx * half(random), b = y + f.jitter * f.dy * half(random);
+        points.push_back(Eigen::Vector3d(a, b, f.height(a, b)).cast<float>());
+      }
+    const SurfelShapes shapes = estimate_surfel_shapes(points, base_normals(points));
+    // True areas by class of slope, 20 degrees each, of the whole field and of its estimate.
+    double total = 0, area = 0, plan = 0, true_class[5] = {}, found_class[5] = {};
+    const double step = 0.002, e = 1e-5;
+    for (double x = step / 2; x < f.length; x += step)
+      for (double y = step / 2; y < f.width; y += step) {
+        const double u = (f.height(x + e, y) - f.height(x - e, y)) / (2 * e);
+        const double v = (f.height(x, y + e) - f.height(x, y - e)) / (2 * e), stretch = std::sqrt(1 + u * u + v * v);
+        total += step * step * stretch;
+        true_class[static_cast<int>(degrees(std::acos(1 / stretch)) / 20)] += step * step * stretch;
+      }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double cosine = std::abs(shapes.normal[i].z());
+      area += shapes.area[i];
+      plan += shapes.area[i] * cosine;
+      found_class[std::min(4, static_cast<int>(degrees(std::acos(std::min(1.0, cosine))) / 20))] += shapes.area[i];
+    }
+    EXPECT_NEAR(plan / (f.length * f.width), 1, f.tolerance_plan) << f.name;
+    EXPECT_NEAR(area / total, 1, f.tolerance_area) << f.name;
+    EXPECT_EQ(shapes.strays, 0u) << f.name;
+    for (int c = 0; c < 5; ++c) {
+      if (true_class[c] < 0.2 * total) continue;
+      EXPECT_NEAR(found_class[c] / true_class[c], 1, 0.05) << f.name << ", class " << c;
+    }
+  }
+}
+
+TEST(SurfelShapes, cut_strays_down_and_count_them) {
+  std::vector<Vector3f> points;
+  for (int i = 0; i < 60; ++i)
+    for (int j = 0; j < 60; ++j)
+      points.emplace_back(0.02f * static_cast<float>(i), 0.02f * static_cast<float>(j), 0.0f);
+  const std::size_t plate = points.size();
+  for (int k = 0; k < 5; ++k)
+    points.emplace_back(0.2f * static_cast<float>(k), 0.3f, 0.7f + 0.1f * static_cast<float>(k % 2));
+  const SurfelShapes shapes = estimate_surfel_shapes(points, std::vector<Vector3f>(points.size(), Vector3f(0, 0, 1)));
+  for (std::size_t i = plate; i < points.size(); ++i) EXPECT_LT(shapes.area[i], 4 * 0.0004) << i;
+  EXPECT_NEAR(std::accumulate(shapes.area.begin(), shapes.area.begin() + plate, 0.0), 1.44, 0.02);
 }

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/trust_lines_of_sight.hpp"
+#include "scene/surfel_area.hpp"
+#include "scene/surfel_noise.hpp"
+#include "scene_io/complete_scene_internal.hpp"
+
+namespace insonify {
+namespace {
+
+/// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
+void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, {.threads = options.threads});
+  for (std::size_t i = 0; i < raw.point.size(); ++i) {
+    const bool seen = !raw.viewpoint || shapes.normal[i].cast<double>().dot(*raw.viewpoint - raw.origin -
+                                                                            raw.point[i].cast<double>()) > 0;
+    if (seen) raw.normal[i] = shapes.normal[i];
+  }
+  raw.area = std::move(shapes.area);
+  report.areas_estimated = true;
+  report.strays = shapes.strays;
+  if (shapes.strays > 0)
+    report.notes.push_back(share(shapes.strays, raw.point.size(), "points") +
+                           " stand far from all others: their areas are those of their neighbours");
+}
+
+}  // namespace
+
+void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  if (raw.area.empty() && report.normals_estimated) return complete_shapes(raw, options, report);
+  const auto bad = [](float area) { return !(std::isfinite(area) && area >= 0); };
+  const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));
+  if (!raw.area.empty() && wrong == 0) return;
+  std::vector<float> estimates = estimate_surfel_areas(raw.point, raw.normal, {.threads = options.threads});
+  report.areas_estimated = true;
+  if (raw.area.empty()) {
+    raw.area = std::move(estimates);
+    return;
+  }
+  report.notes.push_back(share(wrong, raw.area.size(), "areas") + " were negative or NaN: estimated");
+  for (std::size_t i = 0; i < raw.area.size(); ++i) {
+    if (bad(raw.area[i])) raw.area[i] = estimates[i];
+  }
+}
+
+void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
+  SceneCloud& scene = result.scene;
+  const auto bad = [](float noise) { return !(std::isfinite(noise) && noise >= 0); };
+  const auto wrong = static_cast<std::size_t>(std::count_if(scene.noise.begin(), scene.noise.end(), bad));
+  if (wrong > 0) {
+    result.report.notes.push_back(share(wrong, scene.size(), "noise values") + " were negative or NaN: taken as 0");
+    std::replace_if(scene.noise.begin(), scene.noise.end(), bad, 0.0f);
+  }
+  if (!scene.noise.empty() || raw.tags.prepared) return;
+  if (options.scan_noise) {
+    scene.noise.assign(scene.size(), static_cast<float>(*options.scan_noise));
+    return;
+  }
+  scene.noise = estimate_surfel_noise(scene.point, {.threads = options.threads});
+  result.report.noise_estimated = true;
+  if (raw.height > 1 && raw.viewpoint) trust_lines_of_sight(*raw.viewpoint, options.threads, scene);
+}
+
+}  // namespace insonify

@@ -1,0 +1,35 @@
+#include "scene/surfel_noise.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace insonify;
+
+namespace {
+
+double median_noise(double noise, double curvature) {
+  std::mt19937 random(4);
+  std::normal_distribution<float> normal;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 80; ++i)
+    for (int j = 0; j < 80; ++j) {
+      const float x = 0.05f * static_cast<float>(i), y = 0.05f * static_cast<float>(j);
+      points.emplace_back(x, y, static_cast<float>(noise) * normal(random) + static_cast<float>(curvature) * x * x);
+    }
+  std::vector<float> found = estimate_surfel_noise(points);
+  std::nth_element(found.begin(), found.begin() + found.size() / 2, found.end());
+  return found[found.size() / 2];
+}
+
+}  // namespace
+
+TEST(SurfelNoise, is_the_standard_deviation_across_the_surface) {
+  for (const double noise : {0.002, 0.01, 0.02}) EXPECT_NEAR(median_noise(noise, 0), noise, 0.2 * noise) << noise;
+}
+
+TEST(SurfelNoise, of_a_smooth_surface_is_none) {
+  EXPECT_LT(median_noise(0, 0), 1e-6);
+  EXPECT_LT(median_noise(0, 0.1), 1e-3);  // bent by 2 mm from middle to rim of a neighbourhood
+}
