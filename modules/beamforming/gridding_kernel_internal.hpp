@@ -23,10 +23,12 @@ class GriddingKernel {
  public:
   /// The narrowest kernel whose error is below `tolerance`; at most 16 wide, good to 1e-14.
   explicit GriddingKernel(double tolerance);
+  /// The kernel of this width for a grid `oversampling` (above 1) times as fine as needed.
+  GriddingKernel(std::size_t width, double oversampling);
 
   std::size_t width() const { return width_; }
   double at(double x) const;
-  /// Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1/4: integral of phi(x) cos(2 pi f x).
+  /// Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1/(2 oversampling): integral of phi(x) cos(2 pi f x).
   double transform(double frequency) const;
 
  private:

@@ -1,0 +1,68 @@
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acoustics/echoes.hpp"
+#include "beamforming/fft_along_rows_internal.hpp"
+#include "beamforming/wideband_loops_internal.hpp"
+#include "beamforming/wideband_plan_internal.hpp"
+#include "core/grid.hpp"
+
+namespace insonify {
+
+constexpr std::size_t wideband_tile = 32;             ///< samples that are turned into harmonics at once
+constexpr std::size_t wideband_tile_row = 32 + 4;     ///< numbers from one grid step to the next
+
+/// The transforms of a plan.
+struct WidebandTransforms {
+  FftAlongRows<float> to_harmonics, to_directions, to_frequencies, to_bins;
+
+  explicit WidebandTransforms(const WidebandPlan& plan);
+};
+
+/// The echoes of one block, and their place in time and range.
+struct WidebandBlock {
+  std::size_t number;
+  std::span<const std::uint32_t> list;  ///< echoes, by time
+  double curvature;                     ///< 1 / range about which wavefronts are bent [1/m]
+  double unit;                          ///< what is gridded is counted in this [Pa]
+};
+
+/// Room of one thread for one block.
+class WidebandRoom {
+ public:
+  WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms);
+
+  /// The beams of a block, in `pressure`: added within `ends` bins of either end of its cycle, else overwritten.
+  void image(const Echoes& echoes, const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure);
+
+ private:
+  using Complex = std::complex<float>;
+
+  void grid_echoes(const Echoes& echoes, const WidebandBlock& block);
+  void grid_alike(const Echoes& echoes, const WidebandBlock& block);
+  void grid_singly(const Echoes& echoes, const WidebandBlock& block);
+  void to_harmonics();
+  void to_frequencies();
+  void apply_array(double curvature, int order);
+  void apply_array(std::size_t first_line, const float* bend, int order);
+  void to_bins();
+  void to_beams(const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure);
+  void steer(double curvature);
+  kernels::SpectrumChunk chunk(std::size_t which);
+
+  const WidebandPlan& plan_;
+  const WidebandTransforms& transforms_;
+  AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride
+  AlignedArray<Complex, float> tile_, spectrum_, bins_;
+  std::vector<float> scratch_, chunks_, place_;
+  std::vector<float> beam_weight_;
+  std::vector<std::uint32_t> beam_row_;
+  std::vector<double> pulse_re_, pulse_im_, beam_;
+  std::vector<bool> touched_;  ///< tiles of fine samples that hold anything
+  std::size_t bins_row_;
+};
+
+}  // namespace insonify
