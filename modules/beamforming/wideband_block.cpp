@@ -6,20 +6,27 @@
 #include <cstring>
 
 #include "beamforming/gridding_loops_internal.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t batch = 256;        // echoes handed to the kernel at once
-constexpr std::size_t chunk_planes = 10;  // of five chunks
+constexpr std::size_t chunk_planes = 18;  // of nine chunks
 constexpr std::size_t chunk_pad = 16;     // silent rows to either side
 
 kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
 
+float inverse_factorial(int n) {
+  float factor = 1;
+  for (int j = 2; j <= n; ++j) factor /= static_cast<float>(j);
+  return factor;
+}
+
 }  // namespace
 
 WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
-    : to_harmonics(plan.grid, wideband_tile, wideband_tile_row, FFTW_FORWARD),
+    : to_harmonics(plan.grid, 1, FFTW_FORWARD),
       to_directions(plan.grid, wideband_tile, wideband_tile_row, FFTW_BACKWARD),
       to_frequencies(plan.fine, 1, FFTW_FORWARD),
       to_bins(plan.cycle, 1, FFTW_BACKWARD) {}
@@ -29,60 +36,71 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
       transforms_(transforms),
       re_((plan.fine + wideband_tile) * plan.grid_stride),
       im_((plan.fine + wideband_tile) * plan.grid_stride),
-      tile_(plan.grid * wideband_tile_row),
+      tile_(std::max(plan.grid, plan.grid_stride) * wideband_tile_row),
       spectrum_(plan.rows() * plan.fine_row),
       bins_(plan.rows() * ((plan.cycle + 15) / 8 * 8)),
       scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
       chunks_(chunk_planes * (plan.rows() + 2 * chunk_pad) * kernels::lines_at_once),
-      place_(plan.rows()),
-      beam_(2 * wideband_tile),
+      shift_(plan.rows()),
+      excess_(plan.cycle),
       touched_(plan.fine / wideband_tile + 2),
       bins_row_((plan.cycle + 15) / 8 * 8) {}
 
 void WidebandRoom::image(const Echoes& echoes, const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure) {
-  const int order = plan_.order(block.curvature);
-  grid_echoes(echoes, block);
-  to_harmonics();
-  to_frequencies();
-  apply_array(block.curvature, order);
-  to_bins();
+  const bool two = block.effort.fields == 2;
+  if (two && !excess_spectrum_) {
+    excess_spectrum_ = std::make_unique<Spectrum>(plan_.rows() * plan_.fine_row);
+    excess_bins_ = std::make_unique<Spectrum>(plan_.rows() * bins_row_);
+  }
+  grid_echoes(echoes, block, false);
+  to_frequencies(spectrum_);
+  if (two) {
+    grid_echoes(echoes, block, true);
+    to_frequencies(*excess_spectrum_);
+  }
+  apply_array(block);
+  to_bins(spectrum_, bins_);
+  if (two) {
+    to_bins(*excess_spectrum_, *excess_bins_);
+    add_excess(block);
+  }
   to_beams(block, ends, pressure);
 }
 
-void WidebandRoom::grid_echoes(const Echoes& echoes, const WidebandBlock& block) {
+void WidebandRoom::grid_echoes(const Echoes& echoes, const WidebandBlock& block, bool excess) {
   re_.clear();
   im_.clear();
   std::fill(touched_.begin(), touched_.end(), false);
   if (plan_.one_shape && echoes.doppler.empty())
-    grid_alike(echoes, block);
+    grid_alike(echoes, block, excess);
   else
-    grid_singly(echoes, block);
+    grid_singly(echoes, block, excess);
 }
 
-/// Where an echo lies on the grid: the linear part of the third order of its wavefront moves its direction.
+/// Where a direction lies on the grid: the linear part of the third order of its wavefront moves it.
 static double column_of(const WidebandPlan& plan, double u, double curvature) {
   const double moved = u - 0.5 * plan.cubic * u * (1 - u * u) * curvature * curvature;
   return (moved / plan.period + 0.5) * static_cast<double>(plan.grid);
 }
 
-void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block) {
+void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, bool excess) {
   const WidebandPlan& plan = plan_;
   std::array<std::uint32_t, batch> row, column;
   std::array<float, batch> row_offset, column_offset, re, im;
   const kernels::GridPlaces<float> places{row.data(),           column.data(), row_offset.data(),
                                           column_offset.data(), re.data(),     im.data()};
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  const double start = plan.axis.start + (static_cast<double>(block.number * plan.block) -
-                                          2 * static_cast<double>(plan.guard)) * plan.axis.step;
+  const double start = plan.start_of(block.number);
   for (auto list = block.list; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
     const std::size_t count = std::min(batch, list.size());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = list[k];
       const double delay = echoes.delay[i];
-      const double low_column = column_of(plan, echoes.u[i], 2 / (c * delay)) - half_width;
+      const double low_column = column_of(plan, echoes.u[i], block.curvature) - half_width;
       const double column_0 = std::ceil(low_column);
       const double low_row = (delay - plan.half - start) / plan.fine_step, row_0 = std::ceil(low_row);
-      const double gain = std::exp(-plan.medium.absorption.a0 * c * delay) / block.unit;
+      const double weight = excess ? 2 / (c * delay * block.curvature) - 1 : 1;
+      const double gain = weight * std::exp(-plan.medium.absorption.a0 * c * delay) / block.unit;
       column[k] = static_cast<std::uint32_t>(column_0);
       column_offset[k] = static_cast<float>(2 * (column_0 - low_column) - 1);
       row[k] = static_cast<std::uint32_t>(row_0);
@@ -96,16 +114,16 @@ void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block) 
   }
 }
 
-void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block) {
+void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block, bool excess) {
   const WidebandPlan& plan = plan_;
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  const double start = plan.axis.start + (static_cast<double>(block.number * plan.block) -
-                                          2 * static_cast<double>(plan.guard)) * plan.axis.step;
+  const double start = plan.start_of(block.number);
   const PulseReach reach(plan.head.pulse, plan.medium.absorption, c, !echoes.doppler.empty(), plan.cut);
   for (const std::uint32_t i : block.list) {
     const double delay = echoes.delay[i];
-    const double low_column = column_of(plan, echoes.u[i], 2 / (c * delay)) - half_width;
+    const double low_column = column_of(plan, echoes.u[i], block.curvature) - half_width;
     const double column_0 = std::ceil(low_column), half = reach.at(delay);
+    const double weight = excess ? 2 / (c * delay * block.curvature) - 1 : 1;
     const EchoEnvelope envelope = plan.shapes.of(delay, echoes.doppler_of(i));
     const double first = std::max(0.0, std::ceil((delay - half - start) / plan.fine_step));
     const double last = std::min(std::floor((delay + half - start) / plan.fine_step), static_cast<double>(plan.fine) - 1);
@@ -113,7 +131,7 @@ void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block)
     pulse_im_.clear();
     for (double n = first; n <= last; ++n) {
       const std::complex<double> g =
-          echoes.amplitude[i] / block.unit * envelope.at(start + n * plan.fine_step - delay);
+          weight / block.unit * echoes.amplitude[i] * envelope.at(start + n * plan.fine_step - delay);
       pulse_re_.push_back(g.real());
       pulse_im_.push_back(g.imag());
       touched_[static_cast<std::size_t>(n) / wideband_tile] = true;
@@ -125,27 +143,28 @@ void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block)
   }
 }
 
-void WidebandRoom::to_harmonics() {
+void WidebandRoom::to_frequencies(Spectrum& spectrum) {
   const WidebandPlan& plan = plan_;
-  for (std::size_t r = 0; r < plan.rows(); ++r) std::fill_n(spectrum_.data() + r * plan.fine_row, plan.fine, Complex(0));
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
-    if (!touched_[n0 / wideband_tile]) continue;
-    for (std::size_t j0 = 0; j0 < plan.grid; j0 += 16)
-      for (std::size_t n = 0; n < wideband_tile; ++n) {
-        const std::size_t at = (n0 + n) * plan.grid_stride;
-        for (std::size_t j = j0; j < std::min(j0 + 16, plan.grid); ++j)
-          tile_[j * wideband_tile_row + n] = Complex(re_[at + j], im_[at + j]);
-      }
-    transforms_.to_harmonics.run(tile_.data());
     const std::size_t count = std::min(wideband_tile, plan.fine - n0);
-    for (std::size_t r = 0; r < plan.rows(); ++r)
-      std::copy_n(tile_.data() + (r + plan.grid - plan.most) % plan.grid * wideband_tile_row, count,
-                  spectrum_.data() + r * plan.fine_row + n0);
+    if (!touched_[n0 / wideband_tile]) {
+      for (std::size_t r = 0; r < plan.rows(); ++r) std::fill_n(spectrum.data() + r * plan.fine_row + n0, count, Complex(0));
+      continue;
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+      Complex* line = tile_.data() + n * plan.grid_stride;
+      kernels::merge_planes(re_.data() + (n0 + n) * plan.grid_stride, im_.data() + (n0 + n) * plan.grid_stride, plan.grid,
+                            reinterpret_cast<float*>(line));
+      transforms_.to_harmonics.run(line);
+    }
+    // One row per harmonic now.
+    for (std::size_t r = 0; r < plan.rows(); ++r) {
+      const Complex* from = tile_.data() + (r + plan.grid - plan.most) % plan.grid;
+      Complex* to = spectrum.data() + r * plan.fine_row + n0;
+      for (std::size_t n = 0; n < count; ++n) to[n] = from[n * plan.grid_stride];
+    }
   }
-}
-
-void WidebandRoom::to_frequencies() {
-  for (std::size_t r = 0; r < plan_.rows(); ++r) transforms_.to_frequencies.run(spectrum_.data() + r * plan_.fine_row);
+  for (std::size_t r = 0; r < plan.rows(); ++r) transforms_.to_frequencies.run(spectrum.data() + r * plan.fine_row);
 }
 
 kernels::SpectrumChunk WidebandRoom::chunk(std::size_t which) {
@@ -154,52 +173,137 @@ kernels::SpectrumChunk WidebandRoom::chunk(std::size_t which) {
   return {first + 2 * which * plane, first + (2 * which + 1) * plane};
 }
 
-void WidebandRoom::apply_array(double curvature, int order) {
-  for (std::size_t r = 0; r < plan_.rows(); ++r) place_[r] = plan_.place[r] * static_cast<float>(curvature);
-  const auto top = static_cast<std::size_t>(std::floor(plan_.half_band * static_cast<double>(plan_.fine) * plan_.fine_step));
-  for (std::size_t l = 0; l < plan_.fine; l += kernels::lines_at_once)
-    if (l <= top || l + kernels::lines_at_once + top > plan_.fine) apply_array(l, plan_.bend.data() + l, order);
+void WidebandRoom::read_lines(Spectrum& spectrum, std::size_t first_line, kernels::SpectrumChunk to) {
+  for (std::size_t r = 0; r < plan_.rows(); ++r)
+    kernels::split_row(reinterpret_cast<const float*>(spectrum.data() + r * plan_.fine_row + first_line),
+                       plan_.row_factor[r], to.re + r * kernels::lines_at_once, to.im + r * kernels::lines_at_once);
 }
 
-void WidebandRoom::apply_array(std::size_t first_line, const float* bend, int order) {
+void WidebandRoom::write_lines(kernels::SpectrumChunk from, std::size_t first_line, Spectrum& spectrum) {
+  for (std::size_t r = 0; r < plan_.rows(); ++r)
+    kernels::merge_row(from.re + r * kernels::lines_at_once, from.im + r * kernels::lines_at_once, plan_.row_factor[r],
+                       reinterpret_cast<float*>(spectrum.data() + r * plan_.fine_row + first_line));
+}
+
+void WidebandRoom::apply_array(const WidebandBlock& block) {
+  for (std::size_t r = 0; r < plan_.rows(); ++r) {
+    const double k = static_cast<double>(r) - static_cast<double>(plan_.most);
+    shift_[r] = static_cast<float>(pi * k / plan_.period * block.curvature * block.curvature);
+  }
+  const std::size_t top = plan_.top_line();
+  for (std::size_t l = 0; l < plan_.fine; l += kernels::lines_at_once)
+    if (l <= top || l + kernels::lines_at_once + top > plan_.fine) apply_array(l, block);
+}
+
+void WidebandRoom::apply_array(std::size_t first_line, const WidebandBlock& block) {
   using namespace kernels;
   const WidebandPlan& plan = plan_;
   const std::size_t rows = plan.rows(), plane = rows * lines_at_once, reach = plan.tap.size() - 1;
-  SpectrumChunk v = chunk(0), spare = chunk(1), x = chunk(2), p = chunk(3), p_spare = chunk(4);
-  for (std::size_t r = 0; r < rows; ++r) {
-    const auto* row = reinterpret_cast<const float*>(spectrum_.data() + r * plan.fine_row + first_line);
-    split_row(row, plan.row_factor[r], v.re + r * lines_at_once, v.im + r * lines_at_once);
+  const WidebandEffort& effort = block.effort;
+  const int order = effort.order;
+  float phase[lines_at_once];
+  for (std::size_t c = 0; c < lines_at_once; ++c)
+    phase[c] = plan.bend[first_line + c] * static_cast<float>(block.curvature);
+  const BentLines bent{phase, plan.squared_wavelength.data() + first_line, plan.place_end.data() + first_line};
+  const bool two = effort.fields == 2;
+  SpectrumChunk v = chunk(0), spare = chunk(1), x = chunk(2), p = chunk(3), v_1 = chunk(4), x_0 = chunk(5), p_1 = chunk(6);
+  const SpectrumChunk arriving = chunk(7), undone = chunk(8);
+  const auto copy = [&](SpectrumChunk from, SpectrumChunk to) {
+    std::copy_n(from.re, plane, to.re);
+    std::copy_n(from.im, plane, to.im);
+  };
+  const auto clear = [&](SpectrumChunk to) {
+    std::fill_n(to.re, plane, 0.0F);
+    std::fill_n(to.im, plane, 0.0F);
+  };
+  const auto filter = [&](const std::vector<float>& tap, SpectrumChunk& to) {
+    filter_rows(tap.data(), reach, rows, to, spare);
+    std::swap(to, spare);
+  };
+  const auto bend = [&](int n, int factorial_of, SpectrumChunk from, SpectrumChunk to) {
+    add_power(n, inverse_factorial(factorial_of), rows, plan.place.data(), bent, from, to);
+  };
+  const auto form = [&](int n, int factorial_of, SpectrumChunk from, SpectrumChunk to) {
+    add_weighted_power(n, inverse_factorial(factorial_of), rows, plan.place.data(), bent,
+                       plan.response.data() + first_line, plan.fine_row, from, to);
+  };
+  read_lines(spectrum_, first_line, v);
+  copy(v, x);
+  clear(p);
+  const auto cubic = [&](const float* weight, SpectrumChunk from, SpectrumChunk to) {
+    add_cubic(shift_.data(), static_cast<float>(plan.cubic), rows, plan.place.data(), bent, weight, plan.fine_row, from, to);
+  };
+  const auto filter_odd = [&](SpectrumChunk from, SpectrumChunk to) {
+    filter_rows_odd(plan.cubic_tap.data(), plan.cubic_tap.size() - 1, rows, from, to);
+  };
+  if (effort.cubic) {
+    // The third order of what arrives, and of what the beams undo, each with nothing else.
+    filter_odd(v, arriving);
+    clear(spare);
+    cubic(plan.response.data() + first_line, v, spare);
+    filter_odd(spare, undone);
+    if (order == 0) cubic(nullptr, arriving, x);
   }
-  std::copy_n(v.re, plane, x.re);
-  std::copy_n(v.im, plane, x.im);
-  std::fill_n(p.re, plane, 0.0F);
-  std::fill_n(p.im, plane, 0.0F);
-  const float* response = plan.response.data() + first_line;
-  add_weighted_power(order, rows, place_.data(), bend, response, plan.fine_row, x, p);
+  form(order, order, x, p);
+  if (two) {
+    read_lines(*excess_spectrum_, first_line, v_1);
+    filter(plan.whole_tap, v_1);
+    copy(v, x_0);
+    clear(p_1);
+    form(order, order - 1, x_0, p_1);
+  }
   for (int n = 1; n <= order; ++n) {
-    filter_rows(plan.tap.data(), reach, rows, v, spare);
-    std::swap(v, spare);
-    add_power(n, rows, place_.data(), bend, v, x);
-    filter_rows(plan.tap.data(), reach, rows, p, p_spare);
-    std::swap(p, p_spare);
-    add_weighted_power(order - n, rows, place_.data(), bend, response, plan.fine_row, x, p);
+    filter(plan.tap, v);
+    bend(n, n, v, x);
+    if (two) {
+      bend(n, n - 1, v_1, x);
+      bend(n, n, v, x_0);
+      if (n < order) filter(plan.tap, v_1);
+    }
+    if (effort.cubic && n == order) cubic(nullptr, arriving, x);
+    filter(plan.tap, p);
+    form(order - n, order - n, x, p);
+    if (two && n < order) {
+      filter(plan.tap, p_1);
+      form(order - n, order - n - 1, x_0, p_1);
+    }
   }
-  for (std::size_t r = 0; r < rows; ++r) {
-    auto* row = reinterpret_cast<float*>(spectrum_.data() + r * plan.fine_row + first_line);
-    merge_row(p.re + r * lines_at_once, p.im + r * lines_at_once, plan.row_factor[r], row);
+  if (effort.cubic) {
+    for (std::size_t k = 0; k < plane; ++k) p.re[k] -= undone.re[k];
+    for (std::size_t k = 0; k < plane; ++k) p.im[k] -= undone.im[k];
+  }
+  write_lines(p, first_line, spectrum_);
+  if (!two) return;
+  filter(plan.whole_tap, p_1);
+  write_lines(p_1, first_line, *excess_spectrum_);
+}
+
+void WidebandRoom::to_bins(Spectrum& spectrum, Spectrum& bins) {
+  const WidebandPlan& plan = plan_;
+  const std::size_t top = plan.top_line();
+  for (std::size_t r = 0; r < plan.rows(); ++r) {
+    const Complex* line = spectrum.data() + r * plan.fine_row;
+    Complex* bin = bins.data() + r * bins_row_;
+    // Frequencies beyond what bins can tell fold, as they do in any sampled image.
+    std::fill_n(bin, plan.cycle, Complex(0));
+    for (std::size_t l = 0, k = 0; l <= top; ++l, k = k + 1 == plan.cycle ? 0 : k + 1) bin[k] += line[l];
+    for (std::size_t l = 1, k = plan.cycle - 1; l <= top; ++l, k = k == 0 ? plan.cycle - 1 : k - 1)
+      bin[k] += line[plan.fine - l];
+    transforms_.to_bins.run(bin);
   }
 }
 
-void WidebandRoom::to_bins() {
-  const WidebandPlan& plan = plan_;
-  const auto top = static_cast<std::size_t>(std::floor(plan.half_band * static_cast<double>(plan.fine) * plan.fine_step));
-  for (std::size_t r = 0; r < plan.rows(); ++r) {
-    const Complex* line = spectrum_.data() + r * plan.fine_row;
+void WidebandRoom::add_excess(const WidebandBlock& block) {
+  const double start = plan_.start_of(block.number), c = plan_.medium.sound_speed;
+  for (std::size_t n = 0; n < plan_.cycle; ++n) {
+    const double delay = start + static_cast<double>(n) * plan_.axis.step;
+    const double excess = delay > 0 ? 2 / (c * delay * block.curvature) - 1 : 0;
+    excess_[n] = static_cast<float>(std::min(excess, 1.0));
+  }
+  for (std::size_t r = 0; r < plan_.rows(); ++r) {
     Complex* bin = bins_.data() + r * bins_row_;
-    std::fill_n(bin, plan.cycle, Complex(0));
-    for (std::size_t l = 0; l <= top; ++l) bin[l % plan.cycle] += line[l];
-    for (std::size_t l = 1; l <= top; ++l) bin[(plan.cycle - l % plan.cycle) % plan.cycle] += line[plan.fine - l];
-    transforms_.to_bins.run(bin);
+    const Complex* more = excess_bins_->data() + r * bins_row_;
+    for (std::size_t n = 0; n < plan_.cycle; ++n) bin[n] += excess_[n] * more[n];
   }
 }
 
@@ -225,21 +329,26 @@ void WidebandRoom::to_beams(const WidebandBlock& block, std::size_t ends, Comple
   for (std::size_t n0 = 0; n0 < plan.cycle; n0 += wideband_tile) {
     const std::size_t first = block.number * plan.block + n0, count = std::min(wideband_tile, plan.cycle - n0);
     if (first + count <= skipped || first >= plan.axis.bins + skipped) continue;
-    std::fill_n(tile_.data(), plan.grid * wideband_tile_row, Complex(0));
+    std::fill_n(tile_.data() + (plan.most + 1) * wideband_tile_row, (plan.grid - plan.rows()) * wideband_tile_row, Complex(0));
     for (std::size_t r = 0; r < plan.rows(); ++r)
       std::copy_n(bins_.data() + r * bins_row_ + n0, count,
                   tile_.data() + (r + plan.grid - plan.most) % plan.grid * wideband_tile_row);
     transforms_.to_directions.run(tile_.data());
+    // Bins of this tile that belong to the axis, and those of them that neighbours have written.
+    const std::size_t from = std::max(skipped, first) - first, to = std::min(first + count, plan.axis.bins + skipped) - first;
+    const std::size_t own = std::clamp(ends, n0 + from, n0 + to) - n0;
+    const std::size_t shared = std::max(own, std::clamp(plan.cycle - ends, n0 + from, n0 + to) - n0);
     for (Eigen::Index b = 0; b < pressure.rows(); ++b) {
-      kernels::interpolate(beam_weight_.data() + b * width, beam_row_.data() + b * width, width, rows,
-                           2 * wideband_tile_row, 2 * count, beam_.data());
-      const auto* value = reinterpret_cast<const std::complex<double>*>(beam_.data());
-      for (std::size_t n = 0; n < count; ++n) {
-        if (first + n < skipped || first + n >= plan.axis.bins + skipped) continue;
-        std::complex<double>& sum = pressure(b, static_cast<Eigen::Index>(first + n - skipped));
-        const bool shared = n0 + n < ends || n0 + n + ends >= plan.cycle;
-        sum = (shared ? sum : 0.0) + block.unit * value[n];
-      }
+      double* sum = reinterpret_cast<double*>(&pressure(b, 0)) + 2 * static_cast<std::ptrdiff_t>(first - skipped);
+      const auto part = [&](std::size_t begin, std::size_t end, bool add) {
+        if (begin < end)
+          kernels::interpolate_scaled(beam_weight_.data() + b * width, beam_row_.data() + b * width, width,
+                                      rows + 2 * begin, 2 * wideband_tile_row, 2 * (end - begin), block.unit, add,
+                                      sum + 2 * begin);
+      };
+      part(from, own, true);
+      part(own, shared, false);
+      part(shared, to, true);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <complex>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace insonify {
 
 constexpr std::size_t wideband_tile = 32;             ///< samples that are turned into harmonics at once
-constexpr std::size_t wideband_tile_row = 32 + 4;     ///< numbers from one grid step to the next
+constexpr std::size_t wideband_tile_row = 32 + 8;     ///< numbers from one grid step to the next
 
 /// The transforms of a plan.
 struct WidebandTransforms {
@@ -28,6 +29,7 @@ struct WidebandBlock {
   std::span<const std::uint32_t> list;  ///< echoes, by time
   double curvature;                     ///< 1 / range about which wavefronts are bent [1/m]
   double unit;                          ///< what is gridded is counted in this [Pa]
+  WidebandEffort effort;
 };
 
 /// Room of one thread for one block.
@@ -41,14 +43,19 @@ class WidebandRoom {
  private:
   using Complex = std::complex<float>;
 
-  void grid_echoes(const Echoes& echoes, const WidebandBlock& block);
-  void grid_alike(const Echoes& echoes, const WidebandBlock& block);
-  void grid_singly(const Echoes& echoes, const WidebandBlock& block);
-  void to_harmonics();
-  void to_frequencies();
-  void apply_array(double curvature, int order);
-  void apply_array(std::size_t first_line, const float* bend, int order);
-  void to_bins();
+  using Spectrum = AlignedArray<Complex, float>;
+
+  /// `excess`: weighted by how much an echo's curvature exceeds that of the block.
+  void grid_echoes(const Echoes& echoes, const WidebandBlock& block, bool excess);
+  void grid_alike(const Echoes& echoes, const WidebandBlock& block, bool excess);
+  void grid_singly(const Echoes& echoes, const WidebandBlock& block, bool excess);
+  void to_frequencies(Spectrum& spectrum);
+  void apply_array(const WidebandBlock& block);
+  void apply_array(std::size_t first_line, const WidebandBlock& block);
+  void read_lines(Spectrum& spectrum, std::size_t first_line, kernels::SpectrumChunk to);
+  void write_lines(kernels::SpectrumChunk from, std::size_t first_line, Spectrum& spectrum);
+  void to_bins(Spectrum& spectrum, Spectrum& bins);
+  void add_excess(const WidebandBlock& block);
   void to_beams(const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure);
   void steer(double curvature);
   kernels::SpectrumChunk chunk(std::size_t which);
@@ -56,11 +63,12 @@ class WidebandRoom {
   const WidebandPlan& plan_;
   const WidebandTransforms& transforms_;
   AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride
-  AlignedArray<Complex, float> tile_, spectrum_, bins_;
-  std::vector<float> scratch_, chunks_, place_;
+  Spectrum tile_, spectrum_, bins_;
+  std::unique_ptr<Spectrum> excess_spectrum_, excess_bins_;  ///< of a second field
+  std::vector<float> scratch_, chunks_, shift_, excess_;
   std::vector<float> beam_weight_;
   std::vector<std::uint32_t> beam_row_;
-  std::vector<double> pulse_re_, pulse_im_, beam_;
+  std::vector<double> pulse_re_, pulse_im_;
   std::vector<bool> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;
 };

@@ -1,7 +1,9 @@
 #include "beamforming/wideband_plan_internal.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include <Eigen/Dense>
@@ -13,30 +15,37 @@
 namespace insonify {
 namespace {
 
-constexpr double oversampling = 1.5;  // of the grid of directions
-constexpr double margin = 0.1;        // of the period, over which the pattern may end
-constexpr double end_decay = 7;       // how softly it ends there
+constexpr double margin = 0.1;   // of the period, over which the pattern may end
 constexpr std::size_t most_taps = 12;
-constexpr int highest_order = 8;
+constexpr std::size_t bend_rows = 16;  // harmonics to which wavefronts may bend what is at the array's ends
+constexpr int highest_order = 24;
 
+/// The smallest power of 2, or 3 or 5 times one, from `least` on: FFTW's fastest lengths.
 std::size_t fast_length(std::size_t least) {
-  for (std::size_t n = least + least % 2;; n += 2) {
-    std::size_t rest = n;
-    for (const std::size_t factor : {2, 3, 5})
-      while (rest % factor == 0) rest /= factor;
-    if (rest == 1) return n;
-  }
+  std::size_t best = std::bit_ceil(std::max<std::size_t>(least, 16));
+  for (const std::size_t odd : {3, 5}) best = std::min(best, odd * std::bit_ceil((least + odd - 1) / odd));
+  return best;
+}
+
+/// How much finer than needed the grid of directions is, for a kernel of width 8 to be good to a fiftieth of the
+/// tolerance: its error is exp(-8 pi sqrt(1 - 1 / oversampling)).
+double oversampling_for(double tolerance) {
+  const double root = std::clamp(-std::log(0.02 * tolerance) / (8 * pi), 0.4, 0.62);
+  return 1 / (1 - root * root);
 }
 
 /// Highest frequency off the carrier that counts [Hz]: there the spectrum is down to the tolerance.
 double band_of(const Pulse& pulse, double tolerance) {
   if (pulse.shape == PulseShape::linear_fm)
     return pulse.bandwidth * (0.5 + 4 / std::sqrt(pulse.bandwidth * pulse.duration));
-  return pulse.bandwidth * (0.1 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
+  return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
 }
 
+/// How softly the pattern ends: what is left out of its transform then stays below the tolerance.
+double end_decay_for(double tolerance) { return -0.9 - std::log(tolerance); }
+
 /// Fourier transform of a Kaiser bump of unit area and length, to where its main lobe ends.
-double end_spectrum(double x) {
+double end_spectrum(double end_decay, double x) {
   const double squared = end_decay * end_decay - pi * pi * x * x;
   if (squared <= 0) return 0;
   const double root = std::sqrt(squared);
@@ -55,20 +64,37 @@ WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, co
       cut(pulse_cut(options.tolerance)),
       shapes(head.pulse, medium),
       aperture(head.array.spacing * static_cast<double>(head.array.elements() - 1)) {
-  double weight = 0, second = 0, fourth = 0;
-  for (std::size_t m = 0; m < head.array.elements(); ++m) {
-    const double y = head.array.spacing * element_place(m, head.array.elements());
-    const double w = head.array.shading[m] * head.array.shading[m];
-    weight += w;
-    second += w * y * y;
-    fourth += w * y * y * y * y;
-  }
-  place_squared = second / weight;
-  cubic = second > 0 ? fourth / second : 0;
+  plan_moments();
+  kernel = GriddingKernel(8, oversampling_for(tolerance));
   plan_time();
   plan_directions();
   plan_response(options.threads);
   plan_curvature();
+}
+
+void WidebandPlan::plan_moments() {
+  const std::size_t n = head.array.elements();
+  const auto place_of = [&](std::size_t m) { return head.array.spacing * element_place(m, n); };
+  double energy = 0, second = 0, fourth = 0;
+  moment.assign(highest_order + 2, 0);
+  for (std::size_t m = 0; m < n; ++m) {
+    const double squared = place_of(m) * place_of(m), w = head.array.shading[m] * head.array.shading[m];
+    energy += w;
+    second += w * squared;
+    fourth += w * squared * squared;
+    for (std::size_t k = 0; k < moment.size(); ++k) moment[k] += w * std::pow(squared, 2.0 * static_cast<double>(k));
+  }
+  for (double& sum : moment) sum = std::sqrt(sum / energy);
+  cubic = second > 0 ? fourth / second : 0;
+
+  // What share of the pattern's energy is beside its main lobe: the pattern squared, summed to four lobe widths.
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  constexpr int steps = 100;
+  const double step = 2 * wavelength / std::max(aperture, wavelength) / steps;
+  double lobe = 0;
+  for (int k = -steps; k <= steps; ++k) lobe += std::pow(array_response(head.array, wavelength, k * step, 0), 2) * step;
+  const double all = wavelength / head.array.spacing * energy / static_cast<double>(n * n);
+  side_lobes = std::sqrt(std::clamp(1 - lobe / all, 1e-3, 1.0));
 }
 
 void WidebandPlan::plan_time() {
@@ -86,6 +112,7 @@ void WidebandPlan::plan_time() {
   fine_step = seconds / static_cast<double>(fine);
   fine_row = (fine + 2 * kernels::lines_at_once - 1) / kernels::lines_at_once * kernels::lines_at_once + 8;
 
+  pulse_range = 0.5 * c * 0.19 / head.pulse.bandwidth;
   one_shape = medium.absorption.a1 == 0 && medium.absorption.a2 == 0 && head.pulse.shape == PulseShape::gaussian;
   if (!one_shape) return;
   half = reach.half;
@@ -102,9 +129,9 @@ void WidebandPlan::plan_directions() {
   period = 2 * (widest + beams) / (1 - margin);
   // The array as long as it is at the highest frequency, the ends of the pattern's transform, and room to bend.
   const double wavelengths =
-      0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
-  most = static_cast<std::size_t>(std::ceil(wavelengths * period + end_decay / (pi * margin))) + most_taps;
-  grid = fast_length(static_cast<std::size_t>(std::ceil(oversampling * static_cast<double>(rows()))));
+      0.5 * aperture * (head.pulse.centre_frequency + 0.75 * half_band) / medium.sound_speed;
+  most = static_cast<std::size_t>(std::ceil(wavelengths * period + end_decay_for(tolerance) / (pi * margin))) + bend_rows;
+  grid = fast_length(static_cast<std::size_t>(std::ceil(oversampling_for(tolerance) * static_cast<double>(rows()))));
   grid_stride = grid + 16;
   const double half_width = 0.5 * static_cast<double>(kernel.width());
   columns = PolynomialPieces<float>::fit([this](double x) { return kernel.at(x); }, -half_width, kernel.width(), 1e-7);
@@ -120,17 +147,21 @@ void WidebandPlan::plan_directions() {
 void WidebandPlan::plan_response(int threads) {
   response.assign(rows() * fine_row, 0);
   bend.assign(fine_row, 0);
+  squared_wavelength.assign(fine_row, 0);
+  place_end.assign(fine_row, 0);
   const std::size_t elements = head.array.elements();
-  const double reach = end_decay / (pi * margin), seconds = static_cast<double>(fine) * fine_step;
+  const double end_decay = end_decay_for(tolerance), reach = end_decay / (pi * margin), seconds = static_cast<double>(fine) * fine_step;
   constexpr int steps = 64;
   std::vector<double> ends;
-  for (int j = 0; j <= static_cast<int>(reach * steps) + 2; ++j) ends.push_back(end_spectrum(j * margin / steps));
+  for (int j = 0; j <= static_cast<int>(reach * steps) + 2; ++j) ends.push_back(end_spectrum(end_decay, j * margin / steps));
   parallel_for(fine, threads, [&](std::size_t l) {
     const double line = l <= fine / 2 ? static_cast<double>(l) : static_cast<double>(l) - static_cast<double>(fine);
     if (std::abs(line / seconds) > half_band) return;
     const double frequency = head.pulse.centre_frequency - line / seconds;
-    if (frequency > 0.25 * head.pulse.centre_frequency)
-      bend[l] = static_cast<float>(0.5 * pi * medium.sound_speed / frequency * widest * widest);
+    const double wavelength = medium.sound_speed / std::max(std::abs(frequency), 0.05 * head.pulse.centre_frequency);
+    bend[l] = static_cast<float>(std::copysign(0.5 * pi * wavelength * widest * widest, frequency));
+    squared_wavelength[l] = static_cast<float>(wavelength * wavelength);
+    place_end[l] = static_cast<float>(std::pow(0.55 * aperture / wavelength, 2));
     for (std::size_t m = 0; m < elements; ++m) {
       const double z = period * frequency / medium.sound_speed * head.array.spacing * element_place(m, elements);
       const double weight = head.array.shading[m] / static_cast<double>(elements);
@@ -151,47 +182,67 @@ void WidebandPlan::plan_response(int threads) {
 }
 
 void WidebandPlan::plan_curvature() {
-  // 1 - u^2 = 1 - w^2 / 2 + (w^2 / 2) x(u), x = sum_l tap_l cos(2 pi l u / period): through the nodes of Chebyshev in cos.
-  const double turn = 2 * pi / period, low = std::cos(turn * widest);
-  const auto wanted = [&](double cosine) {
-    const double u = std::acos(std::clamp(cosine, -1.0, 1.0)) / turn;
-    return 1 - 2 * u * u / (widest * widest);
+  // 1 - u^2 = 1 - w^2 / 2 + (w^2 / 2) x(u), x = sum_l tap_l cos(2 pi l u / period).
+  tap = harmonics([this](double u) { return 1 - 2 * u * u / (widest * widest); }, 2 * pi / period, false);
+  whole_tap = tap;
+  whole_tap[0] += static_cast<float>(2 / (widest * widest) - 1);
+  cubic_tap = harmonics([](double u) { return u * (1 - u * u); }, 2 * pi / period, true);
+}
+
+std::vector<float> WidebandPlan::harmonics(const std::function<double(double)>& f, double turn, bool odd) const {
+  const double low = std::cos(turn * widest);
+  const auto wave = [&](std::size_t l, double angle) {
+    const double n = static_cast<double>(l);
+    return odd ? std::sin((n + 1) * angle) : std::cos(n * angle);
   };
-  for (std::size_t n = 3; n <= most_taps; ++n) {
+  for (std::size_t n = 3;; ++n) {
+    // Through the nodes of Chebyshev in the cosine.
     Eigen::MatrixXd matrix(n, n);
     Eigen::VectorXd value(n);
     for (std::size_t i = 0; i < n; ++i) {
       const double node = std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
-      const double cosine = 0.5 * (1 + low) + 0.5 * (1 - low) * node;
-      value[i] = wanted(cosine);
-      for (std::size_t l = 0; l < n; ++l) matrix(i, l) = std::cos(static_cast<double>(l) * std::acos(cosine));
+      const double angle = std::acos(0.5 * (1 + low) + 0.5 * (1 - low) * node);
+      value[i] = f(angle / turn);
+      for (std::size_t l = 0; l < n; ++l) matrix(i, l) = wave(l, angle);
     }
-    const Eigen::VectorXd taps = matrix.partialPivLu().solve(value);
+    const Eigen::VectorXd found = matrix.partialPivLu().solve(value);
     double error = 0;
     for (int i = 0; i <= 200; ++i) {
-      const double cosine = std::cos(turn * widest * i / 200.0);
+      const double u = widest * i / 200.0;
       double sum = 0;
-      for (std::size_t l = 0; l < n; ++l) sum += taps[l] * std::cos(static_cast<double>(l) * std::acos(cosine));
-      error = std::max(error, std::abs(sum - wanted(cosine)));
+      for (std::size_t l = 0; l < n; ++l) sum += found[l] * wave(l, turn * u);
+      error = std::max(error, std::abs(sum - f(u)));
     }
-    tap.assign(n, 0);
-    for (std::size_t l = 0; l < n; ++l) tap[l] = static_cast<float>(l == 0 ? taps[l] : 0.5 * taps[l]);
-    if (error < tolerance) break;
+    if (error > (odd ? 0.1 : 1) * std::sqrt(1e-3 * tolerance) && n < most_taps) continue;
+    std::vector<float> result(odd ? n + 1 : n, 0);
+    for (std::size_t l = 0; l < n; ++l)
+      result[odd ? l + 1 : l] = static_cast<float>(l == 0 && !odd ? found[l] : 0.5 * found[l]);
+    return result;
   }
 }
 
-int WidebandPlan::order(double curvature) const {
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  const double phase = pi * place_squared * curvature / wavelength;
-  const double beside = phase * widest * widest, ahead = phase * 1.2 * wavelength / aperture * widest;
-  double error = 1;
-  for (int n = 0; n < highest_order; ++n) {
-    double far = 0.03, near = 1;
-    for (int j = 1; j <= n + 1; ++j) far *= beside / j, near *= ahead / j;
-    error = far + near;
-    if (error < 0.25 * tolerance) return n;
-  }
-  return highest_order;
+WidebandEffort WidebandPlan::effort(double curvature, double spread) const {
+  // Phases of a wavefront between directions far apart and a main lobe apart: by the square of a place [1/m^2].
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency, enough = 0.25 * tolerance;
+  const double far = pi * curvature / wavelength * widest * widest;
+  const double near = pi * curvature / wavelength * 1.2 * wavelength / aperture * widest;
+  const auto beyond = [&](int n) {
+    const double all = moment[n] / std::tgamma(n + 1.0);
+    return (side_lobes * std::pow(far, n) + std::pow(near, n)) * all;
+  };
+  WidebandEffort effort;
+  const double late = pi * curvature / wavelength * moment[1] * pulse_range * curvature;
+  effort.fields = spread * beyond(1) + late < enough ? 1 : 2;
+  const double cubic_phase = 2 * pi / wavelength * curvature * curvature * std::pow(moment[1], 1.5) * widest;
+  effort.cubic = 0.2 * (side_lobes + wavelength / aperture) * cubic_phase > enough;
+  effort.order = effort.fields - 1;
+  while (effort.order < highest_order && beyond(effort.order + 1) > enough) ++effort.order;
+
+  // What is left out, and whether wavefronts bend across more harmonics than there are.
+  effort.error = beyond(effort.order + 1);
+  if (effort.fields == 2) effort.error += spread * spread * beyond(1) + 0.5 * late * late;
+  if (0.25 * aperture * aperture * curvature * period / wavelength > bend_rows) effort.error = 1;
+  return effort;
 }
 
 }  // namespace insonify

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <mutex>
 #include <vector>
 
 #include "beamforming/flush_denormals_internal.hpp"
@@ -43,6 +43,63 @@ struct BlockLists {
   }
 };
 
+/// The echoes of a block, cut by range until what their wavefronts differ in is small enough; in order of delay if cut.
+std::vector<WidebandBlock> parts_of(const Echoes& echoes, const WidebandPlan& plan, std::size_t number,
+                                    std::span<const std::uint32_t> list) {
+  const double c = plan.medium.sound_speed;
+  const auto part_of = [&](std::span<const std::uint32_t> some) {
+    double first = echoes.delay[some[0]], last = first, unit = 0;
+    for (const std::uint32_t i : some) {
+      first = std::min(first, echoes.delay[i]);
+      last = std::max(last, echoes.delay[i]);
+      unit = std::max(unit, std::abs(echoes.amplitude[i]) * std::exp(-plan.medium.absorption.a0 * c * echoes.delay[i]));
+    }
+    first = std::max(first, plan.axis.step);
+    const double curvature = (1 / first + 1 / std::max(last, first)) / c;
+    return WidebandBlock{number, some, curvature, unit > 0 ? unit : 1,
+                         plan.effort(curvature, 2 / (c * first * curvature) - 1)};
+  };
+  constexpr std::size_t slots = 16;  // of a block, in which echoes are ordered
+  std::vector<WidebandBlock> parts;
+  for (std::size_t cut = 1; cut <= slots; cut *= 2) {
+    parts.clear();
+    double error = 0;
+    std::size_t begin = 0;
+    for (std::size_t k = 1; k <= cut; ++k) {
+      const double until = plan.start_of(number) + (static_cast<double>(plan.guard) + static_cast<double>(plan.block * k) / static_cast<double>(cut)) * plan.axis.step;
+      std::size_t end = begin;
+      while (end < list.size() && (k == cut || echoes.delay[list[end]] < until)) ++end;
+      if (end > begin) {
+        parts.push_back(part_of(list.subspan(begin, end - begin)));
+        error = std::max(error, parts.back().effort.error);
+      }
+      begin = end;
+    }
+    if (error < plan.tolerance) break;
+  }
+  return parts;
+}
+
+/// Rooms that no thread works in.
+class Rooms {
+ public:
+  std::unique_ptr<WidebandRoom> take(const WidebandPlan& plan, const WidebandTransforms& transforms) {
+    const std::scoped_lock lock(guard_);
+    if (free_.empty()) return std::make_unique<WidebandRoom>(plan, transforms);
+    auto room = std::move(free_.back());
+    free_.pop_back();
+    return room;
+  }
+  void give(std::unique_ptr<WidebandRoom> room) {
+    const std::scoped_lock lock(guard_);
+    free_.push_back(std::move(room));
+  }
+
+ private:
+  std::mutex guard_;
+  std::vector<std::unique_ptr<WidebandRoom>> free_;
+};
+
 }  // namespace
 
 struct WidebandSynthesizer::Plan {
@@ -72,6 +129,7 @@ ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
   const BlockLists lists(echoes, tables);
   ComplexGrid pressure(tables.head.fan.beams(), tables.axis.bins);
   const std::size_t blocks = tables.blocks();
+  Rooms rooms;
   // Every other block overwrites, those between add to what they share with both neighbours.
   for (const std::size_t parity : {0U, 1U})
     parallel_for(blocks / 2 + 1, plan.threads, [&](std::size_t t) {
@@ -87,15 +145,13 @@ ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
         return;
       }
       const FlushDenormals flush;
-      const auto by_delay = [&](std::uint32_t a, std::uint32_t b) { return echoes.delay[a] < echoes.delay[b]; };
-      const auto [first, last] = std::minmax_element(list.begin(), list.end(), by_delay);
-      double unit = 0;
-      for (const std::uint32_t i : list)
-        unit = std::max(unit, std::abs(echoes.amplitude[i]) * std::exp(-tables.medium.absorption.a0 *
-                                                                       tables.medium.sound_speed * echoes.delay[i]));
-      const double curvature = (1 / echoes.delay[*first] + 1 / echoes.delay[*last]) / tables.medium.sound_speed;
-      WidebandRoom room(tables, plan.transforms);
-      room.image(echoes, {number, list, curvature, unit > 0 ? unit : 1}, ends, pressure);
+      auto room = rooms.take(tables, plan.transforms);
+      std::size_t added = ends;
+      for (const WidebandBlock& part : parts_of(echoes, tables, number, list)) {
+        room->image(echoes, part, added, pressure);
+        added = tables.cycle;
+      }
+      rooms.give(std::move(room));
     });
   return pressure;
 }
