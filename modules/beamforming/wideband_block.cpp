@@ -3,24 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "beamforming/gridding_loops_internal.hpp"
-#include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t batch = 256;        // echoes handed to the kernel at once
-constexpr std::size_t chunk_planes = 18;  // of nine chunks
-constexpr std::size_t chunk_pad = 16;     // silent rows to either side
 
 kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
 
-float inverse_factorial(int n) {
-  float factor = 1;
-  for (int j = 2; j <= n; ++j) factor /= static_cast<float>(j);
-  return factor;
+/// Where a direction lies on the grid: the linear part of the third order of its wavefront moves it.
+double column_of(const WidebandPlan& plan, double u, double curvature) {
+  const double moved = u - 0.5 * plan.cubic * u * (1 - u * u) * curvature * curvature;
+  return (moved / plan.period + 0.5) * static_cast<double>(plan.grid);
+}
+
+/// What an echo weighs in a field.
+double weight_of(const WidebandBlock& block, bool excess, double range) {
+  return excess ? 1 / (range * block.curvature) - 1 : 1;
 }
 
 }  // namespace
@@ -34,14 +35,13 @@ WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
     : plan_(plan),
       transforms_(transforms),
+      array_(plan),
       re_((plan.fine + wideband_tile) * plan.grid_stride),
       im_((plan.fine + wideband_tile) * plan.grid_stride),
       tile_(std::max(plan.grid, plan.grid_stride) * wideband_tile_row),
       spectrum_(plan.rows() * plan.fine_row),
       bins_(plan.rows() * ((plan.cycle + 15) / 8 * 8)),
       scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
-      chunks_(chunk_planes * (plan.rows() + 2 * chunk_pad) * kernels::lines_at_once),
-      shift_(plan.rows()),
       excess_(plan.cycle),
       touched_(plan.fine / wideband_tile + 2),
       bins_row_((plan.cycle + 15) / 8 * 8) {}
@@ -49,8 +49,8 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
 void WidebandRoom::image(const Echoes& echoes, const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure) {
   const bool two = block.effort.fields == 2;
   if (two && !excess_spectrum_) {
-    excess_spectrum_ = std::make_unique<Spectrum>(plan_.rows() * plan_.fine_row);
-    excess_bins_ = std::make_unique<Spectrum>(plan_.rows() * bins_row_);
+    excess_spectrum_ = std::make_unique<WidebandSpectrum>(plan_.rows() * plan_.fine_row);
+    excess_bins_ = std::make_unique<WidebandSpectrum>(plan_.rows() * bins_row_);
   }
   grid_echoes(echoes, block, false);
   to_frequencies(spectrum_);
@@ -58,7 +58,7 @@ void WidebandRoom::image(const Echoes& echoes, const WidebandBlock& block, std::
     grid_echoes(echoes, block, true);
     to_frequencies(*excess_spectrum_);
   }
-  apply_array(block);
+  array_.apply(block.curvature, block.effort, spectrum_, two ? excess_spectrum_.get() : nullptr);
   to_bins(spectrum_, bins_);
   if (two) {
     to_bins(*excess_spectrum_, *excess_bins_);
@@ -77,12 +77,6 @@ void WidebandRoom::grid_echoes(const Echoes& echoes, const WidebandBlock& block,
     grid_singly(echoes, block, excess);
 }
 
-/// Where a direction lies on the grid: the linear part of the third order of its wavefront moves it.
-static double column_of(const WidebandPlan& plan, double u, double curvature) {
-  const double moved = u - 0.5 * plan.cubic * u * (1 - u * u) * curvature * curvature;
-  return (moved / plan.period + 0.5) * static_cast<double>(plan.grid);
-}
-
 void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, bool excess) {
   const WidebandPlan& plan = plan_;
   std::array<std::uint32_t, batch> row, column;
@@ -99,7 +93,7 @@ void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, 
       const double low_column = column_of(plan, echoes.u[i], block.curvature) - half_width;
       const double column_0 = std::ceil(low_column);
       const double low_row = (delay - plan.half - start) / plan.fine_step, row_0 = std::ceil(low_row);
-      const double weight = excess ? 2 / (c * delay * block.curvature) - 1 : 1;
+      const double weight = weight_of(block, excess, 0.5 * c * delay);
       const double gain = weight * std::exp(-plan.medium.absorption.a0 * c * delay) / block.unit;
       column[k] = static_cast<std::uint32_t>(column_0);
       column_offset[k] = static_cast<float>(2 * (column_0 - low_column) - 1);
@@ -123,7 +117,7 @@ void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block,
     const double delay = echoes.delay[i];
     const double low_column = column_of(plan, echoes.u[i], block.curvature) - half_width;
     const double column_0 = std::ceil(low_column), half = reach.at(delay);
-    const double weight = excess ? 2 / (c * delay * block.curvature) - 1 : 1;
+    const double weight = weight_of(block, excess, 0.5 * c * delay);
     const EchoEnvelope envelope = plan.shapes.of(delay, echoes.doppler_of(i));
     const double first = std::max(0.0, std::ceil((delay - half - start) / plan.fine_step));
     const double last = std::min(std::floor((delay + half - start) / plan.fine_step), static_cast<double>(plan.fine) - 1);
@@ -143,7 +137,7 @@ void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block,
   }
 }
 
-void WidebandRoom::to_frequencies(Spectrum& spectrum) {
+void WidebandRoom::to_frequencies(WidebandSpectrum& spectrum) {
   const WidebandPlan& plan = plan_;
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
     const std::size_t count = std::min(wideband_tile, plan.fine - n0);
@@ -167,118 +161,7 @@ void WidebandRoom::to_frequencies(Spectrum& spectrum) {
   for (std::size_t r = 0; r < plan.rows(); ++r) transforms_.to_frequencies.run(spectrum.data() + r * plan.fine_row);
 }
 
-kernels::SpectrumChunk WidebandRoom::chunk(std::size_t which) {
-  const std::size_t plane = (plan_.rows() + 2 * chunk_pad) * kernels::lines_at_once;
-  float* first = chunks_.data() + chunk_pad * kernels::lines_at_once;
-  return {first + 2 * which * plane, first + (2 * which + 1) * plane};
-}
-
-void WidebandRoom::read_lines(Spectrum& spectrum, std::size_t first_line, kernels::SpectrumChunk to) {
-  for (std::size_t r = 0; r < plan_.rows(); ++r)
-    kernels::split_row(reinterpret_cast<const float*>(spectrum.data() + r * plan_.fine_row + first_line),
-                       plan_.row_factor[r], to.re + r * kernels::lines_at_once, to.im + r * kernels::lines_at_once);
-}
-
-void WidebandRoom::write_lines(kernels::SpectrumChunk from, std::size_t first_line, Spectrum& spectrum) {
-  for (std::size_t r = 0; r < plan_.rows(); ++r)
-    kernels::merge_row(from.re + r * kernels::lines_at_once, from.im + r * kernels::lines_at_once, plan_.row_factor[r],
-                       reinterpret_cast<float*>(spectrum.data() + r * plan_.fine_row + first_line));
-}
-
-void WidebandRoom::apply_array(const WidebandBlock& block) {
-  for (std::size_t r = 0; r < plan_.rows(); ++r) {
-    const double k = static_cast<double>(r) - static_cast<double>(plan_.most);
-    shift_[r] = static_cast<float>(pi * k / plan_.period * block.curvature * block.curvature);
-  }
-  const std::size_t top = plan_.top_line();
-  for (std::size_t l = 0; l < plan_.fine; l += kernels::lines_at_once)
-    if (l <= top || l + kernels::lines_at_once + top > plan_.fine) apply_array(l, block);
-}
-
-void WidebandRoom::apply_array(std::size_t first_line, const WidebandBlock& block) {
-  using namespace kernels;
-  const WidebandPlan& plan = plan_;
-  const std::size_t rows = plan.rows(), plane = rows * lines_at_once, reach = plan.tap.size() - 1;
-  const WidebandEffort& effort = block.effort;
-  const int order = effort.order;
-  float phase[lines_at_once];
-  for (std::size_t c = 0; c < lines_at_once; ++c)
-    phase[c] = plan.bend[first_line + c] * static_cast<float>(block.curvature);
-  const BentLines bent{phase, plan.squared_wavelength.data() + first_line, plan.place_end.data() + first_line};
-  const bool two = effort.fields == 2;
-  SpectrumChunk v = chunk(0), spare = chunk(1), x = chunk(2), p = chunk(3), v_1 = chunk(4), x_0 = chunk(5), p_1 = chunk(6);
-  const SpectrumChunk arriving = chunk(7), undone = chunk(8);
-  const auto copy = [&](SpectrumChunk from, SpectrumChunk to) {
-    std::copy_n(from.re, plane, to.re);
-    std::copy_n(from.im, plane, to.im);
-  };
-  const auto clear = [&](SpectrumChunk to) {
-    std::fill_n(to.re, plane, 0.0F);
-    std::fill_n(to.im, plane, 0.0F);
-  };
-  const auto filter = [&](const std::vector<float>& tap, SpectrumChunk& to) {
-    filter_rows(tap.data(), reach, rows, to, spare);
-    std::swap(to, spare);
-  };
-  const auto bend = [&](int n, int factorial_of, SpectrumChunk from, SpectrumChunk to) {
-    add_power(n, inverse_factorial(factorial_of), rows, plan.place.data(), bent, from, to);
-  };
-  const auto form = [&](int n, int factorial_of, SpectrumChunk from, SpectrumChunk to) {
-    add_weighted_power(n, inverse_factorial(factorial_of), rows, plan.place.data(), bent,
-                       plan.response.data() + first_line, plan.fine_row, from, to);
-  };
-  read_lines(spectrum_, first_line, v);
-  copy(v, x);
-  clear(p);
-  const auto cubic = [&](const float* weight, SpectrumChunk from, SpectrumChunk to) {
-    add_cubic(shift_.data(), static_cast<float>(plan.cubic), rows, plan.place.data(), bent, weight, plan.fine_row, from, to);
-  };
-  const auto filter_odd = [&](SpectrumChunk from, SpectrumChunk to) {
-    filter_rows_odd(plan.cubic_tap.data(), plan.cubic_tap.size() - 1, rows, from, to);
-  };
-  if (effort.cubic) {
-    // The third order of what arrives, and of what the beams undo, each with nothing else.
-    filter_odd(v, arriving);
-    clear(spare);
-    cubic(plan.response.data() + first_line, v, spare);
-    filter_odd(spare, undone);
-    if (order == 0) cubic(nullptr, arriving, x);
-  }
-  form(order, order, x, p);
-  if (two) {
-    read_lines(*excess_spectrum_, first_line, v_1);
-    filter(plan.whole_tap, v_1);
-    copy(v, x_0);
-    clear(p_1);
-    form(order, order - 1, x_0, p_1);
-  }
-  for (int n = 1; n <= order; ++n) {
-    filter(plan.tap, v);
-    bend(n, n, v, x);
-    if (two) {
-      bend(n, n - 1, v_1, x);
-      bend(n, n, v, x_0);
-      if (n < order) filter(plan.tap, v_1);
-    }
-    if (effort.cubic && n == order) cubic(nullptr, arriving, x);
-    filter(plan.tap, p);
-    form(order - n, order - n, x, p);
-    if (two && n < order) {
-      filter(plan.tap, p_1);
-      form(order - n, order - n - 1, x_0, p_1);
-    }
-  }
-  if (effort.cubic) {
-    for (std::size_t k = 0; k < plane; ++k) p.re[k] -= undone.re[k];
-    for (std::size_t k = 0; k < plane; ++k) p.im[k] -= undone.im[k];
-  }
-  write_lines(p, first_line, spectrum_);
-  if (!two) return;
-  filter(plan.whole_tap, p_1);
-  write_lines(p_1, first_line, *excess_spectrum_);
-}
-
-void WidebandRoom::to_bins(Spectrum& spectrum, Spectrum& bins) {
+void WidebandRoom::to_bins(WidebandSpectrum& spectrum, WidebandSpectrum& bins) {
   const WidebandPlan& plan = plan_;
   const std::size_t top = plan.top_line();
   for (std::size_t r = 0; r < plan.rows(); ++r) {

@@ -7,7 +7,7 @@
 
 #include "acoustics/echoes.hpp"
 #include "beamforming/fft_along_rows_internal.hpp"
-#include "beamforming/wideband_loops_internal.hpp"
+#include "beamforming/wideband_array_internal.hpp"
 #include "beamforming/wideband_plan_internal.hpp"
 #include "core/grid.hpp"
 
@@ -43,29 +43,23 @@ class WidebandRoom {
  private:
   using Complex = std::complex<float>;
 
-  using Spectrum = AlignedArray<Complex, float>;
-
   /// `excess`: weighted by how much an echo's curvature exceeds that of the block.
   void grid_echoes(const Echoes& echoes, const WidebandBlock& block, bool excess);
   void grid_alike(const Echoes& echoes, const WidebandBlock& block, bool excess);
   void grid_singly(const Echoes& echoes, const WidebandBlock& block, bool excess);
-  void to_frequencies(Spectrum& spectrum);
-  void apply_array(const WidebandBlock& block);
-  void apply_array(std::size_t first_line, const WidebandBlock& block);
-  void read_lines(Spectrum& spectrum, std::size_t first_line, kernels::SpectrumChunk to);
-  void write_lines(kernels::SpectrumChunk from, std::size_t first_line, Spectrum& spectrum);
-  void to_bins(Spectrum& spectrum, Spectrum& bins);
+  void to_frequencies(WidebandSpectrum& spectrum);
+  void to_bins(WidebandSpectrum& spectrum, WidebandSpectrum& bins);
   void add_excess(const WidebandBlock& block);
   void to_beams(const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure);
   void steer(double curvature);
-  kernels::SpectrumChunk chunk(std::size_t which);
 
   const WidebandPlan& plan_;
   const WidebandTransforms& transforms_;
+  WidebandArray array_;
   AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride
-  Spectrum tile_, spectrum_, bins_;
-  std::unique_ptr<Spectrum> excess_spectrum_, excess_bins_;  ///< of a second field
-  std::vector<float> scratch_, chunks_, shift_, excess_;
+  WidebandSpectrum tile_, spectrum_, bins_;
+  std::unique_ptr<WidebandSpectrum> excess_spectrum_, excess_bins_;  ///< of a second field
+  std::vector<float> scratch_, excess_;
   std::vector<float> beam_weight_;
   std::vector<std::uint32_t> beam_row_;
   std::vector<double> pulse_re_, pulse_im_;

@@ -16,7 +16,7 @@ namespace insonify {
 namespace {
 
 constexpr double margin = 0.1;   // of the period, over which the pattern may end
-constexpr std::size_t most_taps = 12;
+constexpr std::size_t most_taps = 14;
 constexpr std::size_t bend_rows = 16;  // harmonics to which wavefronts may bend what is at the array's ends
 constexpr int highest_order = 24;
 
@@ -161,7 +161,7 @@ void WidebandPlan::plan_response(int threads) {
     const double wavelength = medium.sound_speed / std::max(std::abs(frequency), 0.05 * head.pulse.centre_frequency);
     bend[l] = static_cast<float>(std::copysign(0.5 * pi * wavelength * widest * widest, frequency));
     squared_wavelength[l] = static_cast<float>(wavelength * wavelength);
-    place_end[l] = static_cast<float>(std::pow(0.55 * aperture / wavelength, 2));
+    place_end[l] = static_cast<float>(std::pow(0.6 * aperture / wavelength, 2));
     for (std::size_t m = 0; m < elements; ++m) {
       const double z = period * frequency / medium.sound_speed * head.array.spacing * element_place(m, elements);
       const double weight = head.array.shading[m] / static_cast<double>(elements);
@@ -183,37 +183,37 @@ void WidebandPlan::plan_response(int threads) {
 
 void WidebandPlan::plan_curvature() {
   // 1 - u^2 = 1 - w^2 / 2 + (w^2 / 2) x(u), x = sum_l tap_l cos(2 pi l u / period).
-  tap = harmonics([this](double u) { return 1 - 2 * u * u / (widest * widest); }, 2 * pi / period, false);
+  const auto x = [this](double u) { return 1 - 2 * u * u / (widest * widest); };
+  const double fine_enough = std::sqrt(1e-3 * tolerance);
+  tap = harmonics(x, false, 0, fine_enough);
+  steep_tap = harmonics(x, false, 1e-3, fine_enough);
   whole_tap = tap;
   whole_tap[0] += static_cast<float>(2 / (widest * widest) - 1);
-  cubic_tap = harmonics([](double u) { return u * (1 - u * u); }, 2 * pi / period, true);
+  cubic_tap = harmonics([](double u) { return u * (1 - u * u); }, true, 1e-3, 0.1 * fine_enough);
 }
 
-std::vector<float> WidebandPlan::harmonics(const std::function<double(double)>& f, double turn, bool odd) const {
-  const double low = std::cos(turn * widest);
-  const auto wave = [&](std::size_t l, double angle) {
-    const double n = static_cast<double>(l);
-    return odd ? std::sin((n + 1) * angle) : std::cos(n * angle);
+std::vector<float> WidebandPlan::harmonics(const std::function<double(double)>& f, bool odd, double beside,
+                                           double error) const {
+  constexpr int points = 100;
+  const double turn = 2 * pi / period;
+  const auto wave = [&](std::size_t l, double u) {
+    return odd ? std::sin(static_cast<double>(l + 1) * turn * u) : std::cos(static_cast<double>(l) * turn * u);
   };
   for (std::size_t n = 3;; ++n) {
-    // Through the nodes of Chebyshev in the cosine.
-    Eigen::MatrixXd matrix(n, n);
-    Eigen::VectorXd value(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double node = std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
-      const double angle = std::acos(0.5 * (1 + low) + 0.5 * (1 - low) * node);
-      value[i] = f(angle / turn);
-      for (std::size_t l = 0; l < n; ++l) matrix(i, l) = wave(l, angle);
+    // Least squares within the directions in use; beside them near the value at their end, with little weight.
+    Eigen::MatrixXd matrix(2 * points, n);
+    Eigen::VectorXd value(2 * points);
+    for (int i = 0; i < 2 * points; ++i) {
+      const bool within = i < points;
+      const double angle = 0.5 * pi * (i % points + 0.5) / points, part = std::sin(angle);
+      const double u = within ? widest * part : widest + (0.5 * period - widest) * (i % points + 0.5) / points;
+      const double weight = within ? 1 : beside;
+      value[i] = weight * (within ? f(u) : odd ? 0.0 : f(widest));
+      for (std::size_t l = 0; l < n; ++l) matrix(i, static_cast<Eigen::Index>(l)) = weight * wave(l, u);
     }
-    const Eigen::VectorXd found = matrix.partialPivLu().solve(value);
-    double error = 0;
-    for (int i = 0; i <= 200; ++i) {
-      const double u = widest * i / 200.0;
-      double sum = 0;
-      for (std::size_t l = 0; l < n; ++l) sum += found[l] * wave(l, turn * u);
-      error = std::max(error, std::abs(sum - f(u)));
-    }
-    if (error > (odd ? 0.1 : 1) * std::sqrt(1e-3 * tolerance) && n < most_taps) continue;
+    const Eigen::VectorXd found = matrix.colPivHouseholderQr().solve(value);
+    const double worst = (matrix * found - value).head(points).cwiseAbs().maxCoeff();
+    if (worst > error && n < most_taps) continue;
     std::vector<float> result(odd ? n + 1 : n, 0);
     for (std::size_t l = 0; l < n; ++l)
       result[odd ? l + 1 : l] = static_cast<float>(l == 0 && !odd ? found[l] : 0.5 * found[l]);

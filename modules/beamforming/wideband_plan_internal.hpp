@@ -54,7 +54,7 @@ struct WidebandPlan {
   std::vector<float> response;                 ///< rows x fine_row: the array's, by harmonic and frequency
   std::vector<float> squared_wavelength, place_end;  ///< by frequency [m^2]; beyond the array's ends [wavelengths^2]
   std::vector<float> bend;                     ///< by frequency: phase of a wavefront per square of place and curvature [m]
-  std::vector<float> tap, whole_tap, cubic_tap;                      ///< harmonics of the curvature's dependence on direction
+  std::vector<float> tap, steep_tap, whole_tap, cubic_tap;                      ///< harmonics of the curvature's dependence on direction
 
   WidebandPlan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
 
@@ -73,8 +73,9 @@ struct WidebandPlan {
 
  private:
   void plan_moments();
-  /// Half the coefficients of f as a sum of cosines, or sines, of multiples of `turn` u for |u| <= widest.
-  std::vector<float> harmonics(const std::function<double(double)>& f, double turn, bool odd) const;
+  /// Half the coefficients of f as a sum of cosines, or sines, of multiples of 2 pi u / period, to `error` within the
+  /// directions in use; beside them f is held down with the weight `beside`.
+  std::vector<float> harmonics(const std::function<double(double)>& f, bool odd, double beside, double error) const;
   void plan_time();
   void plan_directions();
   void plan_response(int threads);
