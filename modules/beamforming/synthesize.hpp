@@ -8,7 +8,7 @@ namespace insonify {
 
 /// Which of the synthesizers below forms the beams.
 /// `incoherent` gives the expected level instead, without speckle (synthesize_intensity).
-enum class SynthesisMethod { gridded, direct, spectrum, element_exact, incoherent };
+enum class SynthesisMethod { gridded, direct, spectrum, element_exact, true_delays, incoherent };
 
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< of the image; a pulse is cut where its envelope falls below half this part of its peak
@@ -23,11 +23,13 @@ struct SynthesisOptions {
 ///                          B(u, v) = B_y(u - u_b) B_z(v - v_b), u_b = cos(elevation_b) sin(azimuth_b)
 ///   several rows, no column    the elevation pattern (E14) about the row's own elevation
 ///
-/// See with_patterns for what direct_echoes must have applied. `gridded`, `spectrum` and `element_exact` leave an echo out of a row
+/// See with_patterns for what direct_echoes must have applied. All but `direct` leave an echo out of a row
 /// whose response to it is below tolerance / (10 sqrt(rows)) of that of the row nearest to it: over all rows it loses at
 /// most a tenth of the tolerance (relative L2 norm) of what a row hears of it; `direct` leaves none out.
 /// `element_exact` leaves the narrow-band far field: true delays per element, focused beams (element_series,
 /// beam_from_elements, E61, E62); its tolerance is within [1e-12, 0.1].
+/// `true_delays` gives the same at about the cost of gridding (WidebandSynthesizer, E67); its tolerance is within
+/// [1e-5, 0.1].
 /// `incoherent` gives the root of the expected intensity (E65) as a real pressure: levels and detections read it as any
 /// other, but such images add up by their squares, and phases mean nothing.
 /// Cost: that of the method for every row. The result does not depend on options.threads.

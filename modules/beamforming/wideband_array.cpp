@@ -1,15 +1,14 @@
-#include "beamforming/wideband_array_internal.hpp"
-
 #include <algorithm>
 #include <utility>
 
+#include "beamforming/wideband_array_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t pad = 16;       // silent rows to either side, at least as many as a filter is long
-constexpr int steep_order = 4;        // from here on powers of S must not grow beside the directions in use
+constexpr std::size_t pad = 16;  // silent rows to either side, at least as many as a filter is long
+constexpr int steep_order = 4;   // from here on powers of S must not grow beside the directions in use
 using kernels::lines_at_once;
 using kernels::SpectrumChunk;
 

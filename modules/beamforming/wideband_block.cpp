@@ -1,15 +1,14 @@
-#include "beamforming/wideband_block_internal.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "beamforming/gridding_loops_internal.hpp"
+#include "beamforming/wideband_block_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t batch = 256;        // echoes handed to the kernel at once
+constexpr std::size_t batch = 256;  // echoes handed to the kernel at once
 
 kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
 
@@ -120,7 +119,8 @@ void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block,
     const double weight = weight_of(block, excess, 0.5 * c * delay);
     const EchoEnvelope envelope = plan.shapes.of(delay, echoes.doppler_of(i));
     const double first = std::max(0.0, std::ceil((delay - half - start) / plan.fine_step));
-    const double last = std::min(std::floor((delay + half - start) / plan.fine_step), static_cast<double>(plan.fine) - 1);
+    const double last =
+        std::min(std::floor((delay + half - start) / plan.fine_step), static_cast<double>(plan.fine) - 1);
     pulse_re_.clear();
     pulse_im_.clear();
     for (double n = first; n <= last; ++n) {
@@ -142,13 +142,14 @@ void WidebandRoom::to_frequencies(WidebandSpectrum& spectrum) {
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
     const std::size_t count = std::min(wideband_tile, plan.fine - n0);
     if (!touched_[n0 / wideband_tile]) {
-      for (std::size_t r = 0; r < plan.rows(); ++r) std::fill_n(spectrum.data() + r * plan.fine_row + n0, count, Complex(0));
+      for (std::size_t r = 0; r < plan.rows(); ++r)
+        std::fill_n(spectrum.data() + r * plan.fine_row + n0, count, Complex(0));
       continue;
     }
     for (std::size_t n = 0; n < count; ++n) {
       Complex* line = tile_.data() + n * plan.grid_stride;
-      kernels::merge_planes(re_.data() + (n0 + n) * plan.grid_stride, im_.data() + (n0 + n) * plan.grid_stride, plan.grid,
-                            reinterpret_cast<float*>(line));
+      kernels::merge_planes(re_.data() + (n0 + n) * plan.grid_stride, im_.data() + (n0 + n) * plan.grid_stride,
+                            plan.grid, reinterpret_cast<float*>(line));
       transforms_.to_harmonics.run(line);
     }
     // One row per harmonic now.
@@ -212,13 +213,15 @@ void WidebandRoom::to_beams(const WidebandBlock& block, std::size_t ends, Comple
   for (std::size_t n0 = 0; n0 < plan.cycle; n0 += wideband_tile) {
     const std::size_t first = block.number * plan.block + n0, count = std::min(wideband_tile, plan.cycle - n0);
     if (first + count <= skipped || first >= plan.axis.bins + skipped) continue;
-    std::fill_n(tile_.data() + (plan.most + 1) * wideband_tile_row, (plan.grid - plan.rows()) * wideband_tile_row, Complex(0));
+    std::fill_n(tile_.data() + (plan.most + 1) * wideband_tile_row, (plan.grid - plan.rows()) * wideband_tile_row,
+                Complex(0));
     for (std::size_t r = 0; r < plan.rows(); ++r)
       std::copy_n(bins_.data() + r * bins_row_ + n0, count,
                   tile_.data() + (r + plan.grid - plan.most) % plan.grid * wideband_tile_row);
     transforms_.to_directions.run(tile_.data());
     // Bins of this tile that belong to the axis, and those of them that neighbours have written.
-    const std::size_t from = std::max(skipped, first) - first, to = std::min(first + count, plan.axis.bins + skipped) - first;
+    const std::size_t from = std::max(skipped, first) - first,
+                      to = std::min(first + count, plan.axis.bins + skipped) - first;
     const std::size_t own = std::clamp(ends, n0 + from, n0 + to) - n0;
     const std::size_t shared = std::max(own, std::clamp(plan.cycle - ends, n0 + from, n0 + to) - n0);
     for (Eigen::Index b = 0; b < pressure.rows(); ++b) {

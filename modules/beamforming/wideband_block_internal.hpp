@@ -13,8 +13,8 @@
 
 namespace insonify {
 
-constexpr std::size_t wideband_tile = 32;             ///< samples that are turned into harmonics at once
-constexpr std::size_t wideband_tile_row = 32 + 8;     ///< numbers from one grid step to the next
+constexpr std::size_t wideband_tile = 32;          ///< samples that are turned into harmonics at once
+constexpr std::size_t wideband_tile_row = 32 + 8;  ///< numbers from one grid step to the next
 
 /// The transforms of a plan.
 struct WidebandTransforms {

@@ -1,8 +1,7 @@
-#include "beamforming/wideband_loops_internal.hpp"
-
 #include <utility>
 
 #include "beamforming/target_clones_internal.hpp"
+#include "beamforming/wideband_loops_internal.hpp"
 
 namespace insonify::kernels {
 namespace {
@@ -97,7 +96,8 @@ void add_cubic(const float* shift, float cubic, std::size_t rows, const float* p
   float factor[lines];
   for (std::size_t k = 0; k < rows; ++k) {
     for (std::size_t c = 0; c < lines; ++c)
-      factor[c] = shift[k] * ((place[k] < bent.place_end[c] ? place[k] : bent.place_end[c]) * bent.squared_wavelength[c] - cubic);
+      factor[c] = shift[k] *
+                  ((place[k] < bent.place_end[c] ? place[k] : bent.place_end[c]) * bent.squared_wavelength[c] - cubic);
     if (weight)
       for (std::size_t c = 0; c < lines; ++c) factor[c] *= weight[k * stride + c];
     for (std::size_t c = 0; c < lines; ++c) y.re[k * lines + c] += factor[c] * x.re[k * lines + c];

@@ -19,9 +19,9 @@ void filter_rows(const float* tap, std::size_t reach, std::size_t rows, Spectrum
 
 /// How strongly wavefronts bend, by frequency.
 struct BentLines {
-  const float *phase;               ///< per square of a place in wavelengths
-  const float *squared_wavelength;  ///< [m^2]
-  const float *place_end;           ///< places beyond the array's ends count as these, squared [wavelengths^2]
+  const float* phase;               ///< per square of a place in wavelengths
+  const float* squared_wavelength;  ///< [m^2]
+  const float* place_end;           ///< places beyond the array's ends count as these, squared [wavelengths^2]
 };
 
 /// Adds scale (i z)^n x to y, z(k, l) = place[k] lines.phase[l].

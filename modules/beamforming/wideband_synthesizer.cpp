@@ -3,82 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
 #include <vector>
 
+#include "beamforming/element_series.hpp"
 #include "beamforming/flush_denormals_internal.hpp"
-#include "beamforming/wideband_block_internal.hpp"
+#include "beamforming/wideband_lists_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace insonify {
 namespace {
 
-/// Echoes in order of the fine samples at which they stand, blocks one after another.
-struct BlockLists {
-  std::vector<std::uint32_t> begin, echo;
-
-  BlockLists(const Echoes& echoes, const WidebandPlan& plan) {
-    constexpr double part = 16;  // slots of a block
-    const double slot = static_cast<double>(plan.block) / part * plan.axis.step;
-    const double start = plan.axis.start - static_cast<double>(plan.guard) * plan.axis.step;
-    const std::size_t slots = plan.blocks() * static_cast<std::size_t>(part);
-    std::vector<std::uint32_t> place(echoes.size()), count(slots + 1, 0);
-    for (std::size_t i = 0; i < echoes.size(); ++i) {
-      const double s = std::floor((echoes.delay[i] - start) / slot);
-      place[i] = s >= 0 && s < static_cast<double>(slots) ? static_cast<std::uint32_t>(s) : static_cast<std::uint32_t>(slots);
-      ++count[place[i]];
-    }
-    std::uint32_t sum = 0;
-    for (std::size_t s = 0; s <= slots; ++s) {
-      if (s % 16 == 0) begin.push_back(sum);
-      const std::uint32_t here = count[s];
-      count[s] = sum;
-      sum += here;
-    }
-    echo.resize(echoes.size());
-    for (std::size_t i = 0; i < echoes.size(); ++i) echo[count[place[i]]++] = static_cast<std::uint32_t>(i);
-  }
-  std::span<const std::uint32_t> of(std::size_t block) const {
-    return {echo.data() + begin[block], begin[block + 1] - begin[block]};
-  }
-};
-
-/// The echoes of a block, cut by range until what their wavefronts differ in is small enough; in order of delay if cut.
-std::vector<WidebandBlock> parts_of(const Echoes& echoes, const WidebandPlan& plan, std::size_t number,
-                                    std::span<const std::uint32_t> list) {
-  const double c = plan.medium.sound_speed;
-  const auto part_of = [&](std::span<const std::uint32_t> some) {
-    double first = echoes.delay[some[0]], last = first, unit = 0;
-    for (const std::uint32_t i : some) {
-      first = std::min(first, echoes.delay[i]);
-      last = std::max(last, echoes.delay[i]);
-      unit = std::max(unit, std::abs(echoes.amplitude[i]) * std::exp(-plan.medium.absorption.a0 * c * echoes.delay[i]));
-    }
-    first = std::max(first, plan.axis.step);
-    const double curvature = (1 / first + 1 / std::max(last, first)) / c;
-    return WidebandBlock{number, some, curvature, unit > 0 ? unit : 1,
-                         plan.effort(curvature, 2 / (c * first * curvature) - 1)};
-  };
-  constexpr std::size_t slots = 16;  // of a block, in which echoes are ordered
-  std::vector<WidebandBlock> parts;
-  for (std::size_t cut = 1; cut <= slots; cut *= 2) {
-    parts.clear();
-    double error = 0;
-    std::size_t begin = 0;
-    for (std::size_t k = 1; k <= cut; ++k) {
-      const double until = plan.start_of(number) + (static_cast<double>(plan.guard) + static_cast<double>(plan.block * k) / static_cast<double>(cut)) * plan.axis.step;
-      std::size_t end = begin;
-      while (end < list.size() && (k == cut || echoes.delay[list[end]] < until)) ++end;
-      if (end > begin) {
-        parts.push_back(part_of(list.subspan(begin, end - begin)));
-        error = std::max(error, parts.back().effort.error);
-      }
-      begin = end;
-    }
-    if (error < plan.tolerance) break;
-  }
-  return parts;
-}
+constexpr double finest = 1e-5, coarsest = 0.1;
+constexpr double kept = 0.7;  // of the tolerance, for what bounds leave out
 
 /// Rooms that no thread works in.
 class Rooms {
@@ -100,6 +38,30 @@ class Rooms {
   std::vector<std::unique_ptr<WidebandRoom>> free_;
 };
 
+/// Bins of the axis that a block's cycle covers but for `ends` bins of it: first and one after the last.
+std::pair<std::size_t, std::size_t> bins_of(const WidebandPlan& plan, std::size_t number, std::size_t ends) {
+  const std::size_t before = 2 * plan.guard, last = plan.axis.bins + before;
+  const std::size_t from = std::clamp(number * plan.block + ends, before, last) - before;
+  return {from, std::max(from, std::clamp(number * plan.block + plan.cycle - ends, before, last) - before)};
+}
+
+/// Echoes so near that no series keeps the tolerance, element by element.
+ComplexGrid near_image(const Echoes& echoes, const WidebandPlan& plan, const WidebandBlock& block) {
+  Echoes near;
+  for (const std::uint32_t i : block.list) {
+    near.delay.push_back(echoes.delay[i]);
+    near.u.push_back(echoes.u[i]);
+    near.amplitude.push_back(echoes.amplitude[i]);
+    if (!echoes.doppler.empty()) near.doppler.push_back(echoes.doppler[i]);
+  }
+  const auto [from, to] = bins_of(plan, block.number, 0);
+  SonarHead head = plan.head;
+  head.gate.min_range += static_cast<double>(from) * head.gate.bin_size;
+  head.gate.max_range = head.gate.min_range + (static_cast<double>(to - from) - 0.5) * head.gate.bin_size;
+  const ElementOptions options{0.5 * plan.tolerance, Wavefront::spherical, 1};
+  return beam_from_elements(element_series(near, head, plan.medium, options), head, plan.medium, options);
+}
+
 }  // namespace
 
 struct WidebandSynthesizer::Plan {
@@ -109,14 +71,21 @@ struct WidebandSynthesizer::Plan {
 
   Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest)
       : tables(head, medium, options, widest), transforms(tables), threads(options.threads) {}
+  ComplexGrid pressure(const Echoes& echoes) const;
+  /// The parts of one block, one after another; see WidebandRoom::image.
+  void add_block(const Echoes& echoes, const std::vector<WidebandBlock>& parts, std::size_t ends, Rooms& rooms,
+                 ComplexGrid& pressure) const;
 };
 
 WidebandSynthesizer::WidebandSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   require_synthesis({}, head, medium, options, "WidebandSynthesizer");
   require_one_row(head, "WidebandSynthesizer");
+  if (!(options.tolerance >= finest && options.tolerance <= coarsest))
+    fail(ErrorKind::argument, "WidebandSynthesizer: tolerance = ", options.tolerance, ", must be within ", finest,
+         " and ", coarsest, "; below that use the element-exact method");
   double widest = 0;
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
-  plan_ = std::make_unique<Plan>(head, medium, options, std::min(1.0, 1.1 * widest + 0.05));
+  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{kept * options.tolerance, options.threads}, std::min(1.0, 1.1 * widest + 0.05));
 }
 WidebandSynthesizer::~WidebandSynthesizer() = default;
 WidebandSynthesizer::WidebandSynthesizer(WidebandSynthesizer&&) noexcept = default;
@@ -126,34 +95,53 @@ ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
   const Plan& plan = *plan_;
   const WidebandPlan& tables = plan.tables;
   require_synthesis(echoes, tables.head, tables.medium, {tables.tolerance, plan.threads}, "WidebandSynthesizer");
-  const BlockLists lists(echoes, tables);
+  double widest = 0;
+  for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
+  if (widest > tables.widest)
+    return Plan(tables.head, tables.medium, {tables.tolerance, plan.threads}, widest).pressure(echoes);
+  return plan.pressure(echoes);
+}
+
+ComplexGrid WidebandSynthesizer::Plan::pressure(const Echoes& echoes) const {
+  const WidebandLists lists(echoes, tables);
   ComplexGrid pressure(tables.head.fan.beams(), tables.axis.bins);
   const std::size_t blocks = tables.blocks();
   Rooms rooms;
-  // Every other block overwrites, those between add to what they share with both neighbours.
+  // Every other block overwrites; those between add to what they share with both neighbours.
   for (const std::size_t parity : {0U, 1U})
-    parallel_for(blocks / 2 + 1, plan.threads, [&](std::size_t t) {
+    parallel_for(blocks / 2 + 1, threads, [&](std::size_t t) {
       const std::size_t number = 2 * t + parity, ends = parity == 0 ? 0 : 2 * tables.guard;
       if (parity == 1 && number >= blocks) return;
-      const auto list = number < blocks ? lists.of(number) : std::span<const std::uint32_t>();
-      if (list.empty()) {
-        const std::size_t skipped = 2 * tables.guard;
-        const std::size_t from = std::clamp(number * tables.block + ends, skipped, tables.axis.bins + skipped) - skipped;
-        const std::size_t to =
-            std::clamp(number * tables.block + tables.cycle - ends, skipped, tables.axis.bins + skipped) - skipped;
-        if (from < to) pressure.middleCols(from, to - from).setZero();
+      if (number >= blocks || lists.empty(number)) {
+        const auto [from, to] = bins_of(tables, number, ends);
+        pressure.middleCols(from, to - from).setZero();
         return;
       }
-      const FlushDenormals flush;
-      auto room = rooms.take(tables, plan.transforms);
-      std::size_t added = ends;
-      for (const WidebandBlock& part : parts_of(echoes, tables, number, list)) {
-        room->image(echoes, part, added, pressure);
-        added = tables.cycle;
-      }
-      rooms.give(std::move(room));
+      add_block(echoes, lists.of(number), ends, rooms, pressure);
     });
   return pressure;
+}
+
+void WidebandSynthesizer::Plan::add_block(const Echoes& echoes, const std::vector<WidebandBlock>& parts,
+                                          std::size_t ends, Rooms& rooms, ComplexGrid& pressure) const {
+  const FlushDenormals flush;
+  auto room = rooms.take(tables, transforms);
+  for (const WidebandBlock& part : parts) {
+    if (part.effort.error <= tables.tolerance) {
+      room->image(echoes, part, ends, pressure);
+    } else if (const auto [from, to] = bins_of(tables, part.number, 0); from < to) {
+      const auto [own_from, own_to] = bins_of(tables, part.number, ends);
+      pressure.middleCols(own_from, own_to - own_from).setZero();
+      pressure.middleCols(from, to - from) += near_image(echoes, tables, part);
+    }
+    ends = tables.cycle / 2;  // all is there now: what follows adds
+  }
+  rooms.give(std::move(room));
+}
+
+ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                   const SynthesisOptions& options) {
+  return WidebandSynthesizer(head, medium, options).pressure(echoes);
 }
 
 }  // namespace insonify
