@@ -91,6 +91,9 @@ GriddingKernel::GriddingKernel(double tolerance) : width_(width_for(tolerance)) 
   beta_ = per_width * static_cast<double>(width_);
 }
 
+GriddingKernel::GriddingKernel(std::size_t width, double oversampling)
+    : width_(width), beta_(0.97 * pi * static_cast<double>(width) * (1 - 0.5 / oversampling)) {}
+
 double GriddingKernel::at(double x) const {
   const double z = 2 * x / static_cast<double>(width_);
   return std::abs(z) < 1    ? std::exp(beta_ * (std::sqrt((1 - z) * (1 + z)) - 1))

@@ -23,11 +23,13 @@ class GriddingKernel {
  public:
   /// Chooses the narrowest kernel with an error below `tolerance`; at most 16 grid steps wide, accurate to 1e-14.
   explicit GriddingKernel(double tolerance);
+  /// The kernel of this width for a grid `oversampling` (above 1) times as fine as needed.
+  GriddingKernel(std::size_t width, double oversampling);
 
   std::size_t width() const { return width_; }
   double at(double x) const;
-  /// Returns the Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1/4: integral of phi(x) cos(2
-  /// pi f x).
+  /// Returns the Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1 / (2 oversampling): integral
+  /// of phi(x) cos(2 pi f x).
   double transform(double frequency) const;
 
  private:

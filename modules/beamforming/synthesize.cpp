@@ -4,6 +4,7 @@
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "beamforming/synthesize_intensity.hpp"
+#include "beamforming/wideband_synthesizer.hpp"
 
 namespace insonify {
 namespace {
@@ -19,6 +20,8 @@ ComplexGrid synthesize_line(const Echoes& echoes, const SonarHead& head, const M
       const ElementOptions exact{options.tolerance, Wavefront::spherical, options.threads};
       return beam_from_elements(element_series(echoes, head, medium, exact), head, medium, exact);
     }
+    case SynthesisMethod::true_delays:
+      return synthesize_true_delays(echoes, head, medium, options);
     case SynthesisMethod::incoherent:
       return synthesize_intensity(echoes, head, medium, options).sqrt().cast<std::complex<double>>();
     case SynthesisMethod::gridded:

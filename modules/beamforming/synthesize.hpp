@@ -8,7 +8,7 @@ namespace insonify {
 
 /// Method of synthesis; all but `incoherent` give the complex pressure of the synthesizers below, `incoherent` the
 /// expected level without speckle (synthesize_intensity).
-enum class SynthesisMethod { gridded, direct, spectrum, element_exact, incoherent };
+enum class SynthesisMethod { gridded, direct, spectrum, element_exact, true_delays, incoherent };
 
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< relative L2 error of the image; pulses are cut below half this fraction of their peak
@@ -23,11 +23,12 @@ struct SynthesisOptions {
 ///                          B(u, v) = B_y(u - u_b) B_z(v - v_b), u_b = cos(elevation_b) sin(azimuth_b)
 ///   several rows, no column    the elevation pattern (E14) about the row's own elevation
 ///
-/// See with_patterns for the patterns that direct_echoes must have applied. `gridded`, `spectrum` and `element_exact`
+/// See with_patterns for the patterns that direct_echoes must have applied. All but `direct`
 /// omit an echo from a row whose response is below tolerance / (10 sqrt(rows)) of that of the row nearest to it, which
 /// over all rows costs at most a tenth of the tolerance (relative L2 norm); `direct` omits none. `element_exact` makes
 /// no narrow-band far-field assumption: true delays per element, focused beams (element_series, beam_from_elements,
-/// E61, E62); its tolerance is within [1e-12, 0.1]. `incoherent` gives the root of the expected intensity (E65) as a
+/// E61, E62); its tolerance is within [1e-12, 0.1]. `true_delays` gives the same
+/// image at about the cost of gridding (WidebandSynthesizer, E67); its tolerance is within [1e-5, 0.1]. `incoherent` gives the root of the expected intensity (E65) as a
 /// real pressure: levels and detections apply to it, but such images add up by their squares, and phases have no
 /// meaning. Cost: that of the method for each row. The result does not depend on options.threads. Throws Error as the
 /// methods do, and if there are several rows or a column, but not one echoes.v per echo.

@@ -7,6 +7,7 @@
 #include "accuracy/synthesize_windowed.hpp"
 #include "beamforming/gridded_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/wideband_synthesizer.hpp"
 #include "beamforming/windowed_sum_internal.hpp"
 
 using namespace insonify;
@@ -27,7 +28,19 @@ void ping_synthesizer(benchmark::State& state) {
   state.counters["width"] = static_cast<double>(plan.choice().kernel_width);
 }
 BENCHMARK(ping_synthesizer)
-    ->ArgsProduct({{1000, 50000, 500000}, {4, 6}, {1, 2}})
+    ->ArgsProduct({{1000, 50000, 500000}, {3, 4, 6}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+/// True delays for every element: against ping_synthesizer of the same arguments. 600 kHz, 5 to 40 m.
+void wideband_synthesizer(benchmark::State& state) {
+  const AccuracyTask task = task_for(state);
+  const WidebandSynthesizer plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
+  for (auto _ : state) benchmark::DoNotOptimize(plan.pressure(task.echoes));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(wideband_synthesizer)
+    ->ArgsProduct({{1000, 50000, 500000}, {3, 4}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
