@@ -83,8 +83,10 @@ SynthesisMethod parse_method(const std::string& text) {
   if (text == "gridded") return SynthesisMethod::gridded;
   if (text == "direct") return SynthesisMethod::direct;
   if (text == "element-exact") return SynthesisMethod::element_exact;
+  if (text == "true-delays") return SynthesisMethod::true_delays;
   if (text == "incoherent") return SynthesisMethod::incoherent;
-  fail(ErrorKind::argument, "--method = '", text, "' must be gridded, direct, element-exact or incoherent");
+  fail(ErrorKind::argument, "--method = '", text,
+       "' must be gridded, true-delays, direct, element-exact or incoherent");
 }
 
 std::pair<int, int> parse_size(const std::string& text) {

@@ -23,7 +23,7 @@ Pose parse_pose(const std::string& text, const std::string& world);
 /// "min:max" in metres, 0 < min < max.
 std::pair<double, double> parse_range(const std::string& text);
 
-/// "gridded", "direct", "element-exact" or "incoherent".
+/// "gridded", "true-delays", "direct", "element-exact" or "incoherent".
 SynthesisMethod parse_method(const std::string& text);
 
 /// "1400x1050" pixels.

@@ -5,7 +5,7 @@ namespace insonify::tool {
 namespace {
 
 const OptionRules scene{.required = true}, file, positive{.positive = true}, stages{.one_each = true};
-const OptionRules methods{.words = {"gridded", "direct", "element-exact", "incoherent"}};
+const OptionRules methods{.words = {"gridded", "true-delays", "direct", "element-exact", "incoherent"}};
 const OptionRules worlds{.words = {"z-up", "ned"}};
 const OptionRules samplings{.words = {"surfels", "rays"}};
 const OptionRules amplitudes{.words = {"speckle", "random-phase", "coherent"}};
@@ -37,8 +37,8 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   return {
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
-       "gridded, direct: the slow referee, element-exact: true delays per element, or incoherent: the expected level, "
-       "no speckle",
+       "gridded: narrow band, far field; true-delays: wide band and near field, per element; direct and element-exact: "
+       "the slow referees of both; or incoherent: the expected level, no speckle",
        methods},
   };
 }

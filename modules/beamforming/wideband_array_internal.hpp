@@ -11,7 +11,7 @@ namespace insonify {
 using WidebandSpectrum = AlignedArray<std::complex<float>, float>;  ///< rows x fine_row
 
 /// From the spectrum of echoes to that of focused beams: what elements hear of bent wavefronts, times the array's
-/// response, and what beams undo of the bend (E67). With z the phase of the bend at a place and frequency and S the
+/// response, and what beams undo of the bend (E68). With z the phase of the bend at a place and frequency and S the
 /// filter along harmonics that multiplies by its dependence on direction,
 ///
 ///   P = sum over q + q' <= order of S^q' (-i z)^q' / q'! R (i z)^q / q! S^q E

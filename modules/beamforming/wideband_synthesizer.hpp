@@ -8,7 +8,7 @@
 namespace insonify {
 
 /// Complex baseband pressure of many pings of one head as its elements receive it: with true delays, focused at every
-/// range (E61, E62), whatever the band, to a relative L2 error below the tolerance (E67). What element_series and
+/// range (E61, E62), whatever the band, to a relative L2 error below the tolerance (E68). What element_series and
 /// beam_from_elements give, at about the cost of gridding:
 ///
 ///   1. Time is cut into blocks; each echo belongs to one. Its pulse, sampled as finely as its band needs, is gridded over

@@ -40,7 +40,7 @@ struct FanRow {
 /// with all elevations different has as many rows as beams.
 std::vector<FanRow> fan_rows(const BeamFan& fan);
 
-/// A line array tells directions apart by u = cos(elevation) sin(azimuth) alone: what it hears in a beam is a cone about
+/// A line array resolves u = cos(elevation) sin(azimuth) alone: what it hears in a beam is a cone about
 /// its own axis. This is the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the
 /// array, pi - asin(u) astern (x < 0) [rad].
 double cone_azimuth(const Eigen::Vector3d& p);

@@ -58,7 +58,8 @@ double true_delay_bound(const PlanFacts& facts) {
 }
 
 StageVerdict judge_true_delays(const PlanFacts& facts) {
-  const bool exact = facts.ping.options.synthesis.method == SynthesisMethod::element_exact;
+  const SynthesisMethod method = facts.ping.options.synthesis.method;
+  const bool exact = method == SynthesisMethod::element_exact || method == SynthesisMethod::true_delays;
   return {exact,
           exact ? "asked for" : "one beam pattern at all frequencies and ranges, focused: narrow band, far field",
           true_delay_bound(facts)};

@@ -46,6 +46,8 @@ void require_valid(const SynthesisSettings& s, bool elements, const char* who) {
   if (elements || s.method == SynthesisMethod::element_exact)
     check.require(t >= min_element_tolerance && t <= max_element_tolerance, "tolerance", t,
                   "within 1e-12 and 0.1 for method element_exact and the output of elements");
+  if (s.method == SynthesisMethod::true_delays)
+    check.require(t >= 1e-5 && t <= 0.1, "tolerance", t, "within 1e-5 and 0.1 for method true_delays");
 }
 
 void require_valid(const DetectionOptions& d, const char* who) {

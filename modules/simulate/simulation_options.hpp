@@ -32,7 +32,7 @@ struct SynthesisSettings {
   /// noise add up by their squares. There are no pressures at the elements then.
   SynthesisMethod method = SynthesisMethod::gridded;
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
-  /// 0.1.
+  /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
 };
 

@@ -1,4 +1,4 @@
-// What the outermost beams hear against what they would hear of everything ahead of the head: a line array receives along
+// Levels of the outermost beams against those of everything ahead of the head: a line array receives along
 // cones, which reach far below the axis there.
 #include <cmath>
 
@@ -64,22 +64,22 @@ BeamFan half_circle(const SonarHead& head) { return make_fan(180, pi, head.fan.b
 
 }  // namespace
 
-TEST(EdgeBeams, hear_a_plane_as_if_all_of_it_was_sampled) {
+TEST(EdgeBeams, receive_a_plane_as_if_all_of_it_were_sampled) {
   const SceneCloud plane = make_built_in_scene("plane", {.points = 300000, .size = {12, 26}});
   for (const SonarHead& head : heads) {
     SCOPED_TRACE(head.name);
     const Transmission sent = sent_by(head);
-    const auto hear = [&](double margin) {
+    const auto echoes_within = [&](double margin) {
       SamplingOptions options{.scatterers_per_cell = 0, .occlusion = false, .azimuth_margin = margin};
       options.elevation_half_extent = sampled_half_extent(head, -40);
       const Scatterers s = find_scatterers(plane, pose, head.fan, head.gate, options).scatterers;
       return direct_echoes(s, plane.materials, sent.pulse, medium, sent.echo_options);
     };
-    expect_alike(hear(0), hear(2), head);
+    expect_alike(echoes_within(0), echoes_within(2), head);
   }
 }
 
-TEST(EdgeBeams, hear_the_reverberation_of_all_directions) {
+TEST(EdgeBeams, receive_the_reverberation_of_all_directions) {
   Environment e;
   e.volume_scattering_db = -70;
   e.bottom = FlatBottom{.height = 0, .lambert_mu = power_from_db(-27)};

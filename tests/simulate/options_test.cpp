@@ -66,6 +66,9 @@ TEST(PingOptions, have_the_tolerance_that_their_method_can_keep) {
       EXPECT_THAT(error_of_tolerance(method, tolerance), HasSubstr("must be within 0 and 1"));
   EXPECT_THAT(error_of_tolerance(gridded, 1e-14),
               HasSubstr("synthesis.tolerance = 1e-14, must be at least 1e-13 with method gridded"));
+  for (const double tolerance : {1e-6, 0.2})
+    EXPECT_THAT(error_of_tolerance(true_delays, tolerance),
+                HasSubstr("must be within 1e-5 and 0.1 for method true_delays"));
   for (const SynthesisMethod method : {direct, spectrum, incoherent})
     EXPECT_EQ(error_of_tolerance(method, 1e-14), "no error");
   for (const double tolerance : {1e-13, 0.2}) {
