@@ -37,7 +37,7 @@ double spread_about_plane(std::span<const Vector3f> points, const std::vector<Ne
 
 }  // namespace
 
-std::vector<float> estimate_surfel_noise(std::span<const Vector3f> points, const NoiseOptions& options) {
+std::vector<float> estimate_surfel_noise(std::span<const Vector3f> points, const SurfelNoiseOptions& options) {
   if (options.neighbours < 6)
     fail(ErrorKind::argument, "estimate_surfel_noise: neighbours = ", options.neighbours, ", must be at least 6");
   const auto neighbours = static_cast<std::size_t>(options.neighbours);
