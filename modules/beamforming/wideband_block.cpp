@@ -80,8 +80,8 @@ void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, 
   const WidebandPlan& plan = plan_;
   std::array<std::uint32_t, batch> row, column;
   std::array<float, batch> row_offset, column_offset, re, im;
-  const kernels::GridPlaces<float> places{row.data(),           column.data(), row_offset.data(),
-                                          column_offset.data(), re.data(),     im.data()};
+  const kernels::GridTargets<float> targets{row.data(),           column.data(), row_offset.data(),
+                                            column_offset.data(), re.data(),     im.data()};
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
   const double start = plan.start_of(block.number);
   for (auto list = block.list; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
@@ -102,8 +102,8 @@ void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, 
       im[k] = static_cast<float>(gain * echoes.amplitude[i].imag());
       touched_[row[k] / wideband_tile] = touched_[(row[k] + plan.pulse_samples) / wideband_tile] = true;
     }
-    kernels::grid(places, count, pieces(plan.pulse), plan.pulse_samples, pieces(plan.columns), scratch_.data(),
-                  re_.data(), im_.data(), plan.grid_stride);
+    kernels::grid_pulses(targets, count, pieces(plan.pulse), plan.pulse_samples, pieces(plan.columns), scratch_.data(),
+                         re_.data(), im_.data(), plan.grid_stride);
   }
 }
 
@@ -131,9 +131,9 @@ void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block,
       touched_[static_cast<std::size_t>(n) / wideband_tile] = true;
     }
     const std::size_t at = static_cast<std::size_t>(first) * plan.grid_stride + static_cast<std::size_t>(column_0);
-    kernels::grid_pulse(pulse_re_.data(), pulse_im_.data(), pulse_re_.size(),
-                        static_cast<float>(2 * (column_0 - low_column) - 1), pieces(plan.columns), re_.data() + at,
-                        im_.data() + at, plan.grid_stride);
+    kernels::grid_sampled_pulse(pulse_re_.data(), pulse_im_.data(), pulse_re_.size(),
+                                static_cast<float>(2 * (column_0 - low_column) - 1), pieces(plan.columns),
+                                re_.data() + at, im_.data() + at, plan.grid_stride);
   }
 }
 

@@ -85,7 +85,8 @@ WidebandSynthesizer::WidebandSynthesizer(const SonarHead& head, const Medium& me
          " and ", coarsest, "; below that use the element-exact method");
   double widest = 0;
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
-  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{kept * options.tolerance, options.threads}, std::min(1.0, 1.1 * widest + 0.05));
+  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{kept * options.tolerance, options.threads},
+                                 std::min(1.0, 1.1 * widest + 0.05));
 }
 WidebandSynthesizer::~WidebandSynthesizer() = default;
 WidebandSynthesizer::WidebandSynthesizer(WidebandSynthesizer&&) noexcept = default;
