@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "beamforming/element_series.hpp"
-#include "beamforming/error_text.hpp"
 #include "beamforming/shading.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "support/errors.hpp"
 
 using namespace insonify;
 
