@@ -1,6 +1,11 @@
 #pragma once
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pose.hpp"
 
 namespace insonify {
 
@@ -34,12 +39,49 @@ struct FanRow {
 /// alike has as many rows as beams.
 std::vector<FanRow> fan_rows(const BeamFan& fan);
 
-/// The sector that is sampled: the fan and a margin on either side.
+/// A line array tells directions apart by u = cos(elevation) sin(azimuth) alone: what it hears in a beam is a cone about
+/// its own axis. This is the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the
+/// array, pi - asin(u) astern (x < 0) [rad].
+double cone_azimuth(const Eigen::Vector3d& p);
+
+/// The direction in the cone of this azimuth that is turned by `turn` [rad] about the array's axis, positive upwards; all of
+/// a cone lies within +-pi/2. Solid angle: |cos(cone)| dcone dturn.
+Direction direction_in_cone(double cone, double turn);
+
+/// Turns between which a cone runs through these elevations [rad], ascending; equal if it does not reach them.
+std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation);
+
+/// The insonified sector: directions in which beams have their main lobes.
 struct Sector {
-  double min_azimuth = 0, max_azimuth = 0;      ///< [rad]
+  double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad], see cone_azimuth
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
-/// azimuth_margin   beyond the outermost beams [rad]; 0: one beam width
-Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double azimuth_margin = 0);
+/// Cones of all beams and, on either side, as much of u as a main lobe fills; ahead only (x > 0), unless a beam looks
+/// astern. Elevations of all beams and the half extent.
+///
+/// margin   beyond the outermost beams, in u; 0: 1.5 beam widths, within which a shaded array has its main lobe
+Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin = 0);
+
+/// Azimuths that the directions of a sector fill [rad]: more than its cones', if it reaches far up or down.
+std::pair<double, double> azimuths_of(const Sector& sector);
+
+/// Says which places a sector holds, by signed distances: no trigonometry per place. Everything that looks into a sector
+/// asks here.
+class SectorBounds {
+ public:
+  explicit SectorBounds(const Sector& sector);
+
+  /// True if a sphere of radius `margin` [m] round p (head axes) may reach into the sector; exact for margin 0.
+  bool holds(const Eigen::Vector3d& p, double margin = 0) const {
+    return in_elevations(p, margin) && in_cones(p, margin);
+  }
+  bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const;
+  bool in_cones(const Eigen::Vector3d& p, double margin = 0) const;
+
+ private:
+  bool whole_circle_, convex_;
+  Eigen::Vector2d port_, starboard_;  // inward normals of the edges, in the half-planes through the array's axis
+  Eigen::Vector2d top_, bottom_;      // sine and cosine of the edges in elevation
+};
 
 }  // namespace insonify

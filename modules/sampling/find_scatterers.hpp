@@ -36,7 +36,7 @@ struct SamplingOptions {
   std::uint64_t seed = 1;            ///< of the jitter of parts and rays
   int threads = 0;                   ///< 0: all cores
   double relief_outer_scale = 0;     ///< longest wavelength of micro-relief [m]; 0: the mean surfel spacing sqrt(area)
-  double azimuth_margin = 0;         ///< [rad] kept beyond the outermost beams; 0: one beam width
+  double azimuth_margin = 0;         ///< kept beyond the outermost beams, in u; 0: 1.5 beam widths
 };
 
 /// What sampling met on its way, for the log and the manifest.
@@ -67,7 +67,7 @@ struct Sampling {
 /// A surfel is visible when no surfel's disc stands before it by more than the roughness of one surface.
 ///
 /// Rays tile the insonified sector: a beam's share goes to the midpoints between neighbours, the outermost ones' to
-/// the edge of the sector. The cell of a ray is r^2 cos(elevation) times its share.
+/// the edge of the sector. The cell of a ray is r^2 times its share of solid angle.
 ///
 /// Where a material has a relief_slope, incidence and projected area are those of facets tilted by micro-relief (E52);
 /// what is visible is still decided by the smooth surfels. The relief belongs to the world, so that a place keeps its

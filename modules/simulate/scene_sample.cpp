@@ -19,7 +19,7 @@ SceneSample sample_scene(const SceneCloud& scene, const SonarHead& head, const P
   if (scene.size() == 0) return sample;
   const SamplingOptions sampling = sampling_options(head, medium, options);
   const EchoOptions echo_options = with_patterns({}, head);
-  const Sector sector = insonified_sector(head.fan, sampling.elevation_half_extent, sampling.azimuth_margin);
+  const SectorBounds sector(insonified_sector(head.fan, sampling.elevation_half_extent, sampling.azimuth_margin));
   const RangeGate gate = sampled_gate(largest_area(scene), head, medium, options);
   const double reach = gate.max_range - head.gate.max_range;
   const Eigen::Matrix3d to_head = pose.linear().transpose();
@@ -35,9 +35,7 @@ SceneSample sample_scene(const SceneCloud& scene, const SonarHead& head, const P
     const double cosine = -(to_head * scene.normal[i].cast<double>()).dot(p) / r;
     const double facing = scene.normals_oriented ? std::max(0.0, cosine) : std::abs(cosine);
     const Direction d = direction_of(p);
-    const bool in_azimuth = std::abs(std::remainder(d.azimuth - 0.5 * (sector.min_azimuth + sector.max_azimuth),
-                                                    2 * pi)) <= 0.5 * (sector.max_azimuth - sector.min_azimuth);
-    const bool in_elevation = d.elevation >= sector.min_elevation && d.elevation <= sector.max_elevation;
+    const bool in_azimuth = sector.in_cones(p), in_elevation = sector.in_elevations(p);
     const bool in_gate = r >= gate.min_range && r <= gate.max_range;
     const double pattern = echo_options.elevation_width > 0
                                ? elevation_response(echo_options.elevation_shape, echo_options.elevation_width,

@@ -41,7 +41,7 @@ struct SimulationOptions {
   int absorption_order = 0;  ///< 0: absorption of the centre frequency for the whole pulse
   Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
   double elevation_floor_db = -40;        ///< elevations where the two-way pattern is lower are not sampled
-  double azimuth_margin = 0;              ///< sampled beyond the outermost beams [rad]; 0: one beam width
+  double azimuth_margin = 0;              ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
   DetectionOptions detection{};           ///< noise floor -inf: all noise in the band, less the array's gain
   std::int64_t ping = 0;                  ///< number of the ping: noise, water and waves are new in every one
   double time = 0;                        ///< of transmission [s]
