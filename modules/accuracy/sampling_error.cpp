@@ -82,13 +82,14 @@ class SamplingBench {
 
   SamplingErrorRow random_rays(int rays) const {
     return over_trials("random-rays", rays, [&](std::uint64_t seed, Strip& strip) {
-      const double width = sector_.max_azimuth - sector_.min_azimuth;
-      const double low = std::sin(sector_.min_elevation), high = std::sin(sector_.max_elevation);
+      const double least = std::sin(sector_.min_azimuth), width = std::sin(sector_.max_azimuth) - least;
       const std::size_t n = static_cast<std::size_t>(rays) * head_.fan.beams();
       for (std::size_t i = 0; i < n; ++i) {
         const auto at = random_uniform(seed, RandomStage::ray_jitter, {i, 0, 1});
-        add_ray(strip, pose_, sector_.min_azimuth + width * at[0], std::asin(low + (high - low) * at[1]),
-                width * (high - low) / static_cast<double>(n));
+        const double cone = std::asin(least + width * at[0]);
+        const auto [low, high] = turns_between(cone, sector_.min_elevation, sector_.max_elevation);
+        const Direction d = direction_in_cone(cone, low + (high - low) * at[1]);
+        add_ray(strip, pose_, d.azimuth, d.elevation, width * (high - low) / static_cast<double>(n));
       }
       return n;
     });
@@ -148,14 +149,14 @@ class SamplingBench {
   /// Midpoint rule, 600 x 2000 cells, over a smooth integrand.
   std::vector<double> quadrature() const {
     constexpr std::size_t across = 600, up = 2000;
-    const double d_azimuth = (sector_.max_azimuth - sector_.min_azimuth) / across;
-    const double d_elevation = (sector_.max_elevation - sector_.min_elevation) / up;
+    const double step = (sector_.max_azimuth - sector_.min_azimuth) / across;
     std::vector<Strip> columns(across, Strip(head_));
     parallel_for(across, options_.threads, [&](std::size_t i) {
-      const double azimuth = sector_.min_azimuth + (static_cast<double>(i) + 0.5) * d_azimuth;
+      const double cone = sector_.min_azimuth + (static_cast<double>(i) + 0.5) * step;
+      const auto [low, high] = turns_between(cone, sector_.min_elevation, sector_.max_elevation);
       for (std::size_t k = 0; k < up; ++k) {
-        const double elevation = sector_.min_elevation + (static_cast<double>(k) + 0.5) * d_elevation;
-        add_ray(columns[i], pose_, azimuth, elevation, std::cos(elevation) * d_azimuth * d_elevation);
+        const Direction d = direction_in_cone(cone, low + (static_cast<double>(k) + 0.5) * (high - low) / up);
+        add_ray(columns[i], pose_, d.azimuth, d.elevation, std::cos(cone) * step * (high - low) / up);
       }
     });
     std::vector<double> power(head_.fan.beams(), 0.0);

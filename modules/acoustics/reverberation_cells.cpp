@@ -30,14 +30,12 @@ ReverberationCells reverberation_cells(const BeamFan& fan, const RangeGate& gate
          ", must be finite and > 0");
   const double c = transmission.medium.sound_speed;
   const double margin = 0.5 * c * pulse_half_length(transmission.pulse, pulse_floor);
-  const Sector sector = insonified_sector(fan, 0);
   ReverberationCells cells;
   cells.length = range_resolution(transmission.pulse, c) / options.cells_per_resolution;
   cells.nearest = std::max(gate.min_range - margin, 0.5 * gate.min_range);
   const double first = std::floor(cells.nearest / cells.length);
   const double last = std::ceil((gate.max_range + margin) / cells.length);
-  cells.min_azimuth = sector.min_azimuth;
-  cells.sector = sector.max_azimuth - sector.min_azimuth;
+  cells.sector = insonified_sector(fan, pi);
   cells.azimuths = 2 * pi * options.cells_per_resolution / fan.beam_width;
   if (!(last < 1e15)) fail(ErrorKind::argument, who, ": gate.max_range = ", gate.max_range, " m is too many cells");
   cells.first = static_cast<std::size_t>(first);

@@ -15,9 +15,8 @@ struct ReverberationCells {
   double nearest = 0;      ///< where the first slice is cut off [m]
   std::size_t first = 0;   ///< slice
   std::size_t slices = 0;  ///< from the first on
-  double min_azimuth = 0;  ///< [rad], in head axes
   double azimuths = 0;     ///< how many resolvable steps make a whole turn, before rounding up
-  double sector = 0;       ///< width in azimuth [rad]
+  Sector sector;           ///< of all elevations
 
   double begin(std::size_t slice) const;
   double end(std::size_t slice) const { return static_cast<double>(first + slice + 1) * length; }

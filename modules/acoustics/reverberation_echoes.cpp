@@ -44,6 +44,7 @@ class PlaneEchoes {
               const Transmission& sent, const char* who)
       : plane_(plane),
         cells_(cells),
+        sector_(cells.sector),
         echo_options_(sent.echo_options),
         source_(source_pressure(sent.pulse)),
         frequency_(sent.pulse.centre_frequency),
@@ -54,7 +55,7 @@ class PlaneEchoes {
     to_plane_ = plane.side * plane.distance * to_head.col(2);
     directions_ = static_cast<std::size_t>(std::ceil(cells.azimuths));
     step_ = 2 * pi / static_cast<double>(directions_);
-    require_few(std::ceil(cells.azimuths * std::min(1.0, cells.sector / (2 * pi))), cells, who);
+    require_few(std::ceil(cells.azimuths), cells, who);
     centre_.reserve(directions_);
     for (std::size_t j = 0; j < directions_; ++j) centre_.push_back(direction((static_cast<double>(j) + 0.5) * step_));
   }
@@ -74,16 +75,9 @@ class PlaneEchoes {
     if (!(r2 > r1)) return;
     const double area = 0.5 * (r2 * r2 - r1 * r1) * step_;  // rho drho = r dr
     const double middle = std::sqrt(0.5 * (r1 * r1 + r2 * r2) - plane_.distance * plane_.distance);
+    const double spare = middle * step_;  // one cell
     for (std::size_t j = 0; j < directions_; ++j)
-      if (in_sector(to_plane_ + middle * centre_[j])) cell_echo(k, j, r1, r2, area, out);
-  }
-
-  /// With one cell to spare on either side.
-  bool in_sector(const Vector3d& place) const {
-    const double half = 0.5 * cells_.sector + step_;
-    return half >= pi ||
-           std::abs(std::remainder(std::atan2(place.y(), place.x()) - cells_.min_azimuth - 0.5 * cells_.sector,
-                                   2 * pi)) <= half;
+      if (sector_.in_cones(to_plane_ + middle * centre_[j], spare)) cell_echo(k, j, r1, r2, area, out);
   }
 
   void cell_echo(std::size_t k, std::size_t j, double r1, double r2, double area, Echoes& out) const {
@@ -106,6 +100,7 @@ class PlaneEchoes {
 
   const ScatteringPlane& plane_;
   const ReverberationCells& cells_;
+  SectorBounds sector_;
   const EchoOptions& echo_options_;
   double source_, frequency_, two_over_c_, step_ = 0;
   Vector3d forward_, left_, to_plane_;  // in head axes; to_plane_: to the foot of the head's perpendicular
@@ -130,6 +125,7 @@ class VolumeEchoes {
   VolumeEchoes(double scattering_db, const ReverberationCells& cells, const BeamFan& fan, const Transmission& sent,
                const ReverberationOptions& options, const char* who)
       : cells_(cells),
+        sector_(cells.sector),
         echo_options_(sent.echo_options),
         law_(fan, sent.echo_options),
         ping_(static_cast<std::uint64_t>(options.ping)),
@@ -137,11 +133,13 @@ class VolumeEchoes {
     const double row = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
     const bool resolved = fan.row_width > 0 || !(echo_options_.elevation_width > 0);
     const double layers = resolved ? std::ceil(options.cells_per_resolution * law_.extent() / row) : 1;
-    const double azimuths = std::ceil(cells.azimuths * cells.sector / (2 * pi));
+    const auto [low, high] = azimuths_of(cells.sector);
+    const double azimuths = std::ceil(cells.azimuths * (high - low) / (2 * pi));
     require_few(azimuths * layers, cells, who);
     azimuths_ = static_cast<std::size_t>(azimuths);
     layers_ = static_cast<std::size_t>(layers);
-    step_ = cells.sector / azimuths;
+    min_azimuth_ = low;
+    step_ = (high - low) / azimuths;
     source_ = source_pressure(sent.pulse) *
               std::sqrt(power_from_db(scattering_db) * step_ * law_.integral() / layers);  // (E49)
   }
@@ -162,20 +160,22 @@ class VolumeEchoes {
     const TwoUniform upward_outward = split_uniform(jitter[2]);
     const double cube1 = std::pow(cells_.begin(k), 3), cube2 = std::pow(cells_.end(k), 3);
     const double r = std::cbrt(cube1 + upward_outward.rest * (cube2 - cube1));
-    const double azimuth = cells_.min_azimuth + (static_cast<double>(a) + jitter[3]) * step_;
+    const double azimuth = min_azimuth_ + (static_cast<double>(a) + jitter[3]) * step_;
     const double part = (static_cast<double>(e) + upward_outward.leading) / static_cast<double>(layers_);
     const double elevation = law_.elevation_at(part);
+    if (!sector_.in_cones(unit_vector({azimuth, elevation}))) return;
     const double size = source_ * std::sqrt((cube2 - cube1) / 3) * transmit_pattern(echo_options_, azimuth) / (r * r);
     add_echo(out, two_over_c_ * r, std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
              size * cell_amplitude(echo_options_, RandomStage::volume, counter));
   }
 
   const ReverberationCells& cells_;
+  SectorBounds sector_;
   const EchoOptions& echo_options_;
   ElevationLaw law_;
   std::uint64_t ping_;
   std::size_t azimuths_ = 0, layers_ = 0;
-  double two_over_c_, step_ = 0, source_ = 0;
+  double two_over_c_, min_azimuth_ = 0, step_ = 0, source_ = 0;
 };
 
 }  // namespace

@@ -6,9 +6,35 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/pose.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double main_lobe = 1.5;  // from its axis to its end, in widths: a Taylor pattern's first null is at 1.25
+
+Direction direction(const BeamFan& fan, std::size_t beam) { return {fan.azimuth[beam], fan.elevation[beam]}; }
+
+// `angle` plus as many turns as bring it nearest to `reference`.
+double near_to(double reference, double angle) { return reference + std::remainder(angle - reference, 2 * pi); }
+
+// The cone `margin` of u farther counter-clockwise; it ends where the array's axis is.
+double farther_round(double cone, double margin) {
+  const double turned = std::remainder(cone, 2 * pi), u = std::sin(turned);
+  const bool ahead = std::abs(turned) <= pi / 2;
+  return cone +
+         std::remainder(
+             (ahead ? std::asin(std::min(1.0, u + margin)) : pi - std::asin(std::max(-1.0, u - margin))) - turned,
+             2 * pi);
+}
+
+// Nought at +-pi/2, where the rounded cosine would leave out the zenith itself.
+double cos_elevation(double elevation) { return std::abs(elevation) < pi / 2 ? std::cos(elevation) : 0; }
+
+}  // namespace
 
 BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, double elevation_width, double elevation) {
   if (beams == 0) fail(ErrorKind::argument, "make_fan: beams = 0, must be at least 1");
@@ -51,7 +77,22 @@ std::vector<FanRow> fan_rows(const BeamFan& fan) {
   return rows;
 }
 
-Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double azimuth_margin) {
+double cone_azimuth(const Vector3d& p) {
+  return std::atan2(p.y(), std::copysign(std::sqrt(p.x() * p.x() + p.z() * p.z()), p.x()));
+}
+
+Direction direction_in_cone(double cone, double turn) {
+  const double about = std::abs(std::cos(cone));
+  return direction_of({std::cos(cone) * std::cos(turn), std::sin(cone), about * std::sin(turn)});
+}
+
+std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation) {
+  const double about = std::max(std::abs(std::cos(cone)), 1e-12);
+  const auto turn = [about](double elevation) { return std::asin(std::clamp(std::sin(elevation) / about, -1.0, 1.0)); };
+  return {turn(min_elevation), turn(max_elevation)};
+}
+
+Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin) {
   require_valid(fan, "insonified_sector");
   std::vector<double> azimuth = fan.azimuth;
   std::sort(azimuth.begin(), azimuth.end());
@@ -65,10 +106,60 @@ Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, doubl
       begin = azimuth[b];
     }
   const double centre = begin + (2 * pi - widest) / 2;
-  const double half = std::min(pi, (2 * pi - widest) / 2 + (azimuth_margin > 0 ? azimuth_margin : fan.beam_width));
+
+  // Outermost cones, and the margin beyond them.
+  double least = centre, most = centre;
+  for (std::size_t b = 0; b < fan.beams(); ++b) {
+    const double cone =
+        near_to(centre + std::remainder(fan.azimuth[b] - centre, 2 * pi), cone_azimuth(unit_vector(direction(fan, b))));
+    least = b == 0 ? cone : std::min(least, cone);
+    most = b == 0 ? cone : std::max(most, cone);
+  }
+  const double wide = margin > 0 ? margin : main_lobe * fan.beam_width;
+  least = -farther_round(-least, wide);
+  most = farther_round(most, wide);
+  if (most - least >= 2 * pi) least = centre - pi, most = centre + pi;
   const auto [low, high] = std::minmax_element(fan.elevation.begin(), fan.elevation.end());
-  return {centre - half, centre + half, std::max(-pi / 2, *low - elevation_half_extent),
+  return {least, most, std::max(-pi / 2, *low - elevation_half_extent),
           std::min(pi / 2, *high + elevation_half_extent)};
+}
+
+std::pair<double, double> azimuths_of(const Sector& sector) {
+  const double up = std::min(std::max(std::abs(sector.min_elevation), std::abs(sector.max_elevation)), pi / 2);
+  // A cone leaves its azimuth away from the plane z = 0 towards +-pi/2.
+  const auto outermost = [&](double edge) {
+    const double turned = std::remainder(edge, 2 * pi), u = std::sin(turned);
+    const double reached = std::asin(std::clamp(u / std::max(std::cos(up), 1e-12), -1.0, 1.0));
+    return std::max(edge, near_to(edge, std::abs(turned) <= pi / 2 ? reached : pi - reached));
+  };
+  const double low = -outermost(-sector.min_azimuth), high = outermost(sector.max_azimuth);
+  if (high - low < 2 * pi) return {low, high};
+  return {(low + high) / 2 - pi, (low + high) / 2 + pi};
+}
+
+SectorBounds::SectorBounds(const Sector& sector)
+    : whole_circle_(sector.max_azimuth - sector.min_azimuth >= 2 * pi),
+      convex_(sector.max_azimuth - sector.min_azimuth <= pi),
+      port_(std::sin(sector.max_azimuth), -std::cos(sector.max_azimuth)),
+      starboard_(-std::sin(sector.min_azimuth), std::cos(sector.min_azimuth)),
+      top_(std::sin(sector.max_elevation), cos_elevation(sector.max_elevation)),
+      bottom_(std::sin(sector.min_elevation), cos_elevation(sector.min_elevation)) {}
+
+bool SectorBounds::in_elevations(const Vector3d& p, double margin) const {
+  const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
+  return p.z() * top_.y() - across * top_.x() <= margin && across * bottom_.x() - p.z() * bottom_.y() <= margin;
+}
+
+bool SectorBounds::in_cones(const Vector3d& p, double margin) const {
+  if (whole_circle_) return true;
+  // Turned about the array's axis into the plane z = 0, ahead or astern, a cone is a line.
+  const double about = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const auto inside = [&](double x) {
+    const Eigen::Vector2d q(x, p.y());
+    const bool from_port = port_.dot(q) >= -margin, from_starboard = starboard_.dot(q) >= -margin;
+    return convex_ ? from_port && from_starboard : from_port || from_starboard;
+  };
+  return (p.x() >= -margin && inside(about)) || (p.x() <= margin && inside(-about));
 }
 
 }  // namespace insonify

@@ -1,6 +1,11 @@
 #pragma once
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pose.hpp"
 
 namespace insonify {
 
@@ -35,15 +40,48 @@ struct FanRow {
 /// with all elevations different has as many rows as beams.
 std::vector<FanRow> fan_rows(const BeamFan& fan);
 
-/// The sampled sector: the fan plus a margin on each side.
+/// A line array resolves u = cos(elevation) sin(azimuth) alone: a beam is a cone about the array's axis. This is the azimuth
+/// [rad] at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the array, pi - asin(u) astern.
+double cone_azimuth(const Eigen::Vector3d& p);
+
+/// The direction in the cone of this azimuth at `turn` [rad] about the array's axis, positive upwards, within +-pi/2.
+/// Solid angle: |cos(cone)| dcone dturn.
+Direction direction_in_cone(double cone, double turn);
+
+/// Turns between which a cone lies within these elevations [rad], ascending; equal if it does not reach them.
+std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation);
+
+/// The insonified sector: the directions in which beams have their main lobes.
 struct Sector {
-  double min_azimuth = 0, max_azimuth = 0;      ///< [rad]
+  double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad], see cone_azimuth
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
-/// Returns the insonified sector of a fan.
+/// Returns the insonified sector of a fan: the cones of all beams plus a margin in u on each side, ahead only (x > 0)
+/// unless a beam looks astern, at the elevations of all beams plus the half extent.
 ///
 /// elevation_half_extent   margin below the lowest and above the highest beam [rad]
-/// azimuth_margin          margin beyond the outermost beams [rad]; 0: one beam width
-Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double azimuth_margin = 0);
+/// margin                  margin beyond the outermost beams, in u; 0: 1.5 beam widths, the main lobe of a shaded array
+Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin = 0);
+
+/// Azimuths covered by the directions of a sector [rad]; wider than its cones if it extends far up or down.
+std::pair<double, double> azimuths_of(const Sector& sector);
+
+/// The one test of whether points are inside a sector, by signed distances, without trigonometry per point.
+class SectorBounds {
+ public:
+  explicit SectorBounds(const Sector& sector);
+
+  /// True if a sphere of radius `margin` [m] around p (head axes) may intersect the sector; exact for margin 0.
+  bool overlaps(const Eigen::Vector3d& p, double margin = 0) const {
+    return in_elevations(p, margin) && in_cones(p, margin);
+  }
+  bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const;
+  bool in_cones(const Eigen::Vector3d& p, double margin = 0) const;
+
+ private:
+  bool whole_circle_, convex_;
+  Eigen::Vector2d port_, starboard_;  // inward normals of the edges, in the half-planes through the array's axis
+  Eigen::Vector2d top_, bottom_;      // sine and cosine of the edges in elevation
+};
 
 }  // namespace insonify

@@ -24,12 +24,11 @@ std::vector<double> midpoints(const std::vector<double>& values, double low, dou
 }  // namespace
 
 std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
-  // Columns of beams of one azimuth. Azimuths are unwrapped from the starboard edge of the sector, so there is no jump
-  // at +-pi.
+  // Columns of beams of one azimuth, measured from the middle of the sector, so there is no jump at +-pi.
+  const double middle = (sector.min_azimuth + sector.max_azimuth) / 2;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t b = 0; b < fan.beams(); ++b) {
-    const double from_edge = std::fmod(fan.azimuth[b] - sector.min_azimuth + 4 * pi, 2 * pi);
-    order.emplace_back(sector.min_azimuth + from_edge, b);
+    order.emplace_back(middle + std::remainder(fan.azimuth[b] - middle, 2 * pi), b);
   }
   std::sort(order.begin(), order.end());
   std::vector<double> azimuth;
@@ -42,15 +41,26 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
     columns.back().emplace_back(fan.elevation[b], b);
   }
 
-  const std::vector<double> azimuth_cuts = midpoints(azimuth, sector.min_azimuth, sector.max_azimuth);
+  // Cuts between columns are cones: in a grid those at the elevation of each row, else one for all elevations.
+  for (auto& column : columns) std::sort(column.begin(), column.end());
+  const bool grid = std::all_of(columns.begin(), columns.end(), [&](const auto& column) {
+    return std::equal(column.begin(), column.end(), columns[0].begin(), columns[0].end(),
+                      [](const auto& a, const auto& b) { return a.first == b.first; });
+  });
+  const auto [low, high] = std::minmax_element(fan.elevation.begin(), fan.elevation.end());
+  const auto cut = [&, level = (*low + *high) / 2](std::size_t c, double elevation) {
+    if (c == 0) return sector.min_azimuth;
+    if (c == columns.size()) return sector.max_azimuth;
+    const double a = (azimuth[c - 1] + azimuth[c]) / 2;
+    return a + std::remainder(cone_azimuth(unit_vector({a, grid ? elevation : level})) - a, 2 * pi);
+  };
   std::vector<BeamShare> shares(fan.beams());
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    std::sort(columns[c].begin(), columns[c].end());
     std::vector<double> elevation;
     for (const auto& [e, b] : columns[c]) elevation.push_back(e);
     const auto cuts = midpoints(elevation, sector.min_elevation, sector.max_elevation);
     for (std::size_t e = 0; e < elevation.size(); ++e)
-      shares[columns[c][e].second] = {azimuth_cuts[c], azimuth_cuts[c + 1], cuts[e], cuts[e + 1]};
+      shares[columns[c][e].second] = {cut(c, elevation[e]), cut(c + 1, elevation[e]), cuts[e], cuts[e + 1]};
   }
   return shares;
 }
@@ -62,15 +72,16 @@ std::vector<Ray> beam_rays(const std::vector<BeamShare>& shares, const SamplingO
     const BeamShare& share = shares[beam];
     const double shift = random_uniform(options.seed, RandomStage::ray_jitter, {beam, ~0ull, 0})[0];
     const double width = share.max_azimuth - share.min_azimuth;
-    const double step = (share.max_elevation - share.min_elevation) / static_cast<double>(n);
     for (std::size_t k = 0; k < n; ++k) {
       const double jitter = random_uniform(options.seed, RandomStage::ray_jitter, {beam, k, 0})[0];
       const double across = shift + static_cast<double>(k) * golden;
+      const double cone = share.min_azimuth + width * (across - std::floor(across));
+      const auto [low, high] = turns_between(cone, share.min_elevation, share.max_elevation);
+      const double step = (high - low) / static_cast<double>(n);
       Ray& ray = rays[beam * n + k];
-      ray.direction.azimuth = std::remainder(share.min_azimuth + width * (across - std::floor(across)), 2 * pi);
-      ray.direction.elevation = share.min_elevation + step * (static_cast<double>(k) + jitter);
+      ray.direction = direction_in_cone(cone, low + step * (static_cast<double>(k) + jitter));
       ray.along = unit_vector(ray.direction).cast<float>();
-      ray.solid_angle = std::cos(ray.direction.elevation) * width * step;
+      ray.solid_angle = std::abs(std::cos(cone)) * width * step;
     }
   });
   return rays;

@@ -36,7 +36,7 @@ struct SamplingOptions {
   std::uint64_t seed = 1;            ///< seeds the jitter of parts and rays
   int threads = 0;                   ///< 0: all cores
   double relief_outer_scale = 0;     ///< longest wavelength of micro-relief [m]; 0: the mean surfel spacing sqrt(area)
-  double azimuth_margin = 0;         ///< margin beyond the outermost beams [rad]; 0: one beam width
+  double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
 };
 
 /// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin and

@@ -14,40 +14,10 @@ using Eigen::Vector3d;
 
 constexpr double min_distance = 1e-6;  // [m]; nearer points belong to the head itself
 
-// A sector as four half-spaces: signed distances avoid trigonometry per point.
-class SectorTest {
- public:
-  explicit SectorTest(const Sector& sector)
-      : whole_circle_(sector.max_azimuth - sector.min_azimuth >= 2 * pi),
-        convex_(sector.max_azimuth - sector.min_azimuth <= pi),
-        port_(std::sin(sector.max_azimuth), -std::cos(sector.max_azimuth)),
-        starboard_(-std::sin(sector.min_azimuth), std::cos(sector.min_azimuth)),
-        top_(std::sin(sector.max_elevation), cos_elevation(sector.max_elevation)),
-        bottom_(std::sin(sector.min_elevation), cos_elevation(sector.min_elevation)) {}
-
-  // Returns true if a ball of radius `margin` around p may overlap the sector; exact for margin 0.
-  bool overlaps(const Vector3d& p, double margin) const {
-    const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
-    if (p.z() * top_.y() - across * top_.x() > margin) return false;
-    if (across * bottom_.x() - p.z() * bottom_.y() > margin) return false;
-    if (whole_circle_) return true;
-    const bool from_port = port_.dot(p.head<2>()) >= -margin, from_starboard = starboard_.dot(p.head<2>()) >= -margin;
-    return convex_ ? from_port && from_starboard : from_port || from_starboard;
-  }
-
- private:
-  // Zero at +-pi/2, where the rounded cosine would exclude the zenith itself.
-  static double cos_elevation(double elevation) { return std::abs(elevation) < pi / 2 ? std::cos(elevation) : 0; }
-
-  bool whole_circle_, convex_;
-  Eigen::Vector2d port_, starboard_;  // inward normals of the edges in azimuth
-  Eigen::Vector2d top_, bottom_;      // sine and cosine of the edges in elevation
-};
-
 struct Gate {
   const SceneCloud& scene;
   const HeadFrame& head;
-  SectorTest sector;
+  SectorBounds sector;
   RangeGate range;
   double footprint;
 
@@ -69,7 +39,7 @@ struct Gate {
     s.radius = static_cast<float>(radius);
     s.spacing = static_cast<float>(spacing);
     s.surfel = static_cast<std::uint32_t>(i);
-    s.in_gate = r >= range.min_range && sector.overlaps(p, 0);
+    s.in_gate = r >= range.min_range && sector.overlaps(p);
     s.facing = scene.normals_oriented ? along < 0 : along != 0;
     inside.push_back(s);
   }
@@ -78,7 +48,7 @@ struct Gate {
 // Surfels to test, one bit each, so they are visited in scene order whatever the order of the blocks.
 using Marks = std::vector<std::uint64_t>;
 
-bool reaches(const Vector3d& centre, double radius, double largest_area, const SectorTest& sector, double max_range,
+bool reaches(const Vector3d& centre, double radius, double largest_area, const SectorBounds& sector, double max_range,
              double footprint) {
   constexpr double rounding = 1 + 1e-9;
   if (centre.norm() > (max_range + radius) * rounding) return false;
@@ -130,13 +100,13 @@ bool may_intersect(const InsonifiedRegion& region, const Vector3d& ball_centre, 
                    double largest_area) {
   const Pose& pose = region.world_from_head;
   const Vector3d in_head_axes = pose.linear().transpose() * (ball_centre - pose.translation());
-  return reaches(in_head_axes, ball_radius, largest_area, SectorTest(region.sector), region.gate.max_range,
+  return reaches(in_head_axes, ball_radius, largest_area, SectorBounds(region.sector), region.gate.max_range,
                  region.footprint);
 }
 
 std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& range, double footprint, int threads) {
-  const Gate gate{scene, head, SectorTest(sector), range, footprint};
+  const Gate gate{scene, head, SectorBounds(sector), range, footprint};
   std::vector<std::vector<GatedSurfel>> parts((scene.size() + gate_block - 1) / gate_block);
   parallel_blocks(scene.size(), gate_block, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) gate.add_if_inside(i, parts[begin / gate_block]);
@@ -146,7 +116,7 @@ std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& 
 
 std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& range, double footprint, int threads) {
-  const Gate gate{prepared.scene(), head, SectorTest(sector), range, footprint};
+  const Gate gate{prepared.scene(), head, SectorBounds(sector), range, footprint};
   const Marks marks = mark_reached(prepared, gate, threads);
   constexpr std::size_t words = gate_block / 64;
   std::vector<std::vector<GatedSurfel>> parts((marks.size() + words - 1) / words);

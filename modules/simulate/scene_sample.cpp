@@ -19,6 +19,7 @@ class Sampler {
       : scene_(scene),
         ping_(ping),
         gate_(ping.view.gate),
+        sector_(ping.sector),
         to_head_(ping.view.world_from_head.linear().transpose()),
         shift_(scene.origin - ping.view.world_from_head.translation()),
         source_(source_pressure(ping.head.pulse)) {}
@@ -30,10 +31,7 @@ class Sampler {
     const double cosine = -(to_head_ * scene_.normal[i].cast<double>()).dot(p) / r;
     const double facing = scene_.normals_oriented ? std::max(0.0, cosine) : std::abs(cosine);
     const Direction d = direction_of(p);
-    const Sector& sector = ping_.sector;
-    const bool in_azimuth = std::abs(std::remainder(d.azimuth - 0.5 * (sector.min_azimuth + sector.max_azimuth),
-                                                    2 * pi)) <= 0.5 * (sector.max_azimuth - sector.min_azimuth);
-    const bool in_elevation = d.elevation >= sector.min_elevation && d.elevation <= sector.max_elevation;
+    const bool in_azimuth = sector_.in_cones(p), in_elevation = sector_.in_elevations(p);
     const bool in_gate = r >= gate_.min_range && r <= gate_.max_range;
 
     const double power = echo_power(i, r, facing, d.elevation);
@@ -98,6 +96,7 @@ class Sampler {
   const SceneCloud& scene_;
   const ResolvedPing& ping_;
   const RangeGate& gate_;  // the sampled one
+  SectorBounds sector_;
   Eigen::Matrix3d to_head_;
   Eigen::Vector3d shift_;
   double source_, surfels_ = 0, back_facing_ = 0;

@@ -19,7 +19,7 @@ struct SamplingSettings {
   int rays_per_beam = 64;           ///< of sampling by rays, and of the mask of holes
   bool occlusion = true;
   double elevation_floor_db = -40;  ///< elevations where the two-way pattern is lower are not sampled; < 0
-  double azimuth_margin = 0;        ///< sampled beyond the outermost beams [rad]; 0: one beam width
+  double azimuth_margin = 0;        ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
   /// The sampling is refined until 99 % of the cells have a smaller error (E66): points are multiplied (surfels:
   /// scatterers per cell; rays: rays per beam) by what the error asks for, up to six samplings and 2^23 scatterers or
   /// rays (about 1.5 GiB). 0: the sampling is taken as it is.

@@ -46,7 +46,8 @@ BeamReach reach_of(const BeamFan& fan, std::size_t beam) {
 // Surfels whose centre lies in the beam's share of the fan and in the bin.
 std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
   const HeadFrame head(scene, ping.world_from_head);
-  const double azimuth = ping.fan.azimuth[place.beam], elevation = ping.fan.elevation[place.beam];
+  const double elevation = ping.fan.elevation[place.beam];
+  const double cone = cone_azimuth(unit_vector({ping.fan.azimuth[place.beam], elevation}));
   const BeamReach reach = reach_of(ping.fan, place.beam);
   const double range = ping.gate.centre(place.bin), half_bin = ping.gate.bin_size / 2;
   std::vector<std::uint32_t> found;
@@ -57,9 +58,8 @@ std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping,
     const double squared = p.squaredNorm();
     if (near > 0 && squared < near * near) continue;
     if (squared > far * far || squared == 0) continue;
-    const Direction direction = direction_of(p);
-    const double off = std::remainder(direction.azimuth - azimuth, 2 * pi);
-    if (off > reach.left || -off > reach.right || std::abs(direction.elevation - elevation) > reach.up) continue;
+    const double off = std::remainder(cone_azimuth(p) - cone, 2 * pi);
+    if (off > reach.left || -off > reach.right || std::abs(direction_of(p).elevation - elevation) > reach.up) continue;
     found.push_back(static_cast<std::uint32_t>(i));
   }
   return found;

@@ -310,12 +310,12 @@ TEST(Reverberation, fills_the_sector_of_the_fan_and_no_more) {
     const Echoes e = surface_echoes(environment(), at(0, 0, -2, 0, -pitch), fan_of(40), {9, 9.5, 0.01}, transmission());
     double least = 10, most = -10;
     for (std::size_t i = 0; i < e.size(); ++i) {
-      const double azimuth = std::asin(e.u[i] / std::sqrt(1 - e.v[i] * e.v[i]));
-      least = std::min(least, azimuth);
-      most = std::max(most, azimuth);
+      least = std::min(least, std::asin(e.u[i]));
+      most = std::max(most, std::asin(e.u[i]));
     }
-    EXPECT_NEAR(degrees(most), 20.5, 1.2) << pitch;  // half the field of view, less half a beam, and a beam width
-    EXPECT_NEAR(degrees(least), -20.5, 1.2) << pitch;
+    // Half the field of view, less half a beam, 1.5 beam widths of u and a cell.
+    EXPECT_NEAR(degrees(most), 21.4, 0.6) << pitch;
+    EXPECT_NEAR(degrees(least), -21.4, 0.6) << pitch;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "sampling/beam_fan.hpp"
 
 #include <limits>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,19 +38,60 @@ TEST(BeamFan, says_what_is_wrong_with_it) {
   EXPECT_THAT(error_of([] { make_fan(3, 7, 0.1, 0.1); }), HasSubstr("field_of_view = 7 rad"));
 }
 
-TEST(Sector, is_the_fan_and_a_beam_width_on_either_side) {
+TEST(Sector, is_the_fan_and_a_main_lobe_on_either_side) {
   const Sector s = insonified_sector(make_fan(4, 0.8, 0.1, 0.3, -0.2), 0.25);
-  EXPECT_NEAR(s.min_azimuth, -0.4, 1e-12);
-  EXPECT_NEAR(s.max_azimuth, 0.4, 1e-12);
+  const double edge = std::asin(std::cos(0.2) * std::sin(0.3) + 0.15);
+  EXPECT_NEAR(s.min_azimuth, -edge, 1e-12);
+  EXPECT_NEAR(s.max_azimuth, edge, 1e-12);
   EXPECT_NEAR(s.min_elevation, -0.45, 1e-12);
   EXPECT_NEAR(s.max_elevation, 0.05, 1e-12);
+  EXPECT_NEAR(insonified_sector(make_fan(4, 0.8, 0.1, 0.3), 0.25, 0.7).max_azimuth, std::asin(std::sin(0.3) + 0.7),
+              1e-12);
+  EXPECT_NEAR(insonified_sector(make_fan(4, 0.8, 0.1, 0.3), 0.25, 0.8).max_azimuth, pi / 2, 1e-12);
 }
 
 TEST(Sector, of_a_fan_that_looks_astern_crosses_pi) {
   BeamFan fan{{3.0, 3.1, -3.1, -3.0}, {0, 0, 0, 0}, 0.05, 0.3};
   const Sector s = insonified_sector(fan, 0.3);
-  EXPECT_NEAR(s.min_azimuth, 2.95, 1e-12);
-  EXPECT_NEAR(s.max_azimuth, 2 * pi - 3.0 + 0.05, 1e-12);
+  EXPECT_NEAR(s.min_azimuth, pi - std::asin(std::sin(3.0) + 0.075), 1e-12);
+  EXPECT_NEAR(s.max_azimuth, pi + std::asin(std::sin(3.0) + 0.075), 1e-12);
+}
+
+// Against the rule itself: u within the beams' and a margin, ahead or astern, and an elevation.
+TEST(Sector, holds_what_its_beams_receive) {
+  const BeamFan ahead = make_fan(64, radians(130), radians(1), radians(20)),
+                round = make_fan(64, radians(200), 0.02, 0.3);
+  const SectorBounds narrow(insonified_sector(ahead, 0.6)), wide(insonified_sector(round, 0.6));
+  const double edge = std::sin(ahead.azimuth.back()) + 1.5 * ahead.beam_width;
+  const double astern = std::sin(round.azimuth.back()) - 1.5 * round.beam_width;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 20000; ++k) {
+    const Eigen::Vector3d p(normal(random), normal(random), normal(random));
+    const double u = p.y() / p.norm();
+    const bool up = std::abs(std::asin(p.z() / p.norm())) <= 0.6;
+    ASSERT_EQ(narrow.overlaps(p), up && p.x() >= 0 && std::abs(u) <= edge) << p.transpose();
+    ASSERT_EQ(wide.overlaps(p), up && (p.x() >= 0 || std::abs(u) >= astern)) << p.transpose();
+    const Eigen::Vector3d beside =
+        p + 0.3 * Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    for (const SectorBounds* bounds : {&narrow, &wide})
+      ASSERT_TRUE(!bounds->holds(p) || bounds->holds(beside, 0.3001)) << p.transpose();
+    const auto [low, high] = azimuths_of(insonified_sector(ahead, 0.6));
+    const double azimuth = std::atan2(p.y(), p.x());
+    ASSERT_TRUE(!narrow.overlaps(p) || (azimuth >= low && azimuth <= high));
+  }
+}
+
+TEST(Cone, holds_the_direction_it_was_made_from) {
+  for (const double cone : {-2.5, -1.2, 0.0, 0.7, 1.5, 2.9})
+    for (const double turn : {-1.4, 0.0, 0.9}) {
+      const Eigen::Vector3d p = unit_vector(direction_in_cone(cone, turn));
+      EXPECT_NEAR(cone_azimuth(p), cone, 1e-9);
+      EXPECT_NEAR(p.y(), std::sin(cone), 1e-12);
+      const auto [low, high] = turns_between(cone, -1.5, direction_of(p).elevation);
+      EXPECT_NEAR(high, turn, 1e-6);
+      EXPECT_LE(low, high);
+    }
 }
 
 TEST(Sector, of_a_full_circle_is_the_circle) {
@@ -80,7 +122,7 @@ TEST(BeamShares, of_beams_in_a_column_share_its_elevations) {
   EXPECT_NEAR(shares[0].min_elevation, -0.3, 1e-12);
   EXPECT_NEAR(shares[0].max_elevation, 0.0, 1e-12);
   EXPECT_NEAR(shares[1].max_elevation, 0.3, 1e-12);
-  EXPECT_NEAR(shares[3].min_azimuth, 0.05, 1e-12);
+  EXPECT_NEAR(shares[3].min_azimuth, cone_azimuth(unit_vector({0.05, 0.1})), 1e-12);
 }
 
 // Staggered rows: every direction of the sector still belongs to exactly one beam.

@@ -95,8 +95,9 @@ TEST(FindScatterers, keeps_to_sector_and_gate) {
   ASSERT_GT(s.size(), 100u);
   for (std::size_t i = 0; i < s.size(); ++i) {
     ASSERT_NEAR(s.range[i], 6, 1e-4);
-    // Outermost beams at 17.5 degrees plus one beam width.
-    ASSERT_LE(std::abs(s.azimuth[i]), radians(19.5) + 1e-9);
+    // Outermost beams at 17.5 degrees, 1.5 beam widths more on either side.
+    const double u = std::cos(s.elevation[i]) * std::sin(s.azimuth[i]);
+    ASSERT_LE(std::abs(u), std::cos(radians(15)) * std::sin(radians(17.5)) + radians(3) + 1e-9);
     ASSERT_NEAR(s.elevation[i], radians(-15), radians(4) + 1e-9);
   }
   EXPECT_EQ(sampling.report.surfels, scene.size());

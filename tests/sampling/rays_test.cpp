@@ -24,7 +24,15 @@ double solid_angle(const Scatterers& s) {
 }
 
 double solid_angle(const Sector& s) {
-  return (s.max_azimuth - s.min_azimuth) * (std::sin(s.max_elevation) - std::sin(s.min_elevation));
+  constexpr int steps = 10000;
+  const double step = (s.max_azimuth - s.min_azimuth) / steps;
+  double sum = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double cone = s.min_azimuth + (k + 0.5) * step;
+    const auto [low, high] = turns_between(cone, s.min_elevation, s.max_elevation);
+    sum += std::cos(cone) * step * (high - low);
+  }
+  return sum;
 }
 
 }  // namespace
