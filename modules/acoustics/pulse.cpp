@@ -49,7 +49,7 @@ double range_resolution(const Pulse& pulse, double sound_speed) {
 double nominal_range_resolution(const Pulse& pulse, double sound_speed) { return sound_speed / (2 * pulse.bandwidth); }
 
 double noise_bandwidth(const Pulse& pulse) {
-  if (pulse.shape != PulseShape::linear_fm) return pulse.bandwidth;
+  if (pulse.shape != PulseShape::linear_fm) return std::sqrt(pi / (2 * two_ln2)) * pulse.bandwidth;  // (E18)
   const auto [level, swing] = replica_weights(pulse.window);
   return (1 + 0.5 * (swing * swing) / (level * level)) / pulse.duration;  // (E55)
 }

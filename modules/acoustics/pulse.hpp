@@ -48,8 +48,9 @@ double nominal_range_resolution(const Pulse& pulse, double sound_speed);
 /// (0, 1). Of a sweep an upper bound, at most its duration, outside of which there is nothing (E54).
 double pulse_half_length(const Pulse& pulse, double tolerance);
 
-/// Band of white noise that passes the receive filter [Hz]: a Gaussian's bandwidth; of a sweep's matched filter
-/// integral w^2 / (integral w)^2 (E55), which is 1 (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
+/// Equivalent noise bandwidth of the receive filter [Hz], integral |H(f)|^2 df / |H(0)|^2: of a Gaussian pulse
+/// sqrt(pi / (4 ln 2)) B = 1.0645 B (E18); of a sweep's matched filter integral w^2 / (integral w)^2 (E55), which is
+/// 1 (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
 double noise_bandwidth(const Pulse& pulse);
 
 /// Weight of a sweep's replica at t [s] from its middle, |t| <= duration / 2.

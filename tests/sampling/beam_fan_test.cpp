@@ -75,7 +75,7 @@ TEST(Sector, holds_what_its_beams_receive) {
     const Eigen::Vector3d beside =
         p + 0.3 * Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
     for (const SectorBounds* bounds : {&narrow, &wide})
-      ASSERT_TRUE(!bounds->holds(p) || bounds->holds(beside, 0.3001)) << p.transpose();
+      ASSERT_TRUE(!bounds->overlaps(p) || bounds->overlaps(beside, 0.3001)) << p.transpose();
     const auto [low, high] = azimuths_of(insonified_sector(ahead, 0.6));
     const double azimuth = std::atan2(p.y(), p.x());
     ASSERT_TRUE(!narrow.overlaps(p) || (azimuth >= low && azimuth <= high));
