@@ -7,10 +7,10 @@
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene_io/load_scene.hpp"
-#include "test_files.hpp"
+#include "scene_io/test_files.hpp"
+#include "support/files.hpp"
 
 using namespace insonify;
-using namespace insonify::test;
 
 namespace {
 
@@ -72,14 +72,14 @@ Seen seen_from_scanner(const SceneCloud& scene) {
 SceneCloud loaded(const std::string& name) {
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d::Zero();
-  return load_scene(temporary(name), options).scene;
+  return load_scene(own_path(name), options).scene;
 }
 
 }  // namespace
 
 TEST(ScanVisibility, of_a_noisy_scan_from_its_own_viewpoint_is_98_percent_and_0_2_db) {
   for (const double noise : {0.0, 0.01, 0.02, 0.04}) {
-    write_file("scan.xyz", scan(noise).text);
+    own_file("scan.xyz", scan(noise).text);
     const Seen seen = seen_from_scanner(loaded("scan.xyz"));
     EXPECT_GT(seen.surfels, 0.98) << noise;
     EXPECT_GT(seen.energy_db, -0.2) << noise;
@@ -89,7 +89,7 @@ TEST(ScanVisibility, of_a_noisy_scan_from_its_own_viewpoint_is_98_percent_and_0_
 // Ranges in steps of several spacings, as a stereo camera gives them: lines of sight of an organised cloud are proof.
 TEST(ScanVisibility, of_an_organised_scan_in_steps_is_whole_from_its_own_viewpoint) {
   const Scan s = scan(0.1, 0.2);
-  write_file("scan.pcd",
+  own_file("scan.pcd",
              "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 140\nHEIGHT 72\n"
              "VIEWPOINT 0 0 0 0 1 0 0\nPOINTS " +
                  std::to_string(s.points) + "\nDATA ascii\n" + s.text);
@@ -99,15 +99,15 @@ TEST(ScanVisibility, of_an_organised_scan_in_steps_is_whole_from_its_own_viewpoi
 }
 
 TEST(ScanVisibility, takes_noise_from_the_file_else_from_the_options) {
-  write_file("scan.xyz", scan(0.02).text);
+  own_file("scan.xyz", scan(0.02).text);
   LoadOptions options;
   options.scan_noise = 0.03;
-  const LoadedScene given = load_scene(temporary("scan.xyz"), options);
+  const LoadedScene given = load_scene(own_path("scan.xyz"), options);
   EXPECT_FALSE(given.report.noise_estimated);
   EXPECT_EQ(given.scene.noise, std::vector<float>(given.scene.size(), 0.03f));
-  write_file("noise.csv", "x,y,z,nx,ny,nz,area,noise\n0,0,0,0,0,1,1,0.5\n1,0,0,0,0,1,1,nan\n");
-  EXPECT_EQ(load_scene(temporary("noise.csv"), options).scene.noise, (std::vector<float>{0.5f, 0}));
+  own_file("noise.csv", "x,y,z,nx,ny,nz,area,noise\n0,0,0,0,0,1,1,0.5\n1,0,0,0,0,1,1,nan\n");
+  EXPECT_EQ(load_scene(own_path("noise.csv"), options).scene.noise, (std::vector<float>{0.5f, 0}));
   options.scan_noise = -1;
   expect_error(ErrorKind::argument, {"scan_noise = -1 m", "must be finite and >= 0"},
-               [&] { load_scene(temporary("scan.xyz"), options); });
+               [&] { load_scene(own_path("scan.xyz"), options); });
 }
