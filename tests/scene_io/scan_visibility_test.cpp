@@ -90,9 +90,9 @@ TEST(ScanVisibility, of_a_noisy_scan_from_its_own_viewpoint_is_98_percent_and_0_
 TEST(ScanVisibility, of_an_organised_scan_in_steps_is_whole_from_its_own_viewpoint) {
   const Scan s = scan(0.1, 0.2);
   own_file("scan.pcd",
-             "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 140\nHEIGHT 72\n"
-             "VIEWPOINT 0 0 0 0 1 0 0\nPOINTS " +
-                 std::to_string(s.points) + "\nDATA ascii\n" + s.text);
+           "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 140\nHEIGHT 72\n"
+           "VIEWPOINT 0 0 0 0 1 0 0\nPOINTS " +
+               std::to_string(s.points) + "\nDATA ascii\n" + s.text);
   const Seen seen = seen_from_scanner(loaded("scan.pcd"));
   EXPECT_GT(seen.surfels, 0.999);
   EXPECT_GT(seen.energy_db, -0.01);
