@@ -37,7 +37,8 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   return {
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
-       "gridded: narrow band, far field; true-delays: wide band and near field, per element; direct and element-exact: "
+       "gridded: narrow band, far field; true-delays: wide band and near field, slow at short range; direct and "
+       "element-exact: "
        "the slow referees of both; or incoherent: the expected level, no speckle",
        methods},
   };
