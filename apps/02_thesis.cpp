@@ -1,13 +1,12 @@
 // Reproduces figures 13 to 21 and Table 4 of A. Rascon's thesis (docs/thesis.md).
 //   02_thesis FOLDER [--quick | --figures]
-// --quick: small pictures, and run times of the smallest case only. --figures: no run times.
+// --quick: small and coarse pictures, and run times of the smallest case only. --figures: no run times.
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
 
-#include "thesis/figures.hpp"
-#include "thesis/run_times.hpp"
+#include "thesis/thesis.hpp"
 
 int main(int argc, char** argv) {
   const std::string option = argc == 3 ? argv[2] : "";
@@ -19,7 +18,7 @@ int main(int argc, char** argv) {
   try {
     insonify::thesis::FigureOptions figures;
     figures.folder = argv[1];
-    if (quick) figures.width = 560, figures.height = 420;
+    if (quick) figures.width = 560, figures.height = 420, figures.bin_size = 5e-3;
     std::filesystem::create_directories(figures.folder);
     insonify::thesis::draw_figures(figures);
     if (quick)

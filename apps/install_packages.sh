@@ -19,8 +19,9 @@ if [[ "${1:-}" == --tests ]]; then
 fi
 
 missing=()
+installed=$'\n'$(dpkg-query -W -f='${Package} ${Status}\n' "${!why[@]}" 2>/dev/null || true)
 for package in "${!why[@]}"; do
-  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  [[ $installed == *$'\n'"$package install ok installed"* ]] || missing+=("$package")
 done
 [[ ${#missing[@]} -gt 0 ]] || exit 0
 

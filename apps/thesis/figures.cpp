@@ -1,5 +1,3 @@
-#include "thesis/figures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,10 +8,9 @@
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
-#include "thesis/scene.hpp"
+#include "thesis/thesis.hpp"
 #include "view/line_chart_internal.hpp"
-#include "view/show_rect.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify::thesis {
 namespace {
@@ -27,13 +24,6 @@ std::vector<double> bearings_deg(const std::vector<double>& azimuth) {
   std::vector<double> bearings;
   for (const double a : azimuth) bearings.push_back(bearing_deg(a));
   return bearings;
-}
-
-AxisTicks bearing_labels(double low, double high, double most) {
-  const BearingTicks bearings = bearing_ticks(low, high, most);
-  AxisTicks ticks{bearings.at_deg, {}};
-  for (const double at : bearings.at_deg) ticks.labels.push_back(bearing_text(at, bearings.step));
-  return ticks;
 }
 
 LineChart bearing_chart(double limit_deg, const std::string& title) {
@@ -53,10 +43,10 @@ struct Simulated {
   Echoes echoes;
   ComplexGrid beams;
 
-  explicit Simulated(std::size_t count)
+  Simulated(std::size_t count, double bin_size)
       : which{count},
         object(make_object(which)),
-        head(make_sonar(count)),
+        head(make_sonar(count, 144, bin_size)),
         echoes(echoes_of_object(object)),
         beams(synthesize_direct(echoes, head, medium())) {}
 };
@@ -113,9 +103,9 @@ void draw_object(Figures& figures, const Simulated& s, const std::string& name) 
   LineChart chart = bearing_chart(25, "The object: " + std::to_string(s.which.beams) + " columns of 21 scatterers");
   chart.y_title = "Range [m]";
   chart.low_y = 1.4, chart.high_y = 3.1;
-  chart.style = LineStyle::points;
-  chart.x = bearings_deg(s.object.azimuth);
-  chart.y = s.object.range;
+  chart.lines[0].style = LineStyle::points;
+  chart.lines[0].x = bearings_deg(s.object.azimuth);
+  chart.lines[0].y = s.object.range;
   figures.chart(name, chart);
 }
 
@@ -127,8 +117,8 @@ LineChart time_chart(const SonarHead& head, const ComplexGrid& series, std::size
   chart.x_title = "Time since transmission [ms]";
   chart.y_title = "Level [dB re 1 µPa]";
   for (std::size_t n = 0; n < head.gate.bins(); ++n) {
-    chart.x.push_back(ms * head.gate.centre(n));
-    chart.y.push_back(std::max(0.0, pressure_level_db(std::abs(series(row, n)))));
+    chart.lines[0].x.push_back(ms * head.gate.centre(n));
+    chart.lines[0].y.push_back(std::max(0.0, pressure_level_db(std::abs(series(row, n)))));
   }
   return chart;
 }
@@ -139,7 +129,7 @@ void draw_series(Figures& figures, const Simulated& s, const ComplexGrid& column
   constexpr std::size_t middle = 25;
   LineChart alone = time_chart(s.head, columns, middle);
   alone.title = "Column 26 alone, before beams are formed";
-  alone.name = "simulated";
+  alone.lines[0].name = "simulated";
   ChartLine expected{{}, {}, "2r/c and SL - 2TL + TS", LineStyle::points};
   double off_sample = 0, off = 0, off_db = 0;
   for (std::size_t i = 0; i < s.object.size(); ++i) {
@@ -154,13 +144,13 @@ void draw_series(Figures& figures, const Simulated& s, const ComplexGrid& column
     expected.x.push_back(2e3 * r / speed_of_sound);
     expected.y.push_back(level);
   }
-  alone.more = {expected};
+  alone.lines.push_back(expected);
   figures.chart("figure14", alone);
 
   LineChart formed = time_chart(s.head, s.beams, middle);
   formed.title = "Beam 26, after beams are formed";
-  formed.name = "beam 26";
-  formed.more = {{alone.x, alone.y, "column 26 alone", LineStyle::dashed}};
+  formed.lines[0].name = "beam 26";
+  formed.lines.push_back({alone.lines[0].x, alone.lines[0].y, "column 26 alone", LineStyle::dashed});
   figures.chart("figure15", formed);
   fmt::print("| travel time, highest sample | {:.2g} % off 2r/c at most |\n", 100 * off_sample);
   fmt::print("| travel time, between samples | {:.1g} mm off 2r/c at most, {} peaks |\n", 1e3 * off, s.object.size());
@@ -178,9 +168,9 @@ void draw_slice(Figures& figures, const Simulated& s, const std::string& name) {
   LineChart chart = bearing_chart(22.5, std::to_string(s.which.beams) + " beams: level at 2.25 m against bearing");
   chart.y_title = "Level [dB re the highest]";
   chart.low_y = -40, chart.high_y = 5;
-  chart.name = "object";
-  chart.x = bearings_deg(s.head.fan.azimuth);
-  chart.y = slice_db(s.beams, s.head.gate, slice_range());
+  chart.lines[0].name = "object";
+  chart.lines[0].x = bearings_deg(s.head.fan.azimuth);
+  chart.lines[0].y = slice_db(s.beams, s.head.gate, slice_range());
   ChartLine there{{}, {}, "scatterers at this range", LineStyle::points};
   double worst = 0;
   const auto bin = static_cast<Eigen::Index>((slice_range() - s.head.gate.min_range) / s.head.gate.bin_size);
@@ -191,9 +181,9 @@ void draw_slice(Figures& figures, const Simulated& s, const std::string& name) {
   }
   for (std::size_t column = 25; column < s.which.beams; column += s.which.period)
     there.x.push_back(bearing_deg(s.object.azimuth[column * s.which.rays])), there.y.push_back(2);
-  chart.more = {
-      {chart.x, slice_db(single, s.head.gate, slice_range()), "one scatterer alone: B(θ - θ0)", LineStyle::dashed},
-      there};
+  chart.lines.push_back({chart.lines[0].x, slice_db(single, s.head.gate, slice_range()),
+                         "one scatterer alone: B(θ - θ0)", LineStyle::dashed});
+  chart.lines.push_back(there);
   figures.chart(name, chart);
   fmt::print("| {} beams, one scatterer alone | {:.1g} off B at most |\n", s.which.beams, worst);
 }
@@ -205,10 +195,11 @@ void draw_ghosts(Figures& figures, const Simulated& s) {
   LineChart chart = bearing_chart(22.5, "256 beams: columns 103 to 153 alone");
   chart.y_title = "Level [dB re the highest]";
   chart.low_y = -40, chart.high_y = 5;
-  chart.name = "columns 103 to 153";
-  chart.x = bearings_deg(s.head.fan.azimuth);
-  chart.y = slice_db(beams, s.head.gate, slice_range());
-  chart.more = {{chart.x, slice_db(s.beams, s.head.gate, slice_range()), "all 256 columns", LineStyle::dashed}};
+  chart.lines[0].name = "columns 103 to 153";
+  chart.lines[0].x = bearings_deg(s.head.fan.azimuth);
+  chart.lines[0].y = slice_db(beams, s.head.gate, slice_range());
+  chart.lines.push_back(
+      {chart.lines[0].x, slice_db(s.beams, s.head.gate, slice_range()), "all 256 columns", LineStyle::dashed});
   figures.chart("ghosts", chart);
 }
 
@@ -230,16 +221,17 @@ void draw_grating_lobes(Figures& figures) {
   LineChart chart = bearing_chart(limit_deg, "One target at +10°: six elements 1.5 wavelengths apart");
   chart.y_title = "Level [dB re the highest]";
   chart.low_y = -40, chart.high_y = 5;
-  chart.x = bearings_deg(head.fan.azimuth);
-  chart.name = "six elements";
-  chart.y = slice({pitch * wavelength, uniform_shading(6)});
+  chart.lines[0].x = bearings_deg(head.fan.azimuth);
+  chart.lines[0].name = "six elements";
+  chart.lines[0].y = slice({pitch * wavelength, uniform_shading(6)});
   ChartLine lobes{{}, {}, "sin g = sin s + n λ/d", LineStyle::points};
   for (int n = -3; n <= 3; ++n) {
     const double sine = std::sin(target) + n / pitch;
     if (std::abs(sine) <= 1) lobes.x.push_back(bearing_deg(std::asin(sine))), lobes.y.push_back(0);
   }
-  chart.more = {{chart.x, slice({9 * wavelength / 144, uniform_shading(144)}), "continuous line", LineStyle::dashed},
-                lobes};
+  chart.lines.push_back(
+      {chart.lines[0].x, slice({9 * wavelength / 144, uniform_shading(144)}), "continuous line", LineStyle::dashed});
+  chart.lines.push_back(lobes);
   figures.chart("grating_lobes", chart);
 }
 
@@ -259,7 +251,7 @@ void draw_figures(const FigureOptions& options) {
   const char* const names[][3] = {
       {"figure16", "figure17", "51"}, {"figure18", "figure19", "101"}, {"figure20", "figure21", "256"}};
   for (const auto& [image, slice, beams] : names) {
-    const Simulated s(std::stoul(beams));
+    const Simulated s(std::stoul(beams), options.bin_size);
     const ComplexGrid columns = column_series(s.echoes, s.which, s.head);
     const std::string title = std::string(beams) + " beams";
     if (s.which.beams == 51) draw_object(figures, s, "figure13"), draw_series(figures, s, columns);

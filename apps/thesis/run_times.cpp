@@ -1,5 +1,3 @@
-#include "thesis/run_times.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,7 +8,7 @@
 
 #include "beamforming/synthesize.hpp"
 #include "returns/compare.hpp"
-#include "thesis/scene.hpp"
+#include "thesis/thesis.hpp"
 
 namespace insonify::thesis {
 namespace {

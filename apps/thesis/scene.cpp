@@ -1,5 +1,3 @@
-#include "thesis/scene.hpp"
-
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -7,6 +5,7 @@
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
+#include "thesis/thesis.hpp"
 
 namespace insonify::thesis {
 

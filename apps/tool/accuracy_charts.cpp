@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -40,7 +39,7 @@ class Plot {
   explicit Plot(LineChart chart) : chart_(std::move(chart)) {}
 
   void add(const std::string& name, double x, double y, const std::string& label = {}) {
-    ChartLine& line = named(name, LineStyle::marked);
+    ChartLine& line = named(name);
     line.x.push_back(x);
     line.y.push_back(y);
     line.labels.push_back(label);
@@ -53,11 +52,8 @@ class Plot {
     if (lines_.empty()) return false;
     fit(chart_.x_scale, &ChartLine::x, chart_.low_x, chart_.high_x);
     fit(chart_.y_scale, &ChartLine::y, chart_.low_y, chart_.high_y);
-    std::vector<ChartLine> all = lines_;
-    all.insert(all.end(), guides_.begin(), guides_.end());
-    chart_.x = all[0].x, chart_.y = all[0].y, chart_.name = all[0].name, chart_.style = all[0].style;
-    chart_.labels = all[0].labels;
-    chart_.more.assign(all.begin() + 1, all.end());
+    chart_.lines = lines_;
+    chart_.lines.insert(chart_.lines.end(), guides_.begin(), guides_.end());
     PictureOptions picture;
     picture.width = 1100, picture.height = 800;
     draw_line_chart(chart_, picture, "accuracy", path);
@@ -65,10 +61,10 @@ class Plot {
   }
 
  private:
-  ChartLine& named(const std::string& name, LineStyle style) {
+  ChartLine& named(const std::string& name) {
     for (ChartLine& line : lines_)
       if (line.name == name) return line;
-    lines_.push_back({{}, {}, name, style});
+    lines_.push_back({{}, {}, name, LineStyle::marked});
     return lines_.back();
   }
 

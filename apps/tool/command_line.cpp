@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "tool/program.hpp"
+#include "tool/progress.hpp"
 #include "tool/verb.hpp"
 
 namespace insonify::tool {
@@ -28,9 +30,10 @@ std::string footer_of(const Verb& verb) {
   return footer;
 }
 
-}  // namespace
-
+/// Parses the command line and runs the verb that it names. Returns the exit code: 0, or 2 for an error of usage, which
+/// is on stderr.
 int run_command_line(int argc, char** argv) {
+  catch_interrupts();
   CommandLine line("insonify", "insonify: what a sonar hears of a captured scene");
   std::map<std::string, std::function<void()>> run;
   for (const Verb& verb : all_verbs()) {
@@ -44,6 +47,13 @@ int run_command_line(int argc, char** argv) {
   if (const auto exit_code = line.parse(argc, argv)) return *exit_code;
   run.at(line.verb())();
   return 0;
+}
+
+}  // namespace
+
+int run_tool(int argc, char** argv) {
+  return run_program([&] { return run_command_line(argc, argv); },
+                     "use a smaller scene, fewer scatterers per cell or a shorter range");
 }
 
 }  // namespace insonify::tool

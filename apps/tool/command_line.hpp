@@ -2,8 +2,7 @@
 
 namespace insonify::tool {
 
-/// Parses the command line and runs the verb that it names. Returns the exit code: 0, or 2 for an error of usage, which
-/// is on stderr. Throws what the verb throws.
-int run_command_line(int argc, char** argv);
+/// The program: parses the command line and runs its verb; errors go to stderr. Returns the exit code.
+int run_tool(int argc, char** argv);
 
 }  // namespace insonify::tool

@@ -1,15 +1,18 @@
 #include "tool/head_setup.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
-#include "store/profile_file.hpp"
+#include "store/toml_tree_internal.hpp"
 #include "tool/parse_values.hpp"
+#include "tool/run_settings.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -19,12 +22,9 @@ std::uint16_t material_index(const std::vector<Material>& materials, const std::
   std::vector<std::string> names;
   for (const Material& m : materials) names.push_back(m.name);
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) {
-    const std::string near = nearest_word(name, names);
-    fail(ErrorKind::argument, "--material = '", name, "' is unknown",
-         near.empty() ? "" : "; did you mean '" + near + "'?", "; known are ",
-         fmt::format("{}", fmt::join(names, ", ")));
-  }
+  if (at == names.end())
+    fail(ErrorKind::argument, "--material = '", name, "' is unknown", did_you_mean(name, names), "; known are ",
+         joined(names));
   return static_cast<std::uint16_t>(at - names.begin());
 }
 
@@ -60,10 +60,7 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
   options.threads = common.threads;
   options.unit = parse_unit(scene.unit);
   options.mesh_spacing = scene.mesh_spacing;
-  if (!scene.viewpoint.empty()) {
-    const auto v = parse_numbers("--viewpoint", scene.viewpoint, 3, "x,y,z in metres");
-    options.viewpoint = Eigen::Vector3d(v[0], v[1], v[2]);
-  }
+  if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
   if (!scene.materials_file.empty() || !scene.material.empty()) {
     const std::string path = scene.materials_file.empty() ? data_folder() + "/materials.toml" : scene.materials_file;
     const MaterialTable table = load_materials(path);
@@ -87,6 +84,20 @@ std::vector<std::string> loading_notes(const LoadReport& r) {
   count(r.dropped_without_normal, "points without neighbours for a normal dropped");
   for (const std::string& note : r.notes) notes.push_back(r.path + ": " + note);
   return notes;
+}
+
+SceneOptions scene_of_run(const std::string& run) {
+  const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
+  return std::filesystem::exists(settings) ? load_scene_settings(settings.string()) : SceneOptions{};
+}
+
+std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads) {
+  const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
+  if (!std::filesystem::exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
+  RunOptions options;
+  options.sonar = options.environment = settings.string();
+  const HeadSetup setup = set_up_head({}, options);
+  return resolve_ping(scene, setup.head, Pose::Identity(), setup.environment, {.threads = threads}).view;
 }
 
 }  // namespace insonify::tool

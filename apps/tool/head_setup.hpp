@@ -1,10 +1,11 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "acoustics/environment.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "scene_io/load_scene.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/options.hpp"
 
@@ -27,5 +28,13 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
 
 /// One sentence per thing that was dropped, repaired or assumed on loading.
 std::vector<std::string> loading_notes(const LoadReport& report);
+
+/// [scene] of the run.toml in a run directory as options of loading it, with paths looked up as by load_ping_settings.
+/// Defaults, with an empty path, if there is no run.toml or no [scene] in it.
+SceneOptions scene_of_run(const std::string& run);
+
+/// How the head of a run, as its run.toml describes it, samples `scene`, wherever it stands; none without a
+/// run.toml that has the sonar.
+std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads);
 
 }  // namespace insonify::tool

@@ -1,11 +1,11 @@
-#include "tool/image_facts.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/head_place.hpp"
 #include "core/units.hpp"
+#include "tool/image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -21,13 +21,11 @@ std::string position_text(const Pose& pose) {
   return fmt::format("{:.2f}, {:.2f}, {:.2f} m", rounded(at.x(), 0.01), rounded(at.y(), 0.01), rounded(at.z(), 0.01));
 }
 
-/// Angles as --pose takes them: the inverse of pose_from_yaw_pitch_roll.
+/// Angles as --pose takes them.
 std::string attitude_text(const Pose& pose) {
-  const Eigen::Matrix3d r = pose.linear();
-  const double yaw = std::atan2(r(1, 0), r(0, 0)), pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
-  const double roll = std::atan2(r(2, 1), r(2, 2));
-  return fmt::format("yaw {:.1f}°, pitch {:.1f}°, roll {:.1f}°", rounded(degrees(yaw), 0.1),
-                     rounded(degrees(pitch), 0.1), rounded(degrees(roll), 0.1));
+  const HeadPlace head = head_place(pose);
+  return fmt::format("yaw {:.1f}°, pitch {:.1f}°, roll {:.1f}°", rounded(degrees(head.yaw), 0.1),
+                     rounded(degrees(head.pitch), 0.1), rounded(degrees(head.roll), 0.1));
 }
 
 std::string fan_text(const BeamFan& fan) {

@@ -1,10 +1,9 @@
-#include "tool/image_run.hpp"
-
 #include <cmath>
 #include <filesystem>
 
 #include "core/error.hpp"
 #include "store/sonar_file.hpp"
+#include "tool/image.hpp"
 #include "tool/run_files.hpp"
 
 namespace insonify::tool {
@@ -23,17 +22,15 @@ std::string cube_path(const std::string& run) {
 
 /// Replaces the pressure of a ping by one of its layers.
 void take_layer(Ping& ping, const std::string& name, const std::string& run) {
-  std::string known;
-  for (Layer& layer : ping.layers) {
-    if (layer.name == name) {
-      ping.pressure = std::move(layer.pressure);
-      ping.layers.clear();
-      return;
-    }
-    known += (known.empty() ? "" : ", ") + layer.name;
-  }
-  fail(ErrorKind::argument, "--layer = '", name, "' is not in ", run,
-       known.empty() ? "; it has none: ping with --layers" : "; it has " + known);
+  const auto layer =
+      std::find_if(ping.layers.begin(), ping.layers.end(), [&](const Layer& l) { return l.name == name; });
+  if (layer == ping.layers.end())
+    fail(ErrorKind::argument, "--layer = '", name, "' is not in ", run,
+         ping.layers.empty() ? "; it has none: ping with --layers"
+                             : "; it has " + joined(ping.layers, ", ", &Layer::name));
+  ping.pressure = std::move(layer->pressure);
+  ping.layers.clear();
+  ping.intensity.resize(0, 0);
 }
 
 }  // namespace

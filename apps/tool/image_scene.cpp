@@ -1,5 +1,3 @@
-#include "tool/image_scene.hpp"
-
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -9,36 +7,17 @@
 #include "core/error.hpp"
 #include "sampling/find_holes.hpp"
 #include "scene_io/load_scene.hpp"
-#include "scene_io/load_soundings.hpp"
 #include "tool/head_setup.hpp"
-#include "tool/image_run.hpp"
+#include "tool/image.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_files.hpp"
-#include "tool/run_scene.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-SceneColour colour_of(const std::string& word) {
-  if (word == "height") return SceneColour::height;
-  if (word == "material") return SceneColour::material;
-  if (word == "grazing") return SceneColour::grazing;
-  if (word == "incidence") return SceneColour::incidence;
-  if (word == "level") return SceneColour::level;
-  return SceneColour::visibility;
-}
-
-ScenePreset preset_of(const std::string& word) {
-  if (word == "behind") return ScenePreset::behind;
-  if (word == "top") return ScenePreset::top;
-  if (word == "side") return ScenePreset::side;
-  if (word == "iso") return ScenePreset::iso;
-  return ScenePreset::automatic;
-}
 
 /// A scene, how it is drawn, and its title.
 struct Drawing {
@@ -82,7 +61,7 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   Drawing drawing;
   drawing.scene = load(o.common, options, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
-  drawing.look.colour = o.colour.empty() ? SceneColour::level : colour_of(o.colour);
+  drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
   if (drawing.look.colour == SceneColour::visibility)
     drawing.view = view_of_run(o.run, whole_of(drawing.scene), o.common.threads);
   const fs::path returns = fs::path(o.run) / "returns.ply";
@@ -130,7 +109,7 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
     drawing.look.head = SceneHead{parse_pose(o.pose, o.world), head.fan, head.gate};
     drawing.title = head.name + " before " + drawing.title;
   }
-  if (!o.colour.empty()) drawing.look.colour = colour_of(o.colour);
+  if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
   drawing.scene = load(o.common, options, progress);
@@ -148,7 +127,7 @@ void image_scene(const ImageOptions& o, const PictureOptions& asked) {
   const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
   Drawing drawing = run ? drawing_of_run(o, progress) : drawing_of_scene(o, progress);
   SceneLook& look = drawing.look;
-  look.camera.preset = preset_of(o.camera);
+  look.camera.preset = *find_named(camera_words, o.camera);
   look.normals = o.normals;
   if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, drawing.view, o.common.threads, look);
 

@@ -1,8 +1,5 @@
-#include "tool/image_views.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -11,17 +8,10 @@
 #include "beamforming/beam_spectrum.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "tool/image_facts.hpp"
-#include "tool/image_scene.hpp"
+#include "tool/image.hpp"
 #include "tool/run_files.hpp"
 #include "view/colour_maps_internal.hpp"
-#include "view/show_ascan.hpp"
-#include "view/show_fan.hpp"
-#include "view/show_grey.hpp"
-#include "view/show_panels.hpp"
-#include "view/show_rect.hpp"
-#include "view/show_spectrum.hpp"
-#include "view/show_waterfall.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -193,7 +183,7 @@ std::string views_with(const std::string& option) {
       names.emplace_back(view.name);
   const std::string last = names.back();
   names.pop_back();
-  return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
+  return names.empty() ? last : joined(names) + " or " + last;
 }
 
 ChosenBeam choose_beam(const ImageOptions& o, std::size_t beams) {

@@ -5,7 +5,7 @@
 #include "returns/insonification.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/contributor_file.hpp"
-#include "view/save_lines.hpp"
+#include "view/save_vtk.hpp"
 
 namespace insonify::tool {
 
@@ -48,10 +48,6 @@ ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths)
 }
 
 }  // namespace
-
-bool keeps(const PingOptions& options, const std::string& what) {
-  return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();
-}
 
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {

@@ -10,9 +10,6 @@
 
 namespace insonify::tool {
 
-/// Whether --keep names `what`.
-bool keeps(const PingOptions& options, const std::string& what);
-
 /// Writes the files of --keep beside the cube: contributors.h5, insonification.ply and .pcd, paths.vtp; `manifest` gets
 /// a summary of each.
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,

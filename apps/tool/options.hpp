@@ -56,6 +56,7 @@ struct PingOptions {
   std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
+  int looks_range = 1, looks_pings = 1;
   int absorption_order = 0;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
   double time = 0;         ///< of transmission [s]
@@ -63,7 +64,7 @@ struct PingOptions {
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = 11.4;
   std::string all_bins_above;              ///< dB re 1 uPa, or empty
-  double memory_limit = 0;                 ///< [GiB] for a .tiles scene; 0: what is available
+  double memory_limit = 0;                 ///< [GiB] for a .tiles scene or a mesh; 0: see the help
   std::vector<std::string> with, without;  ///< stages of the plan forced in or out
 };
 

@@ -1,8 +1,5 @@
 #include "tool/parse_values.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <map>
 #include <optional>
 
 #include "core/error.hpp"
@@ -11,15 +8,7 @@
 namespace insonify::tool {
 namespace {
 
-std::optional<double> number(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
+std::optional<double> number(std::string_view text) { return finite_number(trimmed(text, " ")); }
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -79,16 +68,6 @@ std::pair<double, double> parse_range(const std::string& text) {
   return {*min, *max};
 }
 
-SynthesisMethod parse_method(const std::string& text) {
-  if (text == "gridded") return SynthesisMethod::gridded;
-  if (text == "direct") return SynthesisMethod::direct;
-  if (text == "element-exact") return SynthesisMethod::element_exact;
-  if (text == "true-delays") return SynthesisMethod::true_delays;
-  if (text == "incoherent") return SynthesisMethod::incoherent;
-  fail(ErrorKind::argument, "--method = '", text,
-       "' must be gridded, true-delays, direct, element-exact or incoherent");
-}
-
 std::pair<int, int> parse_size(const std::string& text) {
   const std::vector<std::string> parts = split(text, 'x');
   const auto width = number(parts[0]), height = number(parts.back());
@@ -98,8 +77,8 @@ std::pair<int, int> parse_size(const std::string& text) {
 }
 
 double parse_unit(const std::string& text) {
-  static const std::map<std::string, double> units{{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}};
-  if (const auto known = units.find(text); known != units.end()) return known->second;
+  constexpr Named<double> units[] = {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}};
+  if (const double* known = find_named(units, text)) return *known;
   const auto value = number(text);
   if (!value || *value <= 0)
     fail(ErrorKind::argument, "--unit = '", text, "' must be m, mm, cm, km, ft, or metres per unit as a number > 0");

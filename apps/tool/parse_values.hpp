@@ -3,11 +3,33 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/pose.hpp"
+#include "core/text.hpp"
+#include "sampling/find_scatterers.hpp"
 
-/// Parsers of command-line text. All throw Error(argument) that names option, value and rule, with an example.
+/// Words of options and what they mean, and parsers of other values. All throw Error(argument) that names option, value
+/// and rule, with an example.
 namespace insonify::tool {
+
+constexpr Named<SynthesisMethod> method_words[] = {{"gridded", SynthesisMethod::gridded},
+                                                   {"true-delays", SynthesisMethod::true_delays},
+                                                   {"direct", SynthesisMethod::direct},
+                                                   {"element-exact", SynthesisMethod::element_exact},
+                                                   {"incoherent", SynthesisMethod::incoherent}};
+constexpr Named<SamplingKind> sampling_words[] = {{"surfels", SamplingKind::surfels}, {"rays", SamplingKind::rays}};
+constexpr Named<SurfaceAmplitude> amplitude_words[] = {{"speckle", SurfaceAmplitude::complex_normal},
+                                                       {"random-phase", SurfaceAmplitude::random_phase},
+                                                       {"coherent", SurfaceAmplitude::coherent}};
+
+/// The words of such a table, for OptionRules.
+template <typename Table>
+std::vector<std::string> words_of(const Table& table) {
+  std::vector<std::string> words;
+  for (const auto& entry : table) words.emplace_back(entry.name);
+  return words;
+}
 
 /// "1,2.5,-3" to `count` finite numbers.
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
@@ -22,9 +44,6 @@ Pose parse_pose(const std::string& text, const std::string& world);
 
 /// "min:max" in metres, 0 < min < max.
 std::pair<double, double> parse_range(const std::string& text);
-
-/// "gridded", "true-delays", "direct", "element-exact" or "incoherent".
-SynthesisMethod parse_method(const std::string& text);
 
 /// "1400x1050" pixels.
 std::pair<int, int> parse_size(const std::string& text);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "sampling/mesh_surfels.hpp"
 #include "simulate/plan_ping.hpp"
-#include "store/trajectory_file.hpp"
-#include "tool/kept_files.hpp"
+#include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
 
 namespace insonify::tool {
@@ -19,27 +21,22 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   SimulationOptions s;
   s.seed = common.seed;
   s.threads = common.threads;
-  s.sampling.kind = o.sampling == "rays" ? SamplingKind::rays : SamplingKind::surfels;
+  s.sampling.kind = *find_named(sampling_words, o.sampling);
   s.sampling.scatterers_per_cell = o.scatterers_per_cell;
   s.sampling.rays_per_beam = o.rays_per_beam;
-  s.amplitude = o.amplitude == "coherent"       ? SurfaceAmplitude::coherent
-                : o.amplitude == "random-phase" ? SurfaceAmplitude::random_phase
-                                                : SurfaceAmplitude::complex_normal;
-  s.synthesis.method = parse_method(o.run.method);
+  s.sampling.level_error_db = o.level_error_db;
+  s.amplitude = *find_named(amplitude_words, o.amplitude);
+  s.synthesis.method = *find_named(method_words, o.run.method);
   s.synthesis.tolerance = o.run.tolerance;
   s.effects.noise = o.noise;
   s.effects.multipath = o.multipath;
   s.outputs.layers = o.layers;
+  s.outputs.looks_range = o.looks_range;
+  s.outputs.looks_pings = o.looks_pings;
   s.outputs.elements = keeps(o, "elements");
   s.outputs.mask = keeps(o, "mask");
   s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
   s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
-  if (s.outputs.elements && s.synthesis.method == SynthesisMethod::incoherent)
-    fail(ErrorKind::argument, "--keep elements: --method incoherent gives no pressures at elements; use gridded");
-  s.sampling.level_error_db = o.level_error_db;
-  if (!(s.sampling.level_error_db >= 0 && std::isfinite(s.sampling.level_error_db)))
-    fail(ErrorKind::argument, "--level-error-db = ", s.sampling.level_error_db,
-         " dB, must be finite and >= 0; 0: sampling is not refined");
   s.effects.absorption_order = o.absorption_order;
   if (!o.velocity.empty()) s.effects.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
   if (!o.turn_rate.empty())
@@ -79,6 +76,10 @@ void require_boundaries(const PingOptions& o, const Environment& environment) {
 
 }  // namespace
 
+bool keeps(const PingOptions& options, const std::string& what) {
+  return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();
+}
+
 PingSetup set_up_ping(const PingOptions& o) {
   const Track track = track_of(o);
   PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
@@ -112,6 +113,23 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
     fail(ErrorKind::content, path, ": the middle point is ", range,
          " m from the head, less than a tenth of the min range of ", gate.min_range,
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
+}
+
+void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {
+  if (!loaded.mesh) return;
+  const ResolvedPing ping =
+      resolve_ping(loaded.mesh->whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation);
+  const auto most = o.memory_limit > 0 ? static_cast<std::size_t>(std::ceil(o.memory_limit * 0x1p30 / bytes_to_ping))
+                                       : default_mesh_surfels;
+  MeshSurfels fine = mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling, most);
+  if (fine.coarsening > 1)
+    loaded.report.notes.push_back(fmt::format(
+        "{} surfels at most are sampled from the mesh ({:.2g} GiB), {}: raise --memory-limit, or narrow the range",
+        most, static_cast<double>(most) * bytes_to_ping / 0x1p30,
+        std::isinf(fine.coarsening)
+            ? fmt::format("fewer than its triangles within reach: {} in all are taken", loaded.scene.size())
+            : fmt::format("{} times as large as the beams ask for", fine.coarsening)));
+  if (!std::isinf(fine.coarsening)) loaded.scene = std::move(fine.scene);
 }
 
 }  // namespace insonify::tool

@@ -2,14 +2,21 @@
 #include <string>
 
 #include "tool/options.hpp"
+#include "tool/program.hpp"
 
 namespace insonify::tool {
 
-/// Thrown at the next step after Ctrl-C.
-struct Interrupted {};
-
 /// Defers Ctrl-C and SIGTERM to the end of a step, so that nothing is left half-written.
 void catch_interrupts();
+
+/// Prints a result on stdout: as JSON with --json, else by `print`.
+template <typename Json, typename Print>
+void print_result(const CommonOptions& common, const Json& result, const Print& print) {
+  if (common.json)
+    std::puts(result.dump(2).c_str());
+  else
+    print();
+}
 
 /// Reports progress on stderr: a bar on a terminal, plain lines with -v, nothing with -q.
 class Progress {

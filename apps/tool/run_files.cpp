@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "core/error.hpp"
+#include "core/peak_memory.hpp"
 #include "core/units.hpp"
+#include "returns/looks.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
 #include "tool/run_settings.hpp"
-#include "view/show_fan.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -65,7 +66,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
                const HeadSetup& setup, const Ping& ping, const std::string& settings, ordered_json& manifest,
                Progress& progress) {
   write_cube(directory.file("cube.h5"), cube_of(ping, common, run, setup));
-  write_text_file(directory.file("run.toml"), run_toml(run, setup, settings));
+  write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
   const double absorption = setup.medium.absorption.a0 / nepers_per_db;
   if (!run.no_picture) try {
@@ -90,7 +91,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
 }
 
 LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
-  Grid<float> level = level_db(ping);
+  Grid<float> level = shown_level_db(ping);
   if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa"};
   const std::string unit = tvg->spreading == 40 ? "dB re 1 µPa at 1 m, range compensated"
                                                 : fmt::format("dB re 1 µPa, gain {:g} log r", tvg->spreading);
@@ -100,12 +101,6 @@ LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
 std::string picture_title(const std::string& sonar, const Ping& ping) {
   return fmt::format("{}, ping {}, {:g} to {:g} m{}", sonar, ping.number, ping.gate.min_range, ping.gate.max_range,
                      ping.expected_level ? std::string(", ") + expected_level_text : "");
-}
-
-double peak_memory_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 }  // namespace insonify::tool

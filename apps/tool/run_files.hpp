@@ -27,7 +27,4 @@ LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 /// Title of the picture of a ping: sonar, number, range.
 std::string picture_title(const std::string& sonar, const Ping& ping);
 
-/// Largest resident set so far [MiB].
-double peak_memory_mib();
-
 }  // namespace insonify::tool

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "store/toml_tree_internal.hpp"
 
 namespace insonify::tool {
@@ -27,11 +28,7 @@ std::string as_toml(std::uint64_t number) {
   return number < (std::uint64_t{1} << 53) ? digits : toml_text(digits);
 }
 
-std::string as_toml(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + toml_text(word);
-  return "[" + list + "]";
-}
+std::string as_toml(const std::vector<std::string>& words) { return "[" + joined(words, ", ", toml_text) + "]"; }
 
 /// Calls `use` with the value of a setting.
 template <typename Use>
@@ -63,7 +60,7 @@ struct FileValue {
     if (item.kind != Kind::text) refuse(" must be text in quotes");
     const auto& words = setting.rules.words;
     if (!words.empty() && std::find(words.begin(), words.end(), item.text) == words.end())
-      refuse(" = '", item.text, "', must be one of ", fmt::format("{}", fmt::join(words, ", ")));
+      refuse(" = '", item.text, "', must be one of ", joined(words));
     return item.text;
   }
 };
@@ -97,9 +94,7 @@ void read(const FileValue& from, std::uint64_t& number) {
   const std::string digits = value.kind == Kind::text      ? value.text
                              : value.kind == Kind::integer ? fmt::format("{:.0f}", value.number)
                                                            : "";
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size())
-    from.refuse(" must be an integer from 0, in quotes from 2^53");
+  if (!to_number(digits, number)) from.refuse(" must be an integer from 0, in quotes from 2^53");
 }
 
 void read(const FileValue& from, bool& flag) {

@@ -17,8 +17,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double bytes_to_ping = 192;  ///< per surfel read: surfel, index, scatterers and echoes
-
 /// A .tiles scene is complete: options that say how to complete a cloud would have no effect.
 void require_no_loading_options(const SceneOptions& o) {
   SceneOptions given = o, none;
@@ -72,6 +70,7 @@ PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup) {
   PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
   result.places = sampled_places(result.loaded.scene, setup.pose);
   require_in_reach(result.places, setup.head.head.gate, o.scene.path);
+  sample_for_ping(o, setup, result.loaded);
   result.json = scene_json(result.loaded);
   return result;
 }

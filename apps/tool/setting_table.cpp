@@ -1,18 +1,20 @@
 #include "scene_io/load_scene.hpp"
+#include "tool/parse_values.hpp"
 #include "tool/run_settings.hpp"
 
 namespace insonify::tool {
 namespace {
 
 const OptionRules scene{.required = true}, file, positive{.positive = true}, stages{.one_each = true};
-const OptionRules methods{.words = {"gridded", "true-delays", "direct", "element-exact", "incoherent"}};
+const OptionRules methods{.words = words_of(method_words)};
 const OptionRules worlds{.words = {"z-up", "ned"}};
-const OptionRules samplings{.words = {"surfels", "rays"}};
-const OptionRules amplitudes{.words = {"speckle", "random-phase", "coherent"}};
+const OptionRules samplings{.words = words_of(sampling_words)};
+const OptionRules amplitudes{.words = words_of(amplitude_words)};
 const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonification", "paths"},
                           .one_each = true,
                           .comma_separated = true};
 const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
+const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
 const OptionRules absorption_orders{.within = std::pair(0, 2), .shown_as = "INT"};
 
 }  // namespace
@@ -29,7 +31,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
       {"scene", "material", "--material", &o.material, "one material for everything, by name, e.g. sand"},
       {"scene", "unit", "--unit", &o.unit, "of the file: m, mm, cm, km, ft, or metres per unit"},
       {"scene", "mesh_spacing", "--mesh-spacing", &o.mesh_spacing,
-       "[m] between surfels of a mesh; 0: about 200 000 surfels"},
+       "[m] between surfels of a mesh; 0: a ping samples it by what its beams resolve, other verbs take 200 000 "
+       "surfels"},
   };
 }
 
@@ -74,6 +77,10 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "contributors", "--contributors", &o.contributors, "how many of each pixel, with --keep contributors",
        contributor_numbers},
       {"ping", "layers", "--layers", &o.layers, "keep each kind of echo as a layer of the cube"},
+      {"ping", "looks_range", "--looks-range", &o.looks_range,
+       "range bins over which pictures and /intensity of the cube average", looks},
+      {"ping", "looks_pings", "--looks-pings", &o.looks_pings,
+       "pulses of independent speckle, each a whole ping of work, over which they average", looks},
       {"ping", "absorption_order", "--absorption-order", &o.absorption_order,
        "0: one absorption for the pulse; 1, 2: slope, curvature", absorption_orders},
       {"ping", "velocity", "--velocity", &o.velocity, "vx,vy,vz [m/s] of the head in the world"},
@@ -82,7 +89,9 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "all_bins_above", "--all-bins-above", &o.all_bins_above,
        "[dB re 1 uPa] every bin above is a returned point"},
       {"ping", "memory_limit_gib", "--memory-limit", &o.memory_limit,
-       "[GiB] that a .tiles scene may take; more is refused before it is read; default: what is available", positive},
+       "[GiB] that a ping may take of a .tiles scene, more of which is refused before it is read, default: what is "
+       "available; or of a mesh, which is then sampled coarser, default: 1.5",
+       positive},
       {"ping", "with", "--with", &o.with, "force a stage of the plan in, any number of times", stages},
       {"ping", "without", "--without", &o.without, "force a stage of the plan out, any number of times", stages},
   };

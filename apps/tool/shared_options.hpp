@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "tool/option_list.hpp"
 #include "tool/options.hpp"
 
@@ -17,5 +19,17 @@ void add_sonar(OptionList list, CommonOptions& common, RunOptions& options);
 void add_output(OptionList list, RunOptions& options);
 /// --world, beside a --pose.
 void add_world(OptionList list, std::string& world);
+
+/// A ping as the command line gives it, perhaps beside the run.toml of an earlier one.
+struct PingCommand {
+  PingOptions options;                     ///< of the command line, over those of --run
+  std::optional<PingOptions> of_run = {};  ///< if --run is given
+};
+
+/// Adds everything that says what a ping is: --run, scene, sonar, pose and so on. `with_output` adds the run directory.
+void add_ping_options(OptionList list, PingCommand& command, bool with_output);
+
+/// The options to use: a pose of the command line replaces a trajectory of --run, and a trajectory the pose.
+PingOptions settled_options(const PingCommand& command);
 
 }  // namespace insonify::tool

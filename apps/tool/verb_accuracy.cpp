@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +6,7 @@
 #include "accuracy/accuracy_sweep.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/peak_memory.hpp"
 #include "store/run_directory.hpp"
 #include "tool/accuracy_files.hpp"
 #include "tool/head_setup.hpp"
@@ -62,8 +62,7 @@ SweepOptions sweep_options(const AccuracyOptions& o) {
   const std::vector<std::string> known = accuracy_methods();
   for (const std::string& method : o.methods)
     if (std::find(known.begin(), known.end(), method) == known.end())
-      fail(ErrorKind::argument, "--methods '", method, "' is unknown; known are ",
-           fmt::format("{}", fmt::join(known, ", ")));
+      fail(ErrorKind::argument, "--methods '", method, "' is unknown; known are ", joined(known));
   for (const std::string& text : o.tolerances) {
     const double tolerance = parse_number("--tolerances", text);
     if (!(tolerance >= 1e-13 && tolerance < 1))
@@ -180,8 +179,8 @@ void accuracy(const AccuracyOptions& o) {
   }
 
   progress.step("writing " + o.run.output);
-  write_text_file(directory.file("sweep.csv"), sweep_csv(rows));
-  if (!sampling.empty()) write_text_file(directory.file("sampling.csv"), sampling_csv(sampling));
+  write_file(directory.file("sweep.csv"), sweep_csv(rows));
+  if (!sampling.empty()) write_file(directory.file("sampling.csv"), sampling_csv(sampling));
   if (!o.run.no_picture) try {
       manifest["pictures"] = draw_accuracy(rows, sampling, directory);
     } catch (const Error& error) {  // without OpenGL the numbers are still written
@@ -190,12 +189,9 @@ void accuracy(const AccuracyOptions& o) {
     }
   manifest["summary"] = accuracy_summary(rows);
   manifest["peak_memory_mib"] = peak_memory_mib();
-  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  if (common.json)
-    fmt::print("{}\n", manifest.dump(2));
-  else
-    print_table(o.run.output, rows, manifest["summary"]);
+  print_result(common, manifest, [&] { print_table(o.run.output, rows, manifest["summary"]); });
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
-#include "view/show_pattern.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -90,8 +90,7 @@ ordered_json pattern_json(const SteeredBeam& beam, const BeamPatternReport& repo
 }
 
 void print_pattern(const SteeredBeam& beam, const BeamPatternReport& report) {
-  std::string grating;
-  for (const double azimuth : report.grating_lobes) grating += (grating.empty() ? "" : ", ") + direction_text(azimuth);
+  const std::string grating = joined(report.grating_lobes, ", ", direction_text);
   const bool has_side_lobe = std::isfinite(report.highest_side_lobe_db);
   fmt::print("{}, beam at {}\n", beam.setup.spec.name, direction_text(beam.steering));
   fmt::print("  elements       {}\n", beam.array().elements());
@@ -131,13 +130,9 @@ void beampattern(const BeamPatternOptions& o) {
     progress.step("drawing " + o.output);
     draw_pattern(beam, picture, o.output);
   }
-  if (o.common.json) {
-    ordered_json json = pattern_json(beam, report);
-    if (!o.output.empty()) json["picture"] = o.output;
-    fmt::print("{}\n", json.dump(2));
-  } else {
-    print_pattern(beam, report);
-  }
+  ordered_json json = pattern_json(beam, report);
+  if (!o.output.empty()) json["picture"] = o.output;
+  print_result(o.common, json, [&] { print_pattern(beam, report); });
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "returns/looks.hpp"
 #include "returns/quantise.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
-#include "tool/image_run.hpp"
+#include "tool/image.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
-#include "view/save_grid.hpp"
+#include "view/save_vtk.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -38,6 +39,7 @@ std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m)
   for (const Layer& layer : ping.layers)
     fields.push_back(
         {"level_db_" + layer.name, level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure})});
+  if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping)});
   if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db});
   if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
   return fields;
@@ -64,7 +66,7 @@ void export_run(const ExportOptions& o) {
   }
   save_series(directory.file("fan.pvd"), fans);
   save_series(directory.file("image.pvd"), images);
-  write_text_file(
+  write_file(
       directory.file("manifest.json"),
       nlohmann::ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}}.dump(2) +
           "\n");

@@ -5,13 +5,12 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "store/label_table.hpp"
-#include "tool/image_scene.hpp"
-#include "tool/image_views.hpp"
+#include "store/csv_tables.hpp"
+#include "tool/image.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
-#include "view/strongest_maxima.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -27,10 +26,10 @@ void add_scene_view(OptionList list, ImageOptions& o) {
   list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's", {.group = group});
   list.add("--world", &o.world, "z-up or ned", {.words = {"z-up", "ned"}, .group = group});
   list.add("--camera", &o.camera, "auto, behind (the head), top, side or iso",
-           {.words = {"auto", "behind", "top", "side", "iso"}, .group = group});
+           {.words = words_of(camera_words), .group = group});
   list.add("--normals", &o.normals, "draw some 4000 normals as lines", {.group = group});
   list.add("--colour", &o.colour, "height, material, visibility, level, grazing or incidence; default: what suits",
-           {.words = {"height", "material", "visibility", "level", "grazing", "incidence"}, .group = group});
+           {.words = words_of(colour_words), .group = group});
 }
 
 void add_options(OptionList list, ImageOptions& o) {
@@ -42,7 +41,7 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("RUN", &o.run, "run directory or cube.h5; for view scene also a cloud or mesh", {.required = true});
   list.add("-o,--output", &o.output, "picture to write, .png (grey also .pgm); with --animate a folder",
            {.required = true});
-  list.add("--view", &o.view, fmt::format("{}", fmt::join(views, "; ")), {.words = names});
+  list.add("--view", &o.view, joined(views, "; "), {.words = names});
   list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
   list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
   list.add("--ping", &o.ping, "which ping, from 0");

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/units.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "store/cube.hpp"

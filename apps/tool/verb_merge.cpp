@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
 #include "store/merge_cubes.hpp"
 #include "store/run_directory.hpp"
-#include "tool/image_run.hpp"
+#include "tool/image.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -75,13 +74,11 @@ void merge(const MergeOptions& o) {
   progress.step("writing " + o.output);
   write_cube(directory.file("cube.h5"), merged);
   const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
-  if (std::filesystem::exists(settings)) write_text_file(directory.file("run.toml"), read_text_file(settings.string()));
-  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  if (std::filesystem::exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  if (o.common.json)
-    fmt::print("{}\n", manifest.dump(2));
-  else
-    fmt::print("{}: {} pings of {} runs\n", o.output, merged.pings.size(), o.runs.size());
+  print_result(o.common, manifest,
+               [&] { fmt::print("{}: {} pings of {} runs\n", o.output, merged.pings.size(), o.runs.size()); });
 }
 
 }  // namespace

@@ -10,13 +10,12 @@
 #include "simulate/simulate_ping.hpp"
 #include "store/element_file.hpp"
 #include "tool/kept_files.hpp"
-#include "tool/ping_options.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
-#include "tool/plan_report.hpp"
 #include "tool/run_files.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
+#include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 
 namespace insonify::tool {
@@ -27,11 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-void print_summary(const CommonOptions& common, const std::string& output, const ordered_json& manifest) {
-  if (common.json) {
-    fmt::print("{}\n", manifest.dump(2));
-    return;
-  }
+void print_summary(const std::string& output, const ordered_json& manifest) {
   fmt::print("{}: {} scatterers of {} visible surfels, {} soundings, peak {:.1f} dB re 1 uPa\n", output,
              manifest["sampling"]["scatterers"].get<std::size_t>(), manifest["sampling"]["visible"].get<std::size_t>(),
              manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
@@ -94,10 +89,10 @@ void ping(const PingCommand& command) {
                          {"detection", result.seconds.detection},
                          {"contributors", result.seconds.contributors},
                          {"output", seconds_since(start)}};
-  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   progress.step("done");
   directory.commit();
-  print_summary(common, o.run.output, manifest);
+  print_result(common, manifest, [&] { print_summary(o.run.output, manifest); });
 }
 
 }  // namespace

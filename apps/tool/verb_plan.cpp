@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tool/ping_options.hpp"
+#include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
-#include "tool/plan_report.hpp"
 #include "tool/progress.hpp"
 #include "tool/scene_files.hpp"
+#include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 
 namespace insonify::tool {
@@ -23,10 +23,7 @@ void plan(const PingCommand& command) {
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   progress.step("planning");
   const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.pose, ready.head.environment, ready.simulation);
-  if (o.common.json)
-    fmt::print("{}\n", plan_json(plan).dump(2));
-  else
-    print_plan(plan);
+  print_result(o.common, plan_json(plan), [&] { print_plan(plan); });
 }
 
 }  // namespace

@@ -49,21 +49,19 @@ void prepare_as_tiles(const PrepareOptions& o) {
   const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
   const auto notes = loading_notes(prepared.report);
   for (const std::string& note : notes) progress.note(note);
-  if (o.common.json) {
-    const ordered_json result = {{"output", o.output},
-                                 {"points_read", prepared.report.points_read},
-                                 {"surfels", prepared.tiles.surfels},
-                                 {"tiles", prepared.tiles.tiles},
-                                 {"bytes", prepared.tiles.bytes},
-                                 {"area_m2", prepared.tiles.total_area},
-                                 {"normals_oriented", prepared.normals_oriented},
-                                 {"in_batches", prepared.streamed},
-                                 {"notes", notes}};
-    fmt::print("{}\n", result.dump(2));
-  } else {
+  const ordered_json result = {{"output", o.output},
+                               {"points_read", prepared.report.points_read},
+                               {"surfels", prepared.tiles.surfels},
+                               {"tiles", prepared.tiles.tiles},
+                               {"bytes", prepared.tiles.bytes},
+                               {"area_m2", prepared.tiles.total_area},
+                               {"normals_oriented", prepared.normals_oriented},
+                               {"in_batches", prepared.streamed},
+                               {"notes", notes}};
+  print_result(o.common, result, [&] {
     fmt::print("{}: {} surfels in {} tiles, {:.4g} m^2, normals {}\n", o.output, prepared.tiles.surfels,
                prepared.tiles.tiles, prepared.tiles.total_area, prepared.normals_oriented ? "oriented" : "two-sided");
-  }
+  });
 }
 
 void prepare(const PrepareOptions& o) {
@@ -88,15 +86,13 @@ void prepare(const PrepareOptions& o) {
     save_scene(o.output, loaded.scene);
 
   const double area = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0);
-  if (o.common.json) {
-    const ordered_json result = {
-        {"output", o.output}, {"points_read", loaded.report.points_read},          {"surfels", loaded.scene.size()},
-        {"area_m2", area},    {"normals_oriented", loaded.scene.normals_oriented}, {"notes", notes}};
-    fmt::print("{}\n", result.dump(2));
-  } else {
+  const ordered_json result = {
+      {"output", o.output}, {"points_read", loaded.report.points_read},          {"surfels", loaded.scene.size()},
+      {"area_m2", area},    {"normals_oriented", loaded.scene.normals_oriented}, {"notes", notes}};
+  print_result(o.common, result, [&] {
     fmt::print("{}: {} surfels, {:.4g} m^2, normals {}\n", o.output, loaded.scene.size(), area,
                loaded.scene.normals_oriented ? "oriented" : "two-sided");
-  }
+  });
 }
 
 }  // namespace

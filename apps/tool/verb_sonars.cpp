@@ -3,6 +3,7 @@
 
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
+#include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 
@@ -52,17 +53,12 @@ void print_table(const std::vector<SonarFile>& files) {
 void sonars(const SonarsOptions& o) {
   if (!o.name.empty()) {
     const SonarFile file = find_sonar(o.name);
-    if (o.common.json)
-      fmt::print("{}\n", sonar_json(file).dump(2));
-    else
-      print_one(file);
-    return;
+    return print_result(o.common, sonar_json(file), [&] { print_one(file); });
   }
   const std::vector<SonarFile> files = list_sonars();
-  if (!o.common.json) return print_table(files);
   ordered_json all = ordered_json::array();
   for (const SonarFile& f : files) all.push_back(sonar_json(f));
-  fmt::print("{}\n", all.dump(2));
+  print_result(o.common, all, [&] { print_table(files); });
 }
 
 }  // namespace

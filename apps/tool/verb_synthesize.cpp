@@ -7,7 +7,7 @@
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
-#include "store/scatterer_table.hpp"
+#include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/run_files.hpp"
 #include "tool/run_settings.hpp"
@@ -55,7 +55,7 @@ void synthesize(const SynthesizeOptions& o) {
   const EchoOptions echo_options =
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
   const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
-  const SynthesisMethod method = parse_method(o.run.method);
+  const SynthesisMethod method = *find_named(method_words, o.run.method);
   const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = method == SynthesisMethod::incoherent;
@@ -74,13 +74,12 @@ void synthesize(const SynthesizeOptions& o) {
   manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, ping, settings_of(o), manifest, progress);
   manifest["seconds"] = {{"synthesis", seconds}};
-  write_text_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  if (common.json)
-    fmt::print("{}\n", manifest.dump(2));
-  else
+  print_result(common, manifest, [&] {
     fmt::print("{}: {} scatterers, peak {:.4f} dB re 1 uPa\n", o.run.output, table.scatterers.size(),
                manifest["peak_level_db"].get<double>());
+  });
 }
 
 }  // namespace

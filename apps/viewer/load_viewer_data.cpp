@@ -6,12 +6,12 @@
 
 #include "core/error.hpp"
 #include "scene_io/load_scene.hpp"
-#include "scene_io/load_soundings.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "tool/head_setup.hpp"
 #include "tool/parse_values.hpp"
-#include "tool/run_scene.hpp"
+#include "tool/ping_setup.hpp"
+#include "tool/run_settings.hpp"
 
 namespace insonify::viewer {
 namespace {
@@ -57,6 +57,10 @@ void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
     return;
   }
   LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
+  if (loaded.mesh && !view.data.contributors.empty()) {
+    const tool::PingOptions run = tool::load_ping_settings((fs::path(command.target) / "run.toml").string());
+    tool::sample_for_ping(run, tool::set_up_ping(run), loaded);
+  }
   for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
   for (const Contributors& list : view.data.contributors)
     if (!belong_together(list, loaded.scene)) {

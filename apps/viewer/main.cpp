@@ -1,11 +1,10 @@
 // insonify-view: the interactive viewer, and its pictures without a display.
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 
 #include "store/run_directory.hpp"
-#include "tool/exit_code.hpp"
 #include "tool/parse_values.hpp"
+#include "tool/program.hpp"
 #include "viewer/load_viewer_data.hpp"
 #include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"
@@ -34,7 +33,9 @@ ViewerOptions options_of(const ViewerCommand& command) {
   return options;
 }
 
-void view(const ViewerCommand& command) {
+int view(int argc, char** argv) {
+  const ViewerCommand command = parse_viewer_command(argc, argv);
+  if (command.exit_code) return *command.exit_code;
   ViewerOptions options = options_of(command);
   const LoadedView loaded = is_run(command.target) ? load_run(command) : load_inspection(command);
   if (!command.common.quiet)
@@ -42,29 +43,19 @@ void view(const ViewerCommand& command) {
   options.start = loaded.start;
   options.start.colour_map = command.colour_map;
   options.start.window_db = command.window_db;
-  if (command.screenshot.empty()) return show_viewer(loaded.data, options);
-  draw_viewer(loaded.data, options, command.screenshot);
-  std::printf("%s\n", command.screenshot.c_str());
+  if (command.screenshot.empty()) {
+    show_viewer(loaded.data, options);
+  } else {
+    draw_viewer(loaded.data, options, command.screenshot);
+    std::printf("%s\n", command.screenshot.c_str());
+  }
+  return 0;
 }
 
 }  // namespace
 }  // namespace insonify::viewer
 
 int main(int argc, char** argv) {
-  using namespace insonify;
-  try {
-    const viewer::ViewerCommand command = viewer::parse_viewer_command(argc, argv);
-    if (command.exit_code) return *command.exit_code;
-    viewer::view(command);
-    return 0;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "insonify: %s\n", error.what());
-    return tool::exit_code(error.kind());
-  } catch (const std::bad_alloc&) {
-    std::fputs("insonify: out of memory; view a thinner scene, or a run with --no-scene\n", stderr);
-    return 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "insonify: %s\n", error.what());
-    return 1;
-  }
+  return insonify::tool::run_program([&] { return insonify::viewer::view(argc, argv); },
+                                     "view a thinner scene, or a run with --no-scene");
 }

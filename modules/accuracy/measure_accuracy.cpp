@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/peak_memory_internal.hpp"
-#include "accuracy/synthesize_extended.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
+#include "core/peak_memory.hpp"
 #include "returns/compare.hpp"
 #include "simulate/stop_watch_internal.hpp"
 
@@ -107,8 +106,7 @@ void AccuracyBench::compare(const ComplexGrid& pressure, AccuracyRow& row) const
 
 void AccuracyBench::time_all(const Synthesis& run, AccuracyRow& row) const {
   const Echoes echoes = some_echoes(task_.echoes, row.timed_scatterers);
-  PeakMemory memory;
-  memory.mark();
+  forget_peak_memory();
   run(echoes);  // warms caches
   std::vector<double> seconds;
   StopWatch whole;
@@ -119,7 +117,7 @@ void AccuracyBench::time_all(const Synthesis& run, AccuracyRow& row) const {
     seconds.push_back(watch.lap());
     spent += whole.lap();
   }
-  row.peak_mib = memory.mib();
+  row.peak_mib = peak_memory_mib();
   std::sort(seconds.begin(), seconds.end());
   const auto part = static_cast<double>(std::max<std::size_t>(1, echoes.size()) * row.timed_beams);
   const double scale = static_cast<double>(std::max<std::size_t>(1, row.scatterers) * row.beams) / part;
@@ -153,12 +151,11 @@ AccuracyRow AccuracyBench::direct() const {
 
 AccuracyRow AccuracyBench::direct_whole() const {
   AccuracyRow r = row("direct");
-  PeakMemory memory;
-  memory.mark();
+  forget_peak_memory();
   StopWatch watch;
   const ComplexGrid pressure = synthesize_direct(task_.echoes, task_.head, task_.medium, {1e-4, options_.threads});
   r.seconds = r.seconds_min = r.seconds_max = watch.lap();
-  r.peak_mib = memory.mib();
+  r.peak_mib = peak_memory_mib();
   r.repeats = 1;
   compare(checked(pressure), r);
   return r;
@@ -198,9 +195,9 @@ AccuracyRow AccuracyBench::windowed_row(AccuracyRow r, const WindowedOptions& op
   r.timed_scatterers = timed(options_.windowed_work / work(1, r.beams, 1));
   compare(synthesize_windowed(task_.echoes, checked_head_, task_.medium, options), r);
   StopWatch watch;
-  const WindowedSynthesizer plan(task_.head, task_.medium, options);
+  const auto run = windowed_synthesizer(task_.head, task_.medium, options);
   r.plan_seconds = watch.lap();
-  time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
+  time_all(run, r);
   return r;
 }
 

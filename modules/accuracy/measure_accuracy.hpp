@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "accuracy/accuracy_task.hpp"
-#include "accuracy/synthesize_windowed.hpp"
+#include "accuracy/reference_sums.hpp"
 #include "core/grid.hpp"
 
 namespace insonify {

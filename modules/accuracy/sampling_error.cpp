@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/parallel.hpp"

@@ -57,15 +57,8 @@ AbsorptionTerms ainslie_mccolm(const Water& w) {
 }
 
 AbsorptionTerms absorption_terms(const Water& w, AbsorptionFormula formula) {
-  switch (formula) {
-    case AbsorptionFormula::fisher_simmons:
-      return fisher_simmons(w);
-    case AbsorptionFormula::ainslie_mccolm:
-      return ainslie_mccolm(w);
-    case AbsorptionFormula::francois_garrison:
-      break;
-  }
-  return francois_garrison(w);
+  if (formula == AbsorptionFormula::fisher_simmons) return fisher_simmons(w);
+  return formula == AbsorptionFormula::ainslie_mccolm ? ainslie_mccolm(w) : francois_garrison(w);
 }
 
 /// Value, slope and half curvature of a relaxation f_r f^2 / (f_r^2 + f^2); zero for f_r = 0 (fresh water).

@@ -10,7 +10,6 @@
 #include "acoustics/bend_paths.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 

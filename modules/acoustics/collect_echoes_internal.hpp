@@ -1,8 +1,11 @@
 #pragma once
+#include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "acoustics/direct_echoes.hpp"
 #include "acoustics/echoes.hpp"
 #include "core/parallel.hpp"
 
@@ -48,5 +51,8 @@ Echoes collect_echoes(std::size_t n, std::size_t block, int threads, Body&& body
   join_echoes(std::move(parts), all);
   return all;
 }
+
+/// Amplitude xi of a patch: bound to its id and the seed, the same on every path to the patch.
+std::complex<double> surface_amplitude(const EchoOptions& options, double coherent_fraction, std::uint64_t id);
 
 }  // namespace insonify

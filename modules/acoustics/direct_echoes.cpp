@@ -1,10 +1,9 @@
 #include "acoustics/direct_echoes.hpp"
 
 #include <cmath>
-#include <vector>
 
+#include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/scattering.hpp"
-#include "acoustics/surface_amplitude_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"

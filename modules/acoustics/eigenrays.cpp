@@ -14,10 +14,8 @@
 #include <limits>
 #include <utility>
 
-#include "acoustics/eigenrays_internal.hpp"
 #include "acoustics/ray_families_internal.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
 
 namespace insonify {
 namespace {

@@ -22,15 +22,9 @@ double gaussian_lobe(double width, double off_axis) {
 }
 
 double elevation_response(ElevationShape shape, double width, double elevation_off_centre) {
-  switch (shape) {
-    case ElevationShape::gaussian:
-      return gaussian_lobe(width, elevation_off_centre);
-    case ElevationShape::line:
-      return sinc(sinc_half_power * std::sin(elevation_off_centre) / std::sin(std::min(width / 2, pi / 2)));  // (E14)
-    case ElevationShape::sector:
-      return std::abs(elevation_off_centre) <= width / 2 ? 1 : 0;
-  }
-  return 0;
+  if (shape == ElevationShape::gaussian) return gaussian_lobe(width, elevation_off_centre);
+  if (shape == ElevationShape::sector) return std::abs(elevation_off_centre) <= width / 2 ? 1 : 0;
+  return sinc(sinc_half_power * std::sin(elevation_off_centre) / std::sin(std::min(width / 2, pi / 2)));  // (E14)
 }
 
 double elevation_half_extent(ElevationShape shape, double width, double floor_db) {

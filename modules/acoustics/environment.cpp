@@ -4,14 +4,11 @@
 
 #include "acoustics/noise.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
-
-void require(bool holds, const char* who, const char* key, double value, const char* unit, const char* rule) {
-  if (!holds) fail(ErrorKind::argument, who, ": ", key, " = ", value, *unit ? " " : "", unit, ", must be ", rule);
-}
 
 void require_valid(const SeaSurface& s, const char* who) {
   const double rms = s.rms_height.value_or(0), strength = s.scattering_strength_db.value_or(0);

@@ -56,14 +56,8 @@ double least_absorption(const Absorption& a, double half_band) {
 }  // namespace
 
 ReplicaWeights replica_weights(ReplicaWindow window) {
-  switch (window) {
-    case ReplicaWindow::hann:
-      return {0.5, 0.5};
-    case ReplicaWindow::hamming:
-      return {0.54, 0.46};
-    case ReplicaWindow::uniform:
-      break;
-  }
+  if (window == ReplicaWindow::hann) return {0.5, 0.5};
+  if (window == ReplicaWindow::hamming) return {0.54, 0.46};
   return {1, 0};
 }
 

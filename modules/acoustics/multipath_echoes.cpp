@@ -18,8 +18,8 @@
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
 #include "acoustics/scattering.hpp"
-#include "acoustics/surface_amplitude_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 #include "sampling/seen_surfels.hpp"
 
@@ -220,9 +220,8 @@ Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, co
   require_valid(view.gate, me);
   require_valid(transmission.pulse, me);
   require_valid(transmission.medium, me);
-  if (!(options.boundary_tolerance >= 0 && std::isfinite(options.boundary_tolerance)))
-    fail(ErrorKind::argument, me, ": options.boundary_tolerance = ", options.boundary_tolerance,
-         " m, must be finite and >= 0");
+  require(options.boundary_tolerance >= 0 && std::isfinite(options.boundary_tolerance), me,
+          "options.boundary_tolerance", options.boundary_tolerance, "m", "finite and >= 0");
   const auto boundaries =
       boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
 

@@ -5,6 +5,7 @@
 
 #include "acoustics/linear_fm_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -22,13 +23,13 @@ const char* replica_window_name(ReplicaWindow window) {
 }
 
 void require_valid(const Pulse& pulse, const char* who) {
-  if (!std::isfinite(pulse.centre_frequency) || pulse.centre_frequency <= 0)
-    fail(ErrorKind::argument, who, ": centre_frequency = ", pulse.centre_frequency, " Hz, must be > 0");
+  require(std::isfinite(pulse.centre_frequency) && pulse.centre_frequency > 0, who, "centre_frequency",
+          pulse.centre_frequency, "Hz", "> 0");
   if (!std::isfinite(pulse.bandwidth) || pulse.bandwidth <= 0 || pulse.bandwidth >= 2 * pulse.centre_frequency)
     fail(ErrorKind::argument, who, ": bandwidth = ", pulse.bandwidth, " Hz, must be > 0 and below twice the centre ",
          "frequency (", pulse.centre_frequency, " Hz)");
-  if (!(std::abs(pulse.source_level_db) <= 400))
-    fail(ErrorKind::argument, who, ": source_level_db = ", pulse.source_level_db, " dB, must be within -400 and 400");
+  require(std::abs(pulse.source_level_db) <= 400, who, "source_level_db", pulse.source_level_db, "dB",
+          "within -400 and 400");
   if (pulse.shape != PulseShape::linear_fm) return;
   if (!std::isfinite(pulse.duration) || pulse.duration <= 0)
     fail(ErrorKind::argument, who, ": duration = ", pulse.duration, " s, must be finite and > 0 for a sweep");

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/sound_speed_profile.hpp"
+#include "acoustics/bend_paths.hpp"
 
 /// Rays through layers of constant gradient, named by their steepness. With c_m the highest sound speed between the
 /// two ends, a ray of steepness Q (square of the tangent of its slope where sound speed is c_m) has at sound speed c
@@ -48,7 +48,6 @@ class RayWater {
 
   const RaySide& above() const { return above_; }
   const RaySide& below() const { return below_; }
-  bool has_between() const { return !between_.empty(); }
 
   /// How far a ray of `steepness` gets.
   double horizontal(const RayFamily& family, double steepness) const {
@@ -80,5 +79,9 @@ class RayWater {
 /// Travel time [s] of the arc over a chord [m] in water of constant absolute gradient [1/s] (E43); `root_speed` is the
 /// geometric mean of the sound speeds at its ends.
 double arc_time(double chord, double gradient, double root_speed);
+
+/// find_eigenray for a valid profile and finite arguments, horizontal >= 0; none in a shadow zone.
+std::optional<Eigenray> eigenray_between(const SoundSpeedProfile& profile, double depth_from, double depth_to,
+                                         double horizontal);
 
 }  // namespace insonify

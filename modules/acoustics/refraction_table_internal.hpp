@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/sound_speed_profile.hpp"
 
 namespace insonify {
 

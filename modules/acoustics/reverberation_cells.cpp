@@ -3,6 +3,7 @@
 
 #include "acoustics/reverberation_cells_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -25,9 +26,8 @@ ReverberationCells reverberation_cells(const BeamFan& fan, const RangeGate& gate
   require_valid(gate, who);
   require_valid(transmission.pulse, who);
   require_valid(transmission.medium, who);
-  if (!(options.cells_per_resolution > 0 && std::isfinite(options.cells_per_resolution)))
-    fail(ErrorKind::argument, who, ": options.cells_per_resolution = ", options.cells_per_resolution,
-         ", must be finite and > 0");
+  require(options.cells_per_resolution > 0 && std::isfinite(options.cells_per_resolution), who,
+          "options.cells_per_resolution", options.cells_per_resolution, "", "finite and > 0");
   const double c = transmission.medium.sound_speed;
   const double margin = 0.5 * c * pulse_half_length(transmission.pulse, pulse_floor);
   ReverberationCells cells;

@@ -1,6 +1,5 @@
 #pragma once
 #include <complex>
-#include <cstdint>
 #include <vector>
 
 #include "acoustics/reverberation_echoes.hpp"

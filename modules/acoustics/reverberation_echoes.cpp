@@ -17,6 +17,7 @@
 #include "acoustics/scattering.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -28,21 +29,24 @@ constexpr std::size_t slices_per_block = 64;
 constexpr double pattern_floor = 1e-4;  // -80 dB: cells below it are left out
 constexpr double metres_per_second_per_knot = 1852.0 / 3600.0;
 
-/// A plane that scatters, as seen from the head.
+/// A plane that scatters.
 struct ScatteringPlane {
-  double distance;    ///< from the head, > 0 [m]
+  const char* name;
+  double height;      ///< world z [m]
   double side;        ///< 1: above the head, -1: below
   double strength;    ///< cross-section per area at all angles, which adds to that of the material
   Material material;  ///< of lambert_mu 0 where `strength` is all
   RandomStage stage;
-  std::uint64_t first;  ///< of the random counter
 };
 
 class PlaneEchoes {
  public:
-  PlaneEchoes(const ScatteringPlane& plane, const ReverberationCells& cells, const Pose& world_from_head,
-              const Transmission& sent, const char* who)
+  /// `first` is the first number of the random counter.
+  PlaneEchoes(const ScatteringPlane& plane, std::uint64_t first, const ReverberationCells& cells,
+              const Pose& world_from_head, const Transmission& sent, const char* who)
       : plane_(plane),
+        first_(first),
+        distance_(std::abs(plane.height - world_from_head.translation().z())),
         cells_(cells),
         sector_(cells.sector),
         echo_options_(sent.echo_options),
@@ -52,7 +56,7 @@ class PlaneEchoes {
     const Eigen::Matrix3d to_head = world_from_head.linear().transpose();
     forward_ = to_head.col(0);
     left_ = to_head.col(1);
-    to_plane_ = plane.side * plane.distance * to_head.col(2);
+    to_plane_ = plane.side * distance_ * to_head.col(2);
     directions_ = static_cast<std::size_t>(std::ceil(cells.azimuths));
     step_ = 2 * pi / static_cast<double>(directions_);
     require_few(std::ceil(cells.azimuths), cells, who);
@@ -71,25 +75,25 @@ class PlaneEchoes {
   Vector3d direction(double angle) const { return std::cos(angle) * forward_ + std::sin(angle) * left_; }
 
   void slice_echo(std::size_t k, Echoes& out) const {
-    const double r1 = std::max(cells_.begin(k), plane_.distance), r2 = cells_.end(k);
+    const double r1 = std::max(cells_.begin(k), distance_), r2 = cells_.end(k);
     if (!(r2 > r1)) return;
     const double area = 0.5 * (r2 * r2 - r1 * r1) * step_;  // rho drho = r dr
-    const double middle = std::sqrt(0.5 * (r1 * r1 + r2 * r2) - plane_.distance * plane_.distance);
+    const double middle = std::sqrt(0.5 * (r1 * r1 + r2 * r2) - distance_ * distance_);
     const double spare = middle * step_;  // one cell
     for (std::size_t j = 0; j < directions_; ++j)
       if (sector_.in_cones(to_plane_ + middle * centre_[j], spare)) cell_echo(k, j, r1, r2, area, out);
   }
 
   void cell_echo(std::size_t k, std::size_t j, double r1, double r2, double area, Echoes& out) const {
-    const RandomCounter counter{plane_.first, cells_.first + k, j};
+    const RandomCounter counter{first_, cells_.first + k, j};
     const auto jitter = random_uniform(echo_options_.seed, plane_.stage, counter);
     const double r = std::sqrt(r1 * r1 + jitter[2] * (r2 * r2 - r1 * r1));
-    const double rho = std::sqrt(std::max(0.0, (r - plane_.distance) * (r + plane_.distance)));
+    const double rho = std::sqrt(std::max(0.0, (r - distance_) * (r + distance_)));
     const Vector3d place = to_plane_ + rho * direction((static_cast<double>(j) + jitter[3]) * step_);
     const double v = std::clamp(place.z() / r, -1.0, 1.0);
     const double pattern = elevation_pattern(echo_options_, std::asin(v));
     if (!(std::abs(pattern) >= pattern_floor)) return;
-    const double sine = plane_.distance / r;  // of the grazing angle
+    const double sine = distance_ / r;  // of the grazing angle
     const double sigma =
         plane_.strength * area + cross_section(plane_.material, {sine, sine, sine * area}, frequency_);  // (E50, E51)
     const double transmitted = transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
@@ -99,6 +103,8 @@ class PlaneEchoes {
   }
 
   const ScatteringPlane& plane_;
+  std::uint64_t first_;
+  double distance_;  // from the head [m]
   const ReverberationCells& cells_;
   SectorBounds sector_;
   const EchoOptions& echo_options_;
@@ -107,6 +113,15 @@ class PlaneEchoes {
   std::size_t directions_ = 0;
   std::vector<Vector3d> centre_;
 };
+
+Echoes plane_echoes(const ScatteringPlane& plane, const Pose& world_from_head, const ReverberationCells& cells,
+                    const Transmission& sent, std::uint64_t first, const char* who) {
+  const double head = world_from_head.translation().z();
+  if (!(plane.side * (plane.height - head) > 0))
+    fail(ErrorKind::argument, who, ": the head stands at height ", head, " m, must be ",
+         plane.side > 0 ? "below " : "above ", plane.name, ".height = ", plane.height, " m");
+  return PlaneEchoes(plane, first, cells, world_from_head, sent, who).echoes();
+}
 
 /// Which bottom is under a head: its place, rounded to `step`.
 std::uint64_t place_counter(const Vector3d& place, double step) {
@@ -195,18 +210,14 @@ Echoes surface_echoes(const Environment& environment, const Pose& world_from_hea
   require_valid(environment, me);
   if (!environment.surface || !environment.surface->scattering_strength_db)
     fail(ErrorKind::argument, me, ": environment has no surface.scattering_strength_db");
-  const double head = world_from_head.translation().z(), height = environment.surface->height;
-  if (!(head < height))
-    fail(ErrorKind::argument, me, ": the head stands at height ", head, " m, must be below surface.height = ", height,
-         " m");
-  const ReverberationCells cells = reverberation_cells(fan, gate, transmission, options, me);
-  const ScatteringPlane plane{height - head,
-                              1,
-                              power_from_db(*environment.surface->scattering_strength_db),
-                              {"sea surface", 0},
-                              RandomStage::sea_surface,
-                              static_cast<std::uint64_t>(options.ping)};
-  return PlaneEchoes(plane, cells, world_from_head, transmission, me).echoes();
+  return plane_echoes({"surface",
+                       environment.surface->height,
+                       1,
+                       power_from_db(*environment.surface->scattering_strength_db),
+                       {"sea surface", 0},
+                       RandomStage::sea_surface},
+                      world_from_head, reverberation_cells(fan, gate, transmission, options, me), transmission,
+                      static_cast<std::uint64_t>(options.ping), me);
 }
 
 Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
@@ -215,28 +226,22 @@ Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head
   require_valid(environment, me);
   if (!environment.bottom || !environment.bottom->lambert_mu)
     fail(ErrorKind::argument, me, ": environment has no bottom.lambert_mu");
-  const double head = world_from_head.translation().z(), height = environment.bottom->height;
-  if (!(head > height))
-    fail(ErrorKind::argument, me, ": the head stands at height ", head, " m, must be above bottom.height = ", height,
-         " m");
   const ReverberationCells cells = reverberation_cells(fan, gate, transmission, options, me);
-  const ScatteringPlane plane{head - height,
-                              -1,
-                              0,
-                              {"flat bottom", *environment.bottom->lambert_mu},
-                              RandomStage::flat_bottom,
-                              place_counter(world_from_head.translation(), cells.length)};
-  return PlaneEchoes(plane, cells, world_from_head, transmission, me).echoes();
+  return plane_echoes({"bottom",
+                       environment.bottom->height,
+                       -1,
+                       0,
+                       {"flat bottom", *environment.bottom->lambert_mu},
+                       RandomStage::flat_bottom},
+                      world_from_head, cells, transmission, place_counter(world_from_head.translation(), cells.length),
+                      me);
 }
 
 double chapman_harris_strength_db(double frequency, double wind_speed, double grazing) {
   constexpr const char* me = "chapman_harris_strength_db";
-  if (!(frequency > 0 && std::isfinite(frequency)))
-    fail(ErrorKind::argument, me, ": frequency = ", frequency, " Hz, must be finite and > 0");
-  if (!(wind_speed > 0 && std::isfinite(wind_speed)))
-    fail(ErrorKind::argument, me, ": wind_speed = ", wind_speed, " m/s, must be finite and > 0");
-  if (!(grazing > 0 && grazing <= pi / 2))
-    fail(ErrorKind::argument, me, ": grazing = ", grazing, " rad, must be > 0 and at most pi/2");
+  require(frequency > 0 && std::isfinite(frequency), me, "frequency", frequency, "Hz", "finite and > 0");
+  require(wind_speed > 0 && std::isfinite(wind_speed), me, "wind_speed", wind_speed, "m/s", "finite and > 0");
+  require(grazing > 0 && grazing <= pi / 2, me, "grazing", grazing, "rad", "> 0 and at most pi/2");
   const double beta = 158 * std::pow(wind_speed / metres_per_second_per_knot * std::cbrt(frequency), -0.58);
   return 3.3 * beta * std::log10(degrees(grazing) / 30) - 42.4 * std::log10(beta) + 2.6;  // (E50)
 }

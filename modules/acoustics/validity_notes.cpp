@@ -19,26 +19,16 @@ struct Limits {
 };
 
 Limits limits_of(SoundSpeedFormula formula) {
-  switch (formula) {
-    case SoundSpeedFormula::mackenzie:
-      return {"Mackenzie (1981)", {2, 30}, {25, 40}, {0, 8000}, {}, {}};
-    case SoundSpeedFormula::leroy:
-      return {"Leroy et al. (2008)", {-1, 30}, {0, 42}, {0, 12000}, {}, {}};
-    case SoundSpeedFormula::unesco:
-      break;
-  }
+  if (formula == SoundSpeedFormula::mackenzie) return {"Mackenzie (1981)", {2, 30}, {25, 40}, {0, 8000}, {}, {}};
+  if (formula == SoundSpeedFormula::leroy) return {"Leroy et al. (2008)", {-1, 30}, {0, 42}, {0, 12000}, {}, {}};
   return {"UNESCO (Chen and Millero 1977)", {0, 40}, {0, 40}, {0, 9700}, {}, {}};  // 9700 m: 1000 bar
 }
 
 Limits limits_of(AbsorptionFormula formula, double frequency_khz) {
-  switch (formula) {
-    case AbsorptionFormula::fisher_simmons:
-      return {"Fisher and Simmons (1977)", {}, {35, 35}, {}, {8, 8}, {10, 400}};
-    case AbsorptionFormula::ainslie_mccolm:
-      return {"Ainslie and McColm (1998)", {-6, 35}, {5, 50}, {0, 7000}, {7.7, 8.3}, {0.1, 1000}};
-    case AbsorptionFormula::francois_garrison:
-      break;
-  }
+  if (formula == AbsorptionFormula::fisher_simmons)
+    return {"Fisher and Simmons (1977)", {}, {35, 35}, {}, {8, 8}, {10, 400}};
+  if (formula == AbsorptionFormula::ainslie_mccolm)
+    return {"Ainslie and McColm (1998)", {-6, 35}, {5, 50}, {0, 7000}, {7.7, 8.3}, {0.1, 1000}};
   if (frequency_khz < 500)
     return {"Francois and Garrison (1982) below 500 kHz", {-2, 22}, {30, 35}, {0, 3500}, {}, {0.2, 1000}};
   return {"Francois and Garrison (1982) from 500 kHz on", {0, 30}, {0, 40}, {0, 10000}, {}, {0.2, 1000}};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -29,10 +29,8 @@ constexpr double at_endfire = 1e-9;  // tolerance in u for a lobe at endfire
 
 void require_pattern(const LineArray& array, double wavelength, double steering, const char* who) {
   require_valid(array, who);
-  if (!(std::isfinite(wavelength) && wavelength > 0))
-    fail(ErrorKind::argument, who, ": wavelength = ", wavelength, " m, must be > 0");
-  if (!(std::abs(steering) <= pi / 2))
-    fail(ErrorKind::argument, who, ": steering = ", degrees(steering), " deg, must be within -90 and 90");
+  require(std::isfinite(wavelength) && wavelength > 0, who, "wavelength", wavelength, "m", "> 0");
+  require(std::abs(steering) <= pi / 2, who, "steering", degrees(steering), "deg", "within -90 and 90");
 }
 
 /// Returns the maximum point of f in [low, high], where f is unimodal, by golden-section search.

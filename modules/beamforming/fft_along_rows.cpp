@@ -1,8 +1,24 @@
 
+#include <mutex>
+
 #include "beamforming/fft_along_rows_internal.hpp"
-#include "beamforming/fftw_planner_internal.hpp"
+#include "beamforming/forward_fft_internal.hpp"
 
 namespace insonify {
+namespace {
+
+/// FFTW creates and destroys plans one at a time, for all precisions together; executing plans needs no lock.
+std::mutex& fftw_planner() {
+  static std::mutex planner;
+  return planner;
+}
+
+void destroy_plan(fftw_plan plan) {
+  const std::scoped_lock lock(fftw_planner());
+  fftw_destroy_plan(plan);
+}
+
+}  // namespace
 
 template <typename Real>
 FftAlongRows<Real>::FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign) {
@@ -15,6 +31,18 @@ template <typename Real>
 FftAlongRows<Real>::~FftAlongRows() {
   const std::scoped_lock lock(fftw_planner());
   Fftw<Real>::destroy(plan_);
+}
+
+ForwardFft::ForwardFft(std::size_t n) : plan_(nullptr, &destroy_plan) {
+  const std::scoped_lock lock(fftw_planner());
+  std::vector<std::complex<double>> buffer(n);
+  auto* raw = reinterpret_cast<fftw_complex*>(buffer.data());
+  plan_.reset(fftw_plan_dft_1d(static_cast<int>(n), raw, raw, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED));
+}
+
+void ForwardFft::run(std::vector<std::complex<double>>& data) const {
+  auto* raw = reinterpret_cast<fftw_complex*>(data.data());
+  fftw_execute_dft(plan_.get(), raw, raw);
 }
 
 template class FftAlongRows<float>;

@@ -5,8 +5,8 @@
 
 #include "beamforming/flush_denormals_internal.hpp"
 #include "beamforming/gridded_synthesis_internal.hpp"
-#include "beamforming/synthesis_cost_internal.hpp"
-#include "beamforming/tile_lists_internal.hpp"
+#include "beamforming/time_axis_internal.hpp"
+#include "beamforming/windowed_sum_internal.hpp"
 #include "core/parallel.hpp"
 
 // Gridded synthesis (E13): non-uniform FFTs over the array, bin by bin, after Barnett, Magland, af Klinteberg (2019).
@@ -33,6 +33,123 @@ double largest(const Echoes& echoes, const Medium& medium, int threads) {
   });
   const double all = most.empty() ? 0 : *std::max_element(most.begin(), most.end());
   return all > std::numeric_limits<double>::min() ? all : 1;
+}
+
+/// Cost model of the two synthesis methods beyond that of a silent image, in nanoseconds of one core; only the ratio
+/// matters. The constants are fitted to 26 heads and tolerances timed on one machine, accurate to 30 % there;
+/// `insonify_benchmarks --benchmark_filter=few_echoes` measures both methods.
+struct SynthesisCost {
+  double tile;          ///< gridded: transform and interpolation of one tile of bins
+  double gridded_echo;  ///< gridded: one echo
+  double direct_fixed;  ///< direct: steering of all beams, and test for cancellation
+  double direct_echo;   ///< direct: one echo in all beams
+  double direct_block;  ///< direct: patterns of all beams for one block of echoes, full or not
+
+  /// choice         parameters of the gridded synthesis
+  /// common_shape   all pulses have the same shape and are gridded from polynomials
+  SynthesisCost(const SonarHead& head, const SynthesisChoice& choice, std::size_t tile_bins, bool common_shape);
+
+  /// tiles   number of tiles that the echoes overlap
+  bool direct_is_cheaper(std::size_t echoes, std::size_t tiles) const;
+  /// Returns the number of echoes above which gridding is cheaper, if they overlap `tiles` tiles.
+  double break_even(std::size_t tiles) const;
+};
+
+SynthesisCost::SynthesisCost(const SonarHead& head, const SynthesisChoice& choice, std::size_t tile_bins,
+                             bool common_shape) {
+  const auto beams = static_cast<double>(head.fan.beams()), elements = static_cast<double>(head.array.elements());
+  const auto bins = static_cast<double>(head.gate.bins()), grid = static_cast<double>(choice.grid);
+  const auto samples = std::min(static_cast<double>(choice.pulse_samples), bins);
+  const double precision = choice.single_precision ? 0.5 : 1, lanes = choice.kernel_width > 8 ? 16 : 8;
+  const double width = precision * static_cast<double>(choice.kernel_width);
+  const double out_of_cache = choice.bytes_per_thread > 0x100000 ? 7.5 : 0;
+
+  // Transforms, interpolation of beams, and writing them, minus the cost of a silent tile.
+  tile = static_cast<double>(tile_bins) *
+         (grid * (0.3 * std::log2(grid) + 1.7 * precision + out_of_cache) + beams * (0.31 * width + 4.4));
+  gridded_echo = 70 + samples * (precision * lanes + (common_shape ? 0 : 20));
+  direct_fixed = beams * (0.32 * elements + 0.3 * bins);
+  direct_echo = 0.46 * elements + 20 * samples + beams * (0.39 * samples + 0.9);
+  direct_block = 0.37 * static_cast<double>(WindowedSum::block) * beams * elements;
+}
+
+bool SynthesisCost::direct_is_cheaper(std::size_t echoes, std::size_t tiles) const {
+  const auto n = static_cast<double>(echoes);
+  const auto blocks = static_cast<double>((echoes + WindowedSum::block - 1) / WindowedSum::block);
+  return direct_fixed + blocks * direct_block + n * direct_echo <= static_cast<double>(tiles) * tile + n * gridded_echo;
+}
+
+double SynthesisCost::break_even(std::size_t tiles) const {
+  const double extra_per_echo = direct_echo + direct_block / static_cast<double>(WindowedSum::block) - gridded_echo;
+  if (extra_per_echo <= 0) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, (static_cast<double>(tiles) * tile - direct_fixed) / extra_per_echo);
+}
+
+/// Lists of the echoes that overlap each tile of bins, in order of echoes, for any number of threads.
+struct TileLists {
+  std::vector<std::size_t> begin;   ///< tiles + 1 offsets into `echo`
+  std::vector<std::uint32_t> echo;  ///< indices of echoes, fewer than 2^32
+
+  TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins, int threads);
+
+  std::size_t tiles() const { return begin.size() - 1; }
+  std::span<const std::uint32_t> of(std::size_t tile) const {
+    return {echo.data() + begin[tile], begin[tile + 1] - begin[tile]};
+  }
+};
+
+constexpr std::size_t min_block = 4096;  // least number of echoes per block of work
+constexpr std::size_t max_blocks = 256;
+
+/// Calls visit(tile, i) for every tile that the pulse of echo i in [begin, end) overlaps.
+template <typename Visit>
+void each_tile(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
+               std::size_t begin, std::size_t end, Visit&& visit) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto [first, last] = axis.around(echoes.delay[i], reach.at(echoes.delay[i]));
+    for (std::size_t t = first / tile_bins; first < last && t <= (last - 1) / tile_bins; ++t) visit(t, i);
+  }
+}
+
+TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
+                     int threads) {
+  const std::size_t tiles = (axis.bins + tile_bins - 1) / tile_bins;
+  const std::size_t block = std::max(min_block, (echoes.size() + max_blocks - 1) / max_blocks);
+  const std::size_t blocks = (echoes.size() + block - 1) / block;
+
+  // Count the entries of each block of echoes in each tile.
+  std::vector<std::size_t> next(blocks * tiles, 0);
+  parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
+    std::size_t* count = next.data() + first / block * tiles;
+    each_tile(echoes, axis, reach, tile_bins, first, last, [&](std::size_t t, std::size_t) { ++count[t]; });
+  });
+
+  // Assign positions tile by tile, within a tile block by block, so the lists do not depend on the division into
+  // blocks.
+  begin.assign(1, 0);
+  std::size_t place = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    for (std::size_t k = 0; k < blocks; ++k) {
+      const std::size_t count = next[k * tiles + t];
+      next[k * tiles + t] = place;
+      place += count;
+    }
+    begin.push_back(place);
+  }
+
+  echo.resize(place);
+  parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
+    std::size_t* to = next.data() + first / block * tiles;
+    each_tile(echoes, axis, reach, tile_bins, first, last,
+              [&](std::size_t t, std::size_t i) { echo[to[t]++] = static_cast<std::uint32_t>(i); });
+  });
+}
+
+/// Returns the number of tiles that some pulse overlaps, i.e. whose TileLists entry is not empty.
+std::size_t touched_tiles(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins) {
+  std::vector<bool> touched((axis.bins + tile_bins - 1) / tile_bins, false);
+  each_tile(echoes, axis, reach, tile_bins, 0, echoes.size(), [&](std::size_t t, std::size_t) { touched[t] = true; });
+  return static_cast<std::size_t>(std::count(touched.begin(), touched.end(), true));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "beamforming/require_synthesis_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 
 namespace insonify {
 
@@ -9,8 +10,7 @@ void require_synthesis(const Echoes& echoes, const SonarHead& head, const Medium
                        const SynthesisOptions& options, const char* who) {
   require_valid(head, who);
   require_valid(medium, who);
-  if (!(options.tolerance > 0 && options.tolerance < 1))
-    fail(ErrorKind::argument, who, ": tolerance = ", options.tolerance, ", must be within 0 and 1");
+  require(options.tolerance > 0 && options.tolerance < 1, who, "tolerance", options.tolerance, "", "within 0 and 1");
   if (echoes.u.size() != echoes.size() || echoes.amplitude.size() != echoes.size())
     fail(ErrorKind::argument, who, ": echoes have ", echoes.size(), " delays, ", echoes.u.size(), " directions and ",
          echoes.amplitude.size(), " amplitudes; must be one of each per echo");

@@ -5,6 +5,7 @@
 
 #include "beamforming/line_array.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -32,8 +33,7 @@ void require_elements(std::size_t elements, const char* who) {
 }
 
 void require_side_lobe(double side_lobe_db, const char* who) {
-  if (!(side_lobe_db >= -80 && side_lobe_db < -13.3))
-    fail(ErrorKind::argument, who, ": side_lobe_db = ", side_lobe_db, " dB, must be within -80 and -13.3");
+  require(side_lobe_db >= -80 && side_lobe_db < -13.3, who, "side_lobe_db", side_lobe_db, "dB", "within -80 and -13.3");
 }
 
 std::vector<double> scaled_to_sum(std::vector<double> weights) {
@@ -46,31 +46,15 @@ std::vector<double> scaled_to_sum(std::vector<double> weights) {
 }  // namespace
 
 const char* shading_name(Shading shading) {
-  switch (shading) {
-    case Shading::uniform:
-      return "uniform";
-    case Shading::taylor:
-      return "taylor";
-    case Shading::hamming:
-      return "hamming";
-    case Shading::chebyshev:
-      return "chebyshev";
-  }
-  return "";
+  constexpr const char* names[] = {"uniform", "taylor", "hamming", "chebyshev"};
+  return names[static_cast<int>(shading)];
 }
 
 std::vector<double> shading_weights(Shading shading, std::size_t elements, double side_lobe_db) {
-  switch (shading) {
-    case Shading::uniform:
-      return uniform_shading(elements);
-    case Shading::taylor:
-      return taylor_shading(elements, side_lobe_db);
-    case Shading::hamming:
-      return hamming_shading(elements);
-    case Shading::chebyshev:
-      return chebyshev_shading(elements, side_lobe_db);
-  }
-  return {};
+  if (shading == Shading::uniform) return uniform_shading(elements);
+  if (shading == Shading::hamming) return hamming_shading(elements);
+  return shading == Shading::taylor ? taylor_shading(elements, side_lobe_db)
+                                    : chebyshev_shading(elements, side_lobe_db);
 }
 
 std::vector<double> uniform_shading(std::size_t elements) { return std::vector<double>(elements, 1.0); }

@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
-
-void require(bool holds, const char* who, const char* key, double value, const char* unit, const char* rule) {
-  if (!holds) fail(ErrorKind::argument, who, ": ", key, " = ", value, *unit ? " " : "", unit, ", must be ", rule);
-}
 
 /// Keys of a sweep require a sweep, and a sweep requires its duration.
 void require_pulse(const SonarSpec& s, const char* who) {

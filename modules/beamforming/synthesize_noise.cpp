@@ -4,10 +4,11 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 #include <vector>
 
-#include "beamforming/element_tile_internal.hpp"
-#include "beamforming/row_noise_internal.hpp"
+#include "beamforming/element_kernels_internal.hpp"
+#include "beamforming/require_synthesis_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
@@ -72,6 +73,107 @@ struct ReceiveFilter {
     return x;
   }
 };
+
+constexpr std::size_t tile_bins = 64;
+
+/// The time series of all elements over one tile of bins: tile_bins x elements, real and imaginary parts [Pa].
+struct ElementTile {
+  Grid<double> re, im;
+
+  explicit ElementTile(std::size_t elements)
+      : re(Grid<double>::Zero(tile_bins, elements)), im(Grid<double>::Zero(tile_bins, elements)) {}
+};
+
+/// Shading and steering phasors of all beams and elements, to form beams from tiles of element series.
+class BeamSums {
+ public:
+  BeamSums(const SonarHead& head, double wavelength);
+
+  /// Computes pressure(b, n) for some beams, those of one row, and the bins [first, last) of one tile: the sum over
+  /// elements (E10).
+  void form_beams(const ElementTile& series, std::size_t first, std::size_t last, std::span<const std::size_t> beams,
+                  ComplexGrid& pressure) const;
+
+ private:
+  Grid<double> re_, im_;  // beams x elements
+};
+
+BeamSums::BeamSums(const SonarHead& head, double wavelength) {
+  const std::vector<double> u_beam = beam_cosines(head.fan);
+  const std::size_t n = head.array.elements();
+  re_.resize(u_beam.size(), n);
+  im_.resize(u_beam.size(), n);
+  for (std::size_t b = 0; b < u_beam.size(); ++b)
+    for (std::size_t m = 0; m < n; ++m) {
+      const double phase = -2 * pi * head.array.spacing / wavelength * element_place(m, n) * u_beam[b];
+      const double w = head.array.shading[m] / static_cast<double>(n);
+      re_(b, m) = w * std::cos(phase);
+      im_(b, m) = w * std::sin(phase);
+    }
+}
+
+void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::size_t last,
+                          std::span<const std::size_t> beams, ComplexGrid& pressure) const {
+  // Transpose to one row per element, so the sums run along time.
+  const Grid<double> re = series.re.transpose(), im = series.im.transpose();
+  double beam_re[tile_bins], beam_im[tile_bins];
+  for (const std::size_t b : beams) {
+    kernels::sum_elements(re_.row(b).data(), im_.row(b).data(), re_.cols(), re.data(), im.data(), tile_bins,
+                          last - first, beam_re, beam_im);
+    for (std::size_t n = first; n < last; ++n) pressure(b, n) = {beam_re[n - first], beam_im[n - first]};
+  }
+}
+
+/// White noise of unit power per element, as received by the line array of each row of beams.
+///
+/// Without a column each row has elements of its own. With a column, the noise of element m of a row is formed from
+/// that of the column's elements k, steered to the row:
+///
+///   y(row, m) = (1 / Nz) sum_k w_k exp(-2 pi i (d/lambda) (k - (Nz-1)/2) sin(elevation_row)) xi(m, k)
+///
+/// so the noise of rows is correlated as far as the column's beams overlap (E56). xi is counted by (ping, k columns +
+/// m, bin), which for one row without column is the counting of a line array.
+class RowNoise {
+ public:
+  RowNoise(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, const NoiseOptions& options);
+
+  /// Returns the noise of element m for rows [first, last), rows x bins, on bins [begin, begin + bins).
+  ComplexGrid white(std::size_t m, std::size_t first, std::size_t last, std::uint64_t begin, std::size_t bins) const;
+
+ private:
+  ComplexGrid column_;  // rows x elements of the column; empty without a column
+  std::size_t columns_;
+  NoiseOptions options_;
+};
+
+RowNoise::RowNoise(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
+                   const NoiseOptions& options)
+    : columns_(head.array.elements()), options_(options) {
+  if (!head.column) return;
+  const std::size_t elements = head.column->elements();
+  column_.resize(rows.size(), elements);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t k = 0; k < elements; ++k) {
+      const double step = -2 * pi * head.column->spacing / wavelength * std::sin(rows[r].elevation);
+      column_(r, k) =
+          std::polar(1.0, step * element_place(k, elements)) * head.column->shading[k] / static_cast<double>(elements);
+    }
+}
+
+ComplexGrid RowNoise::white(std::size_t m, std::size_t first, std::size_t last, std::uint64_t begin,
+                            std::size_t bins) const {
+  // Independent elements: those of the rows themselves, or those of the column.
+  const std::size_t first_layer = column_.size() ? 0 : first;
+  const std::size_t layers = column_.size() ? static_cast<std::size_t>(column_.cols()) : last - first;
+  ComplexGrid xi(layers, bins);
+  for (std::size_t k = 0; k < layers; ++k)
+    for (std::size_t n = 0; n < bins; ++n)
+      xi(k, n) = random_complex_normal(
+          options_.seed, RandomStage::noise,
+          {static_cast<std::uint64_t>(options_.ping), (first_layer + k) * columns_ + m, begin + n});
+  if (!column_.size()) return xi;
+  return column_.middleRows(first, last - first).matrix() * xi.matrix();  // (E56)
+}
 
 }  // namespace
 

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "acoustics/pulse.hpp"
-#include "beamforming/echo_spectrum_internal.hpp"
+#include "beamforming/forward_fft_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/error.hpp"
@@ -15,6 +17,87 @@ namespace insonify {
 namespace {
 
 using Complex = std::complex<double>;
+
+/// Frequencies f_k of a discrete Fourier transform, of both signs, and its sampling interval [s].
+struct FrequencyGrid {
+  std::size_t samples = 0;
+  double step_time = 0;
+
+  double step() const { return 1 / (static_cast<double>(samples) * step_time); }
+  double at(std::size_t k) const {
+    const auto n = static_cast<std::ptrdiff_t>(samples), i = static_cast<std::ptrdiff_t>(k);
+    return static_cast<double>(i < (n + 1) / 2 ? i : i - n) / (static_cast<double>(samples) * step_time);
+  }
+};
+
+/// Computes spectra of single echoes after the receive filter [1/Hz]: by FFT of the samples of sweep and replica, or in
+/// closed form for a Gaussian. A Doppler shift moves the transmitted spectrum, after its absorption. Outside its swept
+/// band a sweep is absorbed as at the band edge, since the expansion of the absorption about the centre frequency does
+/// not hold there.
+class EchoSpectrum {
+ public:
+  EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid);
+
+  /// Returns one value per frequency of the grid, for an echo at delay 0 from one-way range `range` [m] with Doppler
+  /// shift `doppler` [Hz].
+  std::vector<Complex> of(double range, double doppler) const;
+
+ private:
+  std::vector<Complex> sweep_spectrum(bool weighted, double doppler) const;
+
+  Pulse pulse_;
+  Absorption absorption_;
+  FrequencyGrid grid_;
+  ForwardFft fft_;
+  std::vector<Complex> sent_, replica_;
+  double replica_area_ = 0;  ///< integral of the replica's weights [s]
+};
+
+/// Returns the baseband spectrum of a Gaussian pulse [1/Hz] with integral 1, i.e. envelope peak 1 (E8).
+double gaussian_spectrum(double f, double bandwidth) {
+  const double x = f / bandwidth;
+  return std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / bandwidth;
+}
+
+EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid)
+    : pulse_(pulse), absorption_(medium.absorption), grid_(grid), fft_(grid.samples) {
+  if (pulse.shape != PulseShape::linear_fm) return;
+  sent_ = sweep_spectrum(false, 0);
+  replica_ = sweep_spectrum(true, 0);
+  replica_area_ = pulse.duration * replica_weight(pulse, 0.25 * pulse.duration);  // the weight at T/4 equals its mean
+}
+
+std::vector<Complex> EchoSpectrum::sweep_spectrum(bool weighted, double doppler) const {
+  // Samples of the sweep in reversed time: its time dependence is exp(-i omega t), the opposite sign of the forward
+  // FFT.
+  std::vector<Complex> x(grid_.samples, 0);
+  const double half = 0.5 * pulse_.duration, rate = pulse_.bandwidth / pulse_.duration;
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(half / grid_.step_time));
+  for (std::ptrdiff_t n = -reach; n <= reach; ++n) {
+    const double t = static_cast<double>(n) * grid_.step_time;
+    const double covered = std::clamp((half - std::abs(t)) / grid_.step_time + 0.5, 0.0, 1.0);
+    const double weight = weighted ? replica_weight(pulse_, t) : 1;
+    x[static_cast<std::size_t>(n > 0 ? static_cast<std::ptrdiff_t>(grid_.samples) - n : -n)] =
+        std::polar(covered * weight * grid_.step_time, -pi * rate * t * t - 2 * pi * doppler * t);
+  }
+  fft_.run(x);
+  return x;
+}
+
+std::vector<Complex> EchoSpectrum::of(double range, double doppler) const {
+  const bool sweep = pulse_.shape == PulseShape::linear_fm;
+  std::vector<Complex> x(grid_.samples);
+  if (sweep) x = doppler == 0 ? sent_ : sweep_spectrum(false, doppler);
+  const double edge = sweep ? 0.5 * pulse_.bandwidth : std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double sent = grid_.at(k) - doppler, f = std::clamp(sent, -edge, edge);
+    const double alpha = absorption_.a0 + f * (absorption_.a1 + f * absorption_.a2);
+    const double loss = std::exp(-2 * alpha * range);
+    x[k] =
+        sweep ? loss / replica_area_ * x[k] * std::conj(replica_[k]) : loss * gaussian_spectrum(sent, pulse_.bandwidth);
+  }
+  return x;
+}
 
 /// Frequency grid of the sum: M equally spaced frequencies over `oversampling` times the sampling rate of the output,
 /// wide enough for the pulse, with a time window that contains every echo and its pulse, so nothing wraps around.

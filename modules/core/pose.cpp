@@ -1,7 +1,7 @@
-#include "core/pose.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/head_place.hpp"
 
 namespace insonify {
 
@@ -13,6 +13,23 @@ Pose pose_from_yaw_pitch_roll(const Eigen::Vector3d& position, double yaw, doubl
           .toRotationMatrix();
   pose.translation() = position;
   return pose;
+}
+
+Pose pose_of(const HeadPlace& head) { return pose_from_yaw_pitch_roll(head.position, head.yaw, head.pitch, head.roll); }
+
+HeadPlace head_place(const Pose& pose) {
+  const Eigen::Matrix3d r = pose.linear();
+  HeadPlace head;
+  head.position = pose.translation();
+  const double level = std::hypot(r(0, 0), r(1, 0));
+  head.pitch = std::atan2(-r(2, 0), level);
+  if (level > 1e-9) {
+    head.yaw = std::atan2(r(1, 0), r(0, 0));
+    head.roll = std::atan2(r(2, 1), r(2, 2));
+  } else {
+    head.yaw = std::atan2(-r(0, 1), r(1, 1));
+  }
+  return head;
 }
 
 Pose pose_from_ned(const Eigen::Vector3d& position, double yaw, double pitch, double roll) {

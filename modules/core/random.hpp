@@ -12,7 +12,7 @@ enum class RandomStage : std::uint64_t {
   surfel_split = 2,       ///< counted by surfel id
   noise = 3,              ///< counted by (ping, beam, bin)
   scene_points = 4,       ///< counted by (part of the scene, point)
-  mesh_points = 5,        ///< counted by sample
+  mesh_points = 5,        ///< counted by sample, or by (triangle, part, 1)
   ray_jitter = 6,         ///< counted by (beam, ray)
   micro_relief = 7,       ///< counted by (octave, triad of waves, quantity)
   volume = 8,             ///< reverberation, counted by (ping, range cell, direction cell)

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "returns/sounding_columns.hpp"
 
 namespace insonify {
 namespace {
@@ -17,7 +18,18 @@ namespace {
 struct Cell {
   std::uint32_t bin;
   float level_db;
+  float offset = 0;  ///< of the peak from the middle of the bin [bins]
 };
+
+/// A local maximum at the peak of the parabola through its level and those of its neighbours. (E72)
+Cell peak_between(float before, Cell at, float after) {
+  constexpr float steepest = 24.1F;  // of a Gaussian as long as a bin, from one bin to the next; more is a null
+  before = std::max(before, at.level_db - steepest);
+  after = std::max(after, at.level_db - steepest);
+  at.offset = 0.5F * (before - after) / (before - 2 * at.level_db + after);
+  at.level_db -= 0.25F * (before - after) * at.offset;
+  return at;
+}
 
 /// Returns the bins of beam b that are detections. (E19)
 std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const std::vector<float>& strongest,
@@ -33,7 +45,10 @@ std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const
                            ? here >= above && here > -200
                            : here > threshold && here >= strongest[static_cast<std::size_t>(n)] - margin &&
                                  (n == 0 || here > level(b, n - 1)) && (n + 1 == bins || here >= level(b, n + 1));
-    if (found) cells.push_back({static_cast<std::uint32_t>(n), here});
+    if (!found) continue;
+    cells.push_back({static_cast<std::uint32_t>(n), here});
+    if (!options.all_bins && n > 0 && n + 1 < bins)
+      cells.back() = peak_between(level(b, n - 1), cells.back(), level(b, n + 1));
   }
   return cells;
 }
@@ -137,22 +152,15 @@ std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
 }
 
 void append(Soundings& all, const Soundings& part) {
-  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  join(all.position, part.position);
-  join(all.level_db, part.level_db);
-  join(all.range, part.range);
-  join(all.azimuth, part.azimuth);
-  join(all.elevation, part.elevation);
-  join(all.ping, part.ping);
-  join(all.beam, part.beam);
-  join(all.bin, part.bin);
-  join(all.material, part.material);
+  const auto join = [](const char*, auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join("position", all.position, part.position);
+  each_column(join, all, part);
 }
 
-/// Appends the sounding of one detection: direction of its strongest contributor, range of its bin.
+/// Appends the sounding of one detection, in the direction of its strongest contributor.
 void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const Scatterers& scatterers,
                   std::uint32_t contributor) {
-  const double range = ping.gate.centre(cell.bin);
+  const double range = ping.gate.centre(cell.bin) + static_cast<double>(cell.offset) * ping.gate.bin_size;
   const Direction direction{scatterers.azimuth[contributor], scatterers.elevation[contributor]};
   s.position.push_back(ping.world_from_head * (range * unit_vector(direction)));
   s.level_db.push_back(cell.level_db);

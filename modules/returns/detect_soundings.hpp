@@ -19,7 +19,9 @@ struct DetectionOptions {
 
 /// Returns the detections of a ping as points (E19). In each beam every local maximum along range that exceeds the
 /// noise floor by the threshold and is not a side lobe gives one sounding; with all_bins, every bin above a level does.
-/// The range is that of the bin; the direction is that of the strongest contributing scatterer within one bin length,
+/// Range and level of a maximum are those of the parabola through its level and those beside it (E72): exact for a
+/// Gaussian pulse alone, whose peak bins as long as the pulse sample up to 3 dB low. With all_bins they are those of the
+/// bin. The direction is that of the strongest contributing scatterer within one bin length,
 /// searched in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in elevation for a fan of
 /// several rows or a planar array). Samples without a contributor (side lobes) give no sounding.
 ///

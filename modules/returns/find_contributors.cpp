@@ -9,6 +9,7 @@
 #include "beamforming/response_table.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 #include "returns/chebyshev_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
@@ -252,8 +253,7 @@ Contributors Search::contributors(const SceneCloud& scene) const {
 void require_options(const SonarHead& head, const ContributorOptions& o) {
   if (o.per_pixel < 1 || o.per_pixel > 255)
     fail(ErrorKind::argument, me, ": per_pixel = ", o.per_pixel, ", must be within 1 and 255");
-  if (!(o.floor_db < 0 && o.floor_db >= -200))
-    fail(ErrorKind::argument, me, ": floor_db = ", o.floor_db, " dB, must be within -200 and 0");
+  require(o.floor_db < 0 && o.floor_db >= -200, me, "floor_db", o.floor_db, "dB", "within -200 and 0");
   const double pixels = static_cast<double>(head.fan.beams()) * static_cast<double>(head.gate.bins());
   const double mib = pixels * (31 * o.per_pixel + 16) / (1 << 20);
   if (!(mib <= o.max_mib))

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/response_table.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -118,8 +118,7 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
   require_valid(head, me);
   require_valid(medium, me);
   require_map(map, scene);
-  if (!(options.min_response_db <= 0))
-    fail(ErrorKind::argument, me, ": min_response_db = ", options.min_response_db, " dB, must be <= 0");
+  require(options.min_response_db <= 0, me, "min_response_db", options.min_response_db, "dB", "<= 0");
   for (const std::uint32_t surfel : scatterers.surfel)
     if (surfel >= scene.size())
       fail(ErrorKind::argument, me, ": a scatterer is of surfel ", surfel, ", but the scene has ", scene.size());

@@ -23,10 +23,11 @@ struct Ping {
   Pose world_from_head = Pose::Identity();
   BeamFan fan;
   RangeGate gate;
-  ComplexGridF pressure;         ///< beams x bins [Pa], analytic baseband, linear
-  std::vector<Layer> layers{};   ///< parts that add up to `pressure`; empty unless requested
-  bool expected_level = false;   ///< `pressure` is the root of an expected intensity (E65), without speckle and phase;
-                                 ///< squares of the layers add up
+  ComplexGridF pressure;        ///< beams x bins [Pa], analytic baseband, linear
+  std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless requested
+  bool expected_level = false;  ///< `pressure` is the root of an expected intensity (E65), without speckle and phase;
+                                ///< squares of the layers add up
+  Grid<float> intensity{};  ///< mean of |pressure|^2 over the looks of a display, beams x bins [Pa^2] (E71); or empty
   Grid<float> level_error_db{};  ///< sampling error, beams x bins [dB] (E66), NaN where not judged; or empty
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
 };

@@ -10,6 +10,7 @@
 #include "sampling/choose_projection_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/list_where_internal.hpp"
+#include "sampling/sparse_beams_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
 #include "sampling/surfel_visibility_internal.hpp"
 #include "sampling/tilt_by_relief_internal.hpp"
@@ -100,6 +101,7 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
   report.in_gate = count_where(surfels.size(), options.threads, [&](std::size_t s) { return surfels[s].in_gate; });
   report.back_facing = count_where(surfels.size(), options.threads,
                                    [&](std::size_t s) { return surfels[s].in_gate && !surfels[s].facing; });
+  report.sparse_beams = count_sparse_beams(surfels, view.fan, view.gate, options.threads);
   if (options.kind == SamplingKind::rays) {
     const auto shares = beam_shares(view.fan, view.sector);
     report.projection =

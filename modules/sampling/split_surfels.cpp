@@ -89,17 +89,7 @@ class PartSequence {
 // Number of parts before limits are applied (E17).
 double parts_wanted(double area, double range, double cos_incidence, const SplitOptions& options) {
   if (!(options.scatterers_per_cell > 0)) return 1;
-  const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
-  const double dr = options.range_resolution, level = 2 * std::sqrt(2 * range * dr);
-  const double length = sine * level > dr ? dr / sine : level;
-  double cell = length * range * options.beam_width;
-  if (options.row_width > 0) {
-    const double narrower = std::min(options.beam_width, options.row_width);
-    const double cross_section = range * options.beam_width * range * options.row_width;
-    cell = cross_section < cos_incidence * length * range * narrower ? cross_section / cos_incidence
-                                                                     : length * range * narrower;
-  }
-  return std::ceil(options.scatterers_per_cell * area / cell);  // (E17)
+  return std::ceil(options.scatterers_per_cell * area / cell_area(range, cos_incidence, options));  // (E17)
 }
 
 std::uint32_t bounded(double parts) {
@@ -175,6 +165,20 @@ void resize(Scatterers& s, std::size_t n, int threads) {
 }
 
 }  // namespace
+
+double cell_area(double range, double cos_incidence, const SplitOptions& options) {
+  const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
+  const double dr = options.range_resolution, level = 2 * std::sqrt(2 * range * dr);
+  const double length = sine * level > dr ? dr / sine : level;
+  double cell = length * range * options.beam_width;
+  if (options.row_width > 0) {
+    const double narrower = std::min(options.beam_width, options.row_width);
+    const double cross_section = range * options.beam_width * range * options.row_width;
+    cell = cross_section < cos_incidence * length * range * narrower ? cross_section / cos_incidence
+                                                                     : length * range * narrower;
+  }
+  return cell;
+}
 
 std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options) {
   return bounded(parts_wanted(area, range, cos_incidence, options));

@@ -17,6 +17,9 @@ struct SplitOptions {
   double row_width = 0;  ///< height of a cell for a planar array [rad]; 0: unlimited
 };
 
+/// Area of a resolution cell on a surface [m^2] (E17), as explained below.
+double cell_area(double range, double cos_incidence, const SplitOptions& options);
+
 /// Returns the number of parts that gives `scatterers_per_cell` scatterers per resolution cell (E17):
 ///
 ///   parts = ceil(scatterers_per_cell area / (length width)), 1 .. 4096

@@ -85,10 +85,10 @@ void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScen
   std::replace(scene.material.begin(), scene.material.end(), no_label, outside);
   scene.materials.push_back({.name = "outside"});
   result.report.outside_intervals = static_cast<std::size_t>(outsiders);
-  result.report.notes.push_back(share(result.report.outside_intervals, scene.size(), "surfels") + " have a '" +
-                                raw.label_field + "' in none of the " +
-                                std::to_string(options.material_field.intervals.size()) +
-                                " intervals: their Lambert coefficient is the default, -27 dB");
+  result.report.notes.push_back(
+      share(result.report.outside_intervals, scene.size(), raw.triangle.empty() ? "surfels" : "corners") + " have a '" +
+      raw.label_field + "' in none of the " + std::to_string(options.material_field.intervals.size()) +
+      " intervals: their Lambert coefficient is the default, -27 dB");
 }
 
 /// Refuses intervals that are empty, refer to no given material, or overlap.
@@ -243,11 +243,15 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     scene.noise = std::move(raw.noise);
     scene.origin = raw.origin;
     complete_noise(raw, options, result);
+    complete_materials(raw, options, result);
   } else {
+    // The corners have materials, of which the surfels take theirs.
+    scene.point = raw.point;
+    scene.material = std::move(raw.label);
+    complete_materials(raw, options, result);
     sample_mesh(raw, options, result);
   }
   scene.origin = raw.origin;
-  complete_materials(raw, options, result);
   if (!raw.tags.prepared) {
     for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area), options.unit)) {
       result.report.notes.push_back(std::move(doubt));

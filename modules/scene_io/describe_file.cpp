@@ -51,19 +51,16 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
   problems = raw.notes;
   if (raw.not_finite > 0)
     problems.push_back(share(raw.not_finite, file.points, "points") + " are not finite: will be dropped");
-  if (file.duplicates > 0 && raw.triangle.empty()) {
+  if (file.duplicates > 0 && raw.triangle.empty())
     problems.push_back(share(file.duplicates, file.points, "points") +
                        " coincide with an earlier one: will be dropped");
-  }
-  if (raw.bad_triangles > 0) {
+  if (raw.bad_triangles > 0)
     problems.push_back(share(raw.bad_triangles, file.triangles, "polygons") +
                        " have corners that do not exist: will be dropped");
-  }
-  if (!file.has_normals && raw.triangle.empty()) {
+  if (!file.has_normals && raw.triangle.empty())
     problems.push_back(raw.viewpoint
                            ? "no normals: will be estimated, towards the viewpoint in the file"
                            : "no normals and no viewpoint: estimated normals will not be oriented; give a viewpoint");
-  }
   if (!raw.tags.oriented) problems.push_back("the normals are not oriented: both sides will reflect");
   for (std::string& doubt : doubts_about(raw, file.median_spacing, 1)) problems.push_back(std::move(doubt));
 }

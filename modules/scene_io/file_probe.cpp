@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 
@@ -11,22 +10,17 @@
 namespace insonify {
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 void require_readable(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) fail(ErrorKind::file, path, ": no such file; check the path");
-  if (std::filesystem::is_directory(status)) {
+  if (std::filesystem::is_directory(status))
     fail(ErrorKind::file, path, ": is a folder, expected a cloud or mesh file; name a file in it");
-  }
-  if (!std::ifstream(path, std::ios::binary)) {
+  if (!std::ifstream(path, std::ios::binary))
     fail(ErrorKind::file, path, ": cannot be opened for reading; check its permissions");
-  }
   if (file_size_of(path) == 0) fail(ErrorKind::content, path, ": the file is empty (0 bytes); write or copy it again");
 }
 
@@ -41,10 +35,9 @@ std::string read_whole_file(const std::string& path) { return read_beginning(pat
 std::string read_beginning(const std::string& path, std::size_t count) {
   std::string bytes(std::min(count, file_size_of(path)), '\0');
   std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
     fail(ErrorKind::file, path, ": reading failed after ", file.gcount(), " of ", bytes.size(),
          " bytes; check the disk and the permissions");
-  }
   return bytes;
 }
 

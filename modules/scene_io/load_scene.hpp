@@ -6,15 +6,17 @@
 
 #include <Eigen/Core>
 
+#include "returns/soundings.hpp"
 #include "scene/material_field.hpp"
 #include "scene/scene_cloud.hpp"
+#include "scene/scene_mesh.hpp"
 
 namespace insonify {
 
 struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< where the capture stood [m, world]; orients normals without sides
   int normal_neighbours = 32;                ///< for the planes of estimated normals
-  double mesh_spacing = 0;                   ///< [m] between surfels of a mesh; 0: about 200 000 surfels in all
+  double mesh_spacing = 0;                   ///< [m] between surfels of a mesh; 0: see LoadedScene::mesh
   double unit = 1;                           ///< metres per unit of the file, e.g. 0.001 for millimetres
   std::vector<Material> materials;           ///< by label; empty: those in the file, else a default one per label
   std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
@@ -44,12 +46,15 @@ struct LoadReport {
   std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
   std::string material_field;                ///< as the file calls it; empty: none was read
-  std::size_t outside_intervals = 0;         ///< surfels whose number lies in no interval: of a default material
+  std::size_t outside_intervals = 0;         ///< surfels, or corners of a mesh, whose number lies in no interval
 };
 
 struct LoadedScene {
   SceneCloud scene;
   LoadReport report;
+  /// Of a mesh without mesh_spacing: `scene` is a sample of about 200 000 surfels for an overview, and a ping samples
+  /// the mesh by what its head resolves (mesh_surfels).
+  std::optional<SceneMesh> mesh{};
 };
 
 /// Extensions of the files that load_scene reads: ".pcd .ply .obj ...", separated by spaces, for messages and help.
@@ -63,12 +68,17 @@ std::string scene_extensions();
 /// are the file's if unique, else row numbers (meshes: sample numbers).
 /// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
 /// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
-/// are counted. A surfel of a mesh takes the number of its nearest corner. Error(content) lists the file's fields if it
+/// are counted. A surfel of a mesh takes the material of its nearest corner. Error(content) lists the file's fields if it
 /// has none of the name asked for.
 /// A .tiles file is loaded whole and as it is: options do not change it.
 /// Coordinates may be float or double; the centre of the bounding box, in whole metres, becomes the origin.
 /// Throws Error(file) if missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds
 /// no usable point: always naming the file and what to do.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
+
+/// Reads soundings from a .ply that save_soundings wrote: positions in double, everything else bit for bit. Throws
+/// Error(file) if it is missing or unreadable; Error(content) if it is truncated, not a binary PLY, or lacks a column,
+/// naming it.
+Soundings load_soundings(const std::string& path);
 
 }  // namespace insonify

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "returns/sounding_columns.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
@@ -17,37 +18,30 @@ void put_position(char*& out, const Eigen::Vector3d& position, bool wide) {
   }
 }
 
+void add_columns(PackedRows& rows, const std::string& prefix, std::initializer_list<const char*> names,
+                 NumberType type) {
+  for (const char* name : names) rows.columns.push_back({prefix + name, type});
+}
+
 }  // namespace
 
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who) {
   const std::size_t n = soundings.size();
-  for (const std::size_t length :
-       {soundings.level_db.size(), soundings.range.size(), soundings.azimuth.size(), soundings.elevation.size(),
-        soundings.ping.size(), soundings.beam.size(), soundings.bin.size(), soundings.material.size()}) {
-    if (length != n) {
-      fail(ErrorKind::argument, who, ": soundings have ", n, " positions but a column of length ", length,
-           ", must be the same; fill every column");
-    }
-  }
   PackedRows rows;
   rows.rows = n;
-  for (const char* axis : {"x", "y", "z"})
-    rows.columns.push_back({axis, wide ? NumberType::float64 : NumberType::float32});
-  for (const char* name : {"level_db", "range", "azimuth", "elevation"}) {
-    rows.columns.push_back({prefix + name, NumberType::float32});
-  }
-  for (const char* name : {"ping", "beam", "bin", "material"})
-    rows.columns.push_back({prefix + name, NumberType::uint32});
+  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  each_column(
+      [&](const char* name, const auto& column) {
+        if (column.size() != n)
+          fail(ErrorKind::argument, who, ": soundings have ", n, " positions but a column of length ", column.size(),
+               ", must be the same; fill every column");
+        const bool real = std::is_same_v<decltype(column.front()), const float&>;
+        rows.columns.push_back({prefix + name, real ? NumberType::float32 : NumberType::uint32});
+      },
+      soundings);
   rows.write_row = [&soundings, wide](std::size_t i, char* out) {
     put_position(out, soundings.position[i], wide);
-    put(out, soundings.level_db[i]);
-    put(out, soundings.range[i]);
-    put(out, soundings.azimuth[i]);
-    put(out, soundings.elevation[i]);
-    put(out, soundings.ping[i]);
-    put(out, soundings.beam[i]);
-    put(out, soundings.bin[i]);
-    put(out, soundings.material[i]);
+    each_column([&](const char*, const auto& column) { put(out, column[i]); }, soundings);
   };
   return rows;
 }
@@ -58,11 +52,8 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
   PackedRows rows;
   rows.rows = scene.size();
   rows.comments = tag_lines(scene);
-  for (const char* axis : {"x", "y", "z"})
-    rows.columns.push_back({axis, wide ? NumberType::float64 : NumberType::float32});
-  for (const char* axis : {"x", "y", "z"}) {
-    rows.columns.push_back({std::string(ply ? "n" : "normal_") + axis, NumberType::float32});
-  }
+  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
   rows.columns.push_back({"area", NumberType::float32});
   rows.columns.push_back({"material", ply ? NumberType::uint16 : NumberType::uint32});
   rows.columns.push_back({"id", NumberType::uint32});
@@ -87,13 +78,10 @@ PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudForm
   const std::string prefix = ply ? "scalar_" : "";
   PackedRows rows;
   rows.rows = scene.size();
-  for (const char* axis : {"x", "y", "z"})
-    rows.columns.push_back({axis, wide ? NumberType::float64 : NumberType::float32});
-  for (const char* axis : {"x", "y", "z"})
-    rows.columns.push_back({std::string(ply ? "n" : "normal_") + axis, NumberType::float32});
-  for (const char* name : {"level_db", "grazing_deg", "range"})
-    rows.columns.push_back({prefix + name, NumberType::float32});
-  for (const char* name : {"hits", "material", "id"}) rows.columns.push_back({prefix + name, NumberType::uint32});
+  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
+  add_columns(rows, prefix, {"level_db", "grazing_deg", "range"}, NumberType::float32);
+  add_columns(rows, prefix, {"hits", "material", "id"}, NumberType::uint32);
   rows.write_row = [&scene, &map, wide](std::size_t i, char* out) {
     constexpr float never_insonified = std::numeric_limits<float>::quiet_NaN();
     const bool insonified = map.hits[i] > 0;

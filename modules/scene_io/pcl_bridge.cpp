@@ -1,28 +1,23 @@
 #include "scene_io/pcl_bridge.hpp"
 
 #include <pcl/conversions.h>
+#include <pcl/features/normal_3d_omp.h>
 #include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
 
-#include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
-#include "scene_io/pcd_header_internal.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
 
 namespace insonify {
 namespace {
 
 std::uint8_t pcl_type(NumberType type) {
-  switch (type) {
-    case NumberType::float64:
-      return pcl::PCLPointField::FLOAT64;
-    case NumberType::float32:
-      return pcl::PCLPointField::FLOAT32;
-    case NumberType::uint16:
-      return pcl::PCLPointField::UINT16;
-    default:
-      return pcl::PCLPointField::UINT32;
-  }
+  if (type == NumberType::float64) return pcl::PCLPointField::FLOAT64;
+  if (type == NumberType::float32) return pcl::PCLPointField::FLOAT32;
+  return type == NumberType::uint16 ? pcl::PCLPointField::UINT16 : pcl::PCLPointField::UINT32;
 }
 
 /// An unorganised PCL cloud with the rows' fields and no data yet.
@@ -84,9 +79,8 @@ LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options) {
   check_options(options, "from_pcl");
   RawCloud raw = raw_from(mesh.cloud, options);
   raw.format = "PCL mesh";
-  for (const pcl::Vertices& polygon : mesh.polygons) {
+  for (const pcl::Vertices& polygon : mesh.polygons)
     add_polygon(raw, {polygon.vertices.begin(), polygon.vertices.end()}, raw.point.size());
-  }
   return complete_scene(std::move(raw), options);
 }
 
@@ -94,9 +88,8 @@ pcl::PCLPointCloud2 to_pcl(const Soundings& soundings) {
   const PackedRows rows = rows_of(soundings, false, "", "to_pcl");
   pcl::PCLPointCloud2 cloud = empty_cloud(rows);
   cloud.data.resize(rows.rows * rows.stride());
-  for (std::size_t i = 0; i < rows.rows; ++i) {
+  for (std::size_t i = 0; i < rows.rows; ++i)
     rows.write_row(i, reinterpret_cast<char*>(cloud.data.data()) + i * rows.stride());
-  }
   return cloud;
 }
 
@@ -120,6 +113,32 @@ std::string pcd_header(const PackedRows& rows) {
   for (const std::string& comment : rows.comments) comments += "# " + comment + "\n";
   header.insert(header.find('\n') + 1, comments);
   return header + "DATA binary\n";
+}
+
+std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
+                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads) {
+  const QuietPcl quiet;
+  const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  cloud->reserve(points.size());
+  for (const Eigen::Vector3f& p : points) cloud->emplace_back(p.x(), p.y(), p.z());
+  const auto indices = pcl::make_shared<pcl::Indices>(wanted.begin(), wanted.end());
+
+  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setNumberOfThreads(static_cast<unsigned>(thread_count(threads)));
+  estimation.setInputCloud(cloud);
+  if (wanted.size() < points.size()) estimation.setIndices(indices);
+  estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
+  estimation.setKSearch(neighbours);
+  pcl::PointCloud<pcl::Normal> found;
+  estimation.compute(found);
+
+  // Normalise, since PCL's closed-form eigenvector has unit length only to a few ulp.
+  std::vector<Eigen::Vector3f> normals(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Eigen::Vector3f n = found[i].getNormalVector3fMap();
+    normals[i] = n / n.norm();
+  }
+  return normals;
 }
 
 }  // namespace insonify

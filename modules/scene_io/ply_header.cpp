@@ -18,10 +18,9 @@ NumberType type_named(const std::string& name, const PlyHeader& header) {
       {"float", NumberType::float32},  {"float32", NumberType::float32}, {"double", NumberType::float64},
       {"float64", NumberType::float64}};
   const auto found = types.find(name);
-  if (found == types.end()) {
+  if (found == types.end())
     fail(ErrorKind::content, header.path, ":", header.lines, ": unknown PLY number type '", shown(name),
          "', expected char uchar short ushort int uint float or double; export the file again");
-  }
   return found->second;
 }
 
@@ -37,9 +36,8 @@ void read_header_line(PlyHeader& header, const std::string& line) {
     read_tag(header.path, std::string_view(line).substr(std::min(line.find("comment") + 8, line.size())), header.tags);
   } else if (words[0] == "format" && words.size() >= 2) {
     header.encoding = words[1];
-    if (words[1] != "ascii" && words[1] != "binary_little_endian" && words[1] != "binary_big_endian") {
+    if (words[1] != "ascii" && words[1] != "binary_little_endian" && words[1] != "binary_big_endian")
       bad_line(header, line);
-    }
   } else if (words[0] == "element" && words.size() == 3) {
     PlyElement element{words[1], 0, {}};
     if (!to_number(words[2], element.count)) bad_line(header, line);
@@ -61,10 +59,9 @@ PlyHeader read_header(const std::string& path) {
   std::string line;
   while (std::getline(file, line)) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (++header.lines == 1 && line != "ply") {
+    if (++header.lines == 1 && line != "ply")
       fail(ErrorKind::content, path, ": not a PLY file: expected 'ply' in its first line, found ",
            what_it_looks_like(path));
-    }
     if (line == "end_header") {
       header.end = static_cast<std::size_t>(file.tellg());
       return header;
@@ -82,11 +79,10 @@ void check_binary(const PlyHeader& header) {
     std::size_t row = 0;
     for (const PlyProperty& p : element.properties) row += size_of(p.is_list ? p.count_type : p.type);
     const std::size_t held = row == 0 ? left : left / row;
-    if (element.count > held) {
+    if (element.count > held)
       fail(ErrorKind::content, header.path, ": cut off: the header announces ", element.count, " ", element.name,
            " rows of ", element.has_list() ? "at least " : "", row, " bytes, the file holds ", held,
            " of them; copy or export the file again");
-    }
     left -= element.count * row;
   }
 }
@@ -106,21 +102,18 @@ void check_text(const PlyHeader& header) {
 const PlyElement& PlyHeader::vertex() const {
   const auto found =
       std::find_if(elements.begin(), elements.end(), [](const PlyElement& e) { return e.name == "vertex"; });
-  if (found == elements.end()) {
+  if (found == elements.end())
     fail(ErrorKind::content, path, ": the PLY header names no 'vertex' element; export the cloud again");
-  }
   return *found;
 }
 
 PlyHeader probe_ply(const std::string& path) {
   PlyHeader header = read_header(path);
-  if (header.encoding.empty()) {
+  if (header.encoding.empty())
     fail(ErrorKind::content, path, ": the PLY header has no 'format' line; export the file again");
-  }
-  if (header.vertex().has_list()) {
+  if (header.vertex().has_list())
     fail(ErrorKind::content, path, ": the PLY vertices hold a list property, which cannot be read; ",
          "save the file again from CloudCompare or MeshLab");
-  }
   if (header.encoding == "ascii")
     check_text(header);
   else

@@ -22,10 +22,9 @@ void read_numbers(const Obj& obj, std::string_view rest, std::size_t line, std::
   for (int axis = 0; axis < 3; ++axis) {
     double value = 0;
     const std::string_view word = take_word(rest);
-    if (!to_number(word, value)) {
+    if (!to_number(word, value))
       fail(ErrorKind::content, obj.path, ":", line, ": expected three numbers, found '", shown(word),
            "'; correct the line, or export the file again if it is cut off");
-    }
     numbers.push_back(value);
   }
 }
@@ -42,10 +41,9 @@ std::array<std::int64_t, 2> read_corner(const Obj& obj, std::string_view word, s
   const std::size_t second = first < word.size() ? word.find('/', first + 1) : word.npos;
   std::int64_t position = 0, normal = 0;
   const bool has_normal = second != word.npos && second + 1 < word.size();
-  if (!to_number(word.substr(0, first), position) || (has_normal && !to_number(word.substr(second + 1), normal))) {
+  if (!to_number(word.substr(0, first), position) || (has_normal && !to_number(word.substr(second + 1), normal)))
     fail(ErrorKind::content, obj.path, ":", line, ": expected a corner such as 7 or 7/1/7, found '", shown(word),
          "'; correct the line, or export the file again if it is cut off");
-  }
   return {resolve(position, obj.positions.size() / 3), has_normal ? resolve(normal, obj.normals.size() / 3) : none};
 }
 
@@ -61,15 +59,14 @@ Obj parse(const std::string& path, const std::string& text) {
     if (key == "vn") read_numbers(obj, rest, lines.number(), obj.normals);
     if (key != "f") continue;
     auto& polygon = obj.polygons.emplace_back();
-    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
       polygon.push_back(read_corner(obj, word, lines.number()));
-    }
   }
   return obj;
 }
 
 /// One vertex per pair of position and normal that the faces use; a vertex without normal gets zeros.
-struct Corners {
+struct ObjCorners {
   std::vector<double> rows;  ///< x y z nx ny nz
   std::unordered_map<std::uint64_t, std::int64_t> known;
 
@@ -93,10 +90,9 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options) {
   const std::string text = read_whole_file(path);
   const Obj obj = parse(path, text);
   const std::size_t positions = obj.positions.size() / 3;
-  if (positions == 0) {
+  if (positions == 0)
     fail(ErrorKind::content, path, ": not an OBJ file: expected vertex lines 'v x y z', found none; it looks like ",
          what_it_looks_like(path));
-  }
   RawCloud raw;
   raw.path = path;
   raw.format = obj.polygons.empty() ? "OBJ points" : "OBJ mesh";
@@ -110,7 +106,7 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options) {
     fill_cloud(raw, table_of_doubles(names, obj.positions), options);
     return raw;
   }
-  Corners corners;
+  ObjCorners corners;
   if (obj.polygons.empty()) {
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(positions); ++i) corners.vertex_of(obj, {i, i});
   }
@@ -120,10 +116,9 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options) {
     for (const auto& corner : face) polygon.push_back(corners.vertex_of(obj, corner));
     add_polygon(raw, polygon, std::numeric_limits<std::uint32_t>::max());
   }
-  if (corners.rows.empty()) {
+  if (corners.rows.empty())
     fail(ErrorKind::content, path, ": no face has corners that exist (", positions, " vertices, ", obj.polygons.size(),
          " faces); export the mesh again");
-  }
   names.insert(names.end(), {"nx", "ny", "nz"});
   fill_cloud(raw, table_of_doubles(names, std::move(corners.rows)), options);
   if (!normals) raw.normal.clear();

@@ -88,13 +88,11 @@ void check_header(const Header& header) {
   if (header.width > (1ull << 40) || header.height > (1ull << 20))
     bad_header(header, "WIDTH or HEIGHT", "less than 2^40");
   const std::size_t cells = header.width * header.height;
-  if (cells != 0 && cells != header.points) {
+  if (cells != 0 && cells != header.points)
     bad_header(header, "POINTS " + std::to_string(header.points), "WIDTH times HEIGHT");
-  }
   if (header.points == 0) fail(ErrorKind::content, header.path, ": holds no point; export the cloud again");
-  if (header.data != "ascii" && header.data != "binary" && header.data != "binary_compressed") {
+  if (header.data != "ascii" && header.data != "binary" && header.data != "binary_compressed")
     bad_header(header, "DATA " + header.data, "DATA ascii, binary or binary_compressed");
-  }
 }
 
 Header read_header(const std::string& path) {
@@ -114,10 +112,9 @@ Header read_header(const std::string& path) {
     static const char* keys[] = {"VERSION", "FIELDS", "COLUMNS", "SIZE",      "TYPE", "COUNT",
                                  "WIDTH",   "HEIGHT", "POINTS",  "VIEWPOINT", "DATA"};
     if (std::find(std::begin(keys), std::end(keys), words[0]) == std::end(keys)) {
-      if (header.fields.empty()) {
+      if (header.fields.empty())
         fail(ErrorKind::content, path, ": not a PCD file: expected header lines VERSION, FIELDS, ... DATA, found ",
              what_it_looks_like(path), "; plain columns of numbers are read from a .xyz, .txt or .csv file");
-      }
       bad_header(header, line, "VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, POINTS or DATA");
     }
     read_header_line(header, words, line);
@@ -139,25 +136,22 @@ Header read_header(const std::string& path) {
 /// Byte counts of the compressed block against the file and the header.
 void check_compressed(const Header& header, std::size_t held) {
   // PCL unpacks such points into the wrong rows, without a message.
-  if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; })) {
+  if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; }))
     fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; save them as ",
          "DATA binary: pcl_convert_pcd_ascii_binary in.pcd out.pcd 1");
-  }
   if (held < 8) cut_off(header, 8, held);
   const std::string sizes = read_beginning(header.path, header.end + 8).substr(header.end);
   const auto packed = read_as<std::uint32_t>(sizes.data()), unpacked = read_as<std::uint32_t>(sizes.data() + 4);
   if (held - 8 < packed) cut_off(header, packed, held - 8);
-  if (unpacked != header.points * header.stride()) {
+  if (unpacked != header.points * header.stride())
     fail(ErrorKind::content, header.path, ": the header announces ", header.points * header.stride(),
          " bytes of points, the compressed block ", unpacked, "; export the file again");
-  }
 }
 
 void check_text(const Header& header) {
   std::vector<TextColumn> columns;
-  for (const Field& f : header.fields) {
+  for (const Field& f : header.fields)
     columns.resize(columns.size() + f.count, {f.name == "_" ? NumberType::float64 : type_of(header, f)});
-  }
   const std::string text = read_whole_file(header.path);
   LineReader lines(std::string_view(text).substr(header.end), header.lines);
   check_number_rows(lines, header.points, columns, "point", header.path);
@@ -189,11 +183,10 @@ pcl::PCLPointCloud2 read_data(const Header& header) {
   }
   cloud.row_step = cloud.width * cloud.point_step;  // PCL leaves it out if WIDTH stands before SIZE
   const std::size_t points = std::size_t{cloud.width} * cloud.height;
-  if (result < 0 || points != header.points || cloud.point_step != header.stride()) {
+  if (result < 0 || points != header.points || cloud.point_step != header.stride())
     fail(ErrorKind::content, header.path, ": PCL cannot ",
          header.data == "binary_compressed" ? "unpack the compressed points" : "read the points",
          "; the file is damaged: copy or export it again");
-  }
   return cloud;
 }
 
@@ -240,24 +233,20 @@ RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
   RowTable table;
   table.stride = cloud.point_step;
   table.rows = static_cast<std::size_t>(cloud.width) * cloud.height;
-  if (cloud.is_bigendian) {
+  if (cloud.is_bigendian)
     fail(ErrorKind::content, raw.path, ": is_bigendian is set; turn the bytes of the numbers and clear it");
-  }
-  if (table.rows * table.stride > cloud.data.size()) {
+  if (table.rows * table.stride > cloud.data.size())
     fail(ErrorKind::content, raw.path, ": width x height x point_step = ", table.rows * table.stride,
          " bytes, the cloud holds ", cloud.data.size(), "; fill the cloud completely");
-  }
-  if (cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step) {
+  if (cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step)
     fail(ErrorKind::content, raw.path, ": row_step = ", cloud.row_step,
          ", must be width x point_step = ", cloud.width * cloud.point_step, "; pack the rows");
-  }
   for (const pcl::PCLPointField& field : cloud.fields) {
     if (field.name == "_" || field.datatype < 1 || field.datatype > types.size()) continue;
     const NumberType type = types[field.datatype - 1];
-    if (field.offset + size_of(type) > table.stride) {
+    if (field.offset + size_of(type) > table.stride)
       fail(ErrorKind::content, raw.path, ": field '", field.name, "' ends beyond point_step = ", table.stride,
            " bytes; correct its offset");
-    }
     table.columns.push_back({field.name, type, field.offset});
     raw.fields.push_back({field.name, name_of(type)});
   }

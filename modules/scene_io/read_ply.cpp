@@ -54,9 +54,8 @@ class PlyTaker {
 
  private:
   void set_vertices(std::size_t rows) {
-    if (rows >= std::numeric_limits<std::uint32_t>::max()) {
+    if (rows >= std::numeric_limits<std::uint32_t>::max())
       fail(ErrorKind::content, raw_.path, ": holds ", rows, " points, must be at most 4294967294; split it");
-    }
     cloud_.width = static_cast<pcl::uindex_t>(rows);
   }
 
@@ -119,10 +118,9 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options) {
   raw.format = "PLY " + header.encoding;
   PlyTaker taker(raw);
   const std::string problem = taker.parse(path);
-  if (!problem.empty()) {
+  if (!problem.empty())
     fail(ErrorKind::content, path, ": cut off, damaged or of an unknown kind: PCL stops reading ", problem,
          "; copy the file again, or save it from CloudCompare or MeshLab");
-  }
   fill_cloud(raw, table_of(taker.cloud(), raw), options);
   if (!raw.triangle.empty() || raw.bad_triangles > 0) raw.format += " mesh";
   return raw;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -10,21 +9,9 @@
 namespace insonify {
 namespace {
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 char delimiter_of(std::string_view line) {
   if (line.find(';') != line.npos) return ';';
   return line.find(',') != line.npos ? ',' : ' ';
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\"");
-  if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\"") - begin + 1);
 }
 
 /// The cells of a line; an empty cell after the last delimiter does not count.
@@ -36,7 +23,7 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
   }
   while (true) {
     const std::size_t end = std::min(line.find(delimiter), line.size());
-    cells.push_back(trimmed(line.substr(0, end)));
+    cells.push_back(trimmed(line.substr(0, end), " \t\""));
     if (end == line.size()) break;
     line.remove_prefix(end + 1);
   }
@@ -51,7 +38,7 @@ std::vector<std::string> names_in(std::string_view line) {
   std::vector<std::string_view> cells;
   split(line, delimiter_of(line), cells);
   std::vector<std::string> names;
-  for (const std::string_view cell : cells) names.push_back(lower(std::string(cell)));
+  for (const std::string_view cell : cells) names.push_back(lower_case(std::string(cell)));
   for (const char* axis : {"x", "y", "z"}) {
     if (std::find(names.begin(), names.end(), axis) == names.end()) return {};
   }
@@ -68,12 +55,11 @@ void add_row(TextRows& rows, const std::vector<std::string_view>& cells, const s
              std::string_view text) {
   for (const std::string_view cell : cells) {
     double value = 0;
-    if (!to_number(cell, value)) {
+    if (!to_number(cell, value))
       fail(ErrorKind::content, path, ":", line, ": '", shown(cell), "' in '", shown(text),
            "' is not a number; expected columns x y z ..., with a decimal point, separated by blanks, commas "
            "or "
            "semicolons, and names in the first line only");
-    }
     rows.numbers.push_back(value);
   }
 }
@@ -98,11 +84,10 @@ TextRows read_rows(const std::string& path, const std::string& text) {
       if (may_be_count && to_number(cells[0], rows.announced)) continue;
       rows.columns = rows.names.empty() ? cells.size() : rows.names.size();
     }
-    if (cells.size() != rows.columns || cells.size() < 3) {
+    if (cells.size() != rows.columns || cells.size() < 3)
       fail(ErrorKind::content, path, ":", lines.number(), ": expected ", std::max<std::size_t>(rows.columns, 3),
            " columns (x y z ...), found ", cells.size(), " in '", shown(line),
            "'; correct the line, or export the file again if it is cut off");
-    }
     add_row(rows, cells, path, lines.number(), line);
   }
   return rows;
@@ -122,10 +107,9 @@ bool has_unit_vectors(const TextRows& rows) {
 
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options) {
   const std::string text = read_whole_file(path);
-  if (text.find('\0') != text.npos) {
+  if (text.find('\0') != text.npos)
     fail(ErrorKind::content, path, ": not a text file: expected columns x y z, found ", what_it_looks_like(path),
          "; give the file the extension of its format");
-  }
   TextRows rows = read_rows(path, text);
   RawCloud raw;
   raw.path = path;
@@ -133,18 +117,16 @@ RawCloud read_text_cloud(const std::string& path, const ReadOptions& options) {
   if (rows.columns == 0)
     fail(ErrorKind::content, path, ": holds no point; expected lines 'x y z', found ", what_it_looks_like(path));
   const std::size_t found = rows.numbers.size() / rows.columns;
-  if (rows.announced > found) {
+  if (rows.announced > found)
     fail(ErrorKind::content, path, ": cut off: the first line announces ", rows.announced, " points, found ", found,
          "; copy or export the file again");
-  }
   // Without names: x y z, then a normal if it is one; what else there may be is not guessed.
   if (rows.names.empty()) {
     rows.names = {"x", "y", "z"};
     if (has_unit_vectors(rows)) rows.names.insert(rows.names.end(), {"nx", "ny", "nz"});
-    if (rows.names.size() < rows.columns) {
+    if (rows.names.size() < rows.columns)
       raw.notes.push_back("columns after " + rows.names.back() +
                           " were ignored: name them in a first line, e.g. 'x y z nx ny nz area label'");
-    }
     rows.names.resize(rows.columns, "ignored");
   }
   for (const std::string& name : rows.names) raw.fields.push_back({name, "text"});

@@ -65,23 +65,20 @@ class QuietVtk {
 
 void check_legacy(const std::string& path) {
   const std::string head = read_beginning(path, 2048);
-  if (head.rfind("# vtk DataFile", 0) != 0) {
+  if (head.rfind("# vtk DataFile", 0) != 0)
     fail(ErrorKind::content, path, ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
          what_it_looks_like(path));
-  }
   const std::size_t at = head.find("DATASET ");
   const std::string kind = at == head.npos ? "nothing" : head.substr(at + 8, head.find_first_of("\r\n", at) - at - 8);
-  if (kind != "POLYDATA") {
+  if (kind != "POLYDATA")
     fail(ErrorKind::content, path, ": holds ", shown(kind),
          ", expected DATASET POLYDATA; in ParaView apply 'Extract "
          "Surface' and save again");
-  }
 }
 
 void check_xml(const std::string& path) {
-  if (read_beginning(path, 4096).find("<VTKFile") == std::string::npos) {
+  if (read_beginning(path, 4096).find("<VTKFile") == std::string::npos)
     fail(ErrorKind::content, path, ": not a VTK XML file: expected '<VTKFile', found ", what_it_looks_like(path));
-  }
 }
 
 /// A binary STL has 84 bytes and 50 per triangle; an ASCII one begins with solid and ends with endsolid.
@@ -100,10 +97,9 @@ void check_stl(const std::string& path) {
          shown(bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 40))),
          "'; copy or export the file again");
   }
-  if (bytes.size() >= 84 && what_it_looks_like(path) == "binary data") {
+  if (bytes.size() >= 84 && what_it_looks_like(path) == "binary data")
     fail(ErrorKind::content, path, ": cut off or not an STL file: it announces ", announced, " triangles, ",
          84 + 50 * announced, " bytes, and holds ", bytes.size(), "; copy or export the file again");
-  }
   fail(ErrorKind::content, path, ": not an STL file: expected 'solid ...' or a binary header of 84 bytes, found ",
        what_it_looks_like(path));
 }
@@ -187,14 +183,12 @@ RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
     raw.format = "STL";
     run(vtkNew<vtkSTLReader>().Get(), path, data);
   }
-  if (!messages->errors.empty()) {
+  if (!messages->errors.empty())
     fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(),
          "; the file is damaged or cut off: copy or export it again");
-  }
   for (const std::string& warning : messages->warnings) raw.notes.push_back("VTK: " + warning);
-  if (data->GetNumberOfPoints() == 0) {
+  if (data->GetNumberOfPoints() == 0)
     fail(ErrorKind::content, path, ": holds no point; export the ", raw.format, " again");
-  }
   raw.width = static_cast<std::size_t>(data->GetNumberOfPoints());
   raw.float_coordinates = data->GetPoints()->GetDataType() == VTK_FLOAT;
   add_faces(data, raw);

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/row_file_internal.hpp"

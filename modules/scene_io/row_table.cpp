@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -7,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
 namespace insonify {
@@ -16,8 +16,8 @@ constexpr std::size_t block_rows = 1 << 16;
 
 /// A field's name in lower case without CloudCompare's prefix "scalar_", and with blanks as CloudCompare writes them.
 std::string plain_name(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return c == ' ' ? '_' : static_cast<char>(std::tolower(c)); });
+  std::replace(name.begin(), name.end(), ' ', '_');
+  name = lower_case(std::move(name));
   return name.rfind("scalar_", 0) == 0 ? name.substr(7) : name;
 }
 
@@ -31,19 +31,14 @@ const RowTable::Column* find_column(const RowTable& table, std::initializer_list
   return nullptr;
 }
 
-std::string names_of(const RowTable& table) {
-  std::string names;
-  for (const RowTable::Column& column : table.columns) names += (names.empty() ? "" : " ") + column.name;
-  return names;
-}
+std::string names_of(const RowTable& table) { return joined(table.columns, " ", &RowTable::Column::name); }
 
 const RowTable::Column* find_label(const RowTable& table, const std::string& path, const std::string& name) {
   if (name.empty()) return find_column(table, {"label", "material", "class", "classification"});
   const RowTable::Column* found = find_column(table, {plain_name(name)});
-  if (!found) {
+  if (!found)
     fail(ErrorKind::content, path, ": no field '", name, "' to take materials from; its fields are '", names_of(table),
          "': name one of them");
-  }
   return found;
 }
 
@@ -60,10 +55,9 @@ Columns find_columns(const RowTable& table, const std::string& path, const std::
   found.area = find_column(table, {"area"});
   found.id = find_column(table, {"id"});
   found.noise = find_column(table, {"noise"});
-  if (!found.position[0] || !found.position[1] || !found.position[2]) {
+  if (!found.position[0] || !found.position[1] || !found.position[2])
     fail(ErrorKind::content, path, ": expected fields x y z, found '", names_of(table),
          "'; rename the coordinate fields");
-  }
   found.label = find_label(table, path, material_field);
   return found;
 }
@@ -111,10 +105,9 @@ void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const 
     raw.origin = *options.origin;
     return;
   }
-  if (raw.not_finite == table.rows) {
+  if (raw.not_finite == table.rows)
     fail(ErrorKind::content, raw.path, ": holds no usable point (", table.rows,
          " points, none with finite coordinates); export the cloud again");
-  }
   raw.origin = origin_of(raw.box, raw.tags, options.unit);
 }
 
@@ -166,9 +159,7 @@ std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::strin
 
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers) {
   RowTable table;
-  for (const std::string& name : names) {
-    table.columns.push_back({name, NumberType::float64, 8 * table.columns.size()});
-  }
+  for (const std::string& name : names) table.columns.push_back({name, NumberType::float64, 8 * table.columns.size()});
   table.stride = 8 * names.size();
   table.rows = names.empty() ? 0 : numbers.size() / names.size();
   const auto held = std::make_shared<const std::vector<double>>(std::move(numbers));
@@ -179,9 +170,8 @@ RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<dou
 
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options) {
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
-  if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1) {
+  if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1)
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");
-  }
   const Columns found = find_columns(table, raw.path, options.material_field.name);
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
@@ -228,10 +218,9 @@ void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::s
     return;
   }
   raw.triangles_in_file += corners.size() - 3;
-  for (std::size_t i = 2; i < corners.size(); ++i) {
+  for (std::size_t i = 2; i < corners.size(); ++i)
     raw.triangle.push_back({static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[i - 1]),
                             static_cast<std::uint32_t>(corners[i])});
-  }
 }
 
 }  // namespace insonify

@@ -2,17 +2,12 @@
 
 #include <bit>
 #include <cerrno>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 
-#include <unistd.h>
-
 #include "core/error.hpp"
+#include "core/pending_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
-#include "scene_io/pcd_header_internal.hpp"
 
 static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers in memory order");
 
@@ -36,10 +31,10 @@ std::string ply_header(const PackedRows& rows) {
 }
 
 /// Writes header and rows to a temporary file, then renames it to `path`; leaves nothing behind on failure.
-void write_file(const std::string& path, const std::string& header, const PackedRows& rows, const char* who) {
-  const std::string temporary = path + ".tmp" + std::to_string(getpid());
+void write_rows(const std::string& path, const std::string& header, const PackedRows& rows) {
+  PendingFile pending(path);
   errno = 0;
-  std::ofstream file(temporary, std::ios::binary);
+  std::ofstream file(pending.temporary(), std::ios::binary);
   file << header;
   constexpr std::size_t block = 1 << 15;
   const std::size_t stride = rows.stride();
@@ -49,15 +44,7 @@ void write_file(const std::string& path, const std::string& header, const Packed
     for (std::size_t i = 0; i < count; ++i) rows.write_row(first + i, bytes.data() + i * stride);
     file.write(bytes.data(), static_cast<std::streamsize>(count * stride));
   }
-  file.close();
-  std::error_code error(file ? 0 : (errno != 0 ? errno : EIO), std::generic_category());
-  if (!error) std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  fail(ErrorKind::file, who, ": cannot write ", path, ": ", error.message(),
-       "; check the folder, its permissions and the "
-       "space on the disk");
+  pending.commit(file);
 }
 
 CloudFormat format_of(const std::string& path, const char* who) {
@@ -77,20 +64,19 @@ void save_scene(const std::string& path, const SceneCloud& scene) {
   if (format == CloudFormat::pcd) {
     const Bounds box = bounds(scene);
     const double farthest = std::max(box.max.cwiseAbs().maxCoeff(), box.min.cwiseAbs().maxCoeff());
-    if (farthest > farthest_in_pcd) {
+    if (farthest > farthest_in_pcd)
       fail(ErrorKind::argument, "save_scene: ", path, ": the scene reaches to ", farthest,
            " m from zero; a PCD is float32 and would lose more than 0.1 mm: save it as .ply");
-    }
   }
   const PackedRows rows = rows_of(scene, format);
-  write_file(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows, "save_scene");
+  write_rows(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows);
 }
 
 void save_soundings(const std::string& path, const Soundings& soundings) {
   const CloudFormat format = format_of(path, "save_soundings");
   const bool ply = format == CloudFormat::ply;
   const PackedRows rows = rows_of(soundings, ply, ply ? "scalar_" : "", "save_soundings");
-  write_file(path, ply ? ply_header(rows) : pcd_header(rows), rows, "save_soundings");
+  write_rows(path, ply ? ply_header(rows) : pcd_header(rows), rows);
 }
 
 void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map) {
@@ -100,7 +86,7 @@ void save_insonification(const std::string& path, const SceneCloud& scene, const
       fail(ErrorKind::argument, "save_insonification: ", path, ": the map has ", size, " surfels, but the scene has ",
            scene.size(), "; give the map of this scene");
   const PackedRows rows = rows_of(scene, map, format);
-  write_file(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows, "save_insonification");
+  write_rows(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows);
 }
 
 }  // namespace insonify

@@ -1,8 +1,11 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
+#include "scene_io/load_scene.hpp"
 #include "scene_io/scene_readers_internal.hpp"
+#include "scene_io/tiled_scene.hpp"
 
 namespace insonify {
 
@@ -47,6 +50,28 @@ RawCloud read_cloud(const std::string& path, const ReadOptions& options) {
   const SceneReader& reader = reader_of(path);
   if (!reader.read) fail(ErrorKind::content, path, ": is ", reader.name, ", a prepared scene; give a cloud or mesh");
   return reader.read(path, options);
+}
+
+ReadOptions read_options(const LoadOptions& options) {
+  return {options.unit, options.threads, options.material ? MaterialField{} : options.material_field};
+}
+
+LoadedScene load_all_tiles(const std::string& path, const LoadOptions& options) {
+  const TiledScene tiled(path);
+  LoadedScene loaded{tiled.load(tiled.select_all(), 0, options.threads), {}};
+  loaded.scene.part_of.reset();
+  loaded.report.path = path;
+  loaded.report.format = "insonify tiles";
+  loaded.report.points_read = loaded.scene.size();
+  loaded.report.materials_found = true;
+  return loaded;
+}
+
+LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
+  check_options(options, "load_scene");
+  const SceneReader& reader = reader_of(path);
+  if (reader.load) return reader.load(path, options);
+  return complete_scene(reader.read(path, read_options(options)), options);
 }
 
 }  // namespace insonify

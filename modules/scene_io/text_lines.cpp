@@ -22,28 +22,25 @@ void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<Te
     const std::string_view word = take_word(rest);
     double value = 0;
     if (word.empty() && !lists) return value;
-    if (!to_number(word, value) || !fits(value, type)) {
+    if (!to_number(word, value) || !fits(value, type))
       fail(ErrorKind::content, path, ":", lines.number(), ": expected a number in this ", what, " row that fits ",
            name_of(type), ", found '", shown(word), "'; correct the line, or export the file again if it is cut off");
-    }
     return value;
   };
   for (std::size_t row = 0; row < rows; ++row) {
-    if (!lines.next(line)) {
+    if (!lines.next(line))
       fail(ErrorKind::content, path, ": cut off: the header announces ", rows, " ", what, " rows, found ", row,
            "; copy or export the file again");
-    }
     rest = line;
     for (const TextColumn& column : columns) {
       const double numbers = column.is_list ? take(NumberType::uint32) : 1;
       for (double i = 0; i < numbers; ++i) take(column.type);
     }
     const std::size_t found = words_of(line).size();
-    if (lists ? !take_word(rest).empty() : found != columns.size()) {
+    if (lists ? !take_word(rest).empty() : found != columns.size())
       fail(ErrorKind::content, path, ":", lines.number(), ": expected ", columns.size(),
            lists ? " columns" : " numbers", " as the header says, found ", found, " words in '", shown(line),
            "'; correct the line, or export the file again if it is cut off");
-    }
   }
 }
 

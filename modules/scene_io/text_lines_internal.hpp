@@ -1,11 +1,11 @@
 #pragma once
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/text.hpp"
 #include "scene_io/number_type_internal.hpp"
 
 namespace insonify {
@@ -53,14 +53,6 @@ inline std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) words.emplace_back(word);
   return words;
-}
-
-/// True if the whole word is one number (nan and inf are numbers; a leading + is allowed).
-template <typename T>
-bool to_number(std::string_view word, T& value) {
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
 }
 
 /// Excerpt of a line for a message: at most 60 characters, control characters as '?'.

@@ -16,10 +16,9 @@
 #include <filesystem>
 #include <limits>
 
-#include <unistd.h>
-
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/pending_file.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/tile_areas_internal.hpp"
 #include "scene_io/tile_file_internal.hpp"
@@ -37,23 +36,6 @@ constexpr double moves_of_a_record = 5;        // approximate number of reads an
 
 Vector3d place_of(const TileRecord& record) { return Eigen::Map<const Vector3d>(record.place); }
 
-/// A file under a temporary name, deleted unless it is renamed.
-struct PendingTiles {
-  std::string target, temporary;
-  BinaryFile file;
-  explicit PendingTiles(const std::string& path)
-      : target(path), temporary(path + ".tmp" + std::to_string(getpid())), file(temporary, BinaryFile::Mode::create) {}
-  ~PendingTiles() {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-  }
-  void commit() {
-    std::error_code error;
-    std::filesystem::rename(temporary, target, error);
-    if (error) fail(ErrorKind::file, target, ": cannot be written: ", error.message());
-  }
-};
-
 /// Keeps the first of records at one position; returns the number dropped.
 std::size_t drop_duplicates(std::vector<TileRecord>& group, bool wide) {
   // Compare in single precision, like load_scene.
@@ -69,15 +51,17 @@ std::size_t drop_duplicates(std::vector<TileRecord>& group, bool wide) {
   return dropped;
 }
 
+Bounds bounds_of(std::span<const TileRecord> records) {
+  Bounds box{place_of(records[0]), place_of(records[0])};
+  for (const TileRecord& r : records) box = {box.min.cwiseMin(place_of(r)), box.max.cwiseMax(place_of(r))};
+  return box;
+}
+
 /// Bisects the bounding box of the records across its longest side until each part holds at most `most`: dense regions
 /// get small tiles, and distant clusters are separated first.
 void divide(std::span<TileRecord> records, std::size_t most, std::vector<std::span<TileRecord>>& parts) {
   while (records.size() > most) {
-    Vector3d low = place_of(records[0]), high = low;
-    for (const TileRecord& r : records) {
-      low = low.cwiseMin(place_of(r));
-      high = high.cwiseMax(place_of(r));
-    }
+    const auto [low, high] = bounds_of(records);
     int axis = 0;
     const double side = (high - low).maxCoeff(&axis), middle = low[axis] + side / 2;
     auto second = records.begin() + static_cast<std::ptrdiff_t>(most);  // all at one position
@@ -93,11 +77,7 @@ void divide(std::span<TileRecord> records, std::size_t most, std::vector<std::sp
 /// The records of one tile as bytes, by ascending id; sets all of `tile` except its offset.
 std::vector<char> pack_tile(std::span<TileRecord> records, bool wide, TileEntry& tile) {
   std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  Vector3d low = place_of(records[0]), high = low;
-  for (const TileRecord& r : records) {
-    low = low.cwiseMin(place_of(r));
-    high = high.cwiseMax(place_of(r));
-  }
+  const auto [low, high] = bounds_of(records);
   const Vector3d centre = low + (high - low) / 2;
   const Vector3d reference = wide ? Vector3d(centre.array().round()) : Vector3d::Zero();
   const std::size_t n = records.size();
@@ -246,20 +226,20 @@ TileReport TileWriter::finish() {
   if (count > 0) s.wide = std::max(s.box.max.maxCoeff(), -s.box.min.minCoeff()) > farthest_narrow;
   s.wanted = std::max(1.0, count * moves_of_a_record);
   const double sorting = s.options.estimate_areas ? 0.2 : 1;
-  PendingTiles pending(s.path);
+  PendingFile pending(s.path);
+  BinaryFile file(pending.temporary(), BinaryFile::Mode::create);
   PlaceSort sort;
   sort.most = std::max(s.options.memory, least_memory) / bytes_per_record;
-  sort.take = [&](std::vector<TileRecord>& group) { s.write_group(group, pending.file); };
+  sort.take = [&](std::vector<TileRecord>& group) { s.write_group(group, file); };
   sort.moved = [&](std::uint64_t records) {
     s.report_progress(sorting * (s.moved += static_cast<double>(records)) / s.wanted);
   };
   sort_by_place(std::move(s.waiting), sort);
   if (s.options.estimate_areas)
-    s.total_area =
-        fill_areas(pending.file, s.tiles, s.options, [&](double part) { s.report_progress(sorting + 0.8 * part); });
+    s.total_area = fill_areas(file, s.tiles, s.options, [&](double part) { s.report_progress(sorting + 0.8 * part); });
   else if (s.report.dropped_duplicates > 0)
-    s.total_area = sum_of_areas(pending.file, s.tiles);
-  s.write_tail(pending.file);
+    s.total_area = sum_of_areas(file, s.tiles);
+  s.write_tail(file);
   s.report_progress(1);
   pending.commit();
   return s.report;

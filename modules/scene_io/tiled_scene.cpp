@@ -1,7 +1,6 @@
 #include "scene_io/tiled_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>

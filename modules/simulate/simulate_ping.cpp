@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "acoustics/multipath_echoes.hpp"
-#include "simulate/attach_outputs_internal.hpp"
+#include "simulate/average_looks_internal.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
@@ -41,6 +41,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (effects.noise) layers.add_noise();
   layers.finish(result);
+  average_looks(prepared, ping, result);
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.

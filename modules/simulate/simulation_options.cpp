@@ -2,16 +2,18 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "beamforming/element_series.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int most_contributors = 255;
+constexpr int most_contributors = 255, most_looks = 1024;
 
 bool at_least_0(double value) { return value >= 0 && std::isfinite(value); }
 
@@ -72,6 +74,11 @@ void require_valid(const SimulationOptions& o, const char* who) {
   outputs.require(o.outputs.paths >= 0, "paths", o.outputs.paths, "at least 0");
   outputs.require(o.outputs.contributors >= 0 && o.outputs.contributors <= most_contributors, "contributors",
                   o.outputs.contributors, "within 0 and 255");
+  for (const auto& [looks, name] :
+       {std::pair(o.outputs.looks_range, "looks_range"), std::pair(o.outputs.looks_pings, "looks_pings")})
+    outputs.require(looks >= 1 && looks <= most_looks, name, looks, "within 1 and 1024");
+  outputs.require(o.outputs.looks_pings == 1 || o.synthesis.method != SynthesisMethod::incoherent, "looks_pings",
+                  o.outputs.looks_pings, "1 with method incoherent: an expected intensity has no looks to average");
   outputs.require(!(o.outputs.elements && o.synthesis.method == SynthesisMethod::incoherent), "elements", "true",
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
   const Checker top{who, ""};

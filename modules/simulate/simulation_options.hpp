@@ -51,7 +51,12 @@ struct OutputSettings {
   bool layers = false;    ///< each kind of echo as a layer of its own
   bool mask = false;      ///< cells where the scan has holes
   int paths = 0;          ///< so many paths of sound of each kind
-  int contributors = 0;   ///< so many of the strongest surfels of every pixel (E63), at most 255
+  /// Intensity that a display shows beside the single-look pressure (E71): averaged over so many range bins, which are
+  /// independent looks only if they are longer than the pulse, and over so many pulses. The pulses' speckle is independent,
+  /// and so are noise and relief: as of a head that moves by half its aperture from pulse to pulse, or of a bottom that
+  /// does not keep still. A head at rest before a rigid scene has one look, however many pulses it sends.
+  int looks_range = 1, looks_pings = 1;
+  int contributors = 0;  ///< so many of the strongest surfels of every pixel (E63), at most 255
 };
 
 /// All that can be chosen for a ping of a given head, place and environment.

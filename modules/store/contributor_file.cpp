@@ -4,8 +4,8 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "core/pending_file.hpp"
 #include "store/hdf5_internal.hpp"
-#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 
@@ -20,22 +20,6 @@ constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name
     material_image_name{"/material_image", ""}, instance_image_name{"/instance_image", ""},
     names_name{"/material_names", ""};
 
-/// HDF5 type of a number in the file (little-endian) or in memory.
-template <typename Number>
-hid_t type_of(bool in_file) {
-  if constexpr (std::is_same_v<Number, float>) return in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT;
-  if constexpr (sizeof(Number) == 4) return in_file ? H5T_STD_U32LE : H5T_NATIVE_UINT32;
-  if constexpr (sizeof(Number) == 2) return in_file ? H5T_STD_U16LE : H5T_NATIVE_UINT16;
-  return in_file ? H5T_STD_U8LE : H5T_NATIVE_UINT8;
-}
-
-template <typename Number>
-void write_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
-                   const Number* numbers) {
-  const Handle dataset = create_dataset(place, file, name, type_of<Number>(true), extent);
-  place.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), name.path);
-}
-
 template <typename Number>
 void read_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
                   std::vector<Number>& numbers) {
@@ -44,14 +28,6 @@ void read_numbers(const Place& place, hid_t file, const DatasetName& name, const
     fail(place.kind, place.path, ": ", name.path, " differs in extent from ", surfel_name.path);
   numbers.resize(extent[0] * extent[1] * extent[2]);
   place.checked(H5Dread(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), name.path);
-}
-
-/// Text padded with zeros to `length` bytes.
-Handle text_type(const Place& place, std::size_t length) {
-  Handle type(place.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
-  place.checked(H5Tset_size(type, length), "text type");
-  place.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
-  return type;
 }
 
 void write_names(const Place& place, hid_t file, const std::vector<std::string>& names) {

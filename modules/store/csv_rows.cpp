@@ -1,20 +1,12 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <string_view>
 
+#include "core/text.hpp"
 #include "store/csv_rows_internal.hpp"
 #include "store/nearest_word.hpp"
 #include "store/run_directory.hpp"
 
 namespace insonify {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 // Splits a line at its commas into `fields` (reused from line to line: a table may have millions).
 void cut_fields(std::string_view line, std::vector<std::string_view>& fields) {
@@ -51,10 +43,8 @@ Header read_header(std::span<const CsvColumns> layouts, const std::vector<std::s
   CsvColumns known;
   for (const CsvColumns& layout : layouts) known.insert(known.end(), layout.begin(), layout.end());
   for (auto field = fields.begin(); field != fields.end(); ++field) {
-    if (!holds(known, *field)) {
-      const std::string nearest = nearest_word(std::string(*field), known);
-      place.fail_here("unknown column '", *field, "'", nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
-    }
+    if (!holds(known, *field))
+      place.fail_here("unknown column '", *field, "'", did_you_mean(std::string(*field), known));
     if (std::find(fields.begin(), field, *field) != field) place.fail_here("column '", *field, "' occurs twice");
   }
   Header header{nearest_layout(layouts, fields), {}};
@@ -69,55 +59,49 @@ Header read_header(std::span<const CsvColumns> layouts, const std::vector<std::s
   return header;
 }
 
-double read_number(std::string_view text, const std::string& column, const FilePlace& place) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(value))
-    place.fail_here(column, " = '", text, "', must be a finite number");
-  return value;
-}
-
-std::string joined(const CsvColumns& columns) {
-  std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
-  return text;
-}
-
 }  // namespace
+
+void read_lines(const std::string& path,
+                const std::function<void(std::string_view line, const FilePlace& place)>& take) {
+  const std::string text = read_text_file(path);
+  std::string_view rest = text;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // byte-order mark of spreadsheets
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (!line.empty() && line[0] != '#') take(line, {path, number});
+  }
+}
+
+double read_number(std::string_view text, const std::string& column, const FilePlace& place) {
+  const auto number = finite_number(text);
+  if (!number) place.fail_here(column, " = '", text, "', must be a finite number");
+  return *number;
+}
 
 void read_csv(const std::string& path, std::span<const CsvColumns> layouts,
               const std::function<CsvRowTaker(std::size_t layout)>& take) {
-  const std::string text = read_text_file(path);
-  std::string_view rest = text;
-  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // byte-order mark of spreadsheets
-
   Header header;
   CsvRowTaker take_row;
   std::vector<std::string_view> fields;
   std::vector<double> row;
-  for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = trimmed(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.empty() || line[0] == '#') continue;
+  read_lines(path, [&](std::string_view line, const FilePlace& place) {
     cut_fields(line, fields);
-    const FilePlace place{path, line_number};
     if (!take_row) {
       header = read_header(layouts, fields, place);
       row.resize(header.columns.size());
       take_row = take(header.layout);
-      continue;
+      return;
     }
     if (fields.size() != row.size()) place.fail_here("has ", fields.size(), " fields, the header has ", row.size());
     for (std::size_t i = 0; i < fields.size(); ++i)
       row[header.columns[i]] = read_number(fields[i], layouts[header.layout][header.columns[i]], place);
     take_row(row, place);
-  }
+  });
   if (take_row) return;
-  std::string starts;
-  for (const CsvColumns& layout : layouts) starts += (starts.empty() ? "" : " or ") + joined(layout);
-  fail(ErrorKind::content, path, ": has no header, must start with ", starts);
+  fail(ErrorKind::content, path, ": has no header, must start with ",
+       joined(layouts, " or ", [](const CsvColumns& layout) { return joined(layout, ","); }));
 }
 
 }  // namespace insonify

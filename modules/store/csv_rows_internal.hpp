@@ -3,6 +3,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -20,14 +21,22 @@ struct FilePlace {
   }
 };
 
+/// Passes on the lines of a file that are neither blank nor comments ('#'), without blanks at their ends; a byte-order
+/// mark and Windows line ends are accepted. Throws Error(file).
+void read_lines(const std::string& path,
+                const std::function<void(std::string_view line, const FilePlace& place)>& take);
+
+/// The number in a field. Throws Error(content) with path, line and column unless it is one and finite.
+double read_number(std::string_view text, const std::string& column, const FilePlace& place);
+
 /// Names of the columns of a table, in the order in which the values of a row are passed on.
 using CsvColumns = std::vector<std::string>;
 
 /// Receives the values of one row.
 using CsvRowTaker = std::function<void(std::span<const double> row, const FilePlace& place)>;
 
-/// Reads numbers from CSV whose header is one of the `layouts`, its columns in any order. '#' starts a comment line;
-/// blank lines, a byte-order mark and Windows line ends are accepted. `take(layout)`, called once the header is known,
+/// Reads numbers from CSV whose header is one of the `layouts`, its columns in any order, line by line as read_lines.
+/// `take(layout)`, called once the header is known,
 /// returns the receiver of the rows, whose values are in the order of layouts[layout].
 /// Throws Error(file), or Error(content) with path, line, column and rule; numbers must be finite.
 void read_csv(const std::string& path, std::span<const CsvColumns> layouts,

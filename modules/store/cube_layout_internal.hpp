@@ -15,6 +15,7 @@ constexpr DatasetName pressure_name{"/pressure", "Pa"};
 /// Group of the layers, each a dataset like /pressure; absent without layers.
 constexpr const char* layers_group = "/layers";
 /// Optional maps of the extent of /pressure, one real number per cell.
+constexpr DatasetName intensity_name{"/intensity", "Pa^2"};
 constexpr DatasetName level_error_name{"/level_error_db", "dB"};
 constexpr DatasetName unknown_name{"/unknown", ""};
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.

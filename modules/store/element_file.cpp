@@ -1,10 +1,10 @@
 #include "store/element_file.hpp"
 
 #include "core/error.hpp"
+#include "core/pending_file.hpp"
 #include "returns/ping.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
-#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 

@@ -1,12 +1,12 @@
 #include "store/environment_file.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "store/nearest_word.hpp"
 #include "store/sonar_keys_internal.hpp"
@@ -81,40 +81,21 @@ const std::vector<NumberKey>& number_keys() {
   return keys;
 }
 
-struct SoundSpeedName {
-  const char* name;
-  SoundSpeedFormula formula;
-};
-constexpr SoundSpeedName sound_speed_names[] = {{"unesco", SoundSpeedFormula::unesco},
-                                                {"mackenzie", SoundSpeedFormula::mackenzie},
-                                                {"leroy", SoundSpeedFormula::leroy}};
-struct AbsorptionName {
-  const char* name;
-  AbsorptionFormula formula;
-};
-constexpr AbsorptionName absorption_names[] = {{"francois-garrison", AbsorptionFormula::francois_garrison},
-                                               {"fisher-simmons", AbsorptionFormula::fisher_simmons},
-                                               {"ainslie-mccolm", AbsorptionFormula::ainslie_mccolm}};
+constexpr Named<SoundSpeedFormula> sound_speed_names[] = {{"unesco", SoundSpeedFormula::unesco},
+                                                          {"mackenzie", SoundSpeedFormula::mackenzie},
+                                                          {"leroy", SoundSpeedFormula::leroy}};
+constexpr Named<AbsorptionFormula> absorption_names[] = {{"francois-garrison", AbsorptionFormula::francois_garrison},
+                                                         {"fisher-simmons", AbsorptionFormula::fisher_simmons},
+                                                         {"ainslie-mccolm", AbsorptionFormula::ainslie_mccolm}};
 
 /// The formula called `name`. Throws Error(argument) listing the known names.
-template <typename Names, typename Formula>
-void set_formula(const Names& names, const std::string& key, const std::string& name, Formula& formula) {
-  std::string known;
-  for (const auto& candidate : names) {
-    if (name == candidate.name) {
-      formula = candidate.formula;
-      return;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(candidate.name);
-  }
-  fail(ErrorKind::argument, key, " = \"", name, "\", must be one of ", known);
-}
-
-template <typename Names, typename Formula>
-std::string name_of(const Names& names, Formula formula) {
-  for (const auto& candidate : names)
-    if (candidate.formula == formula) return candidate.name;
-  return {};
+template <typename Formula>
+void set_formula(std::span<const Named<Formula>> names, const std::string& key, const std::string& name,
+                 Formula& formula) {
+  const Formula* found = find_named(names, name);
+  if (!found)
+    fail(ErrorKind::argument, key, " = \"", name, "\", must be one of ", joined(names, ", ", &Named<Formula>::name));
+  formula = *found;
 }
 
 bool is_formula(const std::string& name) {
@@ -123,9 +104,9 @@ bool is_formula(const std::string& name) {
 
 void set_formula_key(Environment& e, const std::string& name, const std::string& value) {
   if (name == "water.sound_speed_formula")
-    set_formula(sound_speed_names, name, value, e.sound_speed_formula);
+    set_formula<SoundSpeedFormula>(sound_speed_names, name, value, e.sound_speed_formula);
   else
-    set_formula(absorption_names, name, value, e.absorption_formula);
+    set_formula<AbsorptionFormula>(absorption_names, name, value, e.absorption_formula);
 }
 
 /// Throws Error(argument), with the nearest key or all known ones, unless the key exists.
@@ -134,9 +115,7 @@ void require_known(const std::string& name) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string near = nearest_word(name, known);
   if (!near.empty()) fail(ErrorKind::argument, name, " is unknown; did you mean ", near, "?");
-  std::string all;
-  for (const std::string& key : known) all += (all.empty() ? "" : ", ") + key;
-  fail(ErrorKind::argument, name, " is unknown; known are ", all);
+  fail(ErrorKind::argument, name, " is unknown; known are ", joined(known));
 }
 
 void set_number(Environment& e, const std::string& section, const std::string& key, double value) {
@@ -230,11 +209,9 @@ void set_environment_value(Environment& e, const std::string& section, const std
     set_formula_key(e, name, value);
     return;
   }
-  double number = 0;
-  const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  if (error != std::errc() || stop != value.data() + value.size() || !std::isfinite(number))
-    fail(ErrorKind::argument, name, " = '", value, "', must be a number");
-  set_number(e, section, key, number);
+  const auto number = finite_number(value);
+  if (!number) fail(ErrorKind::argument, name, " = '", value, "', must be a number");
+  set_number(e, section, key, *number);
 }
 
 std::string environment_as_toml(const Environment& e) {

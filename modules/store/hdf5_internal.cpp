@@ -37,13 +37,6 @@ T read_scalar(const Place& place, hid_t where, const char* name, hid_t memory_ty
   return value;
 }
 
-Handle text_type(const Place& place) {
-  Handle type(place.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
-  place.checked(H5Tset_size(type, H5T_VARIABLE), "text type");
-  place.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
-  return type;
-}
-
 }  // namespace
 
 QuietErrors::QuietErrors() {
@@ -57,6 +50,13 @@ void Place::fail_here(const std::string& what) const {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_reason, &reason);
   fail(kind, path, ": ", what, reason.empty() ? "" : ": ", reason);
+}
+
+Handle text_type(const Place& place, std::size_t length) {
+  Handle type(place.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
+  place.checked(H5Tset_size(type, length), "text type");
+  place.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
+  return type;
 }
 
 Handle complex_type(const Place& place, hid_t real_type) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -71,9 +72,30 @@ Handle open_file(const Place& place);
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {});
 
+/// HDF5 type of a number in the file (little-endian) or in memory.
+template <typename Number>
+hid_t type_of(bool in_file) {
+  if constexpr (std::is_same_v<Number, double>) return in_file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<Number, float>) return in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<Number, std::int64_t>) return in_file ? H5T_STD_I64LE : H5T_NATIVE_INT64;
+  if constexpr (std::is_same_v<Number, std::uint32_t>) return in_file ? H5T_STD_U32LE : H5T_NATIVE_UINT32;
+  if constexpr (std::is_same_v<Number, std::uint16_t>) return in_file ? H5T_STD_U16LE : H5T_NATIVE_UINT16;
+  return in_file ? H5T_STD_U8LE : H5T_NATIVE_UINT8;
+}
+
+/// Writes a dataset of numbers.
+template <typename Number>
+void write_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
+                   const Number* numbers) {
+  const Handle dataset = create_dataset(place, file, name, type_of<Number>(true), extent);
+  place.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), name.path);
+}
+
 /// Opens a dataset; throws Error(content) if it is missing.
 Handle open_dataset(const Place& place, hid_t file, const DatasetName& name);
 
+/// UTF-8 text padded with zeros to `length` bytes, or of any length.
+Handle text_type(const Place& place, std::size_t length = H5T_VARIABLE);
 /// The type of complex<float> as in h5py: compound {r, i} of `real_type`.
 Handle complex_type(const Place& place, hid_t real_type);
 

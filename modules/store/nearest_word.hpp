@@ -8,4 +8,7 @@ namespace insonify {
 /// third of its length (at least 2).
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
+/// The same for the end of a message: "; did you mean 'range'?" or "".
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
+
 }  // namespace insonify

@@ -144,6 +144,7 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
   read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings,
               [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
   read_layers(place, file, extent, pings);
+  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::intensity);
   read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::level_error_db);
   read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, &Ping::unknown);
   return pings;

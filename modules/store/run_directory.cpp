@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 
@@ -83,15 +82,6 @@ void RunDirectory::commit() {
   }
   committed_ = true;
   if (replace) fs::remove_all(old, ignored);
-}
-
-void write_text_file(const std::string& path, const std::string& text) {
-  PendingFile pending(path);
-  std::ofstream out(pending.temporary(), std::ios::binary);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out) fail(ErrorKind::file, path, ": cannot be written: ", std::generic_category().message(errno));
-  pending.commit();
 }
 
 std::string read_text_file(const std::string& path) {

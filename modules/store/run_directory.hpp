@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "core/pending_file.hpp"
+
 namespace insonify {
 
 /// An output folder created atomically: files are written into a temporary folder beside it, which commit() renames.
@@ -26,8 +28,6 @@ class RunDirectory {
   bool force_ = false, committed_ = false;
 };
 
-/// Writes a text file under a temporary name, then renames it. Throws Error(file).
-void write_text_file(const std::string& path, const std::string& text);
 /// The contents of a text file. Throws Error(file) naming the path.
 std::string read_text_file(const std::string& path);
 

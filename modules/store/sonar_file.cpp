@@ -1,10 +1,10 @@
 #include "store/sonar_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "store/nearest_word.hpp"
 #include "store/sonar_keys_internal.hpp"
 #include "store/toml_tree_internal.hpp"
@@ -112,12 +112,7 @@ SonarValue value_from_text(const std::string& text) {
   std::istringstream words(bare);
   std::vector<double> list;
   for (std::string word; words >> word;) {
-    const char* begin = word.data() + (word.size() > 1 && word[0] == '+' ? 1 : 0);
-    const char* end = word.data() + word.size();
-    double number = 0;
-    const auto [stop, error] = std::from_chars(begin, end, number);
-    if (error != std::errc() || stop != end) return text;
-    list.push_back(number);
+    if (!to_number(word, list.emplace_back())) return text;
   }
   if (list.empty()) return text;
   if (list.size() == 1 && text.find_first_of("[,") == std::string::npos) return list[0];
@@ -169,9 +164,7 @@ void set_sonar_value(SonarSpec& spec, const std::string& key, const std::string&
   std::vector<std::string> known = sonar_key_names();
   if (std::find(known.begin(), known.end(), key) == known.end()) {
     known.emplace_back("name");
-    const std::string nearest = nearest_word(key, known);
-    fail(ErrorKind::argument, "sonar: unknown key '", key, "'",
-         nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+    fail(ErrorKind::argument, "sonar: unknown key '", key, "'", did_you_mean(key, known));
   }
   SonarValue parsed = value_from_text(value);
   const bool is_list = key == "azimuths_deg" || key == "elevations_deg";

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "store/sonar_keys_internal.hpp"
 
@@ -32,17 +33,21 @@ constexpr std::array number_keys = {
     NumberKey{"transmit_width_deg", &SonarSpec::transmit_width, true},
 };
 
-struct ShapeName {
-  const char* name;
-  ElevationShape shape;
-};
-constexpr std::array shape_names = {ShapeName{"gaussian", ElevationShape::gaussian},
-                                    ShapeName{"line", ElevationShape::line},
-                                    ShapeName{"sector", ElevationShape::sector}};
+constexpr Named<ElevationShape> elevation_shape_names[] = {
+    {"gaussian", ElevationShape::gaussian}, {"line", ElevationShape::line}, {"sector", ElevationShape::sector}};
 
-constexpr std::array pulse_shapes = {PulseShape::gaussian, PulseShape::linear_fm};
-constexpr std::array replica_windows = {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming};
-constexpr std::array shadings = {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev};
+// The enumerations that have a function for their names.
+template <typename Value>
+std::vector<Named<Value>> named(const char* (*name)(Value), std::initializer_list<Value> values) {
+  std::vector<Named<Value>> table;
+  for (const Value value : values) table.push_back({name(value), value});
+  return table;
+}
+const auto pulse_shape_names = named(pulse_shape_name, {PulseShape::gaussian, PulseShape::linear_fm});
+const auto replica_window_names =
+    named(replica_window_name, {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming});
+const auto shading_names =
+    named(shading_name, {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev});
 
 // Optional widths; zero in the spec if absent.
 bool is_optional_width(const std::string& key) { return key == "column_beam_width_deg" || key == "transmit_width_deg"; }
@@ -97,44 +102,13 @@ void set_beams(SonarSpec& spec, const SonarValue& value) {
   drop_table(spec);
 }
 
-void set_shape(SonarSpec& spec, const SonarValue& value) {
+// Sets an enumeration from its name in a table.
+template <typename Table, typename Value>
+void set_named(const std::string& key, const SonarValue& value, const Table& table, const char* rule, Value& target) {
   const std::string* text = std::get_if<std::string>(&value);
-  for (const ShapeName& shape : shape_names)
-    if (text && *text == shape.name) {
-      spec.elevation_shape = shape.shape;
-      return;
-    }
-  fail_value("elevation_shape", value, "gaussian, line or sector");
-}
-
-void set_pulse(SonarSpec& spec, const SonarValue& value) {
-  const std::string* text = std::get_if<std::string>(&value);
-  for (const PulseShape shape : pulse_shapes)
-    if (text && *text == pulse_shape_name(shape)) {
-      spec.pulse = shape;
-      return;
-    }
-  fail_value("pulse", value, "gaussian or linear_fm");
-}
-
-void set_replica_window(SonarSpec& spec, const SonarValue& value) {
-  const std::string* text = std::get_if<std::string>(&value);
-  for (const ReplicaWindow window : replica_windows)
-    if (text && *text == replica_window_name(window)) {
-      spec.replica_window = window;
-      return;
-    }
-  fail_value("replica_window", value, "uniform, hann or hamming");
-}
-
-void set_shading(SonarSpec& spec, const SonarValue& value) {
-  const std::string* text = std::get_if<std::string>(&value);
-  for (const Shading shading : shadings)
-    if (text && *text == shading_name(shading)) {
-      spec.shading = shading;
-      return;
-    }
-  fail_value("shading", value, "taylor, uniform, hamming or chebyshev");
+  const auto* found = text ? find_named(table, *text) : nullptr;
+  if (!found) fail_value(key, value, rule);
+  target = *found;
 }
 
 // True if the shading follows from side_lobe_db alone.
@@ -213,9 +187,9 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
   } else if (key == "beams") {
     set_beams(spec, value);
   } else if (key == "elevation_shape") {
-    set_shape(spec, value);
+    set_named(key, value, elevation_shape_names, "gaussian, line or sector", spec.elevation_shape);
   } else if (key == "shading") {
-    set_shading(spec, value);
+    set_named(key, value, shading_names, "taylor, uniform, hamming or chebyshev", spec.shading);
   } else if (key == "azimuths_deg") {
     set_azimuths(spec, value);
   } else if (key == "elevations_deg") {
@@ -224,11 +198,11 @@ void set_sonar_key(SonarSpec& spec, const std::string& key, const SonarValue& va
   } else if (key == "bin_size_m") {
     spec.bin_size = number_of(key, value);
   } else if (key == "pulse") {
-    set_pulse(spec, value);
+    set_named(key, value, pulse_shape_names, "gaussian or linear_fm", spec.pulse);
   } else if (key == "pulse_length_s") {
     spec.pulse_length = number_of(key, value);
   } else if (key == "replica_window") {
-    set_replica_window(spec, value);
+    set_named(key, value, replica_window_names, "uniform, hann or hamming", spec.replica_window);
   } else {
     fail(ErrorKind::runtime, "set_sonar_key: no key '", key, "'");
   }
@@ -245,14 +219,11 @@ std::optional<std::string> sonar_key_text(const SonarSpec& spec, const std::stri
   }
   if (key == "beams" && spec.azimuths.empty()) return std::to_string(spec.beams);
   if (key == "bin_size_m" && spec.bin_size) return text_of_number(*spec.bin_size);
-  if (key == "pulse" && spec.pulse != PulseShape::gaussian)
-    return toml_text_of(std::string(pulse_shape_name(spec.pulse)));
+  if (key == "pulse" && spec.pulse != PulseShape::gaussian) return toml_text_of(name_of(pulse_shape_names, spec.pulse));
   if (key == "pulse_length_s" && spec.pulse_length) return text_of_number(*spec.pulse_length);
   if (key == "replica_window" && spec.replica_window)
-    return toml_text_of(std::string(replica_window_name(*spec.replica_window)));
-  if (key == "elevation_shape")
-    for (const ShapeName& shape : shape_names)
-      if (shape.shape == spec.elevation_shape) return toml_text_of(std::string(shape.name));
+    return toml_text_of(name_of(replica_window_names, *spec.replica_window));
+  if (key == "elevation_shape") return toml_text_of(name_of(elevation_shape_names, spec.elevation_shape));
   if (key == "shading" && !is_default_shading(spec)) return toml_text_of(std::string(shading_name(shading_of(spec))));
   if (key == "azimuths_deg" && !spec.azimuths.empty()) return text_of_angles(spec.azimuths);
   if (key == "elevations_deg" && !spec.elevations.empty()) return text_of_angles(spec.elevations);

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "store/nearest_word.hpp"
 #include "store/sonar_file.hpp"
 
@@ -32,18 +32,13 @@ std::string preset_path(const std::string& name) {
   return (fs::path(data_folder()) / "sonars" / (name + ".toml")).string();
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 // The names that contain the word ("oculus" matches six presets), else the nearest one by spelling.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const std::string wanted = lower_case(word);
-  std::string list;
-  for (const std::string& name : names)
-    if (!wanted.empty() && name.find(wanted) != std::string::npos) list += (list.empty() ? "" : ", ") + name;
-  if (list.empty()) list = nearest_word(wanted, names);
+  std::vector<std::string> with_it;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(with_it),
+               [&](const std::string& name) { return !wanted.empty() && name.find(wanted) != std::string::npos; });
+  const std::string list = with_it.empty() ? nearest_word(wanted, names) : joined(with_it);
   return list.empty() ? "." : "; did you mean " + list + "?";
 }
 

@@ -68,9 +68,7 @@ void require_known_keys(const std::string& path, const TomlValue& table, const s
   for (std::size_t i = 0; i < table.keys.size(); ++i) {
     const std::string& key = table.keys[i];
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const std::string nearest = nearest_word(key, known);
-    fail_in_file(path, table.items[i].line, "unknown key '", key, "'",
-                 nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+    fail_in_file(path, table.items[i].line, "unknown key '", key, "'", did_you_mean(key, known));
   }
 }
 

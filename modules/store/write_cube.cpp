@@ -3,10 +3,10 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "core/pending_file.hpp"
 #include "store/cube.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
-#include "store/pending_file_internal.hpp"
 
 namespace insonify {
 
@@ -35,6 +35,7 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
            map.cols(), " cells, must be like that of ping ", first.number,
            like.size() == 0 ? ": absent" : ", one cell for each of its pressure");
   };
+  require(ping.intensity, first.intensity, "intensity");
   require(ping.level_error_db, first.level_error_db, "level_error_db");
   require(ping.unknown, first.unknown, "unknown");
   if (ping.expected_level != first.expected_level)
@@ -66,12 +67,6 @@ void require_writable(const Cube& cube, const std::string& path) {
   }
 }
 
-void write_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
-                   const std::vector<double>& values) {
-  const Handle dataset = create_dataset(place, file, name, H5T_IEEE_F64LE, extent);
-  place.checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name.path);
-}
-
 // Chunks hold one ping, all bins and up to 64 beams, fewer if that exceeds 64 MiB.
 hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
   const hsize_t bytes_per_beam = bins * sizeof(std::complex<float>);
@@ -80,12 +75,10 @@ hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
 
 // HDF5 type of an image's values in the file or in memory.
 template <typename Number>
-Handle type_of(const Place& place, bool in_file) {
+Handle image_type(const Place& place, bool in_file) {
   if constexpr (std::is_same_v<Number, std::complex<float>>)
     return complex_type(place, in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT);
-  const bool real = std::is_floating_point_v<Number>;
-  const hid_t type = real ? (in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT) : (in_file ? H5T_STD_U8LE : H5T_NATIVE_UINT8);
-  return {place.checked(H5Tcopy(type), "type"), H5Tclose};
+  return {place.checked(H5Tcopy(type_of<Number>(in_file)), "type"), H5Tclose};
 }
 
 // Writes one image per ping: the pressure, layer or map selected by `part`.
@@ -94,7 +87,7 @@ void write_images(const Place& place, hid_t file, const DatasetName& name, const
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
   const Extent extent = {pings.size(), beams, bins};
   using Number = typename std::decay_t<decltype(part(pings[0]))>::Scalar;
-  const Handle stored = type_of<Number>(place, true), here = type_of<Number>(place, false);
+  const Handle stored = image_type<Number>(place, true), here = image_type<Number>(place, false);
   const Handle dataset = create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
   const Extent one_ping = {1, beams, bins};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
@@ -120,20 +113,22 @@ void write_layers(const Place& place, hid_t file, const std::vector<Ping>& pings
 }
 
 void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) {
-  if (pings.front().level_error_db.size() > 0)
-    write_images(place, file, level_error_name, pings,
-                 [](const Ping& ping) -> const Grid<float>& { return ping.level_error_db; });
-  if (pings.front().unknown.size() > 0)
-    write_images(place, file, unknown_name, pings,
-                 [](const Ping& ping) -> const Grid<std::uint8_t>& { return ping.unknown; });
+  const auto write = [&](const DatasetName& name, auto map) {
+    if ((pings.front().*map).size() > 0)
+      write_images(
+          place, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; });
+  };
+  write(intensity_name, &Ping::intensity);
+  write(level_error_name, &Ping::level_error_db);
+  write(unknown_name, &Ping::unknown);
 }
 
 void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
   std::vector<double> range(gate.bins());
   for (std::size_t n = 0; n < range.size(); ++n) range[n] = gate.centre(n);
-  write_numbers(place, file, range_name, {range.size()}, range);
-  write_numbers(place, file, azimuth_name, {fan.beams()}, fan.azimuth);
-  write_numbers(place, file, elevation_name, {fan.beams()}, fan.elevation);
+  write_numbers(place, file, range_name, {range.size()}, range.data());
+  write_numbers(place, file, azimuth_name, {fan.beams()}, fan.azimuth.data());
+  write_numbers(place, file, elevation_name, {fan.beams()}, fan.elevation.data());
 }
 
 void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings) {
@@ -145,10 +140,9 @@ void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings)
     time.push_back(ping.time);
     number.push_back(ping.number);
   }
-  write_numbers(place, file, pose_name, {pings.size(), 4, 4}, pose);
-  write_numbers(place, file, time_name, {pings.size()}, time);
-  const Handle dataset = create_dataset(place, file, ping_name, H5T_STD_I64LE, {pings.size()});
-  place.checked(H5Dwrite(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, number.data()), ping_name.path);
+  write_numbers(place, file, pose_name, {pings.size(), 4, 4}, pose.data());
+  write_numbers(place, file, time_name, {pings.size()}, time.data());
+  write_numbers(place, file, ping_name, {pings.size()}, number.data());
 }
 
 void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.hpp"
 #include "view/axes_internal.hpp"
-#include "view/text.hpp"
-#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -29,11 +28,64 @@ std::string power_text(int mantissa, int decade) {
 
 }  // namespace
 
+double round_step(double at_least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(at_least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * decade >= at_least * (1 - 1e-9)) return factor * decade;
+  return 10 * decade;
+}
+
+double round_angle_step(double at_least) {
+  for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0})
+    if (at_least > 0.5 && step >= at_least * (1 - 1e-9)) return step;
+  return at_least > 0.5 ? 180.0 : round_step(at_least);
+}
+
+std::vector<double> multiples(double step, double low, double high) {
+  const double slack = 1e-6 * step;
+  std::vector<double> values;
+  for (double n = std::ceil((low - slack) / step); n * step <= high + slack; ++n) values.push_back(n * step);
+  return values;
+}
+
+std::string number_text(double value, double step) {
+  const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  if (std::abs(value) < 1e-6 * step) value = 0;
+  return printed("%.*f", decimals, value);
+}
+
+std::string bearing_text(double bearing_deg, double step) {
+  double turned = std::remainder(bearing_deg, 360.0);
+  if (turned < -180.0 + 1e-6 * step) turned += 360.0;
+  const bool plus = turned > 1e-6 * step && turned < 180.0 - 1e-6 * step;
+  std::string text(plus ? "+" : "");
+  text += number_text(turned, step);
+  text += "°";
+  return text;
+}
+
+BearingTicks bearing_ticks(double low_deg, double high_deg, double most) {
+  BearingTicks ticks;
+  ticks.step = round_angle_step((high_deg - low_deg) / most);
+  ticks.at_deg = multiples(ticks.step, low_deg, high_deg);
+  if (!ticks.at_deg.empty()) return ticks;
+  ticks.step = round_step((high_deg - low_deg) / 10.0);
+  ticks.at_deg = {(low_deg + high_deg) / 2};
+  return ticks;
+}
+
 AxisTicks round_ticks(double low, double high, double most) {
   const double step = round_step((high - low) / std::max(most, 2.0));
   AxisTicks ticks;
   ticks.at = multiples(step, low, high);
   for (const double value : ticks.at) ticks.labels.push_back(number_text(value, step));
+  return ticks;
+}
+
+AxisTicks bearing_labels(double low_deg, double high_deg, double most) {
+  const BearingTicks bearings = bearing_ticks(low_deg, high_deg, most);
+  AxisTicks ticks{bearings.at_deg, {}};
+  for (const double at : ticks.at) ticks.labels.push_back(bearing_text(at, bearings.step));
   return ticks;
 }
 

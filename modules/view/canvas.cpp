@@ -15,17 +15,16 @@
 #include <vtkTextProperty.h>
 #include <vtkTexture.h>
 
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "view/canvas_internal.hpp"
 #include "view/fonts_internal.hpp"
-#include "view/window_picture_internal.hpp"
+#include "view/off_screen_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr int samples_per_pixel = 4;
-constexpr double cells_height = 0, lines_height = 1, eye_height = 10;  // above the picture plane
+constexpr double plate_height = -1, cells_height = 0, lines_height = 1, eye_height = 10;  // above the picture plane
 
 // An actor in its own colours, without lighting.
 vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
@@ -175,12 +174,19 @@ void Canvas::add_lines(const std::vector<Path>& paths, double width, const Colou
                                      {b.x - at_b.x, b.y - at_b.y},
                                      {a.x - at_a.x, a.y - at_a.y}});
     }
-  if (corners.empty()) return;
-  const vtkNew<vtkPolyData> shape = quads(corners, origin_, lines_height);
+  if (!corners.empty()) add_quads(corners, lines_height, colour, opacity);
+}
+
+void Canvas::add_plate(const Box& box, const Colour& colour, double opacity) {
+  add_quads({{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}}, plate_height,
+            colour, opacity);
+}
+
+void Canvas::add_quads(const std::vector<Point2>& corners, double height, const Colour& colour, double opacity) {
+  const vtkNew<vtkPolyData> shape = quads(corners, origin_, height);
   const vtkNew<vtkActor> actor = flat_actor(shape);
-  vtkProperty* property = actor->GetProperty();
-  property->SetColor(colour[0], colour[1], colour[2]);
-  property->SetOpacity(opacity);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetOpacity(opacity);
   renderer_->AddActor(actor);
 }
 
@@ -233,6 +239,14 @@ void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, doub
 void Canvas::save_png(const std::string& path, const VtkMessages& messages) {
   window_->Render();
   save_window(window_, path, messages, who_);
+}
+
+void save_picture(const PictureOptions& options, const char* who, const std::string& png_path,
+                  const std::function<void(Canvas&)>& draw) {
+  const VtkMessages messages;
+  Canvas canvas(options, who);
+  draw(canvas);
+  canvas.save_png(png_path, messages);
 }
 
 }  // namespace insonify

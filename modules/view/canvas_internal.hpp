@@ -4,14 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
 #include "view/colour_bar_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
-#include "view/egl_window_internal.hpp"
-#include "view/vtk_messages_internal.hpp"
+#include "view/off_screen_internal.hpp"
 
 namespace insonify {
 
@@ -49,6 +47,8 @@ class Canvas {
   void add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
                  const PlaneProjection& projection, double largest_step);
   void add_lines(const std::vector<Path>& paths, double width, const Colour& colour, double opacity);
+  /// A filled rectangle behind everything else, in any order of drawing.
+  void add_plate(const Box& box, const Colour& colour, double opacity);
   void add_text(const PlacedText& text);
   void add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width);
 
@@ -63,6 +63,7 @@ class Canvas {
   void save_png(const std::string& path, const VtkMessages& messages);
 
  private:
+  void add_quads(const std::vector<Point2>& corners, double height, const Colour& colour, double opacity);
   void add_textured_strip(const std::vector<Point2>& points, const std::vector<Point2>& texture_points,
                           vtkImageData* colours);
 
@@ -74,5 +75,9 @@ class Canvas {
   vtkSmartPointer<EglWindow> window_;  ///< null if the caller owns the window
   vtkSmartPointer<vtkRenderer> renderer_;
 };
+
+/// Draws a picture off-screen and writes it. Errors as Canvas::save_png.
+void save_picture(const PictureOptions& options, const char* who, const std::string& png_path,
+                  const std::function<void(Canvas&)>& draw);
 
 }  // namespace insonify

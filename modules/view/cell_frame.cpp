@@ -1,4 +1,4 @@
-#include "view/cell_frame_internal.hpp"
+#include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 
 namespace insonify {

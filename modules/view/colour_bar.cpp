@@ -1,8 +1,7 @@
 #include <algorithm>
 
+#include "view/axes_internal.hpp"
 #include "view/colour_bar_internal.hpp"
-#include "view/text.hpp"
-#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

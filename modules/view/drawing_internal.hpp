@@ -1,15 +1,17 @@
 #pragma once
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "view/axes_internal.hpp"
 #include "view/canvas_internal.hpp"
+#include "view/colour_bar_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/line_chart_internal.hpp"
-#include "view/picture.hpp"
-#include "view/show_panels.hpp"
-#include "view/show_spectrum.hpp"
-#include "view/show_waterfall.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 
@@ -27,5 +29,40 @@ void require_pattern(const std::vector<double>& azimuth, const std::vector<doubl
 Axes draw_line_chart(Canvas& canvas, const LineChart& chart, const PictureOptions& options);
 void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const PictureOptions& options);
 void draw_panels(Canvas& canvas, const Panels& panels, const PictureOptions& options);
+
+/// One side of a rectangle of cells.
+struct CellAxis {
+  double low = 0, high = 1;
+  std::string title;
+  std::function<AxisTicks(double pixels)> ticks;  ///< ticks for an axis of this length
+};
+
+/// Layout of a rectangle of cells: axes at the left and below, colour bar at the right, title on top.
+struct CellFrame {
+  Axes axes;
+  ColourBar bar;
+  std::optional<PlacedText> title;
+  int font_size = 0;
+};
+CellFrame lay_out_cell_frame(const CellAxis& across, const CellAxis& up, const ColourScale& scale,
+                             const std::string& unit, const PictureOptions& options);
+
+/// Draws grid lines over the cells, and axes, colour bar and title around them.
+void draw_cell_frame(Canvas& canvas, const CellFrame& frame, const ColourScale& scale);
+
+/// Space available for marks.
+struct MarkRoom {
+  Box box;                 ///< contains all names
+  std::vector<Box> taken;  ///< not to be covered by names
+  int font_size = 0;
+  PlaneProjection at;
+};
+
+/// The marks inside a sector, with whole turns added to their bearings so that they lie within [low, high].
+std::vector<Mark> marks_within(const std::vector<Mark>& marks, double low, double high, const RangeGate& gate);
+
+/// Draws a ring at each mark and its name at the nearest place where it covers no ring and no other text, with a leader
+/// line if the two are apart. Names without a free place are omitted; earlier marks have priority.
+void draw_marks(Canvas& canvas, const std::vector<Mark>& marks, MarkRoom room);
 
 }  // namespace insonify

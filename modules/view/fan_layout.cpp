@@ -2,9 +2,8 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "view/axes_internal.hpp"
 #include "view/fan_layout_internal.hpp"
-#include "view/text.hpp"
-#include "view/ticks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <vtkNew.h>
@@ -7,7 +5,7 @@
 #include <vtkTextRenderer.h>
 
 #include "view/fonts_internal.hpp"
-#include "view/text.hpp"
+#include "view/placed_text.hpp"
 
 namespace insonify {
 namespace {

@@ -15,8 +15,7 @@
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/line_chart_internal.hpp"
-#include "view/text.hpp"
-#include "view/vtk_messages_internal.hpp"
+#include "view/off_screen_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -38,24 +37,17 @@ Colour line_colour(std::size_t number, bool dark) {
   return dark ? on_black[number % 8] : on_white[number % 8];
 }
 
-// All lines, the first one being the chart's own.
-std::vector<ChartLine> all_lines(const LineChart& chart) {
-  std::vector<ChartLine> lines{{chart.x, chart.y, chart.name, chart.style, chart.labels}};
-  lines.insert(lines.end(), chart.more.begin(), chart.more.end());
-  return lines;
-}
-
 // Replaces logarithmic axes by linear axes of logarithms.
 LineChart with_logarithms_taken(LineChart chart) {
   const auto take = [](double& value) { value = std::log10(value); };
   const auto take_all = [&](std::vector<double>& values) { std::for_each(values.begin(), values.end(), take); };
   if (chart.x_scale == AxisScale::logarithmic) {
-    take(chart.low_x), take(chart.high_x), take_all(chart.x);
-    for (ChartLine& line : chart.more) take_all(line.x);
+    take(chart.low_x), take(chart.high_x);
+    for (ChartLine& line : chart.lines) take_all(line.x);
   }
   if (chart.y_scale == AxisScale::logarithmic) {
-    take(chart.low_y), take(chart.high_y), take_all(chart.y);
-    for (ChartLine& line : chart.more) take_all(line.y);
+    take(chart.low_y), take(chart.high_y);
+    for (ChartLine& line : chart.lines) take_all(line.y);
   }
   return chart;
 }
@@ -208,7 +200,7 @@ Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOption
   titled.title = chart.title;
   const auto title = place_title(titled);
   const int font = font_size_for(options);
-  const std::vector<ChartLine> lines = all_lines(chart);
+  const std::vector<ChartLine>& lines = chart.lines;
   const double title_bottom = title ? title->box().bottom : options.height;
   const double across = lay_out_axes(chart, options, title_bottom).frame.width();
   const double legend_height = legend_row * font * static_cast<double>(legend_rows(lines, font, across).size());
@@ -228,10 +220,7 @@ Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOption
 
 void draw_line_chart(const LineChart& chart, const PictureOptions& options, const char* who,
                      const std::string& png_path) {
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_line_chart(canvas, chart, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_line_chart(canvas, chart, options); });
 }
 
 }  // namespace insonify

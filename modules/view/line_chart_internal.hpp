@@ -11,25 +11,21 @@ namespace insonify {
 enum class LineStyle { line, dashed, points, marked };  // marked: a line with a mark at each of its points
 enum class AxisScale { linear, logarithmic };
 
-/// A further line over the same axes.
+/// A line of a chart.
 struct ChartLine {
-  std::vector<double> x, y;  ///< finite
-  std::string name;          ///< in the legend
+  std::vector<double> x, y;  ///< finite; clipped to the axes
+  std::string name;          ///< in the legend; no legend if no line has a name
   LineStyle style = LineStyle::line;
   std::vector<std::string> labels{};  ///< small, beside the points; empty, or one per point
 };
 
 /// One or more lines over two axes.
 struct LineChart {
-  std::vector<double> x, y;  ///< finite; clipped to the axes
+  std::vector<ChartLine> lines = std::vector<ChartLine>(1);  ///< the first is drawn on top
   double low_x = 0, high_x = 1, low_y = 0, high_y = 1;
   std::string title, x_title, y_title;
   /// Gives at most about `most` ticks of the x axis; round_ticks of low_x and high_x if not set.
   std::function<AxisTicks(double most)> x_ticks;
-  std::string name;                   ///< of the line in the legend; no legend if no line has a name
-  LineStyle style = LineStyle::line;  ///< of the line
-  std::vector<ChartLine> more;        ///< drawn below the first line
-  std::vector<std::string> labels{};  ///< of the line's points, as in ChartLine
   /// Logarithmic: values and ends of the axis are > 0, ticks as decade_ticks.
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
 };

@@ -2,13 +2,11 @@
 #include <cmath>
 #include <numeric>
 
-#include <vtkNew.h>
 #include <vtkProperty.h>
 
 #include "view/canvas_internal.hpp"
 #include "view/scene_actor_parts_internal.hpp"
 #include "view/scene_camera_internal.hpp"
-#include "view/scene_head_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 #include "view/scene_surfels_internal.hpp"
 
@@ -36,6 +34,16 @@ vtkSmartPointer<vtkActor> plain_points(const PointCloudArrays& arrays, const Col
   mapper_of(actor)->min_pixels = min_pixels;
   mapper_of(actor)->lift = lift;
   return actor;
+}
+
+constexpr std::size_t most_normals = 4000;
+constexpr double normal_length = 0.012;  // of the diagonal; or three spacings, if longer
+
+Polyline normal_of(const SceneCloud& scene, std::uint32_t i, double least) {
+  const Eigen::Vector3d place = scene.point[i].cast<double>();
+  const Eigen::Vector3d tip =
+      std::max(least, 3 * std::sqrt(static_cast<double>(scene.area[i]))) * scene.normal[i].cast<double>();
+  return {scene.normals_oriented ? place : Eigen::Vector3d(place - tip), place + tip};
 }
 
 }  // namespace
@@ -111,12 +119,6 @@ void SceneActors::add_to(vtkRenderer* renderer) {
   for (vtkActor* actor : parts_->actors()) renderer->AddActor(actor);
 }
 
-void SceneActors::remove_from(vtkRenderer* renderer) {
-  for (vtkActor* actor : parts_->actors()) renderer->RemoveActor(actor);
-  for (const auto& label : parts_->labels) renderer->RemoveActor2D(label);
-  parts_->labels.clear();
-}
-
 void SceneActors::set_colour(SceneColour colour) {
   const SceneColour before = std::exchange(parts_->look.colour, colour);
   try {
@@ -125,13 +127,6 @@ void SceneActors::set_colour(SceneColour colour) {
     parts_->look.colour = before;
     throw;
   }
-}
-
-void SceneActors::set_levels(std::vector<float> level_db, const std::string& unit) {
-  require_length(level_db.size(), parts_->scene, "level_db", parts_->who);
-  parts_->look.level_db = std::move(level_db);
-  parts_->look.level_unit = unit;
-  if (parts_->look.colour == SceneColour::level) parts_->colour();
 }
 
 void SceneActors::set_visibility(std::vector<Visibility> visibility) {
@@ -196,14 +191,34 @@ void SceneActors::show_head(const Pose& world_from_head, const BeamFan& fan, con
   if (p.look.colour == SceneColour::grazing || p.look.colour == SceneColour::incidence) p.colour();
 }
 
-void SceneActors::hide_head() {
+void SceneActors::Parts::make_marks() {
+  holes = point_actor(hole_arrays = point_arrays({}, {}), {});
+  holes->GetMapper()->ScalarVisibilityOff();
+  holes->GetProperty()->SetColor(hole_rgb[0] / 255.0, hole_rgb[1] / 255.0, hole_rgb[2] / 255.0);
+  mapper_of(holes)->min_pixels = 3 * thin();
+  mapper_of(holes)->lift = 0.008;
+  normals = line_actor(options.dark ? Colour{0.5, 0.9, 0.6} : Colour{0.1, 0.45, 0.2}, 0.8 * thin());
+}
+
+void SceneActors::show_holes(const std::vector<Eigen::Vector3d>& places) {
   Parts& p = *parts_;
-  p.look.head.reset();
-  p.look_again();
-  for (vtkActor* actor : {p.outline, p.arcs, p.beams, p.head_axes[0], p.head_axes[1], p.head_axes[2]})
-    set_lines(actor, {});
-  set_body(p.body, {});
-  set_points(p.footprint, p.surfels, {});
+  p.hole_places.clear();
+  for (const Eigen::Vector3d& place : places) p.hole_places.push_back((place - p.scene.origin).cast<float>());
+  p.look.holes = places;
+  p.hole_arrays = point_arrays(p.hole_places, std::vector<float>(places.size()));
+  set_points(p.holes, p.hole_arrays, counted(places.size()));
+  if (p.look.colour == SceneColour::visibility) p.colour();  // the legend names them
+}
+
+void SceneActors::show_normals(bool on) {
+  Parts& p = *parts_;
+  p.look.normals = on;
+  std::vector<Polyline> lines;
+  const double least = normal_length * p.box().diagonal().norm();
+  if (on)
+    for (const std::uint32_t i : drawn_surfels(p.scene, std::min(most_normals, p.scene.size())))
+      lines.push_back(normal_of(p.scene, i, least));
+  set_lines(p.normals, lines);
 }
 
 void SceneActors::set_detail(SceneDetail detail) {

@@ -8,8 +8,8 @@
 
 #include <vtkRenderer.h>
 
-#include "view/scene_axes_internal.hpp"
 #include "view/scene_colours_internal.hpp"
+#include "view/scene_lines_internal.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify {
@@ -31,23 +31,20 @@ class SceneActors {
   SceneActors(const SceneActors&) = delete;
   SceneActors& operator=(const SceneActors&) = delete;
 
-  /// Adds all actors to a renderer; remove_from removes them.
+  /// Adds all actors to a renderer.
   void add_to(vtkRenderer* renderer);
-  void remove_from(vtkRenderer* renderer);
 
   /// Recolours the surfels. Throws as show_scene if the data of that colour are missing.
   void set_colour(SceneColour colour);
-  void set_levels(std::vector<float> level_db, const std::string& unit);  ///< per surfel; recolours if shown
-  void set_visibility(std::vector<Visibility> visibility);                ///< per surfel; recolours if shown
-  void set_level_range(double min_db, double max_db);                     ///< of the level colours; NaN: automatic
-  void set_colour_map(const std::string& name);                           ///< of the level colours
+  void set_visibility(std::vector<Visibility> visibility);  ///< per surfel; recolours if shown
+  void set_level_range(double min_db, double max_db);       ///< of the level colours; NaN: automatic
+  void set_colour_map(const std::string& name);             ///< of the level colours
 
   void highlight(std::span<const std::uint32_t> surfels);       ///< replaces the highlighted surfels
   void show_soundings(const Soundings& soundings);              ///< replaces the soundings; empty: none
   void show_holes(const std::vector<Eigen::Vector3d>& places);  ///< world [m]; replaces the holes
   void show_normals(bool on);
   void show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate);
-  void hide_head();
 
   void set_detail(SceneDetail detail);
   void set_point_size(double point_size);  ///< as SceneLook::point_size

@@ -14,7 +14,6 @@
 #include "view/scene_camera_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 #include "view/scene_surfels_internal.hpp"
-#include "view/text.hpp"
 
 namespace insonify {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "view/scene_axes_internal.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/axes_internal.hpp"
+#include "view/scene_lines_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -156,20 +156,11 @@ ColourScale level_scale(const SceneLook& look, const PictureOptions& options, co
 
 SceneColours colour_surfels(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                             const char* who) {
-  switch (look.colour) {
-    case SceneColour::height:
-      return by_height(scene);
-    case SceneColour::material:
-      return by_material(scene);
-    case SceneColour::visibility:
-      return by_visibility(scene, look, who);
-    case SceneColour::grazing:
-    case SceneColour::incidence:
-      return by_angle(scene, look, look.colour == SceneColour::grazing, who);
-    case SceneColour::level:
-      break;
-  }
-  return by_level(scene, look, options, who);
+  if (look.colour == SceneColour::height) return by_height(scene);
+  if (look.colour == SceneColour::material) return by_material(scene);
+  if (look.colour == SceneColour::visibility) return by_visibility(scene, look, who);
+  if (look.colour == SceneColour::level) return by_level(scene, look, options, who);
+  return by_angle(scene, look, look.colour == SceneColour::grazing, who);
 }
 
 }  // namespace insonify

@@ -3,9 +3,9 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "view/axes_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
-#include "view/scene_head_internal.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/scene_lines_internal.hpp"
 
 namespace insonify {
 namespace {

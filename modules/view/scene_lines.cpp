@@ -1,7 +1,6 @@
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
@@ -32,6 +31,21 @@ vtkSmartPointer<vtkActor> empty_actor() {
 
 }  // namespace
 
+vtkSmartPointer<vtkPolyData> polylines(const std::vector<Polyline>& lines, int coordinates) {
+  vtkNew<vtkPoints> points;
+  points->SetDataType(coordinates);
+  vtkNew<vtkCellArray> cells;
+  for (const Polyline& line : lines) {
+    const vtkIdType first = add_points(points, line);
+    cells->InsertNextCell(static_cast<int>(line.size()));
+    for (std::size_t i = 0; i < line.size(); ++i) cells->InsertCellPoint(first + static_cast<vtkIdType>(i));
+  }
+  auto shape = vtkSmartPointer<vtkPolyData>::New();
+  shape->SetPoints(points);
+  shape->SetLines(cells);
+  return shape;
+}
+
 vtkSmartPointer<vtkActor> line_actor(const Colour& colour, double width) {
   vtkSmartPointer<vtkActor> actor = empty_actor();
   vtkProperty* property = actor->GetProperty();
@@ -41,19 +55,7 @@ vtkSmartPointer<vtkActor> line_actor(const Colour& colour, double width) {
   return actor;
 }
 
-void set_lines(vtkActor* actor, const std::vector<Polyline>& lines) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  for (const Polyline& line : lines) {
-    const vtkIdType first = add_points(points, line);
-    cells->InsertNextCell(static_cast<int>(line.size()));
-    for (std::size_t i = 0; i < line.size(); ++i) cells->InsertCellPoint(first + static_cast<vtkIdType>(i));
-  }
-  vtkNew<vtkPolyData> shape;
-  shape->SetPoints(points);
-  shape->SetLines(cells);
-  show(actor, shape);
-}
+void set_lines(vtkActor* actor, const std::vector<Polyline>& lines) { show(actor, polylines(lines, VTK_FLOAT)); }
 
 vtkSmartPointer<vtkActor> body_actor() {
   vtkSmartPointer<vtkActor> actor = empty_actor();

@@ -1,5 +1,3 @@
-#include "view/show_ascan.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +6,7 @@
 #include "core/units.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -51,8 +49,8 @@ Axes draw_ascan(Canvas& canvas, const LevelImage& image, std::size_t beam, const
   chart.y_title = image.unit.empty() ? "Level [dB]" : "Level, " + image.unit;
   for (Eigen::Index bin = 0; bin < level_db.cols(); ++bin) {
     const double db = level_db(0, bin);
-    chart.x.push_back(image.gate.centre(static_cast<std::size_t>(bin)));
-    chart.y.push_back(std::isfinite(db) ? db : limits.min_db - options.window_db);
+    chart.lines[0].x.push_back(image.gate.centre(static_cast<std::size_t>(bin)));
+    chart.lines[0].y.push_back(std::isfinite(db) ? db : limits.min_db - options.window_db);
   }
   return draw_line_chart(canvas, chart, options);
 }
@@ -62,10 +60,7 @@ void show_ascan(const LevelImage& image, std::size_t beam, const PictureOptions&
   require_drawable(image, options, who);
   if (beam >= image.fan.beams())
     fail(ErrorKind::argument, who, ": beam = ", beam, ", must be below the number of beams, ", image.fan.beams());
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_ascan(canvas, image, beam, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_ascan(canvas, image, beam, options); });
 }
 
 }  // namespace insonify

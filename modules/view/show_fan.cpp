@@ -1,11 +1,9 @@
-#include "view/show_fan.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "view/draw_marks_internal.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -78,10 +76,7 @@ FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions
 void show_fan(const LevelImage& image, const PictureOptions& options, const std::string& png_path) {
   constexpr const char* who = "show_fan";
   require_drawable(image, options, who);
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_fan(canvas, image, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_fan(canvas, image, options); });
 }
 
 }  // namespace insonify

@@ -1,6 +1,3 @@
-#include "view/show_grey.hpp"
-
-#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <numeric>
@@ -11,9 +8,10 @@
 #include <vtkPNGWriter.h>
 
 #include "core/error.hpp"
-#include "view/vtk_messages_internal.hpp"
-#include "view/window_picture_internal.hpp"
-#include "view/write_file_internal.hpp"
+#include "core/pending_file.hpp"
+#include "core/text.hpp"
+#include "view/off_screen_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -57,7 +55,7 @@ void write_pgm(const Grid<Grey>& grey, const std::vector<Eigen::Index>& columns,
       if (sizeof(Grey) == 2) bytes += static_cast<char>(value >> 8);
       bytes += static_cast<char>(value & 0xFF);
     }
-  write_file_atomically(path, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), who);
+  write_file(path, bytes);
 }
 
 template <typename Grey>
@@ -65,9 +63,7 @@ void write_grey(const Grid<Grey>& grey, const BeamFan& fan, const std::string& p
   if (grey.size() == 0 || static_cast<std::size_t>(grey.rows()) != fan.beams())
     fail(ErrorKind::argument, who, ": picture of ", grey.rows(), " beams x ", grey.cols(), " bins for a fan of ",
          fan.beams(), " beams, must have as many and one bin at least");
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (ending == ".png")
     write_png(grey, columns_of(fan), path);
   else if (ending == ".pgm")

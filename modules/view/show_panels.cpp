@@ -1,5 +1,3 @@
-#include "view/show_panels.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 #include "view/drawing_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -83,10 +82,7 @@ void show_panels(const Panels& panels, const PictureOptions& options, const std:
     fail(ErrorKind::argument, who, ": beam = ", panels.beam, ", must be below the number of beams, ",
          panels.image.fan.beams());
   if (!panels.azimuth.empty()) require_pattern(panels.azimuth, panels.pattern_db, who);
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_panels(canvas, panels, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_panels(canvas, panels, options); });
 }
 
 }  // namespace insonify

@@ -1,25 +1,12 @@
-#include "view/show_pattern.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
-namespace {
-
-AxisTicks bearing_labels(double low_deg, double high_deg, double most) {
-  const BearingTicks bearings = bearing_ticks(low_deg, high_deg, most);
-  AxisTicks ticks;
-  ticks.at = bearings.at_deg;
-  for (const double at : ticks.at) ticks.labels.push_back(bearing_text(at, bearings.step));
-  return ticks;
-}
-
-}  // namespace
 
 void require_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db, const char* who) {
   if (azimuth.size() < 2) fail(ErrorKind::argument, who, ": ", azimuth.size(), " points, must be at least 2");
@@ -41,11 +28,12 @@ void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std:
     fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
          " dB");
 
+  ChartLine& line = chart.lines[0];
   // Azimuths in head axes are positive to port, bearings in pictures to starboard.
-  for (const double a : azimuth) chart.x.push_back(-degrees(a));
+  for (const double a : azimuth) line.x.push_back(-degrees(a));
   const double floor_db = chart.low_y - (chart.high_y - chart.low_y);
-  for (const double level : level_db) chart.y.push_back(std::max(level, floor_db));
-  const auto [low, high] = std::minmax_element(chart.x.begin(), chart.x.end());
+  for (const double level : level_db) line.y.push_back(std::max(level, floor_db));
+  const auto [low, high] = std::minmax_element(line.x.begin(), line.x.end());
   chart.low_x = *low;
   chart.high_x = *high;
   chart.title = options.title;
@@ -60,10 +48,7 @@ void show_pattern(const std::vector<double>& azimuth, const std::vector<double>&
   constexpr const char* who = "show_pattern";
   require_pattern(azimuth, level_db, who);
   require_picture_size(options, who);
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_pattern(canvas, azimuth, level_db, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_pattern(canvas, azimuth, level_db, options); });
 }
 
 }  // namespace insonify

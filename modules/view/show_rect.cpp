@@ -1,15 +1,9 @@
-#include "view/show_rect.hpp"
-
 #include <algorithm>
-#include <cmath>
 
 #include "core/units.hpp"
-#include "view/cell_frame_internal.hpp"
-#include "view/draw_marks_internal.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
-#include "view/text.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -17,12 +11,8 @@ namespace {
 // Bearings in radians with their labels in degrees.
 AxisTicks bearing_axis(const BeamCells& cells, double width, int font) {
   const double most = std::clamp(width / (1.8 * text_size("+180°", font).width), 1.0, 12.0);
-  const BearingTicks bearings = bearing_ticks(degrees(cells.low()), degrees(cells.high()), most);
-  AxisTicks ticks;
-  for (const double bearing_deg : bearings.at_deg) {
-    ticks.at.push_back(radians(bearing_deg));
-    ticks.labels.push_back(bearing_text(bearing_deg, bearings.step));
-  }
+  AxisTicks ticks = bearing_labels(degrees(cells.low()), degrees(cells.high()), most);
+  for (double& at : ticks.at) at = radians(at);
   return ticks;
 }
 
@@ -52,10 +42,7 @@ void draw_rect(Canvas& canvas, const LevelImage& image, const PictureOptions& op
 void show_rect(const LevelImage& image, const PictureOptions& options, const std::string& png_path) {
   constexpr const char* who = "show_rect";
   require_drawable(image, options, who);
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_rect(canvas, image, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_rect(canvas, image, options); });
 }
 
 }  // namespace insonify

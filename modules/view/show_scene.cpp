@@ -1,6 +1,5 @@
 #include "view/show_scene.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <vtkNew.h>
@@ -9,8 +8,8 @@
 
 #include "view/canvas_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "view/off_screen_internal.hpp"
 #include "view/scene_actors_internal.hpp"
-#include "view/vtk_messages_internal.hpp"
 
 namespace insonify {
 namespace {

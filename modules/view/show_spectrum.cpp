@@ -1,13 +1,13 @@
-#include "view/show_spectrum.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 #include "view/drawing_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -24,8 +24,7 @@ void require_lines(const std::vector<SpectrumLine>& lines, const PictureOptions&
     if (!std::isfinite(f.front()) || !std::isfinite(f.back()) ||
         std::adjacent_find(f.begin(), f.end(), [](double a, double b) { return !(a < b); }) != f.end())
       fail(ErrorKind::argument, who, ": frequencies must be finite and ascend");
-    for (const double density : line.density)
-      if (!(density >= 0)) fail(ErrorKind::argument, who, ": density = ", density, " Pa^2/Hz, must be >= 0");
+    for (const double density : line.density) require(density >= 0, who, "density", density, "Pa^2/Hz", ">= 0");
   }
   require_picture_size(options, who);
 }
@@ -72,11 +71,7 @@ void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const
   for (ChartLine& line : all)
     for (double& level : line.y) level = std::max(level, 2 * chart.low_y - chart.high_y);
   for (std::size_t i = 1; i < all.size(); ++i) all[i].style = LineStyle::dashed;
-  chart.x = all.back().x;  // the chart's own line lies on top
-  chart.y = all.back().y;
-  chart.name = all.back().name;
-  chart.style = all.back().style;
-  chart.more.assign(all.rbegin() + 1, all.rend());
+  chart.lines.assign(all.rbegin(), all.rend());  // the dashed lines lie on top
   chart.title = options.title;
   chart.x_title = "Frequency [kHz]";
   chart.y_title = "Power spectral density [dB re 1 µPa²/Hz]";
@@ -85,10 +80,7 @@ void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const
 
 void show_spectrum(const std::vector<SpectrumLine>& lines, const PictureOptions& options, const std::string& png_path) {
   require_lines(lines, options);
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_spectrum(canvas, lines, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_spectrum(canvas, lines, options); });
 }
 
 }  // namespace insonify

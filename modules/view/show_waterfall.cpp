@@ -1,13 +1,9 @@
-#include "view/show_waterfall.hpp"
-
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
-#include "view/cell_frame_internal.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
-#include "view/ticks_internal.hpp"
+#include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
@@ -76,10 +72,7 @@ void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOpt
 
 void show_waterfall(const PingHistory& history, const PictureOptions& options, const std::string& png_path) {
   require_history(history, options);
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw_waterfall(canvas, history, options);
-  canvas.save_png(png_path, messages);
+  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_waterfall(canvas, history, options); });
 }
 
 }  // namespace insonify

@@ -1,11 +1,7 @@
 // Drawing of a ViewerWindow's state, restricted to what has changed.
-#include <algorithm>
-#include <cmath>
 
-#include "core/error.hpp"
-#include "view/text.hpp"
-#include "view/ticks_internal.hpp"
-#include "view/window_picture_internal.hpp"
+#include "view/axes_internal.hpp"
+#include "view/off_screen_internal.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 namespace insonify {
@@ -19,16 +15,12 @@ bool same_levels(const ViewerState& a, const ViewerState& b) {
          a.colour_map == b.colour_map;
 }
 
-bool same_head(const HeadPlace& a, const HeadPlace& b) {
-  return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
-}
-
 // Draws the table of keys on a plate in the middle.
 void draw_help(Canvas& canvas, ViewerMode mode, const Box& room, int font) {
   const std::vector<ViewerKey> keys = viewer_keys(mode);
   const double row = 1.6 * font, height = row * static_cast<double>(keys.size() + 3), width = 46.0 * font;
   const double left = (room.width() - width) / 2, top = (room.height() + height) / 2;
-  add_plate(canvas, {left, left + width, top - height, top}, canvas.colours().background, 0.94);
+  canvas.add_plate({left, left + width, top - height, top}, canvas.colours().background, 0.94);
   canvas.add_text({"Keys", {left + width / 2, top - row}, (5 * font) / 4});
   double middle = top - 2.5 * row;
   for (const ViewerKey& key : keys) {
@@ -65,7 +57,7 @@ PixelPlace ViewerWindow::shown_place() const {
 // Updates the data selected by the state where it has changed.
 void ViewerWindow::update_data() {
   if (state_.mode == ViewerMode::inspect) {
-    if (!head_view_ || !drawn_ || !same_head(drawn_->head, state_.head))
+    if (!head_view_ || !drawn_ || drawn_->head != state_.head)
       head_view_ = look_from(data_.scene, view_at(data_, pose_of(state_.head), data_.fan, data_.gate));
     explanation_ = explain_view(*head_view_, state_);
     if (state_.surfel)

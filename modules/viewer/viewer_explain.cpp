@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/hit_rule_internal.hpp"
@@ -13,13 +13,6 @@
 
 namespace insonify {
 namespace {
-
-template <typename... Numbers>
-std::string text_of(const char* format, Numbers... numbers) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
 
 // Absolute angle between two azimuths.
 double azimuth_gap(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
@@ -111,22 +104,12 @@ std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace 
   return found;
 }
 
-const char* path_text(PathKind path) {
-  switch (path) {
-    case PathKind::direct:
-      return "direct";
-    case PathKind::one_bounce:
-      return "by one bounce";
-    case PathKind::two_bounces:
-      return "by two bounces";
-  }
-  return "by an unknown path";
-}
+constexpr const char* path_texts[] = {"direct", "by one bounce", "by two bounces"};  // by PathKind
 
 std::string bearing_words(double azimuth) {
   const double bearing_deg = -degrees(azimuth);
   if (std::abs(bearing_deg) < 0.005) return "0.00° (ahead)";
-  return text_of("%+.2f° (%s)", bearing_deg, bearing_deg > 0 ? "starboard" : "port");
+  return printed("%+.2f° (%s)", bearing_deg, bearing_deg > 0 ? "starboard" : "port");
 }
 
 std::string contributor_lines(const PixelFacts& facts) {
@@ -134,19 +117,19 @@ std::string contributor_lines(const PixelFacts& facts) {
   if (facts.contributions.empty()) return "No surfel contributes: side lobes or noise\n";
   std::string text = "Strongest contributor:\n";
   for (const Contribution& c : facts.contributions)
-    text += "  " + c.material + text_of(", surfel %u (id %u)\n", c.surfel, c.id) +
-            text_of("  %.0f %% of the energy, %s, elevation %+.2f°\n", 100 * c.share, path_text(c.path),
-                    degrees(c.elevation));
+    text += "  " + c.material + printed(", surfel %u (id %u)\n", c.surfel, c.id) +
+            printed("  %.0f %% of the energy, %s, elevation %+.2f°\n", 100 * c.share,
+                    path_texts[static_cast<std::size_t>(c.path)], degrees(c.elevation));
   return text;
 }
 
 std::string visibility_lines(const PixelVisibility& visibility, const std::string& seen_material) {
   if (visibility.seen.empty() && visibility.hidden.empty() && visibility.turned_away == 0) return {};
-  std::string text = text_of("Surfels here: %zu seen", visibility.seen.size());
+  std::string text = printed("Surfels here: %zu seen", visibility.seen.size());
   if (!seen_material.empty()) text += " (" + seen_material + ")";
-  text += text_of(",\n  %zu hidden, %zu turned away\n", visibility.hidden.size(), visibility.turned_away);
+  text += printed(",\n  %zu hidden, %zu turned away\n", visibility.hidden.size(), visibility.turned_away);
   if (visibility.occluder_range)
-    text += text_of("Shadow: occluded by a surfel at %.3f m\n", *visibility.occluder_range);
+    text += printed("Shadow: occluded by a surfel at %.3f m\n", *visibility.occluder_range);
   return text;
 }
 
@@ -201,15 +184,15 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
 }
 
 std::string explain_pixel(const PixelFacts& facts) {
-  std::string text = text_of("Ping %lld, beam %zu, bin %zu\n", static_cast<long long>(facts.ping_number),
+  std::string text = printed("Ping %lld, beam %zu, bin %zu\n", static_cast<long long>(facts.ping_number),
                              facts.place.beam, facts.place.bin);
-  text += text_of("Range %.3f m\n", facts.range);
+  text += printed("Range %.3f m\n", facts.range);
   text += "Bearing " + bearing_words(facts.azimuth) + "\n";
-  text += text_of("Elevation %+.2f° of the beam\n", degrees(facts.elevation));
+  text += printed("Elevation %+.2f° of the beam\n", degrees(facts.elevation));
   if (std::isfinite(facts.level_db)) {
-    text += text_of("Level %.1f dB re 1 µPa\n", facts.level_db);
-    text += text_of("  %.1f dB range compensated\n", facts.compensated_level_db);
-    if (std::isfinite(facts.level_error_db)) text += text_of("  sampling error %.2f dB\n", facts.level_error_db);
+    text += printed("Level %.1f dB re 1 µPa\n", facts.level_db);
+    text += printed("  %.1f dB range compensated\n", facts.compensated_level_db);
+    if (std::isfinite(facts.level_error_db)) text += printed("  sampling error %.2f dB\n", facts.level_error_db);
   } else {
     text += "Level: no sound at all\n";
   }

@@ -3,10 +3,10 @@
 #include <numeric>
 
 #include "core/units.hpp"
+#include "returns/looks.hpp"
 #include "returns/quantise.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
-#include "view/ticks_internal.hpp"
 #include "viewer/viewer_flat_panels_internal.hpp"
 
 namespace insonify {
@@ -44,18 +44,19 @@ LineChart bearing_chart(const LevelImage& image, std::size_t bin, const PictureO
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return image.fan.azimuth[a] > image.fan.azimuth[b]; });
   LineChart chart;
+  ChartLine& line = chart.lines[0];
   double highest = -200;
   for (const std::size_t b : order) {
     const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(bin));
-    chart.x.push_back(-degrees(image.fan.azimuth[b]));
-    chart.y.push_back(std::isfinite(level) ? level : -200);
-    highest = std::max(highest, chart.y.back());
+    line.x.push_back(-degrees(image.fan.azimuth[b]));
+    line.y.push_back(std::isfinite(level) ? level : -200);
+    highest = std::max(highest, line.y.back());
   }
-  chart.low_x = chart.x.front();
-  chart.high_x = std::max(chart.x.back(), chart.low_x + 1e-3);
+  chart.low_x = line.x.front();
+  chart.high_x = std::max(line.x.back(), chart.low_x + 1e-3);
   chart.high_y = 5 * std::floor(highest / 5) + 5;
   chart.low_y = chart.high_y - options.window_db;
-  for (double& y : chart.y) y = std::max(y, chart.low_y - options.window_db);
+  for (double& y : line.y) y = std::max(y, chart.low_y - options.window_db);
   chart.title = "Across the beams at " + number_text(image.gate.centre(bin), 0.01) + " m";
   chart.x_title = "Bearing [°], positive to starboard";
   chart.y_title = "Level, " + image.unit;
@@ -91,12 +92,33 @@ void mark_measure(Canvas& canvas, const FanLayout& layout, const Measure& measur
   canvas.add_text(length);
 }
 
+// The strongest of the beams drawn in the cell at a bearing, which share a cell with the nearest beam.
+std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing, Eigen::Index bin) {
+  const BeamCells cells = order_beams(image);
+  const auto turned = [&](double angle) {  // wraps an angle into the fan's interval
+    const double middle = (cells.low() + cells.high()) / 2;
+    return middle + std::remainder(angle - middle, 2 * pi);
+  };
+  const double at = turned(bearing);
+  if (at < cells.low() || at > cells.high()) return {};
+  const auto edge = std::upper_bound(cells.edges.begin() + 1, cells.edges.end() - 1, at);
+  const double low = *(edge - 1), high = *edge;
+  std::optional<std::size_t> found;
+  for (std::size_t b = 0; b < image.fan.beams(); ++b) {
+    const double own = turned(-image.fan.azimuth[b]);
+    if (own < low || own > high) continue;
+    const auto row = static_cast<Eigen::Index>(b);
+    if (!found || image.level_db(row, bin) > image.level_db(static_cast<Eigen::Index>(*found), bin)) found = b;
+  }
+  return found;
+}
+
 }  // namespace
 
 LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
   const Ping& ping = data.pings[ping_index];
-  if (!tvg) return {ping.fan, ping.gate, level_db(ping), "dB re 1 µPa"};
-  return {ping.fan, ping.gate, apply_tvg(level_db(ping), ping.gate, {40, data.absorption_db_per_m}),
+  if (!tvg) return {ping.fan, ping.gate, shown_level_db(ping), "dB re 1 µPa"};
+  return {ping.fan, ping.gate, apply_tvg(shown_level_db(ping), ping.gate, {40, data.absorption_db_per_m}),
           "dB re 1 µPa at 1 m, range compensated"};
 }
 
@@ -152,6 +174,32 @@ void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, s
   if (!selected) return;
   const double x = axes.at(image.gate.centre(selected->bin), 0).x;
   canvas.add_lines({{{x, axes.frame.bottom}, {x, axes.frame.top}}}, 1.5, mark_colour, 0.8);
+}
+
+FanPlace fan_place(const FanLayout& layout, Point2 place) {
+  const double x = place.x - layout.apex.x, y = place.y - layout.apex.y;
+  return {std::atan2(x, y), std::hypot(x, y) / layout.pixels_per_metre};
+}
+
+Eigen::Vector2d metres_on_fan(FanPlace place) {
+  return place.range * Eigen::Vector2d(std::sin(place.bearing), std::cos(place.bearing));
+}
+
+std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place) {
+  const double bin = std::floor((place.range - image.gate.min_range) / image.gate.bin_size);
+  if (!(bin >= 0 && bin < static_cast<double>(image.level_db.cols()))) return {};
+  const auto beam = strongest_at(image, place.bearing, static_cast<Eigen::Index>(bin));
+  if (!beam) return {};
+  return PixelPlace{*beam, static_cast<std::size_t>(bin)};
+}
+
+std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place) {
+  const Box& frame = axes.frame;
+  if (place.x < frame.left || place.x > frame.right || place.y < frame.bottom || place.y > frame.top) return {};
+  const double range = axes.low_x + (axes.high_x - axes.low_x) * (place.x - frame.left) / frame.width();
+  const double bin = std::floor((range - image.gate.min_range) / image.gate.bin_size);
+  if (!(bin >= 0 && bin < static_cast<double>(image.level_db.cols()))) return {};
+  return static_cast<std::size_t>(bin);
 }
 
 }  // namespace insonify

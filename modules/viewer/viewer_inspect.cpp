@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "sampling/find_holes.hpp"
 #include "sampling/find_scatterers.hpp"
@@ -15,28 +15,9 @@ namespace {
 
 constexpr int rays_per_beam = 16;
 
-template <typename... Numbers>
-std::string text_of(const char* format, Numbers... numbers) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
-
-const char* visibility_text(Visibility visibility) {
-  switch (visibility) {
-    case Visibility::seen:
-      return "seen";
-    case Visibility::hidden:
-      return "hidden by a nearer surface";
-    case Visibility::turned_away:
-      return "turned away";
-    case Visibility::outside:
-      return "outside fan or gate";
-    case Visibility::not_asked:
-      break;
-  }
-  return "not known";
-}
+/// By Visibility.
+constexpr const char* visibility_texts[] = {"not known", "outside fan or gate", "turned away",
+                                            "hidden by a nearer surface", "seen"};
 
 }  // namespace
 
@@ -68,16 +49,16 @@ HeadView look_from(const SceneCloud& scene, const View& from) {
 
 std::string explain_view(const HeadView& view, const ViewerState& state) {
   const HeadPlace& head = state.head;
-  std::string text = text_of("Head at %.2f, %.2f, %.2f m\n", head.position.x(), head.position.y(), head.position.z());
-  text += text_of("Yaw %.1f°, pitch %.1f°, roll %.1f°\n", degrees(head.yaw), degrees(head.pitch), degrees(head.roll));
-  text += text_of("A key moves it %g m,\nor turns it %g°\n\n", state.stride, 10 * state.stride);
-  text += text_of("Of %zu surfels\n", view.visibility.size());
-  text += text_of("  %zu seen\n  %zu hidden\n  %zu turned away\n  %zu outside fan or gate\n", view.seen, view.hidden,
+  std::string text = printed("Head at %.2f, %.2f, %.2f m\n", head.position.x(), head.position.y(), head.position.z());
+  text += printed("Yaw %.1f°, pitch %.1f°, roll %.1f°\n", degrees(head.yaw), degrees(head.pitch), degrees(head.roll));
+  text += printed("A key moves it %g m,\nor turns it %g°\n\n", state.stride, 10 * state.stride);
+  text += printed("Of %zu surfels\n", view.visibility.size());
+  text += printed("  %zu seen\n  %zu hidden\n  %zu turned away\n  %zu outside fan or gate\n", view.seen, view.hidden,
                   view.turned_away, view.outside);
-  if (view.seen > 0) text += text_of("Seen from %.2f to %.2f m\n", view.nearest, view.farthest);
+  if (view.seen > 0) text += printed("Seen from %.2f to %.2f m\n", view.nearest, view.farthest);
   if (view.seen == 0) text += "Nothing is seen: a ping from here is silent\n";
   if (view.rays > 0)
-    text += text_of("Rays: %.1f %% meet nothing,\n%.1f %% a hole of the scan\n",
+    text += printed("Rays: %.1f %% meet nothing,\n%.1f %% a hole of the scan\n",
                     100.0 * static_cast<double>(view.rays_open) / static_cast<double>(view.rays),
                     100.0 * static_cast<double>(view.holes.size()) / static_cast<double>(view.rays));
   return text;
@@ -93,14 +74,15 @@ std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const 
   const Direction direction = direction_of(p);
   const double cosine = -head.direction(scene.normal[surfel].cast<double>()).dot(p) / std::max(p.norm(), 1e-12);
   const double incidence = std::acos(std::clamp(scene.normals_oriented ? cosine : std::abs(cosine), -1.0, 1.0));
-  std::string text = text_of("Surfel %u (id %u)\n", surfel, scene.id[surfel]);
+  std::string text = printed("Surfel %u (id %u)\n", surfel, scene.id[surfel]);
   text += "Material " + scene.materials[scene.material[surfel]].name + "\n";
-  text += text_of("At %.3f, %.3f, %.3f m\n", world.x(), world.y(), world.z());
-  text += text_of("Area %.3g m²\n", static_cast<double>(scene.area[surfel]));
-  text += text_of("Range %.3f m\n", p.norm());
-  text += text_of("Bearing %+.2f°, elevation %+.2f°\n", -degrees(direction.azimuth), degrees(direction.elevation));
-  text += text_of("Incidence %.1f°\n", degrees(incidence));
-  if (surfel < view.visibility.size()) text += std::string("It is ") + visibility_text(view.visibility[surfel]) + "\n";
+  text += printed("At %.3f, %.3f, %.3f m\n", world.x(), world.y(), world.z());
+  text += printed("Area %.3g m²\n", static_cast<double>(scene.area[surfel]));
+  text += printed("Range %.3f m\n", p.norm());
+  text += printed("Bearing %+.2f°, elevation %+.2f°\n", -degrees(direction.azimuth), degrees(direction.elevation));
+  text += printed("Incidence %.1f°\n", degrees(incidence));
+  if (surfel < view.visibility.size())
+    text += std::string("It is ") + visibility_texts[static_cast<std::size_t>(view.visibility[surfel])] + "\n";
   return text;
 }
 

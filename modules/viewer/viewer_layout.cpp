@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include <vtkCamera.h>
+#include <vtkNew.h>
 
 #include "core/error.hpp"
+#include "viewer/viewer_panel_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -15,22 +20,61 @@ constexpr ViewerPanelName all_panels[] = {ViewerPanelName::fan,     ViewerPanelN
 
 }  // namespace
 
-const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
-  switch (name) {
-    case ViewerPanelName::fan:
-      return layout.fan;
-    case ViewerPanelName::scene:
-      return layout.scene;
-    case ViewerPanelName::ascan:
-      return layout.ascan;
-    case ViewerPanelName::history:
-      return layout.history;
-    case ViewerPanelName::facts:
-      return layout.facts;
-    case ViewerPanelName::status:
-      break;
+ViewerPanel add_panel(vtkRenderWindow* window) {
+  ViewerPanel panel{vtkSmartPointer<vtkRenderer>::New(), vtkSmartPointer<vtkRenderer>::New()};
+  panel.marks->SetLayer(1);
+  panel.marks->InteractiveOff();
+  window->AddRenderer(panel.content);
+  window->AddRenderer(panel.marks);
+  return panel;
+}
+
+void place_panel(ViewerPanel& panel, const Box& box, const int window_size[2]) {
+  const bool shown = box.width() > 0 && box.height() > 0;
+  for (vtkRenderer* renderer : {panel.content.Get(), panel.marks.Get()}) {
+    renderer->SetDraw(shown);
+    if (shown)
+      renderer->SetViewport(box.left / window_size[0], box.bottom / window_size[1], box.right / window_size[0],
+                            box.top / window_size[1]);
   }
-  return layout.status;
+}
+
+PictureOptions panel_options(const Box& box, int font_size) {
+  PictureOptions options;
+  options.width = static_cast<int>(box.width());
+  options.height = static_cast<int>(box.height());
+  options.font_size = font_size;
+  options.dark = true;
+  return options;
+}
+
+Canvas fresh_canvas(vtkRenderer* renderer, const PictureOptions& options, bool keep_camera) {
+  renderer->RemoveAllViewProps();
+  vtkNew<vtkCamera> before;
+  before->DeepCopy(renderer->GetActiveCamera());
+  Canvas canvas(renderer, options, "show_viewer");
+  if (keep_camera) renderer->GetActiveCamera()->DeepCopy(before);
+  return canvas;
+}
+
+void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int font_size) {
+  const double line = 1.45 * font_size;
+  double middle = box.top - line / 2;
+  std::istringstream lines(text);
+  for (std::string words; std::getline(lines, words) && middle - line / 2 >= box.bottom; middle -= line) {
+    if (words.empty()) continue;
+    const double indent = static_cast<double>(words.find_first_not_of(' ')) * 0.5 * font_size;
+    const FittedText fitted =
+        fit_text(words.substr(std::min(words.find_first_not_of(' '), words.size())), font_size, box.width() - indent);
+    const double width = text_size(fitted.text, fitted.font_size).width;
+    canvas.add_text({fitted.text, {box.left + indent + width / 2, middle}, fitted.font_size});
+  }
+}
+
+const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
+  constexpr Box ViewerLayout::*boxes[] = {&ViewerLayout::fan,     &ViewerLayout::scene, &ViewerLayout::ascan,
+                                          &ViewerLayout::history, &ViewerLayout::facts, &ViewerLayout::status};
+  return layout.*boxes[static_cast<std::size_t>(name)];
 }
 
 ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, bool with_scene) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "view/placed_text.hpp"
 #include "viewer/viewer_state.hpp"

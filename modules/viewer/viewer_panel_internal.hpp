@@ -4,7 +4,6 @@
 #include <vtkSmartPointer.h>
 
 #include "view/canvas_internal.hpp"
-#include "viewer/viewer_layout.hpp"
 
 namespace insonify {
 
@@ -24,9 +23,6 @@ PictureOptions panel_options(const Box& box, int font_size);
 
 /// An emptied renderer to draw on. keep_camera keeps the user's camera.
 Canvas fresh_canvas(vtkRenderer* renderer, const PictureOptions& options, bool keep_camera);
-
-/// Adds a filled rectangle behind everything else on the canvas.
-void add_plate(Canvas& canvas, const Box& box, const Colour& colour, double opacity);
 
 /// Adds lines of text from the top of a box, truncated to its width; lines below its bottom are omitted.
 void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int font_size);

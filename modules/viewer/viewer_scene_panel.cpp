@@ -3,9 +3,9 @@
 
 #include <vtkCamera.h>
 
+#include "returns/sounding_columns.hpp"
 #include "view/colour_bar_internal.hpp"
 #include "view/fan_layout_internal.hpp"
-#include "view/text.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 
 namespace insonify {
@@ -34,35 +34,15 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
     const double range = all.range[i];
     const double gain = 40 * std::log10(range) + 2 * data.absorption_db_per_m * range;
     own.position.push_back(all.position[i]);
-    own.level_db.push_back(static_cast<float>(static_cast<double>(all.level_db[i]) + gain));
-    own.range.push_back(all.range[i]);
-    own.azimuth.push_back(all.azimuth[i]);
-    own.elevation.push_back(all.elevation[i]);
-    own.ping.push_back(all.ping[i]);
-    own.beam.push_back(all.beam[i]);
-    own.bin.push_back(all.bin[i]);
-    own.material.push_back(all.material[i]);
+    each_column([i](const char*, auto& to, const auto& from) { to.push_back(from[i]); }, own, all);
+    own.level_db.back() = static_cast<float>(static_cast<double>(all.level_db[i]) + gain);
   }
   return own;
 }
 
-const char* colour_text(SceneColour colour) {
-  switch (colour) {
-    case SceneColour::height:
-      return "height";
-    case SceneColour::material:
-      return "material";
-    case SceneColour::visibility:
-      return "visibility";
-    case SceneColour::level:
-      return "level";
-    case SceneColour::grazing:
-      return "grazing angle";
-    case SceneColour::incidence:
-      return "angle of incidence";
-  }
-  return "";
-}
+// By SceneColour.
+constexpr const char* colour_texts[] = {"height", "material",      "visibility",
+                                        "level",  "grazing angle", "angle of incidence"};
 
 // Draws a square of each colour and its name on a plate, from the top left corner downwards.
 void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double top, int font) {
@@ -70,8 +50,8 @@ void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double 
   double widest = 0;
   for (const LegendEntry& entry : legend) widest = std::max(widest, text_size(entry.text, font).width);
   const double height = row * static_cast<double>(legend.size());
-  add_plate(canvas, {left - 0.5 * font, left + 2 * font + widest, top - height - 0.3 * font, top + 0.3 * font},
-            canvas.colours().background, 0.7);
+  canvas.add_plate({left - 0.5 * font, left + 2 * font + widest, top - height - 0.3 * font, top + 0.3 * font},
+                   canvas.colours().background, 0.7);
   double middle = top - row / 2;
   for (const LegendEntry& entry : legend) {
     const Colour colour = {entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0};
@@ -145,7 +125,8 @@ void ViewerScene::draw_key(const PictureOptions& options, const ViewerState& sta
   const int font = options.font_size;
   PictureOptions titled = options;
   titled.title = std::string(own_ ? "Returns (scene missing)" : "Scene") + " by " +
-                 colour_text(actors_->look().colour) + (data_.returns.size() > 0 && !own_ ? ", returns by level" : "");
+                 colour_texts[static_cast<std::size_t>(actors_->look().colour)] +
+                 (data_.returns.size() > 0 && !own_ ? ", returns by level" : "");
   const auto title = place_title(titled);
   if (title) canvas.add_text(*title);
   if (!state.show_colour_bars) return;
@@ -156,10 +137,9 @@ void ViewerScene::draw_key(const PictureOptions& options, const ViewerState& sta
   double right = options.width - font;
   const auto add_bar = [&](const ColourScale& scale, const std::string& unit) {
     const ColourBar bar = upright_colour_bar(scale, unit, font, right, 0.2 * options.height, 0.8 * top);
-    add_plate(canvas,
-              {bar.outer().left - 0.4 * font, bar.outer().right + 0.4 * font, bar.outer().bottom - 0.4 * font,
-               bar.outer().top + 0.4 * font},
-              canvas.colours().background, 0.7);
+    canvas.add_plate({bar.outer().left - 0.4 * font, bar.outer().right + 0.4 * font, bar.outer().bottom - 0.4 * font,
+                      bar.outer().top + 0.4 * font},
+                     canvas.colours().background, 0.7);
     canvas.add_colour_bar(bar, scale, thin);
     right = bar.outer().left - 1.5 * font;
   };

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace insonify {
 namespace {
@@ -33,11 +34,12 @@ std::string word_in(std::istringstream& words, const std::string& event, const c
 
 ViewerPanelName panel_in(std::istringstream& words, const std::string& event) {
   const std::string name = word_in(words, event, "a panel: fan, scene, ascan, history or facts");
-  if (name == "fan") return ViewerPanelName::fan;
-  if (name == "scene") return ViewerPanelName::scene;
-  if (name == "ascan") return ViewerPanelName::ascan;
-  if (name == "history") return ViewerPanelName::history;
-  if (name == "facts") return ViewerPanelName::facts;
+  constexpr Named<ViewerPanelName> panels[] = {{"fan", ViewerPanelName::fan},
+                                               {"scene", ViewerPanelName::scene},
+                                               {"ascan", ViewerPanelName::ascan},
+                                               {"history", ViewerPanelName::history},
+                                               {"facts", ViewerPanelName::facts}};
+  if (const ViewerPanelName* panel = find_named(panels, name)) return *panel;
   refuse(event, "no panel is called '" + name + "'; there are fan, scene, ascan, history, facts");
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "view/picture.hpp"
 
@@ -60,32 +60,20 @@ std::optional<SceneColour> colour_of_digit(const std::string& key) {
   return colours[key[0] - '1'];
 }
 
-// Applies keys that have the same meaning in both modes; false for other keys.
-bool apply_common_key(KeyAnswer& answer, const std::string& key) {
+// Applies keys that have the same meaning in both modes.
+void apply_common_key(KeyAnswer& answer, const std::string& key) {
   ViewerState& s = answer.state;
-  if (key == "q" || key == "e")
-    answer.request = ViewerRequest::quit;
-  else if (key == "j")
-    answer.request = ViewerRequest::screenshot;
-  else if (key == "r")
-    answer.request = ViewerRequest::reset_cameras;
-  else if (key == "h")
-    s.show_help = !s.show_help;
-  else if (key == "u")
-    s.show_colour_bars = !s.show_colour_bars;
-  else if (key == "g")
-    s.show_grid = !s.show_grid;
-  else if (key == "n")
-    s.show_normals = !s.show_normals;
-  else if (key == "plus" || key == "KP_Add" || key == "equal")
+  if (key == "q" || key == "e") answer.request = ViewerRequest::quit;
+  if (key == "j") answer.request = ViewerRequest::screenshot;
+  if (key == "r") answer.request = ViewerRequest::reset_cameras;
+  if (key == "h") s.show_help = !s.show_help;
+  if (key == "u") s.show_colour_bars = !s.show_colour_bars;
+  if (key == "g") s.show_grid = !s.show_grid;
+  if (key == "n") s.show_normals = !s.show_normals;
+  if (key == "plus" || key == "KP_Add" || key == "equal")
     s.point_size = std::min(largest_point, s.point_size * point_step);
-  else if (key == "minus" || key == "KP_Subtract")
-    s.point_size = std::max(smallest_point, s.point_size / point_step);
-  else if (const auto colour = colour_of_digit(key))
-    s.scene_colour = *colour;
-  else
-    return false;
-  return true;
+  if (key == "minus" || key == "KP_Subtract") s.point_size = std::max(smallest_point, s.point_size / point_step);
+  if (const auto colour = colour_of_digit(key)) s.scene_colour = *colour;
 }
 
 void apply_run_key(ViewerState& s, const std::string& key, const ViewerExtent& extent) {
@@ -132,32 +120,13 @@ void apply_inspect_key(KeyAnswer& answer, const std::string& key) {
 
 // A number without trailing zeros, never "-0".
 std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", std::abs(value) < 5e-4 ? 0.0 : value);
-  std::string number = text;
+  std::string number = printed("%.3f", std::abs(value) < 5e-4 ? 0.0 : value);
   while (number.back() == '0') number.pop_back();
   if (number.back() == '.') number.pop_back();
   return number;
 }
 
 }  // namespace
-
-Pose pose_of(const HeadPlace& head) { return pose_from_yaw_pitch_roll(head.position, head.yaw, head.pitch, head.roll); }
-
-HeadPlace head_place(const Pose& pose) {
-  const Eigen::Matrix3d r = pose.linear();
-  HeadPlace head;
-  head.position = pose.translation();
-  const double level = std::hypot(r(0, 0), r(1, 0));
-  head.pitch = std::atan2(-r(2, 0), level);
-  if (level > 1e-9) {
-    head.yaw = std::atan2(r(1, 0), r(0, 0));
-    head.roll = std::atan2(r(2, 1), r(2, 2));
-  } else {
-    head.yaw = std::atan2(-r(0, 1), r(1, 1));
-  }
-  return head;
-}
 
 std::string pose_option(const HeadPlace& head) {
   std::string text = "--pose=";
@@ -213,7 +182,7 @@ std::string viewer_help(ViewerMode mode) {
 
 KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExtent& extent) {
   KeyAnswer answer{std::move(state)};
-  if (apply_common_key(answer, key)) return answer;
+  apply_common_key(answer, key);
   if (answer.state.mode == ViewerMode::run)
     apply_run_key(answer.state, key, extent);
   else

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/pose.hpp"
+#include "core/head_place.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify {
@@ -26,14 +26,6 @@ struct ViewerExtent {
   std::size_t pings = 0, beams = 0, bins = 0;
 };
 
-/// Pose of the head as the parameters of --pose, in radians: see pose_from_yaw_pitch_roll.
-struct HeadPlace {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  double yaw = 0, pitch = 0, roll = 0;
-};
-Pose pose_of(const HeadPlace& head);
-/// Inverse of pose_of: yaw and roll in (-pi, pi], pitch in [-pi/2, pi/2]; roll is 0 for a vertical head.
-HeadPlace head_place(const Pose& pose);
 /// "--pose=x,y,z,yaw,pitch,roll" in metres and degrees, rounded to a millimetre and a thousandth of a degree.
 std::string pose_option(const HeadPlace& head);
 

@@ -9,8 +9,7 @@
 #include <vtkGenericRenderWindowInteractor.h>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
-#include "view/egl_window_internal.hpp"
+#include "view/off_screen_internal.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 namespace insonify {

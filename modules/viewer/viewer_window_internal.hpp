@@ -8,16 +8,14 @@
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSmartPointer.h>
 
-#include "view/vtk_messages_internal.hpp"
+#include "view/off_screen_internal.hpp"
 #include "viewer/show_viewer.hpp"
+#include "viewer/viewer_controls_internal.hpp"
 #include "viewer/viewer_explain.hpp"
 #include "viewer/viewer_flat_panels_internal.hpp"
 #include "viewer/viewer_inspect.hpp"
 #include "viewer/viewer_layout.hpp"
-#include "viewer/viewer_pick_internal.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
-#include "viewer/viewer_sliders_internal.hpp"
-#include "viewer/viewer_style_internal.hpp"
 
 namespace insonify {
 

@@ -1,15 +1,6 @@
 #include "acoustics/bend_paths.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

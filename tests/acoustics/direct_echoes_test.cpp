@@ -1,13 +1,7 @@
 #include "acoustics/direct_echoes.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/scattering.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,10 +1,6 @@
 #include "acoustics/elevation_pattern.hpp"
 
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 TEST(ElevationPattern, is_one_on_axis_and_half_power_at_half_its_width) {
   for (const auto shape : {ElevationShape::gaussian, ElevationShape::line}) {

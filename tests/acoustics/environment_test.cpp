@@ -1,16 +1,7 @@
 #include "acoustics/environment.hpp"
 
-#include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/noise.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
+#include "support/test.hpp"
 
 namespace {
 

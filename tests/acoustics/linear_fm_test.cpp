@@ -1,17 +1,7 @@
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/noise.hpp"
 #include "acoustics/pulse.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Complex = std::complex<double>;
 
 namespace {

@@ -1,14 +1,7 @@
 #include "acoustics/motion.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/direct_echoes.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

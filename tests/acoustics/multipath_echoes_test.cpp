@@ -1,16 +1,9 @@
 #include "acoustics/multipath_echoes.hpp"
 
-#include <algorithm>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/reflection.hpp"
-#include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {
@@ -421,11 +414,11 @@ TEST(MultipathEchoes, refuses_invalid_arguments) {
   buried.view.world_from_head.translation().z() = -10;
   EXPECT_EQ(refused(buried), "multipath_echoes: the head stands at height -10 m, must be above bottom.height = -10 m");
   EXPECT_THAT(error_of([&] { s.compute({.boundary_tolerance = -1}); }),
-              testing::HasSubstr("options.boundary_tolerance = -1 m, must be finite and >= 0"));
+              HasSubstr("options.boundary_tolerance = -1 m, must be finite and >= 0"));
   Scatterers wrong = s.direct();
   wrong.surfel[0] = 5;
   EXPECT_THAT(error_of([&] { multipath_echoes(s.scene, wrong, s.environment, s.view, s.sent); }),
-              testing::HasSubstr("direct.surfel = 5, but the scene has 1 surfels"));
+              HasSubstr("direct.surfel = 5, but the scene has 1 surfels"));
 }
 
 // Two targets far apart, the farther one first in the scene.

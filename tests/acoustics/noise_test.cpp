@@ -1,14 +1,6 @@
 #include "acoustics/noise.hpp"
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 // 900 kHz: -15 + 59.08 = 44.08 dB re 1 uPa^2/Hz, and 44.70 dB for a band of 29.5 kHz.
 // 44.08 dB at 900 kHz, + 10 log10 of 1.0645 x 29.5 kHz, the equivalent noise bandwidth of the Gaussian.

@@ -1,13 +1,6 @@
 #include "acoustics/pulse.hpp"
 
-#include <complex>
-
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 const Pulse p900{900e3, 29.5e3, 220};

@@ -1,12 +1,6 @@
 #include "acoustics/reflection.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 // Values of an independent evaluation for the medium sand of the APL-UW handbook TR 9407 (1994), to three digits.
 TEST(BottomReflection, of_medium_sand_is_the_tabulated_one) {
@@ -67,7 +61,7 @@ TEST(BottomReflection, of_slow_mud_vanishes_at_the_angle_of_intromission) {
 TEST(BottomReflection, refuses_angles_beyond_a_quarter_turn) {
   EXPECT_EQ(error_of([] { bottom_reflection({}, 2); }),
             "bottom_reflection: grazing = 2 rad, must be within 0 and pi/2");
-  EXPECT_THAT(error_of([] { bottom_reflection({}, -0.1); }), testing::HasSubstr("grazing = -0.1 rad"));
+  EXPECT_THAT(error_of([] { bottom_reflection({}, -0.1); }), HasSubstr("grazing = -0.1 rad"));
 }
 
 // The spectrum a g^2 w^-5 exp(-b (g / (U19 w))^4) itself, by quadrature: its integral is the variance of the height.

@@ -1,18 +1,9 @@
 #include "acoustics/reverberation_echoes.hpp"
 
-#include <map>
-#include <numbers>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/reverberation_cells_internal.hpp"
-#include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -350,11 +341,11 @@ TEST(Reverberation, refuses_missing_boundaries) {
   EXPECT_EQ(error_of([&] { bottom_echoes(environment(), at(0, 0, -11), fan, gate, transmission()); }),
             "bottom_echoes: the head stands at height -11 m, must be above bottom.height = -10 m");
   EXPECT_THAT(error_of([&] { volume_echoes(environment(), fan, gate, transmission(), {.cells_per_resolution = 0}); }),
-              testing::HasSubstr("options.cells_per_resolution = 0, must be finite and > 0"));
+              HasSubstr("options.cells_per_resolution = 0, must be finite and > 0"));
   EXPECT_THAT(error_of([&] {
                 volume_echoes(environment(), fan, {1, 1e6, 1}, transmission());
               }),
-              testing::HasSubstr("must be at most 2^27; lower cells_per_resolution or max_range"));
+              HasSubstr("must be at most 2^27; lower cells_per_resolution or max_range"));
 }
 
 TEST(Reverberation, is_silent_where_the_gate_ends_before_the_boundary) {

@@ -1,9 +1,6 @@
 #include "acoustics/sound_paths.hpp"
 
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
-#include "core/units.hpp"
+#include "support/test.hpp"
 
 namespace insonify {
 namespace {

@@ -1,12 +1,6 @@
 #include "acoustics/sound_speed_profile.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

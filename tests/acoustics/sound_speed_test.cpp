@@ -1,12 +1,5 @@
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/water.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 // Fofonoff and Millard (1983), p. 48: 1731.995 m/s at S = 40, T68 = 40 deg C (39.9904 on today's scale), p = 1000
 // bar, which Leroy and Parthiot's formula reaches at the depth given. The oce package gives 1522.96 m/s at S = 35,

@@ -1,12 +1,8 @@
 #include <tuple>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/water.hpp"
-#include "core/error.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;

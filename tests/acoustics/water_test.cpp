@@ -1,13 +1,6 @@
 #include "acoustics/water.hpp"
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 // Fofonoff and Millard (1983): 10000 dbar at 30 deg latitude in the standard ocean is a depth of 9712.653 m. Leroy
 // and Parthiot's fit is good to about 1 part in 10^5.
@@ -45,7 +38,7 @@ TEST(Water, impossible_values_are_refused_by_name) {
   EXPECT_EQ(message_of({.depth = -3}), "somebody: depth = -3 m, must be >= 0");
   EXPECT_EQ(message_of({.ph = 15}), "somebody: ph = 15, must be within 0 and 14");
   EXPECT_EQ(message_of({.latitude_deg = 91}), "somebody: latitude_deg = 91 deg, must be within -90 and 90");
-  EXPECT_THAT(message_of({.latitude_deg = std::nan("")}), testing::HasSubstr("latitude_deg = nan"));
+  EXPECT_THAT(message_of({.latitude_deg = std::nan("")}), HasSubstr("latitude_deg = nan"));
 }
 
 TEST(Medium, of_no_sound_speed_or_of_growing_sound_is_refused) {

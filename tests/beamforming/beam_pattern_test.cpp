@@ -1,16 +1,7 @@
 #include "beamforming/beam_pattern.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/shading.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

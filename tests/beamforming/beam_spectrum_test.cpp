@@ -1,17 +1,7 @@
 #include "beamforming/beam_spectrum.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <numeric>
-
-#include <gtest/gtest.h>
-
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,18 +1,11 @@
 #include "beamforming/element_series.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/pulse.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -133,8 +126,8 @@ TEST(ElementSeries, same_bits_for_any_number_of_threads) {
 
 TEST(ElementSeries, refuses_a_tolerance_it_cannot_keep_and_a_series_of_another_head) {
   const SonarHead head = head_of(400e3, 50e3, 16, 2, 3);
-  EXPECT_NE(error_of([&] { element_series({}, head, water(), {1e-14}); }).find("tolerance = 1e-14"), std::string::npos);
+  EXPECT_THAT(error_of([&] { element_series({}, head, water(), {1e-14}); }), HasSubstr("tolerance = 1e-14"));
   ElementSeries other = element_series({}, head, water(), {});
   other.pressure.conservativeResize(15, other.pressure.cols());
-  EXPECT_NE(error_of([&] { beam_from_elements(other, head, water()); }).find("15 elements"), std::string::npos);
+  EXPECT_THAT(error_of([&] { beam_from_elements(other, head, water()); }), HasSubstr("15 elements"));
 }

@@ -1,21 +1,9 @@
 // Series computed independently of this project; tests/data/golden/README.md states their conventions.
-#include <cmath>
-#include <complex>
-#include <fstream>
-#include <numbers>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,15 +1,9 @@
 // Gridding for every kind of pulse and absorption, with more echoes than would be summed directly.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/shading.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,14 +1,7 @@
 #include "beamforming/line_array.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/shading.hpp"
-#include "core/error.hpp"
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,20 +1,11 @@
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

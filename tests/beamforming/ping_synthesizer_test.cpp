@@ -1,16 +1,9 @@
 #include "beamforming/ping_synthesizer.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -28,12 +21,9 @@ struct Case {
 SonarHead head_of(const Case& c) {
   SonarSpec s;
   s.name = "test";
-  s.centre_frequency = 600e3;
-  s.bandwidth = c.bandwidth;
-  s.beams = c.beams;
-  s.field_of_view = c.field_of_view;
-  s.beam_width = c.beam_width;
-  s.elevation_width = radians(20);
+  s.centre_frequency = 600e3, s.bandwidth = c.bandwidth;
+  s.beams = c.beams, s.field_of_view = c.field_of_view;
+  s.beam_width = c.beam_width, s.elevation_width = radians(20);
   s.min_range = 1;
   s.bin_size = 0.44 * speed_of_sound / (2 * c.bandwidth);
   s.max_range = 1 + (static_cast<double>(c.bins) - 0.5) * *s.bin_size;
@@ -286,14 +276,11 @@ TEST(PingSynthesizer, sums_few_echoes_of_any_array) {
 TEST(PingSynthesizer, refuses_a_tolerance_it_cannot_keep_and_a_nan) {
   const Case c;
   const SonarHead head = head_of(c);
-  EXPECT_NE(error_of([&] {
-              PingSynthesizer(head, medium_of(c, head), {1e-15, 0});
-            }).find("tolerance = 1e-15, must be at least 1e-13"),
-            std::string::npos);
+  EXPECT_THAT(error_of([&] {
+                PingSynthesizer(head, medium_of(c, head), {1e-15, 0});
+              }),
+              HasSubstr("tolerance = 1e-15, must be at least 1e-13"));
   Echoes e = echoes_of(c, head);
   e.amplitude[5] = {NAN, 0};
-  EXPECT_NE(error_of([&] {
-              PingSynthesizer(head, medium_of(c, head), {1e-4, 0}).pressure(e);
-            }).find("5"),
-            std::string::npos);
+  EXPECT_THAT(error_of([&] { PingSynthesizer(head, medium_of(c, head), {1e-4, 0}).pressure(e); }), HasSubstr("5"));
 }

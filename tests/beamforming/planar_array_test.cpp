@@ -1,20 +1,10 @@
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -30,8 +20,7 @@ SonarHead stacked_head(std::size_t beams, std::size_t rows, double elevation_wid
   head.pulse = {750e3, 60e3, 220};
   head.gate = {1, 3, default_bin_size(head.pulse, c)};
   head.array = taylor(24);
-  head.fan.beam_width = array_beam_width(head.array, wavelength);
-  head.fan.elevation_width = elevation_width;
+  head.fan.beam_width = array_beam_width(head.array, wavelength), head.fan.elevation_width = elevation_width;
   const std::vector<double> azimuth = make_fan(beams, radians(40), 1, 1).azimuth;
   for (const double elevation : make_fan(rows, radians(30), 1, 1).azimuth)
     for (const double a : azimuth) head.fan.azimuth.push_back(a), head.fan.elevation.push_back(elevation);
@@ -340,10 +329,10 @@ TEST(Synthesize, of_rows_names_what_is_wrong) {
             "synthesize_gridded: head 'flat' has 2 rows of beams and a column, must be one row of a line array; use "
             "synthesize");
   EXPECT_THAT(error_of([&] { synthesize_direct(echoes, stacked_head(3, 2), medium); }),
-              testing::HasSubstr("has 2 rows of beams, must be one row of a line array; use synthesize"));
+              HasSubstr("has 2 rows of beams, must be one row of a line array; use synthesize"));
   echoes.v[3] = std::nan("");
   EXPECT_THAT(error_of([&] { synthesize(echoes, head, medium, SynthesisMethod::gridded); }),
-              testing::HasSubstr("synthesize: echo 3 has v nan"));
+              HasSubstr("synthesize: echo 3 has v nan"));
   echoes.v.clear();
   EXPECT_EQ(
       error_of([&] { synthesize(echoes, head, medium, SynthesisMethod::direct); }),
@@ -359,11 +348,10 @@ TEST(RequireValid, of_a_planar_head_names_what_is_wrong) {
   };
   EXPECT_EQ(error_with([](SonarHead& h) { h.fan.row_width = 0; }),
             "test: fan.row_width = 0, must be the width of the column's beam");
-  EXPECT_THAT(error_with([](SonarHead& h) { h.column.reset(); }),
-              testing::HasSubstr("must be 0 for a head without column"));
+  EXPECT_THAT(error_with([](SonarHead& h) { h.column.reset(); }), HasSubstr("must be 0 for a head without column"));
   EXPECT_EQ(error_with([](SonarHead& h) { h.column->spacing = 0; }), "test: array.spacing = 0 m, must be > 0 (column)");
-  EXPECT_THAT(error_with([](SonarHead& h) { h.fan.row_width = -1; }), testing::HasSubstr("fan.row_width = -1 rad"));
-  EXPECT_THAT(error_with([](SonarHead& h) { h.transmit_width = -0.1; }), testing::HasSubstr("transmit_width"));
+  EXPECT_THAT(error_with([](SonarHead& h) { h.fan.row_width = -1; }), HasSubstr("fan.row_width = -1 rad"));
+  EXPECT_THAT(error_with([](SonarHead& h) { h.transmit_width = -0.1; }), HasSubstr("transmit_width"));
   EXPECT_THAT(error_with([](SonarHead& h) { h.array = uniform(1 << 16), h.column = uniform(1 << 13); }),
-              testing::HasSubstr("65536 columns of 8192 elements, must be at most 2^28 in all"));
+              HasSubstr("65536 columns of 8192 elements, must be at most 2^28 in all"));
 }

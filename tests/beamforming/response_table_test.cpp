@@ -1,15 +1,8 @@
 #include "beamforming/response_table.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_head.hpp"
-#include "core/error.hpp"
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

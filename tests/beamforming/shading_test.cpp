@@ -1,16 +1,7 @@
 #include "beamforming/shading.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/line_array.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,27 +1,17 @@
 #include "beamforming/sonar_spec.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
 SonarSpec spec() {
   SonarSpec s;
   s.name = "test";
-  s.centre_frequency = 750e3;
-  s.bandwidth = 150e3;
-  s.beams = 64;
-  s.field_of_view = radians(60);
-  s.beam_width = radians(1);
-  s.elevation_width = radians(20);
+  s.centre_frequency = 750e3, s.bandwidth = 150e3;
+  s.beams = 64, s.field_of_view = radians(60);
+  s.beam_width = radians(1), s.elevation_width = radians(20);
   s.side_lobe_db = 0;
-  s.min_range = 0.5;
-  s.max_range = 9;
+  s.min_range = 0.5, s.max_range = 9;
   return s;
 }
 

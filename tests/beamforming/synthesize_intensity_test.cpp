@@ -1,19 +1,10 @@
 #include "beamforming/synthesize_intensity.hpp"
 
-#include <cmath>
-#include <numbers>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -23,14 +14,10 @@ const double db_per_part = 10 / std::numbers::ln10;
 SonarSpec spec(std::size_t beams = 16) {
   SonarSpec s;
   s.name = "test";
-  s.centre_frequency = 600e3;
-  s.bandwidth = 30e3;
-  s.beams = beams;
-  s.field_of_view = radians(40);
-  s.beam_width = radians(3);
-  s.elevation_width = radians(20);
-  s.min_range = 2;
-  s.max_range = 3;
+  s.centre_frequency = 600e3, s.bandwidth = 30e3;
+  s.beams = beams, s.field_of_view = radians(40);
+  s.beam_width = radians(3), s.elevation_width = radians(20);
+  s.min_range = 2, s.max_range = 3;
   return s;
 }
 
@@ -247,5 +234,5 @@ TEST(PredictLevelError, refuses_an_invalid_dynamic_range) {
   const Echoes echoes = echoes_in(head, 3);
   for (const double range : {0.0, 51.0, std::nan("")})
     EXPECT_THAT(error_of([&] { predict_level_error_db(echoes, head, water(0), {.dynamic_range_db = range}); }),
-                testing::HasSubstr("must be within (0, 50]"));
+                HasSubstr("must be within (0, 50]"));
 }

@@ -1,15 +1,8 @@
 #include "beamforming/synthesize_noise.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
-#include "core/error.hpp"
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,20 +1,10 @@
 #include "beamforming/synthesize.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

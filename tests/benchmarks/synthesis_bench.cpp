@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "accuracy/accuracy_task.hpp"
-#include "accuracy/synthesize_windowed.hpp"
+#include "accuracy/reference_sums.hpp"
 #include "beamforming/gridded_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/wideband_synthesizer.hpp"

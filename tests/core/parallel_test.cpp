@@ -1,13 +1,6 @@
 #include "core/parallel.hpp"
 
-#include <numeric>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 TEST(ParallelFor, calls_every_index_once_for_any_thread_count) {
   for (const int threads : {1, 2, 7, 64}) {

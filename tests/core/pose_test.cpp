@@ -1,10 +1,7 @@
 #include "core/pose.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include "core/units.hpp"
-
-using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {

@@ -1,11 +1,6 @@
 #include "core/random.hpp"
 
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-using namespace insonify;
+#include "support/test.hpp"
 
 // Known answer of Philox4x64-10 from the Random123 distribution (kat_vectors): key 0, counter 0.
 TEST(Random, is_philox_4x64_10) {

@@ -1,8 +1,4 @@
-#include "core/units.hpp"
-
-#include <gtest/gtest.h>
-
-using namespace insonify;
+#include "support/test.hpp"
 
 TEST(Units, decibels_and_back) {
   EXPECT_DOUBLE_EQ(db_from_power(100), 20);

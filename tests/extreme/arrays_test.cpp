@@ -1,9 +1,7 @@
 // Arrays and fans at their limits: no width, every width, grating lobes, odd numbers of everything.
-#include <numeric>
-
 #include "extreme_cases.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {

@@ -1,24 +1,13 @@
 #pragma once
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
 #include "scene/scene_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
+#include "support/test.hpp"
 
 namespace insonify::extreme {
 

@@ -2,7 +2,6 @@
 #include "acoustics/scattering.hpp"
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {

@@ -1,7 +1,6 @@
 // Levels at the limits of what numbers can hold.
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {

@@ -1,10 +1,9 @@
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
-#include "accuracy/peak_memory_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/parallel.hpp"
+#include "core/peak_memory.hpp"
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {
@@ -57,15 +56,14 @@ TEST(TenMillionEchoes, ten_million_echoes_take_no_more_memory_than_lists_image_a
   {
     const Echoes all = crowd(head, 0, many);
     plan.pressure(crowd(head, 0, 20000));  // libraries, threads and their stacks
-    PeakMemory memory;
-    memory.mark();
-    const double before = memory.mib();
+    forget_peak_memory();
+    const double before = peak_memory_mib();
     whole = plan.pressure(all);
     const double lists = 4 * 1.25 * static_cast<double>(many), image = 16.0 * static_cast<double>(whole.size());
     const double tiles = 2 * plan.choice().bytes_per_thread * 2;  // twice: flushed sums, and pulse samples
     const double bound = (lists + image + tiles) / 0x1p20 + 8;
     if (!sanitized) {
-      EXPECT_LE(memory.mib() - before, bound);
+      EXPECT_LE(peak_memory_mib() - before, bound);
       EXPECT_LT(bound, 80);
     }
   }

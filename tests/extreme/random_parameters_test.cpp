@@ -2,7 +2,6 @@
 // that says what is wrong. A failure prints the case's number, which draws it again.
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {
@@ -25,18 +24,15 @@ class Draw {
 SonarSpec any_sonar(Draw& draw) {
   SonarSpec s;
   s.name = "any";
-  s.centre_frequency = draw.log_uniform(10, 1e9);
-  s.bandwidth = s.centre_frequency * draw.log_uniform(1e-6, 3);
+  s.centre_frequency = draw.log_uniform(10, 1e9), s.bandwidth = s.centre_frequency * draw.log_uniform(1e-6, 3);
   s.source_level_db = draw.uniform(-50, 300);
-  s.beams = draw.count(1, 24);
-  s.field_of_view = draw.log_uniform(1e-3, 7);
+  s.beams = draw.count(1, 24), s.field_of_view = draw.log_uniform(1e-3, 7);
   s.beam_width = draw.log_uniform(2e-2, 3.5);
   s.elevation = draw.uniform(-1.6, 1.6);
   s.elevation_width = draw.log_uniform(1e-6, 3.5);
   s.elevation_shape = static_cast<ElevationShape>(draw.count(1, 3.999) - 1);
   s.side_lobe_db = draw.one_in(2) ? 0 : draw.uniform(-85, -12);
-  s.min_range = draw.log_uniform(1e-3, 1e3);
-  s.max_range = s.min_range * draw.log_uniform(0.9, 1e3);
+  s.min_range = draw.log_uniform(1e-3, 1e3), s.max_range = s.min_range * draw.log_uniform(0.9, 1e3);
   return s;
 }
 

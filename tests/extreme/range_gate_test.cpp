@@ -1,7 +1,6 @@
 // Echoes at and beyond the edges of the range gate, and pulses that do not fit into it.
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {

@@ -1,7 +1,6 @@
 // Threads and seeds.
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 TEST(Reproducibility, n49_one_to_seven_threads_give_the_same_bits) {

@@ -5,7 +5,6 @@
 #include "extreme_cases.hpp"
 #include "scene_io/load_scene.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {

@@ -1,9 +1,4 @@
 // Numbers of points beyond the ordinary, values in other units than SI, pulses cut off in frequency, rays that miss.
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include <malloc.h>
 #include <unistd.h>
 
@@ -11,8 +6,8 @@
 #include "extreme_cases.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 namespace {
@@ -154,9 +149,9 @@ TEST(ExtremeSizes, n37_cloud_in_millimetres_is_suspected_with_the_unit_to_give) 
     for (const std::string& problem : describe_file(file).problems) all += problem + "\n";
     return all;
   };
-  EXPECT_THAT(problems(path), ::testing::HasSubstr("this looks like millimetres. If so, give the unit (0.001"));
-  EXPECT_THAT(problems(kilometres), ::testing::HasSubstr("for kilometres"));
-  EXPECT_THAT(problems(metres), ::testing::Not(::testing::HasSubstr("unit")));
+  EXPECT_THAT(problems(path), HasSubstr("this looks like millimetres. If so, give the unit (0.001"));
+  EXPECT_THAT(problems(kilometres), HasSubstr("for kilometres"));
+  EXPECT_THAT(problems(metres), ::testing::Not(HasSubstr("unit")));
   LoadOptions options;
   options.unit = 0.001;
   const SceneCloud scaled = load_scene(path, options).scene;
@@ -233,8 +228,8 @@ TEST(ExtremeSizes, n55_rays_too_few_for_a_grazing_plane_are_noted_with_the_numbe
     for (int j = 0; j < 200; ++j) add_surfel(scene, {4 + 0.04 * i, 0.04 * j - 4, -3}, {0, 0, 1}, 0.0016);
   const SimulatedPing few = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 64}});
   ASSERT_EQ(few.notes.size(), 1U);
-  EXPECT_THAT(few.notes[0], ::testing::HasSubstr("rays are too few"));
-  EXPECT_THAT(few.notes[0], ::testing::HasSubstr("rays per beam"));
+  EXPECT_THAT(few.notes[0], HasSubstr("rays are too few"));
+  EXPECT_THAT(few.notes[0], HasSubstr("rays per beam"));
   // 20 000 rays leave 1.2 % of the cells empty, 46 of 3850; above 1 % the ping says so.
   const SimulatedPing enough = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 30000}});
   EXPECT_TRUE(enough.notes.empty()) << enough.notes[0];

@@ -1,7 +1,6 @@
 // Water beyond its formulas' ranges.
 #include "extreme_cases.hpp"
 
-using namespace insonify;
 using namespace insonify::extreme;
 
 TEST(ExtremeWater, n45_sound_speed_of_zero_or_no_number_is_refused) {

@@ -1,13 +1,9 @@
 // A flat Lambert bottom, and the materials that ship with insonify against handbook values.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/reflection.hpp"
 #include "speckle_bench.hpp"
 #include "store/materials_file.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::laws;
 
 namespace {

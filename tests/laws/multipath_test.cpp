@@ -1,14 +1,9 @@
 // Echoes by way of surface and bottom: images of one target in the layers of a ping.
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/reflection.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "speckle_bench.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::laws;
 
 namespace {

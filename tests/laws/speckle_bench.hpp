@@ -1,14 +1,9 @@
 #pragma once
-#include <cmath>
-#include <complex>
-#include <cstdint>
-#include <vector>
-
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "support/test.hpp"
 
 namespace insonify::laws {
 

@@ -1,11 +1,7 @@
 // Second-order laws of speckle: correlation between neighbouring beams and between neighbouring poses of the head.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "speckle_bench.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::laws;
 
 namespace {

@@ -1,16 +1,9 @@
 // First-order laws of speckle: statistics of single pixels over independent cells and seeds. Seeds are fixed, so
 // results are reproducible; tolerances are multiples of the standard error stated beside them.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "simulate/simulate_ping.hpp"
 #include "speckle_bench.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::laws;
 
 namespace {

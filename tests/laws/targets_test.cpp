@@ -1,16 +1,10 @@
 // Calibrated targets: echoes of single bodies of known shape.
-#include <algorithm>
-#include <cmath>
-#include <complex>
-
-#include <gtest/gtest.h>
-
 #include "returns/ping.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "speckle_bench.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using namespace insonify::laws;
 
 namespace {

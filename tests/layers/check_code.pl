@@ -15,7 +15,7 @@ use File::Find;
 my %lent = (
   'view/*' => 'viewer',                              # the viewer is built from the parts of still pictures
   'view/line_chart_internal.hpp' => 'apps',          # charts of sweeps and of the thesis
-  'view/ticks_internal.hpp' => 'apps',               #
+  'view/axes_internal.hpp' => 'apps',                #
   'view/colour_maps_internal.hpp' => 'apps',         # the tool lists the maps
   'store/cube_layout_internal.hpp' => 'apps',        # the tool reads single layers
   'store/toml_tree_internal.hpp' => 'apps',          # the tool reads run.toml

@@ -51,21 +51,23 @@ mutations() {
     exit($failed ? 2 : 0);' "$table" "$only"
 }
 
-# How often the text $2 occurs in the file $1; with a third argument it is replaced by that.
-count_or_replace() {
+# Complains of every mutation on stdin that does not fit the code.
+check() {
   perl -e '
     use strict;
-    my ($file, $old, $new) = @ARGV;
-    local $/;
-    open(my $in, "<", $file) or do { print "0"; exit };
-    my $text = <$in>;
-    my ($times, $place, $at) = (0, -1, -1);
-    while (($at = index($text, $old, $at + 1)) >= 0) { $times++; $place = $at }
-    print $times;
-    exit unless @ARGV == 3 && $times == 1;
-    substr($text, $place, length $old) = $new;
-    open(my $out, ">", $file) or die "$file: $!\n";
-    print $out $text;' "$@"
+    my ($root, $stale, %text) = (shift, 0);
+    my $read = sub { local $/; open(my $in, "<", "$root/$_[0]") or return ""; <$in> };
+    my $complain = sub { warn "@_\n"; $stale = 1 };
+    my $known = $read->("docs/equations.md");
+    while (<>) {
+      chomp;
+      my ($term, $id, $file, $old, $new) = split /\x1f/;
+      $complain->("$term: docs/equations.md has no $id") if $id ne "-" && index($known, "| $id |") < 0;
+      $complain->("$term: changes nothing") if $old eq $new;
+      my $times = () = ($text{$file} //= $read->($file)) =~ /(?=\Q$old\E)/g;
+      $complain->("$term: does not apply: the old text occurs $times times in $file, must occur once: $old") if $times != 1;
+    }
+    exit($stale ? 2 : 0);' "$root"
 }
 
 list=$(mutations)
@@ -79,17 +81,7 @@ if [[ $mode == list ]]; then
 fi
 
 # A table that does not fit the code tries nothing: say so before anything is built.
-stale=0
-known=$(<"$root/docs/equations.md")
-complain() { echo "$*" >&2; stale=$((stale + 1)); }
-while IFS=$'\x1f' read -r term id file old new tests; do
-  [[ $id == - || $known == *"| $id |"* ]] || complain "$term: docs/equations.md has no $id"
-  [[ $old != "$new" ]] || complain "$term: changes nothing"
-  times=$(count_or_replace "$root/$file" "$old")
-  [[ $times == 1 ]] ||
-    complain "$term: does not apply: the old text occurs $times times in $file, must occur once: $old"
-done <<<"$list"
-((stale == 0)) || exit 2
+check <<<"$list" || exit 2
 [[ $mode == check ]] && { echo "$(wc -l <<<"$list") mutations apply"; exit 0; }
 
 # The copy. What differs is copied anew, with the time of now: also what an interrupted run left spoiled.
@@ -113,6 +105,8 @@ command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 log=$work/log
 cmake -S "$work/tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DINSONIFY_VIEW=OFF -DINSONIFY_SCENE_IO=ON \
   "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
+stale=0
+complain() { echo "$*" >&2; stale=$((stale + 1)); }
 build() { ninja -C "$work/build" -j "$jobs" "$1" >"$log" 2>&1; }
 try() { timeout 300 "$work/build/bin/$1" --gtest_filter="$2" --gtest_fail_fast --gtest_brief=1 >"$log" 2>&1; }
 while read -r program filter; do
@@ -129,7 +123,7 @@ echo "|---|---|---|---|"
 while IFS=$'\x1f' read -r term id file old new tests; do
   program=${tests%% *} filter=${tests#* }
   cp "$work/tree/$file" "$work/kept"
-  count_or_replace "$work/tree/$file" "$old" "$new" >/dev/null
+  OLD=$old NEW=$new perl -0777 -pi -e 's/\Q$ENV{OLD}/$ENV{NEW}/' "$work/tree/$file"
   if ! build "$program" </dev/null; then
     verdict="ERROR: does not build"
     errors=$((errors + 1))

@@ -1,11 +1,7 @@
 #include "returns/compare.hpp"
 
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
 #include "core/random.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 ComplexGrid speckle(std::uint64_t seed) {

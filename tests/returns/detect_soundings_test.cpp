@@ -1,13 +1,6 @@
 #include "returns/detect_soundings.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
-#include "core/units.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -152,4 +145,47 @@ TEST(DetectSoundings, refuses_echoes_of_another_ping) {
   Scene scene;
   scene.echoes.delay.pop_back();
   EXPECT_THROW(scene.detect(), Error);
+}
+
+// A Gaussian as long as a bin (0.44 c / 2B) between two bins is sampled 3 dB low; the parabola gives it back. (E72)
+TEST(DetectSoundings, find_peaks_between_bins) {
+  for (const double offset : {-0.49, -0.3, 0.0, 0.2, 0.49}) {
+    for (const double length : {1.0, 2.0}) {
+      Scene scene;
+      scene.ping.pressure.setZero();
+      for (int bin = 20; bin <= 30; ++bin) {
+        const double x = (bin - 25 - offset) / length;
+        scene.ping.pressure(2, bin) = static_cast<float>(std::sqrt(2) * 0.1 * std::pow(2, -2 * x * x));
+      }
+      const Soundings s = scene.detect();
+      ASSERT_EQ(s.size(), 1U);
+      EXPECT_EQ(s.bin[0], 25U);
+      EXPECT_NEAR(s.range[0], 3.05 + 0.1 * offset, 2e-5) << offset;
+      EXPECT_NEAR(s.level_db[0], 100, 2e-3) << offset;
+    }
+  }
+}
+
+TEST(DetectSoundings, leave_the_bin_where_every_bin_is_asked_for_or_the_gate_ends) {
+  Scene scene;
+  scene.ping.pressure(2, 26) *= 2;
+  const Soundings all = scene.detect({.all_bins = true, .above_db = 99});
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_FLOAT_EQ(all.range[0], 3.05F);
+  scene.ping.gate.max_range = 3.1;
+  scene.ping.pressure = ComplexGridF(scene.ping.pressure.leftCols(26));
+  const Soundings last = scene.detect();
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_FLOAT_EQ(last.range[0], 3.05F);
+  EXPECT_NEAR(last.level_db[0], 100, 1e-3);
+}
+
+// Beside a null the parabola adds no more than half a bin and 3 dB.
+TEST(DetectSoundings, bound_the_peak_beside_a_null) {
+  Scene scene;
+  scene.ping.pressure(2, 24) = 0;
+  scene.ping.pressure(2, 26) = scene.ping.pressure(2, 25);
+  const Soundings s = scene.detect();
+  EXPECT_NEAR(s.range[0], 3.10, 1e-5);
+  EXPECT_NEAR(s.level_db[0], 103.01, 0.01);
 }

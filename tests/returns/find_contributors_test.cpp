@@ -1,18 +1,9 @@
 #include "returns/find_contributors.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <random>
 #include <tuple>
 
-#include <gtest/gtest.h>
-
 #include "beamforming/head_patterns.hpp"
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -310,9 +301,9 @@ TEST(FindContributors, refuses_invalid_arguments) {
             "find_contributors: 11 beams x 200 bins x 255 contributors take 17 MiB, must be at most 10; keep fewer "
             "contributors, or make the range gate shorter");
   set.echoes.amplitude[17] = std::nan("");
-  EXPECT_NE(error_of([&] { set.find(head); }).find("echo 17 is not finite"), std::string::npos);
+  EXPECT_THAT(error_of([&] { set.find(head); }), HasSubstr("echo 17 is not finite"));
   set.surfel[3] = 60;
   EXPECT_EQ(error_of([&] { set.find(head); }), "find_contributors: surfel[3] = 60, but the scene has 60");
   set.surfel.pop_back();
-  EXPECT_NE(error_of([&] { set.find(head); }).find("give one of each"), std::string::npos);
+  EXPECT_THAT(error_of([&] { set.find(head); }), HasSubstr("give one of each"));
 }

@@ -1,14 +1,7 @@
 #include "returns/insonification.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,10 +1,6 @@
 #include "returns/ping.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 Ping small_ping() {

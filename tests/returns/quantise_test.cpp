@@ -1,14 +1,7 @@
 #include "returns/quantise.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "returns/ping.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,16 +1,8 @@
 #include "sampling/beam_fan.hpp"
 
-#include <limits>
-#include <random>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "sampling/cast_rays_internal.hpp"
 #include "sampling_scenes.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
+#include "support/test.hpp"
 
 TEST(BeamFan, spreads_beams_evenly_inside_the_field_of_view) {
   const BeamFan fan = make_fan(4, 0.8, 0.1, 0.3, -0.2);

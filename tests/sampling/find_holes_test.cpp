@@ -1,12 +1,7 @@
 #include "sampling/find_holes.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "sampling_scenes.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

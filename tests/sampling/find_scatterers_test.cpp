@@ -1,15 +1,9 @@
 #include "sampling/find_scatterers.hpp"
 
-#include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "sampling_scenes.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Eigen::Vector3d;
-using testing::HasSubstr;
 
 namespace {
 
@@ -172,4 +166,26 @@ TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
   EXPECT_THAT(message([](auto&, Pose& p, auto&, O&) { p.linear() *= 2; }), HasSubstr("must be a rotation"));
   EXPECT_THAT(message([](auto&, Pose& p, auto&, O&) { p.translation().x() = std::nan(""); }),
               HasSubstr("must be finite"));
+}
+
+// At 10 m the main lobes of 2 degrees x 2 degrees hold four surfels 0.175 m apart.
+TEST(SparseBeams, are_those_whose_main_lobe_holds_fewer_than_four_surfels) {
+  const BeamFan fan = make_fan(9, radians(36), radians(2), radians(2));
+  const auto wall = [](double starboard, double port) {
+    SceneCloud scene;
+    add_rectangle(scene, {10, -6, -2}, {0, 6, 0}, {0, 0, 4}, {-1, 0, 0}, starboard);
+    add_rectangle(scene, {10, 0, -2}, {0, 6, 0}, {0, 0, 4}, {-1, 0, 0}, port);
+    return scene;
+  };
+  const auto sparse = [&](const SceneCloud& scene, double min_range = 1) {
+    return find_scatterers(scene, Pose::Identity(), fan, {min_range, 15, 0.1}).report.sparse_beams;
+  };
+  EXPECT_EQ(sparse(wall(0.16, 0.16)), 0U);
+  EXPECT_EQ(sparse(wall(0.2, 0.2)), 9U);
+  EXPECT_EQ(sparse(wall(2, 2)), 9U);  // most fall between surfels
+  const std::size_t half = sparse(wall(0.1, 0.25));
+  EXPECT_GE(half, 4U);
+  EXPECT_LE(half, 5U);
+  EXPECT_EQ(sparse(wall(0.2, 0.2), 12), 0U);  // before the gate
+  EXPECT_EQ(sparse({}), 0U);
 }

@@ -1,16 +1,9 @@
 // KD-trees, raster and prepared scenes against brute force: the same bytes at different cost.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "sampling_scenes.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/thin_scene.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {

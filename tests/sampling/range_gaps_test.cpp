@@ -1,10 +1,7 @@
 #include "sampling/range_gaps.hpp"
 
-#include <gtest/gtest.h>
-
 #include "sampling_scenes.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -80,7 +77,7 @@ TEST(RangeGaps, of_21_rays_at_30_m_over_a_bottom_3_m_below_are_about_5_m_wide) {
   const auto notes = range_gap_notes(few, 21, 0.0254);
   ASSERT_EQ(notes.size(), 1u);
   for (const char* part : {"rays are too few", "m in a row", "sample surfels", "rays per beam"})
-    EXPECT_NE(notes[0].find(part), std::string::npos) << notes[0];
+    EXPECT_THAT(notes[0], HasSubstr(part)) << notes[0];
 
   // Four rays to each cell where they lie farthest apart: no note.
   const RangeGaps many = cast(scene, at(0, 0, 3), fan, gate, 16400).gaps;

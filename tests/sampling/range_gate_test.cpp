@@ -1,12 +1,7 @@
 #include "sampling/range_gate.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "sampling_scenes.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
+#include "support/test.hpp"
 
 TEST(RangeGate, has_enough_bins_to_cover_its_far_end) {
   EXPECT_EQ((RangeGate{1, 2, 0.25}).bins(), 4u);

@@ -1,12 +1,6 @@
-#include <algorithm>
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "sampling/hit_rule_internal.hpp"
 #include "sampling_scenes.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

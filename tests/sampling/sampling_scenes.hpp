@@ -1,9 +1,8 @@
 #pragma once
 
-#include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
-#include "support/errors.hpp"
 #include "support/scenes.hpp"
+#include "support/test.hpp"
 
 namespace insonify {
 

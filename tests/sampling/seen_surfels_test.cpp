@@ -1,11 +1,8 @@
 #include "sampling/seen_surfels.hpp"
 
-#include <gtest/gtest.h>
-
 #include "sampling/sampling_scenes.hpp"
 #include "scene/built_in_scenes.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,12 +1,7 @@
-#include <map>
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "sampling/split_surfels_internal.hpp"
 #include "sampling_scenes.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {

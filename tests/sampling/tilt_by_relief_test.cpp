@@ -1,12 +1,7 @@
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "sampling/tilt_by_relief_internal.hpp"
 #include "sampling_scenes.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {

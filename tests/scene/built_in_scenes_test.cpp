@@ -1,16 +1,7 @@
 #include "scene/built_in_scenes.hpp"
 
-#include <cmath>
-#include <numeric>
-#include <set>
+#include "support/test.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
 using Eigen::Vector3d, Eigen::Vector3f;
 
 namespace {

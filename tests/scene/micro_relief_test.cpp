@@ -1,15 +1,7 @@
 #include "scene/micro_relief.hpp"
 
-#include <cmath>
-#include <random>
+#include "support/test.hpp"
 
-#include <Eigen/Geometry>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "support/errors.hpp"
-
-using namespace insonify;
 using Eigen::Vector3d;
 
 namespace {

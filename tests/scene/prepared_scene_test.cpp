@@ -1,14 +1,7 @@
 #include "scene/prepared_scene.hpp"
 
-#include <numeric>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "scene/built_in_scenes.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,16 +1,8 @@
 #include "scene/scene_cloud.hpp"
 
-#include <functional>
-#include <limits>
+#include "support/test.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "support/errors.hpp"
-
-using namespace insonify;
 using Eigen::Vector3d;
-using testing::HasSubstr;
 
 namespace {
 

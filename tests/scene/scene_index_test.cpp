@@ -1,16 +1,8 @@
 #include "scene/scene_index.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "support/test.hpp"
 
-using namespace insonify;
 using Eigen::Vector3f;
 
 namespace {

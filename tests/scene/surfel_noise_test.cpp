@@ -1,11 +1,6 @@
 #include "scene/surfel_noise.hpp"
 
-#include <algorithm>
-#include <random>
-
-#include <gtest/gtest.h>
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

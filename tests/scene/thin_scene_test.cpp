@@ -1,19 +1,8 @@
 #include "scene/thin_scene.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <random>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "scene/built_in_scenes.hpp"
 #include "scene/scene_index.hpp"
-#include "support/errors.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -116,9 +105,9 @@ TEST(ThinScene, says_what_is_wrong_with_its_arguments) {
   };
   EXPECT_EQ(message(1, 0.5), "no error");
   EXPECT_THAT(message(0, 0.5), testing::StartsWith("thin_scene: spacing = 0 m, must be > 0"));
-  EXPECT_THAT(message(NAN, 0.5), testing::HasSubstr("must be > 0"));
-  EXPECT_THAT(message(1e-5, 0.5), testing::HasSubstr("too small for a scene of this extent"));
-  EXPECT_THAT(message(1, 2), testing::HasSubstr("normal_angle = 2 rad"));
+  EXPECT_THAT(message(NAN, 0.5), HasSubstr("must be > 0"));
+  EXPECT_THAT(message(1e-5, 0.5), HasSubstr("too small for a scene of this extent"));
+  EXPECT_THAT(message(1, 2), HasSubstr("normal_angle = 2 rad"));
   scene.normal[0].setZero();
   EXPECT_THAT(error_of([&] { thin_scene(scene, 1); }, ErrorKind::content),
               testing::StartsWith("thin_scene: scene.normal[0]"));

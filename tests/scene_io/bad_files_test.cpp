@@ -1,5 +1,3 @@
-#include <array>
-
 #include <vtkNew.h>
 #include <vtkSphereSource.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -8,8 +6,7 @@
 #include "scene_io/describe_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/test_files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

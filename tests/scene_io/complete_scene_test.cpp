@@ -1,10 +1,6 @@
-#include <cmath>
-#include <limits>
-
 #include "core/random.hpp"
 #include "scene_io/test_files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -3,8 +3,6 @@
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/test_files.hpp"
 
-using namespace insonify;
-
 namespace {
 
 bool has_problem(const FileDescription& file, const std::string& part) {

@@ -11,8 +11,6 @@
 
 #include "scene_io/test_files.hpp"
 
-using namespace insonify;
-
 namespace {
 
 /// Twelve points with normals, areas, labels and ids; every number is a multiple of 1/64, so that all formats

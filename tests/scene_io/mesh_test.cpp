@@ -1,6 +1,3 @@
-#include <array>
-#include <cmath>
-
 #include <vtkCubeSource.h>
 #include <vtkNew.h>
 #include <vtkPolyDataWriter.h>
@@ -11,8 +8,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "scene_io/test_files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,12 +1,9 @@
 #include "scene_io/pcl_bridge.hpp"
 
-#include <limits>
-
 #include <pcl/conversions.h>
 
 #include "scene_io/test_files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,13 +1,10 @@
 #include "scene_io/prepare_tiles.hpp"
 
-#include <cmath>
-
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tiled_scene.hpp"
+#include "support/test.hpp"
 #include "test_files.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -130,7 +127,7 @@ TEST(PrepareTiles, missing_areas_are_found) {
   rows[100].area = -1;
   const PreparedTiles again = prepare_tiles(ply_of(rows, false), own_path("a.tiles"), in_batches());
   EXPECT_TRUE(again.report.areas_estimated);
-  EXPECT_THAT(again.report.notes.front(), testing::HasSubstr("1 of 6400 areas"));
+  EXPECT_THAT(again.report.notes.front(), HasSubstr("1 of 6400 areas"));
   EXPECT_NEAR(again.tiles.total_area, prepared.tiles.total_area, 1e-6);
 }
 

@@ -1,15 +1,10 @@
-#include <cmath>
-#include <limits>
-
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 
-#include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/test_files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -71,11 +66,11 @@ TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
   const std::string path = own_path("map.ply");
   save_insonification(path, three_surfels({500000, 4600000, -20}), three_entries());
   const std::string bytes = file_bytes(path);
-  EXPECT_THAT(bytes, ::testing::HasSubstr("element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
-                                          "property float nx\nproperty float ny\nproperty float nz\n"
-                                          "property float scalar_level_db\nproperty float scalar_grazing_deg\n"
-                                          "property float scalar_range\nproperty uint scalar_hits\n"
-                                          "property uint scalar_material\nproperty uint scalar_id\nend_header\n"));
+  EXPECT_THAT(bytes, HasSubstr("element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+                               "property float nx\nproperty float ny\nproperty float nz\n"
+                               "property float scalar_level_db\nproperty float scalar_grazing_deg\n"
+                               "property float scalar_range\nproperty uint scalar_hits\n"
+                               "property uint scalar_material\nproperty uint scalar_id\nend_header\n"));
   const std::size_t start = bytes.find("end_header\n") + 11, row = 3 * 8 + 9 * 4;
   ASSERT_EQ(bytes.size(), start + 3 * row);
   double x = 0;

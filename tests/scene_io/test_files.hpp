@@ -1,17 +1,7 @@
 #pragma once
-#include <algorithm>
-#include <cstring>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "scene_io/load_scene.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
 #include "support/scenes.hpp"
+#include "support/test.hpp"
 
 namespace insonify {
 

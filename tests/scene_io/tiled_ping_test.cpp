@@ -1,13 +1,11 @@
-#include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
+#include "support/test.hpp"
 #include "test_files.hpp"
-
-using namespace insonify;
 
 namespace {
 

@@ -1,16 +1,12 @@
 #include "scene_io/tiled_scene.hpp"
 
-#include <cmath>
-#include <numeric>
-
 #include "core/random.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/surfel_area.hpp"
 #include "scene_io/tile_file_internal.hpp"
 #include "scene_io/tile_writer.hpp"
+#include "support/test.hpp"
 #include "test_files.hpp"
-
-using namespace insonify;
 
 namespace {
 

@@ -1,16 +1,9 @@
 // Which surfels made a pixel, through the whole signal path.
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
 #include "returns/insonification.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,18 +1,12 @@
 // Levels of the outermost beams against those of everything ahead of the head: a line array receives along
 // cones, which reach far below the axis there.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/reverberation_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/response_table.hpp"
 #include "beamforming/sonar_spec.hpp"
-#include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -20,14 +14,10 @@ SonarHead head_of(const char* name, double frequency, std::size_t beams, double 
                   double elevation_deg) {
   SonarSpec s;
   s.name = name;
-  s.centre_frequency = frequency;
-  s.bandwidth = 29.5e3;
-  s.beams = beams;
-  s.field_of_view = radians(field_deg);
-  s.beam_width = radians(width_deg);
-  s.elevation_width = radians(elevation_deg);
-  s.min_range = 0.4;
-  s.max_range = 12;
+  s.centre_frequency = frequency, s.bandwidth = 29.5e3;
+  s.beams = beams, s.field_of_view = radians(field_deg);
+  s.beam_width = radians(width_deg), s.elevation_width = radians(elevation_deg);
+  s.min_range = 0.4, s.max_range = 12;
   return make_head(s, 1500);
 }
 

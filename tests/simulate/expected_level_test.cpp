@@ -1,20 +1,10 @@
 // Expected levels without speckle, how well finitely many points give them, and where the scan has holes.
-#include <cmath>
-#include <map>
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "beamforming/synthesize_intensity.hpp"
-#include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -190,7 +180,7 @@ TEST(LevelError, out_of_reach_is_told) {
   EXPECT_FALSE(p.convergence.reached);
   EXPECT_LT(p.convergence.share_below, 0.99);
   ASSERT_FALSE(p.notes.empty());
-  EXPECT_THAT(p.notes.back(), testing::HasSubstr("of the cells are below the 0.001 dB asked for"));
+  EXPECT_THAT(p.notes.back(), HasSubstr("of the cells are below the 0.001 dB asked for"));
 }
 
 TEST(LevelError, of_a_silent_ping_is_kept_at_once) {

@@ -1,17 +1,11 @@
 // Mean levels against closed forms. Random amplitudes make single levels scatter; every tolerance states how much.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
-#include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -19,17 +13,13 @@ namespace {
 SonarHead bottom_sonar(double min_range, double max_range) {
   SonarSpec s;
   s.name = "bottom";
-  s.centre_frequency = 900e3;
-  s.bandwidth = 29.5e3;
+  s.centre_frequency = 900e3, s.bandwidth = 29.5e3;
   s.source_level_db = 220;
-  s.beams = 41;
-  s.field_of_view = radians(40);
-  s.beam_width = radians(1);
-  s.elevation_width = radians(170);
+  s.beams = 41, s.field_of_view = radians(40);
+  s.beam_width = radians(1), s.elevation_width = radians(170);
   s.elevation_shape = ElevationShape::sector;
   s.side_lobe_db = 0;
-  s.min_range = min_range;
-  s.max_range = max_range;
+  s.min_range = min_range, s.max_range = max_range;
   return make_head(s, sound_speed({}));
 }
 

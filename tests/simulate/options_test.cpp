@@ -1,14 +1,7 @@
 // Options of a ping are refused by name, before any work.
-#include <cmath>
-
-#include <gmock/gmock.h>
-
 #include "simulate/plan_ping.hpp"
-#include "support/errors.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,17 +1,9 @@
 #include "simulate/simulate_ping.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
 #include "returns/compare.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "support/heads.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -2,10 +2,7 @@
 
 #include "store/raw_file.hpp"
 #include "store/run_directory.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -51,12 +48,8 @@ TEST(ContributorFile, comes_back_bit_for_bit) {
   EXPECT_EQ(b.beams, 5U);
   EXPECT_EQ(b.bins, 7U);
   EXPECT_EQ(b.per_pixel, 3U);
-  EXPECT_EQ(a.surfel, b.surfel);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.share, b.share);
-  EXPECT_EQ(a.elevation, b.elevation);
-  EXPECT_EQ(a.material, b.material);
-  EXPECT_EQ(a.path, b.path);
+  const auto fields = [](const auto& x) { return std::tie(x.surfel, x.id, x.share, x.elevation, x.material, x.path); };
+  EXPECT_EQ(fields(a), fields(b));
   EXPECT_EQ(named.materials, back.materials);
 }
 

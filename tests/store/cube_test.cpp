@@ -1,17 +1,10 @@
 #include "store/cube.hpp"
 
-#include <cstring>
-#include <limits>
-
 #include "core/random.hpp"
-#include "core/units.hpp"
 #include "store/element_file.hpp"
 #include "store/raw_file.hpp"
 #include "store/run_directory.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 
@@ -20,8 +13,7 @@ Cube make_cube(std::size_t pings = 3, std::size_t beams = 70) {
   Cube cube;
   cube.sound_speed = 1489.8;
   cube.absorption_db_per_m = 0.2994626;
-  cube.centre_frequency = 900e3;
-  cube.bandwidth = 29.5e3;
+  cube.centre_frequency = 900e3, cube.bandwidth = 29.5e3;
   cube.source_level_db = 220;
   cube.seed = 18446744073709551557u;  // does not fit into a signed number or a double
   cube.tolerance = 1e-4;
@@ -94,6 +86,7 @@ TEST(CubeLayers, come_back_bit_for_bit_in_their_order) {
 TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
   Cube cube = make_cube(2);
   for (Ping& ping : cube.pings) {
+    ping.intensity = ping.pressure.abs2();
     ping.level_error_db = ping.pressure.abs();
     ping.level_error_db(1, 2) = std::numeric_limits<float>::quiet_NaN();
     ping.unknown = (ping.pressure.real() > 0.3f).cast<std::uint8_t>();
@@ -107,6 +100,7 @@ TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
     ASSERT_EQ(a.unknown.size(), b.unknown.size());
     const std::size_t cells = static_cast<std::size_t>(b.unknown.size());
     EXPECT_EQ(std::memcmp(a.level_error_db.data(), b.level_error_db.data(), cells * sizeof(float)), 0);
+    EXPECT_TRUE((a.intensity == b.intensity).all());
     EXPECT_EQ(std::memcmp(a.unknown.data(), b.unknown.data(), cells), 0);
     EXPECT_TRUE(a.expected_level);
   }
@@ -114,6 +108,8 @@ TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
   EXPECT_EQ(raw_extent(file, "/level_error_db"), raw_extent(file, "/pressure"));
   EXPECT_EQ(raw_extent(file, "/unknown"), raw_extent(file, "/pressure"));
   EXPECT_EQ(raw_text(file, "/level_error_db", "units"), "dB");
+  EXPECT_EQ(raw_extent(file, "/intensity"), raw_extent(file, "/pressure"));
+  EXPECT_EQ(raw_text(file, "/intensity", "units"), "Pa^2");
   EXPECT_EQ(raw_text(file, "/", "expected_level"), "expected level, no speckle");
 }
 
@@ -124,7 +120,8 @@ TEST(CubeMaps, are_absent_unless_the_pings_have_them) {
   EXPECT_EQ(back.unknown.size(), 0);
   EXPECT_FALSE(back.expected_level);
   const RawFile file(path);
-  for (const char* name : {"/level_error_db", "/unknown"}) EXPECT_EQ(H5Lexists(file, name, H5P_DEFAULT), 0);
+  for (const char* name : {"/intensity", "/level_error_db", "/unknown"})
+    EXPECT_EQ(H5Lexists(file, name, H5P_DEFAULT), 0);
   EXPECT_EQ(H5Aexists(file, "expected_level"), 0);
 }
 
@@ -134,13 +131,12 @@ TEST(CubeMaps, must_be_the_same_in_every_ping) {
     change(cube.pings[0], cube.pings[1]);
     return error_with_kind([&] { write(cube); });
   };
-  const auto contains = [](const std::string& text, const char* part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-  };
+  const auto contains = [](const std::string& text, const char* part) { EXPECT_THAT(text, HasSubstr(part)) << text; };
   contains(error_with([](Ping&, Ping& b) { b.level_error_db.setZero(70, 46); }),
            "level_error_db of ping 41 has 70 x 46 cells, must be like that of ping 40: absent");
   contains(error_with([](Ping& a, Ping&) { a.unknown.setZero(70, 46); }),
            "unknown of ping 41 has 0 x 0 cells, must be like that of ping 40, one cell for each of its pressure");
+  contains(error_with([](Ping&, Ping& b) { b.intensity.setZero(70, 46); }), "intensity of ping 41 has 70 x 46 cells");
   contains(error_with([](Ping& a, Ping&) { a.unknown.setZero(70, 45); }), "unknown of ping 40 has 70 x 45 cells");
   contains(error_with([](Ping&, Ping& b) { b.expected_level = true; }),
            "only one of pings 40 and 41 is an expected level");
@@ -192,42 +188,36 @@ TEST(ElementFile, holds_series_axis_and_steering) {
   EXPECT_EQ(value, 1e-6);
   H5Aclose(step), H5Tclose(type), H5Dclose(dataset), H5Fclose(file);
   series.pressure.conservativeResize(2, 50);
-  EXPECT_NE(error_with_kind([&] { write_element_file(path, series, head, 1490); }).find("2 elements and 50 samples"),
-            std::string::npos);
+  EXPECT_THAT(error_with_kind([&] { write_element_file(path, series, head, 1490); }),
+              HasSubstr("2 elements and 50 samples"));
 }
 
 TEST(CubeLayers, must_be_the_same_in_every_ping) {
   Cube cube = make_cube(2);
   cube.pings[1].layers = {{"noise", cube.pings[1].pressure}};
   const std::string error = error_with_kind([&] { write(cube); });
-  EXPECT_NE(error.find("ping 41 has other layers than ping 40"), std::string::npos) << error;
+  EXPECT_THAT(error, HasSubstr("ping 41 has other layers than ping 40")) << error;
 }
 
 TEST(Cube, comes_back_bit_for_bit) {
   const Cube cube = make_cube();
   const Cube back = read_cube(write(cube));
-  EXPECT_EQ(back.sound_speed, cube.sound_speed);
-  EXPECT_EQ(back.absorption_db_per_m, cube.absorption_db_per_m);
-  EXPECT_EQ(back.centre_frequency, cube.centre_frequency);
-  EXPECT_EQ(back.bandwidth, cube.bandwidth);
-  EXPECT_EQ(back.source_level_db, cube.source_level_db);
-  EXPECT_EQ(back.seed, cube.seed);
-  EXPECT_EQ(back.tolerance, cube.tolerance);
-  EXPECT_EQ(back.sonar, cube.sonar);
-  EXPECT_EQ(back.insonify_version, cube.insonify_version);
+  const auto fields = [](const auto& x) {
+    return std::tie(x.sound_speed, x.absorption_db_per_m, x.centre_frequency, x.bandwidth, x.source_level_db, x.seed,
+                    x.tolerance, x.sonar, x.insonify_version);
+  };
+  EXPECT_EQ(fields(back), fields(cube));
   ASSERT_EQ(back.pings.size(), cube.pings.size());
   for (std::size_t p = 0; p < back.pings.size(); ++p) {
     const Ping &a = back.pings[p], &b = cube.pings[p];
     EXPECT_EQ(a.number, b.number);
     EXPECT_EQ(a.time, b.time);
     EXPECT_EQ(a.world_from_head.matrix(), b.world_from_head.matrix());
-    EXPECT_EQ(a.fan.azimuth, b.fan.azimuth);
-    EXPECT_EQ(a.fan.elevation, b.fan.elevation);
-    EXPECT_EQ(a.fan.beam_width, b.fan.beam_width);
-    EXPECT_EQ(a.fan.elevation_width, b.fan.elevation_width);
-    EXPECT_EQ(a.gate.min_range, b.gate.min_range);
-    EXPECT_EQ(a.gate.max_range, b.gate.max_range);
-    EXPECT_EQ(a.gate.bin_size, b.gate.bin_size);
+    const auto of_ping = [](const auto& x) {
+      return std::tie(x.fan.azimuth, x.fan.elevation, x.fan.beam_width, x.fan.elevation_width, x.gate.min_range,
+                      x.gate.max_range, x.gate.bin_size);
+    };
+    EXPECT_EQ(of_ping(a), of_ping(b));
     ASSERT_EQ(a.pressure.rows(), b.pressure.rows());
     EXPECT_TRUE((a.pressure == b.pressure).all());
   }

@@ -1,9 +1,6 @@
 #include "store/environment_file.hpp"
 
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

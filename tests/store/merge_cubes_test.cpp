@@ -1,14 +1,8 @@
 #include "store/merge_cubes.hpp"
 
-#include <gmock/gmock.h>
+#include "support/test.hpp"
 
-#include "core/units.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 namespace {
 
@@ -25,8 +19,7 @@ NamedCube run(const std::string& name, double time, float value, std::int64_t nu
   cube.pings = {ping};
   cube.sonar = "test";
   cube.sound_speed = 1500;
-  cube.centre_frequency = 900e3;
-  cube.bandwidth = 30e3;
+  cube.centre_frequency = 900e3, cube.bandwidth = 30e3;
   cube.seed = static_cast<std::uint64_t>(value);
   return {name, cube};
 }

@@ -1,8 +1,6 @@
 #include "store/nearest_word.hpp"
 
-#include <gtest/gtest.h>
-
-using namespace insonify;
+#include "support/test.hpp"
 
 TEST(NearestWord, finds_a_mistyped_one) {
   const std::vector<std::string> known = {"beams", "beam_width_deg", "min_range_m", "max_range_m"};

@@ -2,11 +2,10 @@
 
 #include <ctime>
 
-#include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/time.h>
 
-#include "support/files.hpp"
+#include "support/test.hpp"
 
 namespace {
 time_t seconds_ahead = 0;

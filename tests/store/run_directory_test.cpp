@@ -1,11 +1,7 @@
 #include "store/run_directory.hpp"
 
-#include <set>
+#include "support/test.hpp"
 
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
 namespace fs = std::filesystem;
 
 namespace {
@@ -18,7 +14,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 void make_run(const std::string& path, const std::string& manifest, bool force = false) {
   RunDirectory run(path, force);
-  write_text_file(run.file("manifest.json"), manifest);
+  write_file(run.file("manifest.json"), manifest);
   run.commit();
 }
 
@@ -28,8 +24,8 @@ TEST(RunDirectory, appears_complete_on_commit_and_not_before) {
   const std::string out = own_path("out");
   {
     RunDirectory run(out, false);
-    write_text_file(run.file("a.txt"), "a");
-    write_text_file(run.file("b.txt"), "b");
+    write_file(run.file("a.txt"), "a");
+    write_file(run.file("b.txt"), "b");
     EXPECT_FALSE(fs::exists(out));
     run.commit();
   }
@@ -41,7 +37,7 @@ TEST(RunDirectory, leaves_nothing_behind_without_commit) {
   const std::string out = own_path("out");
   {
     RunDirectory run(out, false);
-    write_text_file(run.file("a.txt"), "a");
+    write_file(run.file("a.txt"), "a");
     EXPECT_TRUE(fs::exists(run.file("a.txt")));
   }
   EXPECT_TRUE(names_in(fs::path(out).parent_path()).empty());
@@ -58,7 +54,7 @@ TEST(RunDirectory, refuses_an_existing_folder_and_names_force) {
 TEST(RunDirectory, with_force_replaces_a_run_but_keeps_it_until_commit) {
   const std::string out = own_path("out");
   make_run(out, "old");
-  write_text_file(out + "/left_over.txt", "x");
+  write_file(out + "/left_over.txt", "x");
   { RunDirectory abandoned(out, true); }
   EXPECT_EQ(read_text_file(out + "/manifest.json"), "old");
   make_run(out + "/", "new", true);  // a slash at the end means the same folder
@@ -70,22 +66,21 @@ TEST(RunDirectory, with_force_replaces_a_run_but_keeps_it_until_commit) {
 TEST(RunDirectory, force_does_not_replace_what_is_no_run) {
   const std::string home = own_path("home");
   fs::create_directory(home);
-  write_text_file(home + "/thesis.tex", "years of work");
+  write_file(home + "/thesis.tex", "years of work");
   EXPECT_EQ(error_with_kind([&] { RunDirectory(home, true); }),
             "file: " + home +
                 ": is not a folder of an earlier run (no manifest.json in it), so --force does not "
                 "replace it; remove it yourself, or give another name");
   EXPECT_EQ(read_text_file(home + "/thesis.tex"), "years of work");
   const std::string file = own_file("file", "text");
-  EXPECT_NE(error_with_kind([&] { RunDirectory(file, true); }).find("is not a folder of an earlier run"),
-            std::string::npos);
+  EXPECT_THAT(error_with_kind([&] { RunDirectory(file, true); }), HasSubstr("is not a folder of an earlier run"));
 }
 
 TEST(RunDirectory, does_not_overwrite_what_appeared_meanwhile) {
   const std::string out = own_path("out");
   RunDirectory run(out, false);
   make_run(out, "the other one's");
-  EXPECT_NE(error_with_kind([&] { run.commit(); }).find("exists already"), std::string::npos);
+  EXPECT_THAT(error_with_kind([&] { run.commit(); }), HasSubstr("exists already"));
   EXPECT_EQ(read_text_file(out + "/manifest.json"), "the other one's");
 }
 
@@ -101,10 +96,10 @@ TEST(RunDirectory, needs_a_parent_folder_and_a_name) {
 TEST(TextFile, comes_back_as_written_and_replaces_an_old_one) {
   const std::string path = own_path("a.txt");
   const std::string text = std::string("one\r\ntwo\0three", 14) + "\n";
-  write_text_file(path, "old, and longer than the new text will be");
-  write_text_file(path, text);
+  write_file(path, "old, and longer than the new text will be");
+  write_file(path, text);
   EXPECT_EQ(read_text_file(path), text);
-  write_text_file(path, "");
+  write_file(path, "");
   EXPECT_EQ(read_text_file(path), "");
   EXPECT_EQ(names_in(fs::path(path).parent_path()), (std::set<std::string>{"a.txt"}));
 }
@@ -112,10 +107,10 @@ TEST(TextFile, comes_back_as_written_and_replaces_an_old_one) {
 TEST(TextFile, errors_name_the_path) {
   const std::string missing = own_path("no/a.txt");
   EXPECT_EQ(error_with_kind([&] { read_text_file(missing); }), "file: " + missing + ": no such file");
-  EXPECT_EQ(error_with_kind([&] { write_text_file(missing, "x"); }),
+  EXPECT_EQ(error_with_kind([&] { write_file(missing, "x"); }),
             "file: " + missing + ": folder " + own_path("no") + " does not exist; create it first");
   const std::string folder = fs::path(own_path("x")).parent_path().string();
   EXPECT_EQ(error_with_kind([&] { read_text_file(folder); }), "file: " + folder + ": is a folder, must be a file");
-  EXPECT_EQ(error_with_kind([&] { write_text_file(folder, "x"); }),
+  EXPECT_EQ(error_with_kind([&] { write_file(folder, "x"); }),
             "file: " + folder + ": is not a valid name for an output file");
 }

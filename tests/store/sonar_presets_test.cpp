@@ -1,14 +1,5 @@
-#include <algorithm>
-#include <cstdlib>
-#include <map>
-#include <set>
-
-#include "core/units.hpp"
 #include "store/sonar_file.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,16 +1,14 @@
-#include "store/trajectory_file.hpp"
+#include "store/csv_tables.hpp"
 
-#include "core/units.hpp"
-#include "support/errors.hpp"
-#include "support/files.hpp"
-
-using namespace insonify;
+#include "support/test.hpp"
 
 namespace {
 const std::string angles = "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n";
 const std::string quaternions = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
 
-std::string error_of_trajectory(const std::string& text) { return error_of_file(load_trajectory, "way.csv", text); }
+void refuses(const std::string& text, const std::string& what) {
+  EXPECT_EQ(error_of_file(load_trajectory, "way.csv", text), "content: way.csv:" + what);
+}
 }  // namespace
 
 TEST(TrajectoryFile, reads_yaw_pitch_and_roll_in_degrees) {
@@ -30,17 +28,11 @@ TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
 }
 
 TEST(TrajectoryFile, names_line_column_value_and_rule) {
-  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
-            "content: way.csv:3: time_s = 0 s, must be later than the previous line, 0 s");
-  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,1000,0\n"),
-            "content: way.csv:2: pitch_deg = 1000 degrees, must be within -360 and 360");
-  EXPECT_EQ(error_of_trajectory(quaternions + "0,0,0,0,0,0,0,2\n"),
-            "content: way.csv:2: length of (qx, qy, qz, qw) = 2, must be 1 within 0.001");
-  EXPECT_EQ(error_of_trajectory(angles + "0,0,nan,0,0,0,0\n"),
-            "content: way.csv:2: y_m = 'nan', must be a finite number");
-  EXPECT_EQ(error_of_trajectory("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n"),
-            "content: way.csv:1: missing column 'roll_deg'");
-  EXPECT_EQ(error_of_trajectory("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"),
-            "content: way.csv:1: unknown column 'time'; did you mean 'time_s'?");
-  EXPECT_EQ(error_of_trajectory(angles + "0,0,0,0,0,0,0\n"), "content: way.csv: has 1 entries, must have at least two");
+  refuses(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n", "3: time_s = 0 s, must be later than the previous line, 0 s");
+  refuses(angles + "0,0,0,0,0,1000,0\n", "2: pitch_deg = 1000 degrees, must be within -360 and 360");
+  refuses(quaternions + "0,0,0,0,0,0,0,2\n", "2: length of (qx, qy, qz, qw) = 2, must be 1 within 0.001");
+  refuses(angles + "0,0,nan,0,0,0,0\n", "2: y_m = 'nan', must be a finite number");
+  refuses("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n", "1: missing column 'roll_deg'");
+  refuses("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n", "1: unknown column 'time'; did you mean 'time_s'?");
+  refuses(angles + "0,0,0,0,0,0,0\n", " has 1 entries, must have at least two");
 }

@@ -8,15 +8,11 @@ namespace insonify {
 SonarSpec small_sonar(const SmallSonar& sonar) {
   SonarSpec s;
   s.name = "test";
-  s.centre_frequency = 450e3;
-  s.bandwidth = 20e3;
+  s.centre_frequency = 450e3, s.bandwidth = 20e3;
   s.source_level_db = sonar.source_level_db;
-  s.beams = sonar.beams;
-  s.field_of_view = radians(sonar.field_of_view_deg);
-  s.beam_width = radians(sonar.beam_width_deg);
-  s.elevation_width = radians(sonar.elevation_width_deg);
-  s.min_range = sonar.min_range;
-  s.max_range = sonar.max_range;
+  s.beams = sonar.beams, s.field_of_view = radians(sonar.field_of_view_deg);
+  s.beam_width = radians(sonar.beam_width_deg), s.elevation_width = radians(sonar.elevation_width_deg);
+  s.min_range = sonar.min_range, s.max_range = sonar.max_range;
   return s;
 }
 

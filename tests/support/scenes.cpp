@@ -49,13 +49,10 @@ double total_area(const SceneCloud& scene) { return std::accumulate(scene.area.b
 Eigen::Vector3d world(const SceneCloud& scene, std::size_t i) { return scene.origin + scene.point[i].cast<double>(); }
 
 void expect_same_attributes(const SceneCloud& a, const SceneCloud& b) {
-  EXPECT_EQ(a.origin, b.origin);
-  EXPECT_EQ(a.normal, b.normal);
-  EXPECT_EQ(a.area, b.area);
-  EXPECT_EQ(a.material, b.material);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.normals_oriented, b.normals_oriented);
-  EXPECT_EQ(a.materials, b.materials);
+  const auto fields = [](const auto& x) {
+    return std::tie(x.origin, x.normal, x.area, x.material, x.id, x.normals_oriented, x.materials);
+  };
+  EXPECT_EQ(fields(a), fields(b));
 }
 
 void expect_same_surfels(const SceneCloud& a, const SceneCloud& b) {

@@ -1,14 +1,10 @@
 // insonify accuracy: what it writes, and what it refuses. The sizes here are the hidden --quick ones: times mean nothing.
-#include <map>
-#include <sstream>
-
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
 using nlohmann::json;
-using testing::HasSubstr;
 using testing::StartsWith;
 
 namespace {
@@ -48,7 +44,7 @@ double number(const std::string& text) { return std::stod(text); }
 }  // namespace
 
 TEST_F(AccuracyVerb, writes_sweep_with_the_agreed_columns_pictures_and_manifest) {
-  succeed("accuracy --quick -q -o run");
+  have("run", "accuracy --quick");
   EXPECT_THAT(read("run/sweep.csv"), StartsWith(std::string(columns) + ","));
   const json manifest = json::parse(read("run/manifest.json"));
   for (const char* key : {"cpu", "cores", "compiler", "flags", "commit", "load_average"})
@@ -62,7 +58,7 @@ TEST_F(AccuracyVerb, writes_sweep_with_the_agreed_columns_pictures_and_manifest)
 }
 
 TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
-  succeed("accuracy --quick -q --no-picture -o run");
+  have("run", "accuracy --quick");
   std::map<std::string, int> methods;
   for (auto& row : rows_of("run/sweep.csv")) {
     ++methods[row["method"]];
@@ -111,10 +107,10 @@ TEST_F(AccuracyVerb, methods_and_tolerances_can_be_chosen) {
 }
 
 TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
-  succeed("make-scene sphere -q --points 500 -o sphere.ply");
+  have("sphere.ply", "make-scene sphere --points 500");
   const json manifest = json::parse(succeed(
       "accuracy --quick -q --no-picture --json --scene sphere.ply --sonar p900-45 --pose=0,0,0,0,0,0 --range 2:8 "
-      "--methods gridded -o run"));
+      "--set sonar.beams=24 --methods gridded --tolerances 1e-4 --repeats 1 -o run"));
   EXPECT_EQ(manifest["scene"], "sphere.ply");
   for (auto& row : rows_of("run/sweep.csv")) {
     EXPECT_LE(number(row["error"]), number(row["tolerance"]));

@@ -1,7 +1,6 @@
 // Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left
 // behind.
-#include <string>
-
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -11,10 +10,7 @@ const std::string nowhere = " --sonar p900-45 --range 2:10 -o out";
 
 class BadEnvironment : public ToolTest {
  protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene plane -o plane.ply --points 2000 --size 12,12 -q");
-  }
+  void SetUp() override { have("plane.ply", "make-scene plane --points 2000 --size 12,12"); }
   void refuse(const std::string& more, const std::vector<std::string>& parts, int exit_code = 2) const {
     expect_refused("ping plane.ply" + here + " " + more, exit_code, parts);
   }

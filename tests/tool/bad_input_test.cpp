@@ -1,7 +1,6 @@
 // Bad input gets one line that names the file or argument, the value and the remedy, the right exit code, and leaves
 // nothing behind.
-#include <string>
-
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -10,10 +9,7 @@ const std::string head = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 2:10 -o o
 
 class BadInput : public ToolTest {
  protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene plane -o plane.ply --points 2000 --size 12,12 -q");
-  }
+  void SetUp() override { have("plane.ply", "make-scene plane --points 2000 --size 12,12"); }
 };
 
 }  // namespace
@@ -120,7 +116,7 @@ TEST_F(BadInput, help_is_no_error) {
     const ToolResult result = run(verb + " --help");
     EXPECT_EQ(result.exit_code, 0) << verb;
     EXPECT_EQ(result.err, "") << verb;
-    EXPECT_NE(result.out.find("insonify"), std::string::npos) << verb;
+    EXPECT_THAT(result.out, HasSubstr("insonify")) << verb;
   }
   EXPECT_EQ(run("--version").exit_code, 0);
 }

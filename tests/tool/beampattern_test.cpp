@@ -1,15 +1,11 @@
 // insonify beampattern: what it prints is what the beam of a ping is.
-#include <cmath>
-
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "beamforming/beam_pattern.hpp"
-#include "core/units.hpp"
 #include "store/sonar_file.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
-using namespace insonify;
 using nlohmann::json;
 
 namespace {
@@ -64,7 +60,7 @@ TEST_F(BeamPatternVerb, text_says_everything_with_units) {
   for (const char* part :
        {"p900-45, beam at 30.00 deg starboard", "elements       128", "0.8333 mm", "m/s", "taylor, side lobes -30 dB",
         "deg at -3 dB", "deg off the beam", "grating lobes  none", " dB"})
-    EXPECT_THAT(text, testing::HasSubstr(part));
+    EXPECT_THAT(text, HasSubstr(part));
 }
 
 // One element: no null, no side lobe, no grating lobe.
@@ -74,11 +70,11 @@ TEST_F(BeamPatternVerb, absent_things_are_none_and_null) {
   EXPECT_NEAR(result["width_deg"], 180, 1e-9);
   EXPECT_TRUE(result["first_null_deg"].is_null());
   EXPECT_TRUE(result["highest_side_lobe_db"].is_null());
-  EXPECT_THAT(succeed("beampattern p900-45 --set sonar.beam_width_deg=180"), testing::HasSubstr("first null     none"));
+  EXPECT_THAT(succeed("beampattern p900-45 --set sonar.beam_width_deg=180"), HasSubstr("first null     none"));
 }
 
 TEST_F(BeamPatternVerb, draws_a_picture_when_asked) {
-  const json result = measure("p900-45 --steer 30 -o pattern.png --size 800x600");
+  const json result = measure("p900-45 --steer 30 -o pattern.png --size 400x300");
   EXPECT_EQ(result["picture"], "pattern.png");
   EXPECT_EQ(read("pattern.png").substr(1, 3), "PNG");
 }
@@ -110,6 +106,6 @@ TEST_F(BeamPatternVerb, help_has_two_examples) {
 TEST_F(BeamPatternVerb, run_toml_keeps_the_shading) {
   write("one.csv", "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n5,0,0,1,1,0\n");
   succeed("synthesize one.csv --sonar p900-45 --range 4:6 --set sonar.shading=chebyshev --no-picture -q -o out");
-  EXPECT_THAT(read("out/run.toml"), testing::HasSubstr("shading = \"chebyshev\""));
+  EXPECT_THAT(read("out/run.toml"), HasSubstr("shading = \"chebyshev\""));
   EXPECT_EQ(measure("out/run.toml"), measure("p900-45 --set sonar.shading=chebyshev"));
 }

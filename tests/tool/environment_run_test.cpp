@@ -1,32 +1,26 @@
 // What surrounds head and scene, from the command line: each option does what it says, and a run can be fed back.
-#include <cmath>
-
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "acoustics/environment.hpp"
-#include "core/units.hpp"
 #include "returns/compare.hpp"
 #include "store/cube.hpp"
 #include "store/environment_file.hpp"
 #include "store/sonar_file.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
-using namespace insonify;
 using nlohmann::json;
-using testing::HasSubstr;
 
 namespace {
 
-const std::string sonar = " --sonar p900-45 --set sonar.beams=16 --range 2:20 --no-picture -q";
+const std::string sonar = " --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture -q";
 const std::string level_pose = " --pose=0,0,-3,0,10,0";
 
 class EnvironmentRun : public ToolTest {
  protected:
   void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene wall -o plain.ply --points 4000 --size 4,4 -q");
-    succeed("make-scene harbour -o harbour.ply --points 20000 -q");
+    have("plain.ply", "make-scene wall --points 4000 --size 4,4");
+    have("harbour.ply", "make-scene harbour --points 8000");
   }
   Ping ping(const std::string& run) const { return read_cube(path(run + "/cube.h5")).pings.at(0); }
   json manifest(const std::string& run) const { return json::parse(read(run + "/manifest.json")); }
@@ -52,7 +46,7 @@ std::vector<std::string> layer_names(const Ping& ping) {
 // A sphere of 0.1 m, 5 m ahead of the head, and a smooth surface 2 m above both: the mixed path is half as long again as
 // 4.9 m + sqrt(5^2 + 4^2) = 6.40 m, the twice bounced one 6.40 m. What comes directly stays as it is.
 TEST_F(EnvironmentRun, multipath_adds_energy_behind_the_direct_echo_only) {
-  succeed("make-scene sphere -o ball.ply --points 3000 --radius 0.1 -q");
+  have("ball.ply", "make-scene sphere --points 3000 --radius 0.1");
   const std::string look =
       "ping ball.ply --pose=0,0,0,0,0,0 --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture -q "
       "--set sonar.elevation_width_deg=90 ";
@@ -94,7 +88,7 @@ TEST_F(EnvironmentRun, layers_in_the_cube_add_up_to_the_pressure) {
 
 TEST_F(EnvironmentRun, rough_sea_without_multipath_is_noted) {
   const ToolResult result =
-      run("ping harbour.ply -o out --sonar p900-45 --set sonar.beams=16 --range 2:20 --no-picture" + level_pose +
+      run("ping harbour.ply -o out --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture" + level_pose +
           " --multipath --set surface.height_m=0 --set wind.speed_m_s=10");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("no echo comes by way of surface or bottom: waves of 0.56 m rms"));

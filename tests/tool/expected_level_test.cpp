@@ -1,21 +1,15 @@
 // Expected levels, level errors and hole masks through the whole tool.
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
-
-using namespace insonify;
 
 class ExpectedLevelRun : public ToolTest {
  protected:
   const std::string over = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:10 -q ";
 
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene plane -o plane.ply --size 20,20 --points 40000 -q");
-  }
+  void SetUp() override { have("plane.ply", "make-scene plane --size 20,20 --points 40000"); }
   nlohmann::json manifest(const std::string& run) const { return nlohmann::json::parse(read(run + "/manifest.json")); }
   Ping ping(const std::string& run) const { return read_cube(path(run + "/cube.h5")).pings[0]; }
 };
@@ -68,7 +62,8 @@ TEST_F(ExpectedLevelRun, keeps_the_mask_of_holes_if_asked) {
 
 TEST_F(ExpectedLevelRun, refuses_what_makes_no_sense) {
   const std::string ping = "ping plane.ply -o out" + over;
-  expect_refused(ping + "--method incoherent --keep elements", 2, {"--keep elements", "incoherent"});
-  expect_refused(ping + "--level-error-db=-1", 2, {"--level-error-db = -1 dB"});
-  expect_refused(ping + "--level-error-db=nan", 2, {"--level-error-db"});
+  expect_refused(ping + "--method incoherent --keep elements", 2,
+                 {"outputs.elements = true", "method incoherent", "use gridded"});
+  expect_refused(ping + "--level-error-db=-1", 2, {"sampling.level_error_db = -1, must be finite"});
+  expect_refused(ping + "--level-error-db=nan", 2, {"level_error_db = nan"});
 }

@@ -18,10 +18,7 @@ class Export : public ToolTest {
   const std::string ping =
       "ping harbour.ply --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0 --range 2:15 --no-picture -q ";
 
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene harbour -o harbour.ply --points 10000 -q");
-  }
+  void SetUp() override { have("harbour.ply", "make-scene harbour --points 10000"); }
 };
 
 TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
@@ -47,7 +44,7 @@ TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   double range[2];
   grid->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
   EXPECT_EQ(static_cast<float>(range[1]), level.maxCoeff());
-  EXPECT_NE(read("vtk/fan.pvd").find("file=\"fan_000000.vts\""), std::string::npos);
+  EXPECT_THAT(read("vtk/fan.pvd"), HasSubstr("file=\"fan_000000.vts\""));
 }
 
 TEST_F(Export, paths_start_and_end_at_the_head_and_bounce_where_asked) {

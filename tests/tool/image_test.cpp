@@ -1,13 +1,9 @@
 // insonify image: grey values, layers and gains.
-#include <cmath>
-
-#include <gmock/gmock.h>
-
 #include "returns/ping.hpp"
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
-using namespace insonify;
 namespace fs = std::filesystem;
 
 namespace {
@@ -15,11 +11,10 @@ namespace {
 class ImageVerb : public ToolTest {
  protected:
   void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene plane -o plane.ply --points 4000 --size 12,12 -q");
-    succeed(
-        "ping plane.ply -o out --sonar p900-45 --set sonar.beams=24 --pose=0,0,3,0,15,0 --range 4:8 --noise --layers "
-        "--no-picture -q");
+    have("plane.ply", "make-scene plane --points 4000 --size 12,12");
+    have("out",
+         "ping plane.ply --sonar p900-45 --set sonar.beams=24 --pose=0,0,3,0,15,0 --range 4:8 --noise --layers "
+         "--no-picture");
   }
   /// The pixels of a binary PGM of the run, row by row from the farthest bin, starboard right.
   std::vector<int> pixels(const std::string& name, std::size_t width, std::size_t height, int bits) const {

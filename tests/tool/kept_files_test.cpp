@@ -1,14 +1,11 @@
 // What --keep contributors and --keep insonification write.
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "scene_io/load_scene.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
-
-using namespace insonify;
 
 class KeptFiles : public ToolTest {
  protected:
@@ -16,10 +13,7 @@ class KeptFiles : public ToolTest {
       "ping harbour.ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,10,0 --range 2:15 "
       "--no-picture -q ";
 
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene harbour -o harbour.ply --points 20000 -q");
-  }
+  void SetUp() override { have("harbour.ply", "make-scene harbour --points 20000"); }
 };
 
 TEST_F(KeptFiles, contributors_fit_the_cube_and_name_the_materials_of_the_scene) {

@@ -1,12 +1,9 @@
 // Levels through the whole tool.
-#include <cmath>
 #include <cstdio>
 
-#include "core/units.hpp"
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
-
-using namespace insonify;
 
 class Levels : public ToolTest {
  protected:
@@ -68,7 +65,7 @@ TEST_F(Levels, mean_level_does_not_depend_on_density_or_rays) {
 // tau_e = 0.469719 / B. A strip of 1 m holds 17 beams x 89 cells: one standard deviation is 0.11 dB.
 TEST_F(Levels, flat_bottom_has_the_closed_form_level_from_5_to_40_m) {
   const double h = 3, mu = power_from_db(-27);
-  succeed("make-scene plane -o plane.ply --size 60,40 --points 600000 --mu-db -27 -q");
+  have("plane.ply", "make-scene plane --size 60,40 --points 600000 --mu-db -27");
   succeed(
       "ping plane.ply -o out --sonar p900-45 --pose=0,0,3,0,0,0 --range 4:41 --no-picture -q --set sonar.beams=41 "
       "--set sonar.field_of_view_deg=40 --set sonar.beam_width_deg=1 --set sonar.bandwidth_hz=29500 "

@@ -1,20 +1,12 @@
 // insonify image and merge, from echoes at known places to the pixels of the PNG.
-#include <cmath>
-#include <numbers>
-
-#include <gmock/gmock.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
-
-#include "core/units.hpp"
 #include "returns/quantise.hpp"
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "view/test_pictures.hpp"
 
-using namespace insonify;
 namespace fs = std::filesystem;
 
 namespace {
@@ -26,36 +18,12 @@ struct Target {
 };
 constexpr Target port_near{-15, 4.5}, ahead{0, 7.5}, starboard_far{15, 10.5};
 
-/// A picture read back; y upwards.
-struct Png {
-  int width = 0, height = 0;
-  std::vector<unsigned char> bytes;
-
-  explicit Png(const std::string& path) {
-    vtkNew<vtkPNGReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    const int* size = reader->GetOutput()->GetDimensions();
-    width = size[0], height = size[1];
-    const auto* first = static_cast<const unsigned char*>(reader->GetOutput()->GetScalarPointer());
-    bytes.assign(first, first + 3 * width * height);
-  }
-  Rgb at(double x, double y) const {
-    const auto i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-    return {bytes[i], bytes[i + 1], bytes[i + 2]};
-  }
-};
-
-int distance(const Rgb& a, const Rgb& b) {
-  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
-}
-
 /// Level of a colour, by the nearest entry of the map.
 double level_of(const Rgb& colour) {
   static const ColourTable table = colour_table("viridis", "test");
   std::size_t best = 0;
   for (std::size_t i = 1; i < table.size(); ++i)
-    if (distance(colour, table[i]) < distance(colour, table[best])) best = i;
+    if (colour_difference(colour, table[i]) < colour_difference(colour, table[best])) best = i;
   return max_db - window_db + (static_cast<double>(best) + 0.5) * window_db / 256;
 }
 
@@ -78,7 +46,7 @@ class Pictures : public ToolTest {
     return " --colormap viridis --max " + std::to_string(max_db) + " --window " + std::to_string(window_db) + " -q ";
   }
   /// The brightest pixel within a part of the picture, by level.
-  static Point2 brightest(const Png& png, Box part) {
+  static Point2 brightest(const ReadPicture& png, Box part) {
     Point2 best;
     double highest = -1e9;
     for (int y = static_cast<int>(part.bottom * png.height); y < part.top * png.height; ++y)
@@ -96,19 +64,17 @@ class Pictures : public ToolTest {
 // At each of the three echoes, and a bin and a beam beside it, where the level is some dB lower.
 TEST_F(Pictures, of_a_fan_show_the_cubes_own_levels_at_the_echoes_places) {
   synthesize("out", {port_near, ahead, starboard_far});
-  succeed("image out -o fan.png --size 1600x1200 --title T" + scale());
-  const Png png(path("fan.png"));
+  succeed("image out -o fan.png --size 800x600 --title T" + scale());
+  const ReadPicture png = read_png(path("fan.png"));
   const Cube cube = read_cube(path("out/cube.h5"));
   const BeamFan& fan = cube.pings[0].fan;
   const RangeGate& gate = cube.pings[0].gate;
   const Grid<float> level = levels("out");
 
   PictureOptions options;
-  options.width = 1600;
-  options.height = 1200;
+  options.width = 800, options.height = 600;
   options.title = "T";
-  options.max_db = max_db;
-  options.window_db = window_db;
+  options.max_db = max_db, options.window_db = window_db;
   const BeamCells cells = order_beams({fan, gate, level, ""});
   const double outer = gate.min_range + static_cast<double>(gate.bins()) * gate.bin_size;
   const FanLayout layout = lay_out_fan({cells.low(), cells.high(), gate.min_range, outer}, options,
@@ -136,12 +102,13 @@ TEST_F(Pictures, have_port_on_the_left_and_far_up) {
     for (const Target& target : {port_near, ahead, starboard_far}) {
       const std::string run = view + std::to_string(static_cast<int>(target.range));
       synthesize(run, {target});
-      succeed("image " + run + " --view " + view + " -o " + run + ".png --size 700x600" + scale());
+      succeed("image " + run + " --view " + view + " -o " + run + ".png --size 500x400" + scale());
     }
   for (const std::string view : {"fan", "rect"}) {
     const Box data{0.12, 0.78, 0.12, 0.93};
-    const Point2 port = brightest(Png(path(view + "4.png")), data), middle = brightest(Png(path(view + "7.png")), data),
-                 starboard = brightest(Png(path(view + "10.png")), data);
+    const Point2 port = brightest(read_png(path(view + "4.png")), data),
+                 middle = brightest(read_png(path(view + "7.png")), data),
+                 starboard = brightest(read_png(path(view + "10.png")), data);
     EXPECT_LT(port.x, middle.x - 20) << view;
     EXPECT_LT(middle.x, starboard.x - 20) << view;
     EXPECT_LT(port.y, middle.y - 20) << view;
@@ -153,47 +120,47 @@ TEST_F(Pictures, of_many_pings_come_from_merged_runs) {
   synthesize("a", {{0, 9.5}});
   synthesize("b", {{0, 6.5}});
   synthesize("c", {{0, 4}});
-  EXPECT_THAT(succeed("merge a b c -o all -q"), testing::HasSubstr("all: 3 pings of 3 runs"));
+  EXPECT_THAT(succeed("merge a b c -o all -q"), HasSubstr("all: 3 pings of 3 runs"));
   EXPECT_EQ(read("all/run.toml"), read("a/run.toml"));
-  EXPECT_THAT(read("all/manifest.json"), testing::HasSubstr("follow in the order given"));
+  EXPECT_THAT(read("all/manifest.json"), HasSubstr("follow in the order given"));
   const Cube all = read_cube(path("all/cube.h5"));
   ASSERT_EQ(all.pings.size(), 3U);
   EXPECT_EQ(all.pings[2].number, 2);
   EXPECT_TRUE((all.pings[1].pressure == read_cube(path("b/cube.h5")).pings[0].pressure).all());
 
   // Newest on top: c, near; oldest below: a, far.
-  succeed("image all --view waterfall -o w.png --size 700x600" + scale());
-  const Png png(path("w.png"));
+  succeed("image all --view waterfall -o w.png --size 500x400" + scale());
+  const ReadPicture png = read_png(path("w.png"));
   const Point2 newest = brightest(png, {0.12, 0.8, 0.68, 0.92}), oldest = brightest(png, {0.12, 0.8, 0.13, 0.34});
   const Point2 middle = brightest(png, {0.12, 0.8, 0.44, 0.58});
   EXPECT_LT(newest.x, middle.x - 20);
   EXPECT_LT(middle.x, oldest.x - 20);
   // 9.5, 6.5 and 4 m: 3 m and 2.5 m apart.
   EXPECT_NEAR((oldest.x - middle.x) / (middle.x - newest.x), 3 / 2.5, 0.05);
-  succeed("image all --view waterfall --beam max -o m.png --dark -q");
-  succeed("image all --view spectrum --ping 2 -o s.png -q");
-  succeed("image all --view panels --ping 1 -o p.png -q");
-  for (const std::string name : {"m.png", "s.png", "p.png"}) EXPECT_EQ(Png(path(name)).width, 1400) << name;
+  succeed("image all --view waterfall --beam max -o m.png --dark --size 640x480 -q");
+  succeed("image all --view spectrum --ping 2 -o s.png --size 640x480 -q");
+  succeed("image all --view panels --ping 1 -o p.png --size 640x480 -q");
+  for (const std::string name : {"m.png", "s.png", "p.png"}) EXPECT_EQ(read_png(path(name)).width, 640) << name;
 }
 
 TEST_F(Pictures, of_a_series_have_one_scale_and_one_file_per_ping) {
   synthesize("a", {{0, 9.5}});
   synthesize("b", {{0, 6.5}}, "--set sonar.source_level_db=200");
   succeed("merge a b -o all -q");
-  const ToolResult result = run("image all --animate -o frames --size 500x400");
+  const ToolResult result = run("image all --animate -o frames --size 300x240");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "frames/fan_000000.png\nframes/fan_000001.png\n");
-  EXPECT_THAT(result.err, testing::HasSubstr("ffmpeg -framerate 10 -i frames/fan_%06d.png"));
+  EXPECT_THAT(result.err, HasSubstr("ffmpeg -framerate 10 -i frames/fan_%06d.png"));
   // 20 dB weaker: alone it would be as bright as the other one.
-  succeed("image all --ping 1 -o alone.png --size 500x400 -q");
+  succeed("image all --ping 1 -o alone.png --size 300x240 -q");
   EXPECT_NE(read("alone.png"), read("frames/fan_000001.png"));
-  succeed("image all --ping 0 -o first.png --size 500x400 -q");
+  succeed("image all --ping 0 -o first.png --size 300x240 -q");
   EXPECT_EQ(read("first.png"), read("frames/fan_000000.png"));
 
   expect_refused("image all --animate -o frames", 4, {"frames/fan_000000.png: exists already", "--force"});
   write("frames/fan_000002.png", "of a longer series");
   write("frames/note.txt", "mine");
-  succeed("image all --animate -o frames --size 500x400 --force -q");
+  succeed("image all --animate -o frames --size 300x240 --force -q");
   EXPECT_FALSE(fs::exists(path("frames/fan_000002.png")));
   EXPECT_EQ(read("frames/note.txt"), "mine");
 }
@@ -202,10 +169,10 @@ TEST_F(Pictures, take_names_from_a_file) {
   synthesize("out", {ahead});
   write("names.csv", "bearing_deg,range_m,text\n10,6,Wreck\n");
   write("bad.csv", "bearing_deg,range_m,text\n10,six,Wreck\n");
-  succeed("image out -o plain.png -q");
-  succeed("image out -o named.png --annotate names.csv -q");
-  succeed("image out -o found.png --annotate -q");
-  succeed("image out -o one.png --annotate 1 -q");
+  succeed("image out -o plain.png --size 500x400 -q");
+  succeed("image out -o named.png --size 500x400 --annotate names.csv -q");
+  succeed("image out -o found.png --size 500x400 --annotate -q");
+  succeed("image out -o one.png --size 500x400 --annotate 1 -q");
   EXPECT_NE(read("plain.png"), read("named.png"));
   EXPECT_NE(read("plain.png"), read("found.png"));
   expect_refused("image out -o x.png --annotate bad.csv", 3, {"bad.csv:2: range_m = 'six'"});

@@ -1,30 +1,19 @@
 // One ping from the command line: what it writes, and that the same words give the same bytes.
-#include <cmath>
-#include <cstring>
-#include <map>
-#include <sstream>
-#include <vector>
-
 #include <nlohmann/json.hpp>
+#include <pcl/io/pcd_io.h>
 
-#include "core/units.hpp"
 #include "returns/compare.hpp"
-#include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
-
-using namespace insonify;
 
 namespace {
 
-const std::string head = " --sonar p900-45 --set sonar.beams=64 --pose=0,0,-3,0,10,0 --range 2:25";
+const std::string head = " --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,10,0 --range 2:14";
 
 class PingRun : public ToolTest {
  protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene harbour -o harbour.ply --points 40000 -q");
-  }
+  void SetUp() override { have("harbour.ply", "make-scene harbour --points 15000"); }
   ComplexGrid image(const std::string& run) const {
     return read_cube(path(run + "/cube.h5")).pings.at(0).pressure.cast<std::complex<double>>();
   }
@@ -68,11 +57,11 @@ TEST_F(PingRun, writes_everything_and_says_what_it_did) {
   const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
   for (const char* stage : {"load", "sampling", "acoustics", "synthesis", "output"})
     EXPECT_GT(manifest["seconds"][stage].get<double>(), 0) << stage;
-  EXPECT_GT(manifest["sampling"]["scatterers"].get<int>(), 10000);
+  EXPECT_GT(manifest["sampling"]["scatterers"].get<int>(), 1000);
   EXPECT_GT(manifest["peak_memory_mib"].get<double>(), 1);
   EXPECT_EQ(manifest["seed"], 1);
   // Every line of run.toml's [sonar] makes a sonar file again.
-  EXPECT_NE(read("out/run.toml").find("[sonar]"), std::string::npos);
+  EXPECT_THAT(read("out/run.toml"), HasSubstr("[sonar]"));
 }
 
 TEST_F(PingRun, same_seed_same_bytes_for_one_and_two_threads) {
@@ -84,13 +73,13 @@ TEST_F(PingRun, same_seed_same_bytes_for_one_and_two_threads) {
 }
 
 TEST_F(PingRun, another_seed_gives_other_speckle_of_the_same_level) {
-  succeed("make-scene plane -o plane.ply --points 60000 --size 25,25 -q");
-  const std::string over_plane = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:20 --no-picture";
+  have("plane.ply", "make-scene plane --points 15000 --size 18,18");
+  const std::string over_plane = " --sonar p900-45 --set sonar.beams=64 --pose=0,0,3,0,15,0 --range 4:12 --no-picture";
   succeed("ping plane.ply --seed 1 -o one" + over_plane);
   succeed("ping plane.ply --seed 2 -o two" + over_plane);
   ComplexGrid a = image("one"), b = image("two");
   for (Eigen::Index n = 0; n < a.cols(); ++n) {  // near and far cells weigh the same: p falls about as r^-2.5
-    const double r = 4 + (static_cast<double>(n) + 0.5) * 16 / static_cast<double>(a.cols());
+    const double r = 4 + (static_cast<double>(n) + 0.5) * 8 / static_cast<double>(a.cols());
     a.col(n) *= std::pow(r, 2.5), b.col(n) *= std::pow(r, 2.5);
   }
   const ImageDifference d = compare_images(a, b);
@@ -99,8 +88,9 @@ TEST_F(PingRun, another_seed_gives_other_speckle_of_the_same_level) {
 }
 
 TEST_F(PingRun, returned_points_open_elsewhere_and_lie_on_the_scene) {
-  succeed("make-scene plane -o plane.ply --points 60000 --size 25,25 -q");
-  succeed("ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:20 -o out --no-picture -q");
+  have("plane.ply", "make-scene plane --points 15000 --size 18,18");
+  succeed(
+      "ping plane.ply --sonar p900-45 --set sonar.beams=64 --pose=0,0,3,0,15,0 --range 4:12 -o out --no-picture -q");
   const auto columns = read_ply_columns(read("out/returns.ply"));
   for (const char* name : {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_azimuth", "scalar_elevation",
                            "scalar_ping", "scalar_beam", "scalar_bin", "scalar_material"})
@@ -114,15 +104,16 @@ TEST_F(PingRun, returned_points_open_elsewhere_and_lie_on_the_scene) {
   EXPECT_LT(off[off.size() / 2], bin);
   EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * bin);
   // The PCD, read through PCL, holds the same points.
-  const auto pcd = load_scene(path("out/returns.pcd"));
-  EXPECT_EQ(pcd.report.points_read, z.size());
+  pcl::PCLPointCloud2 pcd;
+  ASSERT_EQ(pcl::io::loadPCDFile(path("out/returns.pcd"), pcd), 0);
+  EXPECT_EQ(pcd.width * pcd.height, z.size());
 }
 
 TEST_F(PingRun, moving_scene_and_head_by_a_million_metres_changes_nothing) {
   // Coordinates in steps of 1/64 m are exact in double even at 10^6 m.
   std::string near = "x y z\n", far = "x y z\n";
-  for (int i = 0; i < 200; ++i)
-    for (int j = -100; j < 100; ++j) {
+  for (int i = 0; i < 100; ++i)
+    for (int j = -40; j < 40; ++j) {
       const double x = i / 16.0, y = j / 16.0, z = ((i * 7 + j * 3) % 5) / 64.0;
       std::ostringstream a, b;
       a.precision(17), b.precision(17);
@@ -132,7 +123,7 @@ TEST_F(PingRun, moving_scene_and_head_by_a_million_metres_changes_nothing) {
     }
   write("near.xyz", near);
   write("far.xyz", far);
-  const std::string sonar = " --sonar p900-45 --set sonar.beams=32 --range 2:12 --no-picture -q";
+  const std::string sonar = " --sonar p900-45 --set sonar.beams=16 --range 2:7 --no-picture -q";
   succeed("ping near.xyz --viewpoint=0,0,10 --pose=0,0,2.5,0,15,0 -o near" + sonar);
   succeed("ping far.xyz --viewpoint=1000000,-2000000,510 --pose=1000000,-2000000,502.5,0,15,0 -o far" + sonar);
   EXPECT_LT(compare_images(image("far"), image("near")).relative_l2, 1e-9);
@@ -141,7 +132,7 @@ TEST_F(PingRun, moving_scene_and_head_by_a_million_metres_changes_nothing) {
 TEST_F(PingRun, a_view_of_nothing_is_silent_and_says_so) {
   const ToolResult result = run("ping harbour.ply --sonar p900-45 --pose=30,0,-3,0,-90,0 --range 2:25 -o out");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("the ping is silent"), std::string::npos);
+  EXPECT_THAT(result.err, HasSubstr("the ping is silent"));
   EXPECT_EQ(image("out").abs().maxCoeff(), 0);
   EXPECT_TRUE(std::filesystem::exists(path("out/fan.png")));
 }
@@ -157,8 +148,8 @@ TEST_F(PingRun, noise_fills_a_silent_view_at_the_noise_floor) {
 TEST_F(PingRun, water_outside_the_formulas_is_computed_and_noted) {
   const ToolResult result = run("ping harbour.ply --set water.temperature_c=45 --no-picture -o out" + head);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("45"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("extrapolation"), std::string::npos) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("45")) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("extrapolation")) << result.err;
 }
 
 TEST_F(PingRun, settings_may_stand_before_the_scene) {
@@ -171,7 +162,7 @@ TEST_F(PingRun, settings_may_stand_before_the_scene) {
 TEST_F(PingRun, draws_each_view) {
   succeed("ping harbour.ply -o out --no-picture -q" + head);
   for (const std::string view : {"fan", "rect", "ascan"}) {
-    succeed("image out --view " + view + " -o " + view + ".png --size 600x500 -q");
+    succeed("image out --view " + view + " -o " + view + ".png --size 400x300 -q");
     EXPECT_EQ(read(view + ".png").substr(1, 3), "PNG");
   }
 }
@@ -185,12 +176,12 @@ TEST_F(PingRun, prepared_scene_gives_the_same_ping) {
 
 TEST_F(PingRun, info_tells_machines_what_it_tells_people) {
   const auto cloud = nlohmann::json::parse(succeed("info harbour.ply --json"));
-  EXPECT_NEAR(cloud["points"].get<double>(), 40000, 800);
+  EXPECT_NEAR(cloud["points"].get<double>(), 15000, 300);
   EXPECT_TRUE(cloud["normals"].get<bool>());
   EXPECT_LE(cloud["bounds"]["max"][2].get<double>(), 1e-3);
-  EXPECT_NE(succeed("info harbour.ply").find("bounds"), std::string::npos);
+  EXPECT_THAT(succeed("info harbour.ply"), HasSubstr("bounds"));
   succeed("ping harbour.ply -o out --no-picture -q" + head);
-  EXPECT_EQ(nlohmann::json::parse(succeed("info out --json"))["beams"], 64);
+  EXPECT_EQ(nlohmann::json::parse(succeed("info out --json"))["beams"], 32);
 }
 
 TEST_F(PingRun, sonars_show_every_number_with_its_source) {
@@ -201,5 +192,5 @@ TEST_F(PingRun, sonars_show_every_number_with_its_source) {
       EXPECT_FALSE(number["status"].get<std::string>().empty()) << sonar["name"] << " " << number["key"];
       EXPECT_FALSE(number["source"].get<std::string>().empty()) << sonar["name"] << " " << number["key"];
     }
-  EXPECT_NE(succeed("sonars oculus-m750d").find("centre_frequency_hz"), std::string::npos);
+  EXPECT_THAT(succeed("sonars oculus-m750d"), HasSubstr("centre_frequency_hz"));
 }

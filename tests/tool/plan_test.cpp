@@ -6,10 +6,7 @@
 
 class Plan : public ToolTest {
  protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene plane -o plane.ply --size 20,20 --points 20000 -q");
-  }
+  void SetUp() override { have("plane.ply", "make-scene plane --size 20,20 --points 20000"); }
   static bool included(const nlohmann::json& plan, const std::string& name) {
     for (const auto& stage : plan["stages"])
       if (stage["name"] == name) return stage["included"];
@@ -28,12 +25,13 @@ TEST_F(Plan, lists_stages_with_reason_and_bound_and_writes_nothing) {
     left_out += !stage["included"].get<bool>();
   }
   EXPECT_GE(left_out, 10);
-  EXPECT_NE(succeed("plan " + ping).find("absorption-slope"), std::string::npos);
+  EXPECT_THAT(succeed("plan " + ping), HasSubstr("absorption-slope"));
 }
 
 TEST_F(Plan, stands_in_the_manifest_of_the_ping_that_follows_it) {
   succeed(
-      "ping plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:5 -q -o out --no-picture --with noise "
+      "ping plane.ply --sonar p900-45 --set sonar.beams=8 --pose=0,0,3,0,15,0 --range 4:4.5 -q -o out --no-picture "
+      "--with noise "
       "--with absorption-slope --keep elements");
   const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
   EXPECT_TRUE(included(manifest["plan"], "noise"));
@@ -55,7 +53,6 @@ TEST_F(Plan, refuses_stages_that_are_unknown_or_have_no_cause) {
 TEST_F(Plan, forces_and_checks_only_the_method_in_force) {
   succeed("ping " + ping + " -q -o level --no-picture --method incoherent --without true-delays --without direct-sum");
   EXPECT_TRUE(insonify::read_cube(path("level/cube.h5")).pings[0].expected_level);
-  EXPECT_NE(succeed("plan " + ping + " --method direct --tolerance 1e-14").find("direct-sum         in"),
-            std::string::npos);
+  EXPECT_THAT(succeed("plan " + ping + " --method direct --tolerance 1e-14"), HasSubstr("direct-sum         in"));
   expect_refused("plan " + ping + " --tolerance 1e-14", 2, {"tolerance = 1e-14", "at least 1e-13", "use direct"});
 }

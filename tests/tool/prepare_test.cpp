@@ -6,10 +6,7 @@ namespace {
 
 class Prepare : public ToolTest {
  protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene plane -o plane.ply --points 4000 --size 8,8 -q");
-  }
+  void SetUp() override { have("plane.ply", "make-scene plane --points 4000 --size 8,8"); }
   nlohmann::json prepared(const std::string& arguments) const {
     return nlohmann::json::parse(succeed("prepare " + arguments + " --json -q"));
   }
@@ -21,7 +18,7 @@ TEST_F(Prepare, thins_to_the_spacing_asked_for_and_keeps_the_area) {
   const nlohmann::json whole = prepared("plane.ply -o whole.ply"), thin = prepared("plane.ply -o thin.ply --thin 0.5");
   EXPECT_NEAR(thin["surfels"].get<double>(), 8 * 8 / (0.5 * 0.5), 40);
   EXPECT_NEAR(thin["area_m2"].get<double>(), whole["area_m2"].get<double>(), 1e-4);
-  EXPECT_NE(thin["notes"].dump().find("thinned to 0.5 m"), std::string::npos);
+  EXPECT_THAT(thin["notes"].dump(), HasSubstr("thinned to 0.5 m"));
   const nlohmann::json again = prepared("thin.ply -o again.ply");
   EXPECT_EQ(again["surfels"], thin["surfels"]);
   EXPECT_NEAR(again["area_m2"].get<double>(), whole["area_m2"].get<double>(), 1e-4);

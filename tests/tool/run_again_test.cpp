@@ -1,9 +1,5 @@
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
-#include <fstream>
-#include <vector>
-
-#include <gmock/gmock.h>
-
+#include "support/test.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -41,8 +37,7 @@ void change(const RunSetting& setting) {
 class RunAgain : public ToolTest {
  protected:
   void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene harbour -o harbour.ply --points 20000 -q");
+    have("harbour.ply", "make-scene harbour --points 6000");
     write("track.csv",
           "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n1,1,0.3,-3,20,10,2\n2,2,0,-3,0,9,0\n");
     write("ctd.csv", "depth_m,sound_speed\n0,1520\n4,1490.123456789\n20,1489\n");

@@ -1,10 +1,8 @@
 // Scenes on disk: a ping of what the fan reaches is the ping of the whole.
-#include <cstdlib>
-#include <filesystem>
-
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -14,10 +12,7 @@ const std::string head = sonar + " --pose=0,0,-3,0,10,0 --range 2:15";
 
 class Tiles : public ToolTest {
  protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    succeed("make-scene harbour -o harbour.ply --points 60000 -q");
-  }
+  void SetUp() override { have("harbour.ply", "make-scene harbour --points 60000"); }
 };
 
 }  // namespace
@@ -34,7 +29,7 @@ TEST_F(Tiles, a_ping_of_the_tiles_is_the_ping_of_the_cloud_byte_for_byte) {
 
 TEST_F(Tiles, a_built_in_scene_can_be_made_as_tiles) {
   succeed("prepare harbour.ply -o prepared.tiles -q");
-  succeed("make-scene harbour -o made.tiles --points 60000 -q");
+  have("made.tiles", "make-scene harbour --points 60000");
   EXPECT_EQ(read("prepared.tiles"), read("made.tiles"));
   succeed("prepare made.tiles -o back.ply -q");
   EXPECT_EQ(read("back.ply"), read("harbour.ply"));
@@ -52,9 +47,8 @@ TEST_F(Tiles, the_manifest_says_how_much_was_read) {
   EXPECT_GT(tiles["surfels_read"], 0);
   EXPECT_LT(tiles["surfels_read"], tiles["surfels"]);
   EXPECT_LT(tiles["tiles_read"], tiles["tiles"]);
-  EXPECT_NE(succeed("plan harbour.tiles" + head.substr(0, head.find(" --no-picture")) + " --pose=0,0,-3,0,10,0")
-                .find("direct"),
-            std::string::npos);
+  EXPECT_THAT(succeed("plan harbour.tiles" + head.substr(0, head.find(" --no-picture")) + " --pose=0,0,-3,0,10,0"),
+              HasSubstr("direct"));
 }
 
 TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
@@ -62,7 +56,7 @@ TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
   const auto manifest = nlohmann::json::parse(
       succeed("ping harbour.tiles --json -o out" + sonar + " --pose=0,5000,-3,90,10,0 --range 2:15"));
   EXPECT_EQ(manifest["scene"]["tiles"]["surfels_read"], 0);
-  EXPECT_NE(manifest["notes"].dump().find("silent"), std::string::npos);
+  EXPECT_THAT(manifest["notes"].dump(), HasSubstr("silent"));
 }
 
 TEST_F(Tiles, what_cannot_be_pinged_is_refused) {

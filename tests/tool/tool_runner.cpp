@@ -1,55 +1,57 @@
 #include "tool/tool_runner.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <set>
+#include <cstdio>
 
-#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <wordexp.h>
+
+#include "support/test.hpp"
+#include "tool/command_line.hpp"
 
 namespace fs = std::filesystem;
 
-void ToolTest::SetUp() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  folder_ = fs::path(testing::TempDir()) / ("insonify_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-  fs::create_directories(folder_);
-}
-
-void ToolTest::TearDown() { fs::remove_all(folder_); }
-
-void ToolTest::write(const std::string& name, const std::string& content) const {
-  std::ofstream(folder_ / name, std::ios::binary) << content;
-}
-
 std::string ToolTest::read(const std::string& name) const {
-  std::ifstream file(folder_ / name, std::ios::binary);
-  EXPECT_TRUE(file) << name << " is missing";
-  return {std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(fs::exists(path(name))) << name << " is missing";
+  return insonify::file_bytes(path(name));
 }
 
+// The tool runs in a fork of this process, which has loaded its hundred libraries already. The process itself must not use
+// OpenMP before (PCL does, where it estimates normals): its threads do not survive the fork.
 ToolResult ToolTest::run(const std::string& arguments) const {
   // stdout and stderr go beside the folder, so that they do not count as output of the tool.
   const std::string out = folder_.string() + ".out", err = folder_.string() + ".err";
-  const std::string command =
-      "cd '" + folder_.string() + "' && '" INSONIFY_TOOL "' " + arguments + " >'" + out + "' 2>'" + err + "'";
-  const int status = std::system(command.c_str());
-  const auto slurp = [](const std::string& file) {
-    std::ifstream stream(file);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-  };
-  const ToolResult result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
-  fs::remove(out);
-  fs::remove(err);
-  return result;
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    wordexp_t words;
+    if (chdir(folder_.c_str()) != 0 || !std::freopen(out.c_str(), "w", stdout) ||
+        !std::freopen(err.c_str(), "w", stderr) || wordexp(("insonify " + arguments).c_str(), &words, WRDE_NOCMD) != 0)
+      _exit(99);
+    const int code = insonify::tool::run_tool(static_cast<int>(words.we_wordc), words.we_wordv);
+    std::fflush(nullptr);
+    _exit(code);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, insonify::file_bytes(out), insonify::file_bytes(err)};
 }
 
 std::string ToolTest::succeed(const std::string& arguments) const {
   const ToolResult result = run(arguments);
   EXPECT_EQ(result.exit_code, 0) << "insonify " << arguments << "\n" << result.err;
   return result.out;
+}
+
+void ToolTest::have(const std::string& name, const std::string& command) const {
+  const std::string line = command + " -o " + name;
+  const fs::path kept = folder_.parent_path() / ("kept" + std::to_string(std::hash<std::string>{}(line)));
+  if (!fs::exists(kept)) {
+    succeed(line + " -q");
+    fs::copy(folder_ / name, kept, fs::copy_options::recursive);
+  } else {
+    fs::copy(kept, folder_ / name, fs::copy_options::recursive);
+  }
 }
 
 void ToolTest::expect_refused(const std::string& arguments, int exit_code,
@@ -64,6 +66,6 @@ void ToolTest::expect_refused(const std::string& arguments, int exit_code,
   EXPECT_EQ(result.exit_code, exit_code) << "insonify " << arguments << "\n" << result.err;
   EXPECT_EQ(result.out, "") << arguments;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  for (const std::string& part : parts) EXPECT_THAT(result.err, testing::HasSubstr(part)) << arguments;
+  for (const std::string& part : parts) EXPECT_THAT(result.err, HasSubstr(part)) << arguments;
   EXPECT_EQ(files(), before) << arguments << " left something behind";
 }

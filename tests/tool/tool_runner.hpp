@@ -1,8 +1,5 @@
 #pragma once
-#include <filesystem>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 /// What a run of the tool left behind.
 struct ToolResult {
@@ -13,19 +10,18 @@ struct ToolResult {
 /// Each test in an empty folder of its own, with the tool at hand.
 class ToolTest : public testing::Test {
  protected:
-  void SetUp() override;
-  void TearDown() override;
-
-  /// Runs `insonify ARGUMENTS` in the folder through the shell.
+  /// Runs `insonify ARGUMENTS`, split as a shell does, in the folder.
   ToolResult run(const std::string& arguments) const;
   /// Runs and demands success; returns what came out on stdout.
   std::string succeed(const std::string& arguments) const;
+  /// The file or folder `name` that `insonify COMMAND -o name` writes, computed once per program.
+  void have(const std::string& name, const std::string& command) const;
   /// Demands an exit code, exactly one line on stderr holding every part, and no file beside those there before.
   void expect_refused(const std::string& arguments, int exit_code, const std::vector<std::string>& parts) const;
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& content) const;
+  void write(const std::string& name, const std::string& content) const { insonify::own_file(name, content); }
   std::string read(const std::string& name) const;
 
-  std::filesystem::path folder_;
+  const std::filesystem::path folder_ = insonify::own_folder();
 };

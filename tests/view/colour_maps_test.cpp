@@ -1,16 +1,9 @@
-#include <cmath>
-#include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 
-#include "support/errors.hpp"
+#include "support/test.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -64,8 +57,8 @@ TEST(ColourMaps, all_but_jet_grow_brighter_with_the_level) {
 
 TEST(ColourMaps, an_unknown_name_is_an_error_that_lists_the_known_ones) {
   const std::string message = message_of(with_map("virdis"));
-  EXPECT_THAT(message, testing::HasSubstr("show_fan: options.colour_map = \"virdis\""));
-  for (const std::string& name : colour_map_names()) EXPECT_THAT(message, testing::HasSubstr(name));
+  EXPECT_THAT(message, HasSubstr("show_fan: options.colour_map = \"virdis\""));
+  for (const std::string& name : colour_map_names()) EXPECT_THAT(message, HasSubstr(name));
 }
 
 TEST(ColourScale, maps_levels_as_vtkLookupTable_does) {
@@ -111,10 +104,8 @@ TEST(ColourScale, an_image_of_floor_only_has_a_finite_scale) {
 TEST(ColourScale, a_window_or_limits_that_are_no_range_are_errors) {
   PictureOptions options;
   options.window_db = -3;
-  EXPECT_THAT(message_of(options), testing::HasSubstr("options.window_db = -3 dB, must be > 0"));
+  EXPECT_THAT(message_of(options), HasSubstr("options.window_db = -3 dB, must be > 0"));
   options.window_db = 45;
-  options.min_db = 20;
-  options.max_db = 10;
-  EXPECT_THAT(message_of(options),
-              testing::HasSubstr("options.max_db = 10 dB, must be finite and exceed min_db = 20 dB"));
+  options.min_db = 20, options.max_db = 10;
+  EXPECT_THAT(message_of(options), HasSubstr("options.max_db = 10 dB, must be finite and exceed min_db = 20 dB"));
 }

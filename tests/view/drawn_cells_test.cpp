@@ -1,17 +1,7 @@
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
+#include "view/axes_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/test_pictures.hpp"
-#include "view/ticks_internal.hpp"
-
-using namespace insonify;
 
 namespace {
 

@@ -1,22 +1,8 @@
 // Properties of every view: room for all texts at all sizes, both themes, Greek letters.
-#include <cstdlib>
-#include <functional>
-#include <map>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
+#include "support/test.hpp"
 #include "view/drawing_internal.hpp"
-#include "view/show_ascan.hpp"
-#include "view/show_fan.hpp"
-#include "view/show_panels.hpp"
-#include "view/show_pattern.hpp"
-#include "view/show_rect.hpp"
-#include "view/show_spectrum.hpp"
-#include "view/show_waterfall.hpp"
+#include "view/show_image.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -124,8 +110,7 @@ TEST_F(EveryView, has_no_text_outside_the_picture_or_on_another_at_any_size) {
       if (name.starts_with("panels") && (width < 640 || height < 480)) continue;
       SCOPED_TRACE(testing::Message() << name << " in " << width << " x " << height);
       PictureOptions options;
-      options.width = width;
-      options.height = height;
+      options.width = width, options.height = height;
       options.title = "Harbour λ/2, oculus-m750d, ping 12300, 1 to 40 m";
       options.marks = marks();
       const VtkMessages messages;
@@ -141,8 +126,7 @@ TEST_F(EveryView, has_a_light_and_a_dark_theme) {
     for (const bool dark : {false, true}) {
       SCOPED_TRACE(name);
       PictureOptions options;
-      options.width = 800;
-      options.height = 600;
+      options.width = 640, options.height = 480;
       options.dark = dark;
       {
         const VtkMessages messages;
@@ -152,7 +136,7 @@ TEST_F(EveryView, has_a_light_and_a_dark_theme) {
       }
       const ReadPicture picture = read_png(path);
       double ground = 0;
-      for (const auto& [x, y] : {std::pair{1, 1}, {798, 1}, {1, 598}, {798, 598}}) ground += picture.at(x, y)[1] / 4.0;
+      for (const auto& [x, y] : {std::pair{1, 1}, {638, 1}, {1, 478}, {638, 478}}) ground += picture.at(x, y)[1] / 4.0;
       EXPECT_TRUE(dark ? ground < 40 : ground > 250) << ground;
     }
 }
@@ -161,8 +145,7 @@ TEST_F(EveryView, has_a_light_and_a_dark_theme) {
 TEST_F(EveryView, shows_greek) {
   const auto bytes = [&](const std::string& title) {
     PictureOptions options;
-    options.width = 480;
-    options.height = 360;
+    options.width = 480, options.height = 360;
     options.title = title;
     show_rect(flat_image(4, 40, 8, 60), options, path);
     return file_bytes(path);

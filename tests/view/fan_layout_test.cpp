@@ -1,15 +1,5 @@
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
+#include "support/test.hpp"
 #include "view/fan_layout_internal.hpp"
-#include "view/text.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -25,8 +15,7 @@ LaidOut lay_out(double field_of_view_deg, int width, int height, FanOutline fan)
   LaidOut laid{.fan = fan, .options = {}, .layout = {}, .texts = {}};
   laid.fan.low = -radians(field_of_view_deg) / 2;
   laid.fan.high = -laid.fan.low;
-  laid.options.width = width;
-  laid.options.height = height;
+  laid.options.width = width, laid.options.height = height;
   laid.options.title = "Harbour, ping 12: a title of ordinary length";
   laid.layout =
       lay_out_fan(laid.fan, laid.options, {colour_table("copper", "test"), 62, 107}, "dB re 1 µPa, range compensated");

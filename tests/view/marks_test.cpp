@@ -1,18 +1,8 @@
-#include <cmath>
-#include <cstdlib>
-
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
-#include "core/units.hpp"
-#include "view/draw_marks_internal.hpp"
+#include "support/test.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
-#include "view/show_fan.hpp"
-#include "view/strongest_maxima.hpp"
+#include "view/show_image.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -82,8 +72,7 @@ TEST(Marks, have_their_ring_where_they_are) {
   const std::string path = own_path("marks.png");
   LevelImage image = dark_image();
   PictureOptions options;
-  options.min_db = 0;
-  options.max_db = 100;
+  options.min_db = 0, options.max_db = 100;
   options.marks = {{radians(25), 40, ""}, {radians(-30), 12, ""}};
   show_fan(image, options, path);
   const ReadPicture picture = read_png(path);

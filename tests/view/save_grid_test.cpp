@@ -1,10 +1,5 @@
-#include "view/save_grid.hpp"
+#include "view/save_vtk.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include <gtest/gtest.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
@@ -16,10 +11,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLStructuredGridReader.h>
 
-#include "core/error.hpp"
-#include "core/units.hpp"
-#include "support/files.hpp"
-#include "view/save_lines.hpp"
+#include "support/test.hpp"
 
 namespace insonify {
 namespace {
@@ -116,8 +108,8 @@ TEST(SavedForVtk, series_names_its_files_beside_it_with_their_times) {
   save_series(own_path("fan.pvd"), {{0.5, 0, own_path("fan_000000.vts")}, {1.25, 1, own_path("fan_000001.vts")}});
   std::stringstream text;
   text << std::ifstream(own_path("fan.pvd")).rdbuf();
-  EXPECT_NE(text.str().find(R"(<DataSet timestep="0.5" part="0" file="fan_000000.vts"/>)"), std::string::npos);
-  EXPECT_NE(text.str().find(R"(<DataSet timestep="1.25" part="1" file="fan_000001.vts"/>)"), std::string::npos);
+  EXPECT_THAT(text.str(), HasSubstr(R"(<DataSet timestep="0.5" part="0" file="fan_000000.vts"/>)"));
+  EXPECT_THAT(text.str(), HasSubstr(R"(<DataSet timestep="1.25" part="1" file="fan_000001.vts"/>)"));
 }
 
 TEST(SavedForVtk, lines_come_back_with_their_points_and_numbers) {

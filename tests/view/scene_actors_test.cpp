@@ -1,15 +1,11 @@
-#include <gtest/gtest.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "core/error.hpp"
-#include "view/egl_window_internal.hpp"
+#include "support/test.hpp"
+#include "view/off_screen_internal.hpp"
 #include "view/scene_actors_internal.hpp"
 #include "view/scene_samples.hpp"
-#include "view/vtk_messages_internal.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -23,8 +19,7 @@ struct ActorsInWindow : testing::Test {
     for (std::size_t i = 0; i < scene.size(); ++i) look.level_db.push_back(static_cast<float>(i % 256) + 0.5F);
     look.axes = false;
     options.colour_map = "viridis";
-    options.min_db = 0;
-    options.max_db = 256;
+    options.min_db = 0, options.max_db = 256;
     window->SetMultiSamples(0);
     window->SetSize(400, 300);
     window->open("test");
@@ -92,22 +87,22 @@ TEST_F(ActorsInWindow, colours_change_in_place_and_a_colour_that_is_not_known_le
   EXPECT_EQ(pixel(200, 150), before);
 }
 
-TEST_F(ActorsInWindow, details_and_heads_come_and_go) {
+TEST_F(ActorsInWindow, details_and_marks_come_and_go_and_heads_come) {
   window->Render();
   const Rgb before = pixel(200, 150);
   actors->set_detail(SceneDetail::moving);
   window->Render();
   EXPECT_EQ(pixel(200, 150), before) << "a small scene is drawn whole";
   actors->set_detail(SceneDetail::still);
-  const SceneHead head = head_at(Pose(Eigen::Translation3d(scene.origin + Eigen::Vector3d(1, 0, 0))));
-  actors->show_head(head.world_from_head, head.fan, head.gate);
   actors->highlight(std::vector<std::uint32_t>{1, 2, 3});
-  actors->update_axes(renderer);
   window->Render();
-  actors->hide_head();
   actors->highlight({});
   window->Render();
   EXPECT_EQ(pixel(200, 150), before);
+  const SceneHead head = head_at(Pose(Eigen::Translation3d(scene.origin + Eigen::Vector3d(1, 0, 0))));
+  actors->show_head(head.world_from_head, head.fan, head.gate);
+  actors->update_axes(renderer);
+  window->Render();
   EXPECT_THROW(actors->highlight(std::vector<std::uint32_t>{5000}), Error);
   messages.throw_first_error("test");
 }

@@ -1,12 +1,9 @@
 // Holes of the scan and normals in the picture of a scene.
 
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "view/scene_samples.hpp"
 #include "view/show_scene.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -19,8 +16,7 @@ class SceneMarks : public PictureTest {
     look.visibility.assign(scene.size(), Visibility::outside);
     look.camera.preset = ScenePreset::top;
     look.axes = false;
-    options.width = 500;
-    options.height = 400;
+    options.width = 500, options.height = 400;
   }
   ReadPicture show() {
     show_scene(scene, look, options, path);

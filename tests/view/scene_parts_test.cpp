@@ -1,17 +1,10 @@
 // Parts of a scene picture that do not need VTK.
-#include <algorithm>
-#include <limits>
-
-#include <gtest/gtest.h>
-
-#include "view/scene_axes_internal.hpp"
+#include "support/test.hpp"
 #include "view/scene_camera_internal.hpp"
 #include "view/scene_colours_internal.hpp"
-#include "view/scene_head_internal.hpp"
+#include "view/scene_lines_internal.hpp"
 #include "view/scene_samples.hpp"
 #include "view/scene_surfels_internal.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -34,8 +27,7 @@ TEST(SceneColours, of_levels_are_those_of_the_table_and_grey_without_one) {
   look.level_db[5] = -std::numeric_limits<float>::infinity();
   PictureOptions options;
   options.colour_map = "viridis";
-  options.min_db = 50;
-  options.max_db = 70;
+  options.min_db = 50, options.max_db = 70;
   const SceneColours colours = colour_surfels(scene, look, options, "test");
   const ColourTable table = colour_table("viridis", "test");
   EXPECT_EQ(colours.colour[0], table[128]);  // the middle of the scale

@@ -1,15 +1,8 @@
-#include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "support/errors.hpp"
+#include "support/test.hpp"
 #include "view/scene_colours_internal.hpp"
 #include "view/scene_samples.hpp"
 #include "view/show_scene.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -187,8 +180,7 @@ TEST_F(ShowScene, keeps_its_texts_off_the_borders) {
   add_sphere(scene, {500000, 5000000, -20}, 4, 20000);
   options.title = "A title that is long enough to fill a picture of this width from one side to the other side";
   for (const auto& [width, height] : {std::pair{1400, 1050}, std::pair{600, 400}, std::pair{300, 500}}) {
-    options.width = width;
-    options.height = height;
+    options.width = width, options.height = height;
     const ReadPicture picture = show(scene, {});
     ASSERT_EQ(picture.width, width);
     ASSERT_EQ(picture.height, height);
@@ -236,25 +228,25 @@ TEST_F(ShowScene, draws_a_scene_of_one_surfel) {
 
 TEST_F(ShowScene, refuses_what_it_cannot_draw) {
   SceneCloud scene;
-  EXPECT_THAT(message_of(scene, {}, ErrorKind::content, path), testing::HasSubstr("scene has no surfels"));
+  EXPECT_THAT(message_of(scene, {}, ErrorKind::content, path), HasSubstr("scene has no surfels"));
   add_sphere(scene, {0, 0, 0}, 1, 10);
   SceneLook look;
   look.colour = SceneColour::visibility;
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("look.visibility is empty"));
+  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("look.visibility is empty"));
   look.colour = SceneColour::grazing;
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("look.head is absent"));
+  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("look.head is absent"));
   look = {};
   look.level_db = {1, 2};
   EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path),
-              testing::HasSubstr("level_db has 2 entries, must have none or 10"));
+              HasSubstr("level_db has 2 entries, must have none or 10"));
   look = {};
   look.highlighted = {10};
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("surfel 10, must be below 10"));
+  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("surfel 10, must be below 10"));
   look = {};
   look.camera.position = Eigen::Vector3d(1, 2, 3);
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("give both or neither"));
+  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("give both or neither"));
   look = {};
   look.point_size = 0;
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), testing::HasSubstr("point_size = 0"));
+  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("point_size = 0"));
   EXPECT_FALSE(file_exists(path));
 }

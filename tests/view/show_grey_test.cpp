@@ -1,17 +1,12 @@
-#include "view/show_grey.hpp"
+#include "view/show_image.hpp"
 
-#include <algorithm>
-
-#include <gtest/gtest.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPNMReader.h>
 
-#include "support/errors.hpp"
+#include "support/test.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 

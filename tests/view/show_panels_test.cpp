@@ -1,14 +1,7 @@
-#include "view/show_panels.hpp"
+#include "view/show_image.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
-#include "view/show_spectrum.hpp"
+#include "support/test.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -51,8 +44,7 @@ TEST_F(ShowPanels, show_the_fan_and_the_rectangle_each_in_its_place) {
 }
 
 TEST_F(ShowPanels, are_refused_in_a_picture_too_small_for_four) {
-  options.width = 480;
-  options.height = 360;
+  options.width = 480, options.height = 360;
   EXPECT_EQ(refusal(),
             "show_panels: options.width x height = 480 x 360 pixels, must be at least 640 x 480 for four panels");
   options.width = options.height = 800;
@@ -79,8 +71,7 @@ TEST_F(ShowPanels, and_a_spectrum_has_frequency_to_the_right_and_level_upwards) 
     line.density.push_back(k < 50 ? 1e-12 : 1e-11);  // 0 and 10 dB re 1 µPa²/Hz
   }
   options = {};
-  options.min_db = -20;
-  options.max_db = 20;
+  options.min_db = -20, options.max_db = 20;
   show_spectrum({line}, options, path);
   const ReadPicture picture = read_png(path);
   const auto height = [&](double from, double to) {

@@ -1,15 +1,7 @@
-#include "view/show_pattern.hpp"
+#include "view/show_image.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -47,8 +39,8 @@ TEST_F(ShowPattern, draws_port_on_the_left_and_level_upwards) {
     if (azimuth[i] > radians(30)) level_db[i] = -10;
   show_pattern(azimuth, level_db, options, path);
   const ReadPicture picture = read_png(path);
-  EXPECT_EQ(picture.width, 1400);
-  EXPECT_EQ(picture.height, 1050);
+  EXPECT_EQ(picture.width, 800);
+  EXPECT_EQ(picture.height, 600);
   const double port = line_height(picture, 0.2), starboard = line_height(picture, 0.8);
   ASSERT_GT(starboard, 0);
   // 40 of 60 dB, of a frame that takes most of the picture.
@@ -78,7 +70,7 @@ TEST_F(ShowPattern, refuses_what_is_no_pattern) {
   options.min_db = 3;
   expect_refused("show_pattern: max_db = 0 dB, must exceed min_db = 3 dB");
   options.width = 3;
-  expect_refused("show_pattern: options.width x height = 3 x 1050 pixels, must be 240 to 8192 either way");
+  expect_refused("show_pattern: options.width x height = 3 x 600 pixels, must be 240 to 8192 either way");
   azimuth.clear();
   level_db.clear();
   expect_refused("show_pattern: 0 points, must be at least 2");

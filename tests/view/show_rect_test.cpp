@@ -1,11 +1,7 @@
-#include "view/show_rect.hpp"
+#include "view/show_image.hpp"
 
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
+#include "support/test.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -45,8 +41,7 @@ TEST_F(ShowRect, has_starboard_right_and_range_upwards_and_every_cell_in_its_col
 }
 
 TEST_F(ShowRect, comes_out_in_the_size_asked_for_and_with_the_same_bytes_every_time) {
-  options.width = 640;
-  options.height = 512;
+  options.width = 640, options.height = 512;
   const ReadPicture picture = show();
   EXPECT_EQ(picture.width, 640);
   EXPECT_EQ(picture.height, 512);

@@ -1,13 +1,8 @@
-#include "view/show_waterfall.hpp"
+#include "view/drawing_internal.hpp"
+#include "view/show_image.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "support/errors.hpp"
-#include "view/cell_frame_internal.hpp"
+#include "support/test.hpp"
 #include "view/test_pictures.hpp"
-
-using namespace insonify;
 
 namespace {
 
@@ -89,7 +84,7 @@ TEST_F(ShowWaterfall, of_thousands_of_pings_loses_none) {
 
 TEST_F(ShowWaterfall, refuses_a_single_ping_and_parts_that_do_not_agree) {
   history.time.pop_back();
-  EXPECT_THAT(refusal(), testing::HasSubstr("show_waterfall: history.level_db is 8 x 20"));
+  EXPECT_THAT(refusal(), HasSubstr("show_waterfall: history.level_db is 8 x 20"));
   history.level_db = Grid<float>::Constant(1, 20, 5);
   EXPECT_EQ(refusal(), "show_waterfall: 1 pings, must be at least 2");
 }

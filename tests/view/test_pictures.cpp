@@ -1,15 +1,10 @@
 #include "view/test_pictures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
-#include <gtest/gtest.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
-#include "core/units.hpp"
+#include "support/test.hpp"
 
 namespace insonify {
 
@@ -37,8 +32,7 @@ ReadPicture read_png(const std::string& path) {
   reader->Update();
   vtkImageData* image = reader->GetOutput();
   ReadPicture picture;
-  picture.width = image->GetDimensions()[0];
-  picture.height = image->GetDimensions()[1];
+  picture.width = image->GetDimensions()[0], picture.height = image->GetDimensions()[1];
   EXPECT_EQ(image->GetNumberOfScalarComponents(), 3);
   const auto* first = static_cast<const std::uint8_t*>(image->GetScalarPointer());
   picture.bytes.assign(first, first + 3 * picture.width * picture.height);

@@ -1,12 +1,5 @@
 #pragma once
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "support/files.hpp"
+#include "support/test.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/picture.hpp"
 
@@ -20,7 +13,10 @@ LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t b
 /// Draws without a screen, into a file of its own.
 class PictureTest : public testing::Test {
  protected:
-  PictureTest() { unsetenv("DISPLAY"); }
+  PictureTest() {
+    unsetenv("DISPLAY");
+    options.width = 800, options.height = 600;
+  }
 
   PictureOptions options;
   std::string path = own_path("picture.png");

@@ -1,28 +1,21 @@
 // The program: a real window on a virtual display, pictures without one, and bad input.
-#include <cmath>
-#include <filesystem>
-
-#include <gmock/gmock.h>
 #include <hdf5.h>
 
-#include "scene_io/load_soundings.hpp"
+#include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/cube.hpp"
+#include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/desktop.hpp"
 #include "viewer/three_targets.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
-using namespace insonify;
-using testing::HasSubstr;
-
 namespace {
 
 class InsonifyView : public ToolTest {
  protected:
   void SetUp() override {
-    ToolTest::SetUp();
     std::filesystem::create_directories(path("out"));
     write_cube(path("out/cube.h5"), cube());
     write("out/manifest.json", "{}\n");
@@ -34,8 +27,7 @@ class InsonifyView : public ToolTest {
     cube.pings = made_.data.pings;
     cube.absorption_db_per_m = made_.data.absorption_db_per_m;
     cube.sound_speed = 1500;
-    cube.centre_frequency = 9e5;
-    cube.bandwidth = 3e4;
+    cube.centre_frequency = 9e5, cube.bandwidth = 3e4;
     cube.source_level_db = 200;
     cube.sonar = "three-targets";
     return cube;
@@ -60,8 +52,9 @@ TEST_F(InsonifyView, a_picture_of_a_run_needs_no_display) {
 }
 
 TEST_F(InsonifyView, a_beam_is_selected_at_its_loudest_sample) {
-  const std::string out = succeed("view out --screenshot a.png --beam " + std::to_string(made_.starboard.place.beam) +
-                                  " --events 'key shift+Up; key shift+Down; screenshot b.png; select 0 0' -q");
+  const std::string out =
+      succeed("view out --size 800x600 --screenshot a.png --beam " + std::to_string(made_.starboard.place.beam) +
+              " --events 'key shift+Up; key shift+Down; screenshot b.png; select 0 0' -q");
   EXPECT_TRUE(is_png(read("b.png")));
   EXPECT_THAT(out, HasSubstr("beam 0, bin 0"));
 }
@@ -75,7 +68,8 @@ TEST_F(InsonifyView, a_script_does_what_events_do) {
 
 TEST_F(InsonifyView, inspects_a_scene_before_any_ping) {
   const std::string out = succeed(
-      "view targets.ply --sonar p900-45 --pose=10,20,-3,30,0,0 --range 1:14 --screenshot a.png --events 'key Up; key "
+      "view targets.ply --sonar p900-45 --pose=10,20,-3,30,0,0 --range 1:14 --size 800x600 --screenshot a.png --events "
+      "'key Up; key "
       "p'");
   // Half a metre forward, 30 degrees to port: 0.433, 0.25.
   EXPECT_THAT(out, HasSubstr("--pose=10.433,20.25,-3,30,0,0"));
@@ -89,14 +83,15 @@ TEST_F(InsonifyView, estimates_missing_normals_and_says_so) {
       cloud += std::to_string(4 + 0.1 * i) + " " + std::to_string(-2 + 0.1 * j) + " " +
                std::to_string(0.01 * ((7 * i + 3 * j) % 5)) + "\n";
   write("bare.xyz", cloud);
-  const ToolResult result = run("view bare.xyz --sonar p900-45 --pose=0,0,2,0,15,0 --range 1:12 --screenshot a.png");
+  const ToolResult result =
+      run("view bare.xyz --sonar p900-45 --pose=0,0,2,0,15,0 --range 1:12 --size 800x600 --screenshot a.png");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("normals"));
 }
 
 TEST_F(InsonifyView, a_run_whose_scene_is_gone_is_shown_without_it) {
   std::filesystem::remove(path("targets.ply"));
-  const ToolResult result = run("view out --screenshot a.png");
+  const ToolResult result = run("view out --size 800x600 --screenshot a.png");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("targets.ply: the scene of the run is missing"));
 }
@@ -114,14 +109,12 @@ TEST_F(InsonifyView, shows_the_returns_of_a_run) {
   soundings.material = {0, 2};
   save_soundings(path("out/returns.ply"), soundings);
   const Soundings back = load_soundings(path("out/returns.ply"));
-  EXPECT_EQ(back.position, soundings.position);
-  EXPECT_EQ(back.level_db, soundings.level_db);
-  EXPECT_EQ(back.elevation, soundings.elevation);
-  EXPECT_EQ(back.ping, soundings.ping);
-  EXPECT_EQ(back.bin, soundings.bin);
-  EXPECT_EQ(back.material, soundings.material);
-  succeed("view out --screenshot a.png -q");
-  succeed("view out --no-scene --screenshot b.png -q");
+  const auto fields = [](const auto& x) {
+    return std::tie(x.position, x.level_db, x.elevation, x.ping, x.bin, x.material);
+  };
+  EXPECT_EQ(fields(back), fields(soundings));
+  succeed("view out --size 800x600 --screenshot a.png -q");
+  succeed("view out --no-scene --size 800x600 --screenshot b.png -q");
   EXPECT_NE(read("a.png"), read("b.png"));
 }
 
@@ -172,7 +165,7 @@ TEST_F(InsonifyView, refuses_a_cube_of_another_version) {
   ASSERT_GE(H5Awrite(schema, H5T_NATIVE_LLONG, &other), 0);
   H5Aclose(schema);
   H5Fclose(file);
-  expect_refused("view out --screenshot a.png", 3, {"cube.h5", "schema", "99"});
+  expect_refused("view out --size 800x600 --screenshot a.png", 3, {"cube.h5", "schema", "99"});
 }
 
 TEST_F(InsonifyView, refuses_options_that_make_no_sense) {

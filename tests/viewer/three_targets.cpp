@@ -1,8 +1,6 @@
 #include "viewer/three_targets.hpp"
 
-#include <cmath>
-
-#include "core/units.hpp"
+#include "support/test.hpp"
 
 namespace insonify {
 namespace {

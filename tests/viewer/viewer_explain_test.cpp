@@ -1,17 +1,10 @@
 // Explanation of a sample, and the surfels highlighted for it.
 #include "viewer/viewer_explain.hpp"
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-
-#include "core/error.hpp"
-#include "core/units.hpp"
+#include "support/test.hpp"
 #include "viewer/three_targets.hpp"
 #include "viewer/viewer_inspect.hpp"
 
-using namespace insonify;
-using testing::HasSubstr;
 using testing::Not;
 
 TEST(ExplainPixel, says_range_bearing_and_levels) {

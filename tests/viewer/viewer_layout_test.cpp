@@ -1,17 +1,11 @@
 // Layout of the panels, picking, and parsing of events.
 #include "viewer/viewer_layout.hpp"
 
-#include <gmock/gmock.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "viewer/viewer_data.hpp"
-#include "viewer/viewer_pick_internal.hpp"
+#include "viewer/viewer_flat_panels_internal.hpp"
 #include "viewer/viewer_script.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
 
 namespace {
 

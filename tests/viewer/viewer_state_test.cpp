@@ -1,16 +1,8 @@
 // Keys and clicks as functions from state to state.
 #include "viewer/viewer_state.hpp"
 
-#include <cmath>
-#include <set>
-
-#include <gmock/gmock.h>
-
-#include "core/units.hpp"
+#include "support/test.hpp"
 #include "view/picture.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
 
 namespace {
 

@@ -1,24 +1,15 @@
 // The whole window, drawn off-screen: clicks and keys change the state, and the drawing follows it.
-#include <cmath>
-
-#include <gmock/gmock.h>
-
-#include "core/units.hpp"
-#include "support/errors.hpp"
+#include "support/test.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/three_targets.hpp"
 #include "viewer/viewer_window_internal.hpp"
-
-using namespace insonify;
-using testing::HasSubstr;
 
 namespace {
 
 class Window : public testing::Test {
  protected:
   void open(ViewerOptions options = {}) {
-    options.width = 1200;
-    options.height = 800;
+    options.width = 800, options.height = 600;
     options.say = [this](const std::string& text) { said_.push_back(text); };
     window_.reset();  // one window at a time, since each holds VTK's messages
     window_ = std::make_unique<ViewerWindow>(made_.data, options, ViewerScreen::off_screen);
@@ -165,7 +156,7 @@ TEST_F(Window, two_clicks_measure_the_distance_between_two_targets) {
 TEST_F(Window, keys_change_what_is_drawn) {
   made_ = three_targets(3);
   open();
-  const Box whole{0, 1200, 0, 800};
+  const Box whole{0, 800, 0, 600};
   auto before = picture("viewer_before.png");
   for (const char* key : {"m", "t", "bracketright", "Up", "h", "h", "Right", "2", "u", "g"}) {
     window_->press_key(key);
@@ -182,7 +173,7 @@ TEST_F(Window, the_same_state_is_drawn_the_same_way_whatever_came_before) {
   for (const char* key :
        {"m", "m", "m", "m", "m", "t", "t", "Up", "Down", "Right", "Left", "h", "h", "u", "u", "g", "g"})
     window_->press_key(key);
-  EXPECT_EQ(differences(before, picture("viewer_after.png"), {0, 1200, 0, 800}), 0);
+  EXPECT_EQ(differences(before, picture("viewer_after.png"), {0, 800, 0, 600}), 0);
 }
 
 TEST_F(Window, the_slider_sets_the_gain) {
@@ -233,7 +224,7 @@ TEST_F(Window, inspects_a_scene_and_says_its_pose) {
   const auto at = window_->pixel_of_point(made_.far.position);
   window_->play(click_at(*at, ViewerPanelName::scene));
   EXPECT_THAT(said_.back(), HasSubstr("rubber"));
-  for (int i = 0; i < 40; ++i) window_->press_key("shift+Left");
+  for (int i = 0; i < 20; ++i) window_->press_key("shift+Left");
   EXPECT_THAT(window_->explanation(), HasSubstr(" 0 seen"));
 }
 

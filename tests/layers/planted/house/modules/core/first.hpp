@@ -1,4 +1,3 @@
-#include "core/hidden_internal.hpp"
 
 namespace insonify {
 struct TimeAxis {

@@ -1,1 +1,0 @@
-#include "core/hidden_internal.hpp"

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstddef>
+
+#include "sampling/find_scatterers.hpp"
+#include "sampling/insonified_region.hpp"
+#include "scene/scene_mesh.hpp"
+
+namespace insonify {
+
+/// Default of the most surfels that a ping samples from a mesh; with scatterers and echoes about 1.5 GiB.
+inline constexpr std::size_t default_mesh_surfels = std::size_t{1} << 23;
+
+/// What a ping needs of a mesh.
+struct MeshSurfels {
+  SceneCloud scene;       ///< with SceneCloud::part_of = SceneMesh::whole
+  double coarsening = 1;  ///< areas are so many times as large as the head asks for, to keep to the number allowed;
+                          ///< infinite: not even one surfel for each triangle was allowed, and there are none
+};
+
+/// Samples the triangles within `region` as finely as the head resolves them (E70): parts of a triangle, made by bisecting
+/// longest edges, have one surfel each, with the part's area, at random within it. A part is small enough if its area
+/// is at most that of a resolution cell (E17), of a square half as wide as a main lobe, and a sixteenth of a main lobe,
+/// all at its range; and the square of its longest edge at most eight times that.
+///
+/// The areas of a triangle's parts add up to its area. A part stands where it stands in every ping, with its id, and so
+/// does the speckle; of a part that is bisected, one half keeps place and id. Neither region nor threads change that. Ids
+/// are unique; there are 2^32 in all, shared out by area, which limits parts to 1.2 cm on 400 m x 400 m: below that
+/// find_scatterers splits the surfels.
+///
+/// region        ResolvedPing::region
+/// options       range_resolution, seed and threads; range_resolution 0: two bins of the region's gate
+///
+/// Throws Error for an invalid mesh, fan or gate, or most_surfels = 0.
+MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, const BeamFan& fan,
+                         const SamplingOptions& options = {}, std::size_t most_surfels = default_mesh_surfels);
+
+}  // namespace insonify

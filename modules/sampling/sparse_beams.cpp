@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/list_where_internal.hpp"
+#include "sampling/sparse_beams_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr float enough = 4;  // surfels in a main lobe
+
+/// Beams of one elevation by direction cosine.
+struct SortedRow {
+  double elevation = 0;
+  std::vector<std::pair<double, std::size_t>> beams;
+};
+
+std::vector<SortedRow> sorted_rows(const BeamFan& fan) {
+  std::vector<SortedRow> sorted;
+  for (const FanRow& row : fan_rows(fan)) {
+    sorted.push_back({row.elevation, {}});
+    for (const std::size_t b : row.beams)
+      sorted.back().beams.emplace_back(std::cos(row.elevation) * std::sin(fan.azimuth[b]), b);
+    std::sort(sorted.back().beams.begin(), sorted.back().beams.end());
+  }
+  return sorted;
+}
+
+}  // namespace
+
+std::size_t count_sparse_beams(const std::vector<GatedSurfel>& surfels, const BeamFan& fan, const RangeGate& gate,
+                               int threads) {
+  const double height = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
+  const auto lobe = static_cast<float>(fan.beam_width * height);
+  const auto solid_angle = [](const GatedSurfel& s) {
+    return s.spacing * s.spacing * s.plane_distance / (s.range * s.range * s.range);
+  };
+  const auto counts = [&](const GatedSurfel& s) { return s.facing && s.range >= gate.min_range; };
+  const auto sparse = [&](const GatedSurfel& s) { return enough * solid_angle(s) > lobe; };
+  if (count_where(surfels.size(), threads, [&](std::size_t i) { return counts(surfels[i]) && sparse(surfels[i]); }) ==
+      0)
+    return 0;
+
+  // Solid angle of the surfels whose discs reach into each main lobe: of the sparse ones less that of the others.
+  std::vector<double> balance(fan.beams(), 0);
+  const std::vector<SortedRow> rows = sorted_rows(fan);
+  for (const GatedSurfel& s : surfels) {
+    if (!counts(s)) continue;
+    const double reach = s.radius / s.range, u = s.position.y() / s.range;
+    const double elevation = std::asin(std::clamp(s.position.z() / s.range, -1.0F, 1.0F));
+    const double signed_angle = sparse(s) ? solid_angle(s) : -solid_angle(s);
+    for (const SortedRow& row : rows) {
+      if (std::abs(row.elevation - elevation) > height / 2 + reach) continue;
+      const double half = fan.beam_width / 2 + reach;
+      auto at = std::lower_bound(row.beams.begin(), row.beams.end(), std::pair<double, std::size_t>(u - half, 0));
+      for (; at != row.beams.end() && at->first <= u + half; ++at) balance[at->second] += signed_angle;
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(balance.begin(), balance.end(), [](double b) { return b > 0; }));
+}
+
+}  // namespace insonify

@@ -1,0 +1,171 @@
+#include "store/csv_tables.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "acoustics/water.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
+#include "store/csv_rows_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using Row = std::span<const double>;
+
+const std::array<CsvColumns, 2> profile_layouts = {CsvColumns{"depth_m", "sound_speed"},
+                                                   CsvColumns{"depth_m", "temperature_c", "salinity_psu"}};
+
+// Sound speed of a row with temperature and salinity.
+double speed_of_water(const Row& row, const FilePlace& place) {
+  const double depth = row[0], temperature_c = row[1], salinity_psu = row[2];
+  if (!(depth >= 0)) place.fail_here("depth_m = ", depth, " m, must be >= 0 (it is positive down)");
+  if (!(temperature_c >= -4 && temperature_c <= 100))
+    place.fail_here("temperature_c = ", temperature_c, " deg C, must be within -4 and 100");
+  if (!(salinity_psu >= 0 && salinity_psu <= 400))
+    place.fail_here("salinity_psu = ", salinity_psu, " psu, must be within 0 and 400");
+  Water water;
+  water.depth = depth;
+  water.temperature_c = temperature_c;
+  water.salinity_psu = salinity_psu;
+  return sound_speed(water);
+}
+
+void append(SoundSpeedProfile& profile, double depth, double speed, bool given, const FilePlace& place) {
+  if (!profile.depth.empty() && !(depth > profile.depth.back()))
+    place.fail_here("depth_m = ", depth, " m, must be deeper than the previous line, ", profile.depth.back(), " m");
+  if (!(speed >= 1300 && speed <= 1700))
+    place.fail_here(given ? "sound_speed = " : "sound speed of temperature_c and salinity_psu = ", speed,
+                    " m/s, must be within 1300 and 1700 m/s");
+  profile.depth.push_back(depth);
+  profile.sound_speed.push_back(speed);
+}
+
+const std::array<CsvColumns, 2> trajectory_layouts = {
+    CsvColumns{"time_s", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"},
+    CsvColumns{"time_s", "x_m", "y_m", "z_m", "yaw_deg", "pitch_deg", "roll_deg"}};
+
+Pose pose_from_quaternion(const Row& row, const FilePlace& place) {
+  const Eigen::Quaterniond q(row[7], row[4], row[5], row[6]);
+  if (!(std::abs(q.norm() - 1) <= 1e-3))
+    place.fail_here("length of (qx, qy, qz, qw) = ", q.norm(), ", must be 1 within 0.001");
+  Pose pose = Pose::Identity();
+  pose.linear() = q.normalized().toRotationMatrix();
+  pose.translation() = Eigen::Vector3d(row[1], row[2], row[3]);
+  return pose;
+}
+
+Pose pose_from_angles(const Row& row, const FilePlace& place) {
+  for (std::size_t i = 4; i < 7; ++i)
+    if (!(std::abs(row[i]) <= 360))
+      place.fail_here(trajectory_layouts[1][i], " = ", row[i], " degrees, must be within -360 and 360");
+  return pose_from_yaw_pitch_roll({row[1], row[2], row[3]}, radians(row[4]), radians(row[5]), radians(row[6]));
+}
+
+const CsvColumns scatterer_columns = {"range_m", "azimuth_rad", "elevation_rad", "sigma_m2", "xi_re", "xi_im"};
+enum Column { range_m, azimuth_rad, elevation_rad, sigma_m2, xi_re, xi_im };
+
+void require_valid(const Row& row, const FilePlace& place) {
+  if (!(row[range_m] > 0)) place.fail_here("range_m = ", row[range_m], " m, must be > 0");
+  if (!(row[sigma_m2] >= 0)) place.fail_here("sigma_m2 = ", row[sigma_m2], " m^2, must be >= 0");
+  if (!(std::abs(row[azimuth_rad]) <= pi))
+    place.fail_here("azimuth_rad = ", row[azimuth_rad], " rad, must be within -pi and pi (is it in degrees?)");
+  if (!(std::abs(row[elevation_rad]) <= pi / 2))
+    place.fail_here("elevation_rad = ", row[elevation_rad], " rad, must be within -pi/2 and pi/2 (is it in degrees?)");
+}
+
+void append(ScattererTable& table, const Row& row) {
+  Scatterers& s = table.scatterers;
+  const std::size_t place = s.size();
+  s.range.push_back(row[range_m]);
+  s.azimuth.push_back(row[azimuth_rad]);
+  s.elevation.push_back(row[elevation_rad]);
+  s.cos_incidence.push_back(1);
+  s.projected_area.push_back(0);  // sigma is given instead
+  s.material.push_back(0);
+  s.id.push_back(place);
+  s.surfel.push_back(static_cast<std::uint32_t>(place));
+  table.sigma.push_back(row[sigma_m2]);
+  table.xi.emplace_back(row[xi_re], row[xi_im]);
+}
+
+// Removes surrounding quotes; doubled quotes inside them become single.
+std::string unquoted(std::string_view text) {
+  if (text.size() < 2 || text.front() != '"' || text.back() != '"') return std::string(text);
+  std::string plain;
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    plain += text[i];
+    if (text[i] == '"' && text[i + 1] == '"' && i + 2 < text.size()) ++i;
+  }
+  return plain;
+}
+
+Label read_label(std::string_view line, const FilePlace& place) {
+  const std::size_t first = line.find(','), second = first == line.npos ? first : line.find(',', first + 1);
+  if (second == line.npos) place.fail_here("has fewer than 3 columns, must be bearing_deg,range_m,text");
+  Label label;
+  label.bearing_deg = read_number(trimmed(line.substr(0, first)), "bearing_deg", place);
+  label.range = read_number(trimmed(line.substr(first + 1, second - first - 1)), "range_m", place);
+  label.text = unquoted(trimmed(line.substr(second + 1)));
+  if (!(std::abs(label.bearing_deg) <= 360))
+    place.fail_here("bearing_deg = ", label.bearing_deg, " deg, must be within -360 and 360");
+  if (!(label.range > 0)) place.fail_here("range_m = ", label.range, " m, must be > 0");
+  return label;
+}
+
+}  // namespace
+
+SoundSpeedProfile load_sound_speed_profile(const std::string& path) {
+  SoundSpeedProfile profile;
+  read_csv(path, profile_layouts, [&](std::size_t layout) {
+    const bool given = layout == 0;
+    return [&profile, given](Row row, const FilePlace& place) {
+      append(profile, row[0], given ? row[1] : speed_of_water(row, place), given, place);
+    };
+  });
+  if (profile.depth.empty()) fail(ErrorKind::content, path, ": has a header only, must have at least one entry");
+  return profile;
+}
+
+Trajectory load_trajectory(const std::string& path) {
+  Trajectory trajectory;
+  read_csv(path, trajectory_layouts, [&](std::size_t layout) {
+    return [&trajectory, layout](Row row, const FilePlace& place) {
+      if (!trajectory.time.empty() && !(row[0] > trajectory.time.back()))
+        place.fail_here("time_s = ", row[0], " s, must be later than the previous line, ", trajectory.time.back(),
+                        " s");
+      trajectory.time.push_back(row[0]);
+      trajectory.pose.push_back(layout == 0 ? pose_from_quaternion(row, place) : pose_from_angles(row, place));
+    };
+  });
+  if (trajectory.time.size() < 2)
+    fail(ErrorKind::content, path, ": has ", trajectory.time.size(), " entries, must have at least two");
+  return trajectory;
+}
+
+ScattererTable load_scatterer_table(const std::string& path) {
+  ScattererTable table;
+  read_csv(path, {&scatterer_columns, 1}, [&](std::size_t) {
+    return [&](Row row, const FilePlace& place) {
+      require_valid(row, place);
+      append(table, row);
+    };
+  });
+  return table;
+}
+
+std::vector<Label> load_labels(const std::string& path) {
+  std::vector<Label> labels;
+  bool header = false;
+  read_lines(path, [&](std::string_view line, const FilePlace& place) {
+    if (header)
+      labels.push_back(read_label(line, place));
+    else if (line != "bearing_deg,range_m,text")
+      place.fail_here("header is '", line, "', must be bearing_deg,range_m,text");
+    header = true;
+  });
+  if (labels.empty()) fail(ErrorKind::content, path, ": has no labels, must have a header and at least one label");
+  return labels;
+}
+
+}  // namespace insonify

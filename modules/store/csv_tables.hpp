@@ -1,0 +1,47 @@
+#pragma once
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "acoustics/motion.hpp"
+#include "acoustics/sound_speed_profile.hpp"
+#include "sampling/scatterers.hpp"
+
+// Tables of other programs as CSV: a header, its columns in any order, then rows. '#' starts a comment line; blank lines,
+// a byte-order mark and Windows line ends are accepted. All throw Error(file), or Error(content) with path, line, column,
+// value and rule.
+namespace insonify {
+
+/// Reads a sound speed profile with the header depth_m,sound_speed [m, m/s] or depth_m,temperature_c,salinity_psu.
+/// Depths ascend strictly and are positive down. Temperature and salinity are converted to sound speed by UNESCO (E1) at
+/// latitude 45 degrees. Rules: those of require_valid(profile) and, for temperature and salinity, require_valid(water).
+SoundSpeedProfile load_sound_speed_profile(const std::string& path);
+
+/// Reads a trajectory of the head with the header time_s,x_m,y_m,z_m,qx,qy,qz,qw (the unit quaternion of
+/// world_from_head) or time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg (as pose_from_yaw_pitch_roll: world z up, pitch
+/// positive nose down). Quaternions within 1e-3 of unit length are normalised; q and -q are equivalent. Rules: times
+/// ascend strictly, angles are within -360 and 360 degrees, there are at least two entries.
+Trajectory load_trajectory(const std::string& path);
+
+/// Scatterers from another program: positions, cross-sections and complex amplitudes.
+struct ScattererTable {
+  Scatterers scatterers;                 ///< range, azimuth, elevation, id = line order
+  std::vector<double> sigma;             ///< backscattering cross-section [m^2]
+  std::vector<std::complex<double>> xi;  ///< random amplitude, E|xi|^2 = 1
+};
+
+/// Reads scatterers with the header range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im.
+ScattererTable load_scatterer_table(const std::string& path);
+
+/// A user-defined label of a place in a picture.
+struct Label {
+  double bearing_deg = 0;  ///< positive to starboard
+  double range = 0;        ///< [m]
+  std::string text;
+};
+
+/// Reads labels with the header bearing_deg,range_m,text, in this order; the text is everything after the second comma,
+/// optionally in double quotes. Rules: bearings within -360 and 360 degrees, ranges > 0, at least one label.
+std::vector<Label> load_labels(const std::string& path);
+
+}  // namespace insonify

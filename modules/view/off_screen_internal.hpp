@@ -1,0 +1,65 @@
+#pragma once
+#include <mutex>
+#include <string>
+
+#include <EGL/egl.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkOutputWindow.h>
+#include <vtkPNGWriter.h>
+#include <vtkRenderWindow.h>
+#include <vtkSmartPointer.h>
+
+namespace insonify {
+
+/// A VTK render window without a screen: surfaceless EGL (Mesa), which needs neither an X server nor DISPLAY.
+/// Debian's VTK 9.1 supports only X windows and aborts the program if there is no display.
+class EglWindow : public vtkGenericOpenGLRenderWindow {
+ public:
+  static EglWindow* New();
+  vtkTypeMacro(EglWindow, vtkGenericOpenGLRenderWindow);
+
+  /// Creates the GL context. Throws Error(runtime) with the remedy if that fails.
+  void open(const char* who);
+
+  void MakeCurrent() override;
+  bool IsCurrent() override;
+  int SupportsOpenGL() override { return 1; }
+  vtkTypeBool IsDirect() override { return 0; }
+  void OpenGLInitContext() override;
+
+ protected:
+  EglWindow();
+  ~EglWindow() override;
+
+ private:
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLSurface surface_ = EGL_NO_SURFACE;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+/// During its lifetime, collects what VTK would print to stderr and lets only one thread draw, because VTK's text
+/// renderer and message window exist once per process.
+class VtkMessages {
+ public:
+  VtkMessages();
+  ~VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages& operator=(const VtkMessages&) = delete;
+
+  /// Throws Error(runtime) with VTK's first error, if it reported any. Warnings are dropped.
+  void throw_first_error(const char* who) const;
+
+ private:
+  std::unique_lock<std::mutex> turn_;
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkSmartPointer<vtkOutputWindow> collector_;
+};
+
+/// Writes the window's back buffer as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK
+/// reported an error, Error(file) if the file cannot be written.
+void save_window(vtkRenderWindow* window, const std::string& path, const VtkMessages& messages, const char* who);
+
+/// The same for the input of `writer`.
+void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who);
+
+}  // namespace insonify

@@ -1,0 +1,181 @@
+#include "view/save_vtk.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <vtkCellData.h>
+#include <vtkDataSet.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+#include <vtkXMLImageDataWriter.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
+#include <vtkXMLWriter.h>
+
+#include "core/error.hpp"
+#include "core/pending_file.hpp"
+#include "core/text.hpp"
+#include "view/drawn_cells_internal.hpp"
+#include "view/off_screen_internal.hpp"
+#include "view/scene_lines_internal.hpp"
+
+namespace insonify {
+namespace {
+
+/// An array of cell data; of a fan with ranges varying fastest.
+vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  std::copy(values, values + count, array->GetPointer(0));
+  return array;
+}
+
+/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed.
+void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who) {
+  const VtkMessages messages;
+  writer.SetInputData(data);
+  writer.SetDataModeToAppended();
+  writer.EncodeAppendedDataOff();
+  writer.SetCompressorTypeToZLib();
+  writer.WriteToOutputStringOn();
+  if (!writer.Write()) fail(ErrorKind::runtime, who, ": VTK cannot write ", path);
+  messages.throw_first_error(who);
+  write_file(path, writer.GetOutputString());
+}
+
+void require_fields(const BeamFan& fan, const RangeGate& gate, const std::vector<SampleField>& fields,
+                    const char* who) {
+  require_valid(fan, who);
+  require_valid(gate, who);
+  if (fields.empty()) fail(ErrorKind::argument, who, ": no field to write");
+  std::set<std::string> names;
+  const auto beams = static_cast<Eigen::Index>(fan.beams()), bins = static_cast<Eigen::Index>(gate.bins());
+  for (const SampleField& field : fields) {
+    if (field.values.rows() != beams || field.values.cols() != bins)
+      fail(ErrorKind::argument, who, ": field '", field.name, "' is ", field.values.rows(), " x ", field.values.cols(),
+           ", must be beams x bins, ", beams, " x ", bins);
+    if (!names.insert(field.name).second) fail(ErrorKind::argument, who, ": two fields are called '", field.name, "'");
+  }
+}
+
+/// The part of an image that belongs to one row of beams.
+LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>& values, const FanRow& row) {
+  LevelImage part{{{}, {}, fan.beam_width, fan.elevation_width, 0}, gate, {}, {}};
+  part.level_db.resize(static_cast<Eigen::Index>(row.beams.size()), values.cols());
+  for (std::size_t b = 0; b < row.beams.size(); ++b) {
+    part.fan.azimuth.push_back(fan.azimuth[row.beams[b]]);
+    part.fan.elevation.push_back(row.elevation);
+    part.level_db.row(static_cast<Eigen::Index>(b)) = values.row(static_cast<Eigen::Index>(row.beams[b]));
+  }
+  return part;
+}
+
+/// Corners of the cells, ranges varying fastest, then bearings.
+vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, double elevation, const RangeGate& gate,
+                                   const Pose& world_from_head) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->Allocate(static_cast<vtkIdType>(bearing_edges.size() * (gate.bins() + 1)));
+  for (const double bearing : bearing_edges) {
+    const Eigen::Vector3d direction = unit_vector({-bearing, elevation});
+    for (std::size_t n = 0; n <= gate.bins(); ++n) {
+      const double range = gate.min_range + static_cast<double>(n) * gate.bin_size;
+      const Eigen::Vector3d corner = world_from_head * Eigen::Vector3d(range * direction);
+      points->InsertNextPoint(corner.data());
+    }
+  }
+  return points;
+}
+
+void save_row(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+              const std::vector<SampleField>& fields, const Pose& world_from_head, const FanRow& row) {
+  vtkNew<vtkStructuredGrid> grid;
+  for (const SampleField& field : fields) {
+    const BeamCells cells = order_beams(part_of(fan, gate, field.values, row));
+    if (grid->GetNumberOfPoints() == 0) {
+      grid->SetDimensions(static_cast<int>(gate.bins()) + 1, static_cast<int>(cells.edges.size()), 1);
+      grid->SetPoints(corners(cells.edges, row.elevation, gate, world_from_head));
+    }
+    grid->GetCellData()->AddArray(
+        cell_array(field.name, cells.level_db.data(), static_cast<std::size_t>(cells.level_db.size())));
+  }
+  grid->GetCellData()->SetActiveScalars(fields.front().name.c_str());
+  vtkNew<vtkXMLStructuredGridWriter> writer;
+  write_xml(*writer, grid, path, "save_fan_grid");
+}
+
+constexpr const char* who = "save_lines";
+
+void require_valid(const LineSet& lines) {
+  for (std::size_t i = 0; i < lines.points.size(); ++i)
+    if (lines.points[i].size() < 2)
+      fail(ErrorKind::argument, who, ": line ", i, " has ", lines.points[i].size(), " points, must have at least 2");
+  for (const LineSet::Field& field : lines.fields)
+    if (field.values.size() != lines.points.size())
+      fail(ErrorKind::argument, who, ": field '", field.name, "' has ", field.values.size(),
+           " values, must have one per line (", lines.points.size(), ")");
+}
+
+}  // namespace
+
+std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+                                       const std::vector<SampleField>& fields, const Pose& world_from_head) {
+  require_fields(fan, gate, fields, "save_fan_grid");
+  const std::vector<FanRow> rows = fan_rows(fan);
+  std::vector<std::string> files;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::filesystem::path file = path;
+    if (rows.size() > 1) file.replace_filename(file.stem().string() + printed("_row_%03zu.vts", r));
+    save_row(file.string(), fan, gate, fields, world_from_head, rows[r]);
+    files.push_back(file.string());
+  }
+  return files;
+}
+
+void save_sample_image(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+                       const std::vector<SampleField>& fields) {
+  require_fields(fan, gate, fields, "save_sample_image");
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(fan.beams()) + 1, static_cast<int>(gate.bins()) + 1, 1);
+  image->SetOrigin(0, gate.min_range, 0);
+  image->SetSpacing(1, gate.bin_size, 1);
+  // Cells are ordered with beams varying fastest.
+  for (const SampleField& field : fields) {
+    const Grid<float> values = field.values.transpose();
+    image->GetCellData()->AddArray(cell_array(field.name, values.data(), fan.beams() * gate.bins()));
+  }
+  image->GetCellData()->SetActiveScalars(fields.front().name.c_str());
+  vtkNew<vtkXMLImageDataWriter> writer;
+  write_xml(*writer, image, path, "save_sample_image");
+}
+
+void save_series(const std::string& path, const std::vector<SeriesEntry>& entries) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+       << "  <Collection>\n";
+  for (const SeriesEntry& e : entries)
+    text << "    <DataSet timestep=\"" << e.time << "\" part=\"" << e.part << "\" file=\""
+         << std::filesystem::path(e.file).filename().string() << "\"/>\n";
+  text << "  </Collection>\n</VTKFile>\n";
+  write_file(path, text.str());
+}
+
+void save_lines(const std::string& path, const LineSet& lines) {
+  require_valid(lines);
+  const vtkSmartPointer<vtkPolyData> data = polylines(lines.points, VTK_DOUBLE);
+  for (const LineSet::Field& field : lines.fields)
+    data->GetCellData()->AddArray(cell_array(field.name, field.values.data(), field.values.size()));
+  if (!lines.fields.empty()) data->GetCellData()->SetActiveScalars(lines.fields.front().name.c_str());
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  write_xml(*writer, data, path, who);
+}
+
+}  // namespace insonify

@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pose.hpp"
+#include "view/picture.hpp"
+
+namespace insonify {
+
+/// One quantity of a ping, one value per sample.
+struct SampleField {
+  std::string name;    ///< of the array in the file, e.g. level_db
+  Grid<float> values;  ///< beams x bins
+};
+
+/// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges
+/// of its beam (halfway to its neighbours, as in show_fan) and of its bin, at the elevation of its row, with corners in
+/// the world [m, double]. A fan of several elevations gives one file per row, by ascending elevation: path.vts becomes
+/// path_row_000.vts, path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value
+/// of each field. Returns the names of the files, which are written under temporary names and renamed. Throws
+/// Error(argument) for an invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name;
+/// Error(file) if it cannot write.
+std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+                                       const std::vector<SampleField>& fields, const Pose& world_from_head);
+
+/// Writes samples as a regular VTK image (.vti): one cell per sample, beam number along x (from 0) and range along y
+/// [m], with the values of the cube bit for bit. Throws as save_fan_grid.
+void save_sample_image(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+                       const std::vector<SampleField>& fields);
+
+/// A file of a time series.
+struct SeriesEntry {
+  double time = 0;  ///< [s]
+  int part = 0;     ///< number among the files of one time
+  std::string file;
+};
+
+/// Writes a ParaView collection (.pvd) of files in the same folder. Throws Error(file).
+void save_series(const std::string& path, const std::vector<SeriesEntry>& entries);
+
+/// Polylines in space with scalar fields, as a structure of arrays.
+struct LineSet {
+  std::vector<std::vector<Eigen::Vector3d>> points;  ///< of each line, world [m]
+  struct Field {
+    std::string name;
+    std::vector<float> values;  ///< one per line
+  };
+  std::vector<Field> fields;
+};
+
+/// Writes lines as VTK polydata (.vtp), points in double, fields as cell data. Written to a temporary name, then
+/// renamed. Throws Error(argument) for a line of fewer than two points or a field without exactly one value per line,
+/// Error(file) if it cannot write.
+void save_lines(const std::string& path, const LineSet& lines);
+
+}  // namespace insonify
