@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that insonify needs and this machine lacks; says which and why. Run by apps/demo.sh and
-# tests/run.sh. With --tests also what the tests need. Uses sudo when not root.
+# tests/run.sh. With --tests also what the tests need, with --tidy what tests/tidy.sh needs. Uses sudo when not root.
 set -euo pipefail
 
 declare -A why=(
@@ -17,6 +17,7 @@ if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
     [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer")
 fi
+if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
 
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${Package} ${Status}\n' "${!why[@]}" 2>/dev/null || true)

@@ -57,6 +57,8 @@ Made by [docs/make_accuracy.sh](make_accuracy.sh) from one run of \`insonify acc
 $(field cpu), $(field cores) cores, load average $(field load_average) when it started; $(field compiler), \`$(field flags)\`; commit $(field commit), version
 $(field insonify_version), $(field threads) threads, seed $(field seed). Absolute times depend on the machine and its load; ratios are more robust.
 
+This page is about synthesis and sampling. What a ping leaves out as not needed, within \`--accuracy-db\`, is in [plan.md](plan.md).
+
 ## How it is measured
 
 - **Error**: relative L2 norm of the difference from the direct sum in double, over all bins of \`checked_beams\` evenly spaced beams (including both ends of the fan)

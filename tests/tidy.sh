@@ -9,7 +9,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 commands=build/dev/compile_commands.json
 [[ -f $commands ]] || { echo "tests/tidy.sh: no $commands; run: cmake --preset dev" >&2; exit 2; }
-tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || { echo "tests/tidy.sh: install clang-tidy" >&2; exit 2; }
+tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || {
+  echo "tests/tidy.sh: no clang-tidy; run: apps/install_packages.sh --tidy" >&2
+  exit 2
+}
 
 changed_sources() {
   local base=${1:-$(git merge-base HEAD origin/main 2>/dev/null || git rev-parse HEAD~1)} file

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -7,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "beamforming/synthesize.hpp"
+#include "core/stop_watch.hpp"
 #include "returns/compare.hpp"
 #include "thesis/thesis.hpp"
 
@@ -46,9 +46,9 @@ Timing time_runs(int runs, const std::function<ComplexGrid()>& run) {
   std::vector<double> seconds;
   double spent = 0;
   for (int i = 0; i < runs && spent < 10; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    StopWatch watch;
     timing.pressure = run();
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(watch.lap());
     spent += seconds.back();
   }
   std::sort(seconds.begin(), seconds.end());

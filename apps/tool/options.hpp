@@ -34,7 +34,7 @@ struct RunOptions {
   std::string profile;      ///< CSV of sound speed against depth, or empty
   std::string output;
   double tolerance = 1e-4;
-  std::string method = "gridded";
+  std::string method = "planned";
   bool force = false;
   bool no_picture = false;
 };
@@ -57,7 +57,8 @@ struct PingOptions {
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
   int looks_range = 1, looks_pings = 1;
-  int absorption_order = 0;
+  int absorption_order = -1;
+  double accuracy_db = 0.1;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
   double time = 0;         ///< of transmission [s]
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest

@@ -14,6 +14,7 @@
 namespace insonify::tool {
 
 constexpr Named<SynthesisMethod> method_words[] = {{"gridded", SynthesisMethod::gridded},
+                                                   {"planned", SynthesisMethod::gridded},  // true delays where needed
                                                    {"true-delays", SynthesisMethod::true_delays},
                                                    {"direct", SynthesisMethod::direct},
                                                    {"element-exact", SynthesisMethod::element_exact},

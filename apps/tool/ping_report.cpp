@@ -6,6 +6,7 @@
 
 #include "acoustics/reflection.hpp"
 #include "core/units.hpp"
+#include "tool/parse_values.hpp"
 
 namespace insonify::tool {
 
@@ -44,10 +45,13 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places) {
 }
 
 std::string bound_text(const PlannedStage& stage) {
-  if (stage.included) return "";
   if (std::isinf(stage.bound_relative)) return "not known";
   if (stage.bound_relative == 0) return "0";
-  return fmt::format("{:.1e}  {:.2g} dB", stage.bound_relative, stage.bound_db);
+  return fmt::format("{:.2g} dB", stage.bound_db);
+}
+
+std::string share_text(const PlannedStage& stage, const PingPlan& plan) {
+  return stage.by == DecidedBy::budget ? fmt::format("{:.2g} dB", plan.share_db) : decided_by_name(stage.by);
 }
 
 /// JSON has no infinity: null is no bound.
@@ -132,13 +136,19 @@ ordered_json plan_json(const PingPlan& plan) {
   ordered_json stages = ordered_json::array();
   for (const PlannedStage& s : plan.stages)
     stages.push_back({{"name", s.name},
+                      {"by", decided_by_name(s.by)},
                       {"included", s.included},
                       {"why", s.why},
                       {"bound_db", number(s.bound_db)},
-                      {"bound_relative", number(s.bound_relative)}});
-  return {{"stages", stages},
+                      {"bound_relative", number(s.bound_relative)},
+                      {"seconds_on_one_core", s.seconds}});
+  return {{"accuracy_db", plan.options.accuracy_db},
+          {"share_db", plan.share_db},
+          {"left_out_db", number(plan.left_out_db)},
+          {"stages", stages},
           {"synthesis",
-           {{"precision", plan.synthesis.single_precision ? "single" : "double"},
+           {{"method", name_of(method_words, plan.options.synthesis.method)},
+            {"precision", plan.synthesis.single_precision ? "single" : "double"},
             {"kernel_width", plan.synthesis.kernel_width},
             {"grid", plan.synthesis.grid},
             {"pulse_samples", plan.synthesis.pulse_samples}}},
@@ -149,12 +159,18 @@ ordered_json plan_json(const PingPlan& plan) {
 }
 
 void print_plan(const PingPlan& plan) {
-  fmt::print("{:<18} {:<4} {:<20} {}\n", "stage", "", "left out costs", "why");
+  fmt::print("{:<18} {:<4} {:<10} {:<9} {:<9} {}\n", "stage", "", "bound", "share", "cost", "why");
   for (const PlannedStage& s : plan.stages)
-    fmt::print("{:<18} {:<4} {:<20} {}\n", s.name, s.included ? "in" : "out", bound_text(s), s.why);
-  fmt::print("synthesis: {} precision, kernel {} of {} grid steps, {} samples per pulse\n",
-             plan.synthesis.single_precision ? "single" : "double", plan.synthesis.kernel_width, plan.synthesis.grid,
-             plan.synthesis.pulse_samples);
+    fmt::print("{:<18} {:<4} {:<10} {:<9} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s),
+               share_text(s, plan), s.seconds > 0 ? fmt::format("{:.2g} s", s.seconds) : "", s.why);
+  fmt::print(
+      "bound: error of the image without the stage; share: of {} dB, what a stage may cost to be left out, or who "
+      "decides instead\n",
+      plan.options.accuracy_db);
+  fmt::print("left out: {:.2g} dB together\n", plan.left_out_db);
+  fmt::print("synthesis: {}, {} precision, kernel {} of {} grid steps, {} samples per pulse\n",
+             name_of(method_words, plan.options.synthesis.method), plan.synthesis.single_precision ? "single" : "double",
+             plan.synthesis.kernel_width, plan.synthesis.grid, plan.synthesis.pulse_samples);
   fmt::print("about {} surfels in view, {:.2g} scatterers, {:.2g} s on one core, {:.0f} MiB\n", plan.surfels_in_view,
              plan.scatterers, plan.seconds, plan.mib);
 }

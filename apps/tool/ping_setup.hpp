@@ -1,19 +1,45 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "beamforming/sonar_spec.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
-#include "tool/head_setup.hpp"
+#include "store/sonar_file.hpp"
 #include "tool/options.hpp"
 
 namespace insonify::tool {
 
-/// Whether --keep names `what`.
-bool keeps(const PingOptions& options, const std::string& what);
+/// Sonar and environment of a run: presets or files, then --set, then --range.
+struct HeadSetup {
+  SonarSpec spec;
+  SonarHead head;
+  Environment environment;
+  Medium medium;
+  std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
+  std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
+};
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run);
+
+/// Options of loading a scene. Materials come from --materials, else, with --material, from the table that is part of
+/// insonify.
+LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene);
+
+/// One sentence per thing that was dropped, repaired or assumed on loading.
+std::vector<std::string> loading_notes(const LoadReport& report);
+
+/// [scene] of the run.toml in a run directory as options of loading it, with paths looked up as by load_ping_settings.
+/// Defaults, with an empty path, if there is no run.toml or no [scene] in it.
+SceneOptions scene_of_run(const std::string& run);
+
+/// How the head of a run, as its run.toml describes it, samples `scene`, wherever it stands; none without a
+/// run.toml that has the sonar.
+std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads);
 
 /// Everything that a ping needs except the scene.
 struct PingSetup {
@@ -25,6 +51,9 @@ struct PingSetup {
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
 PingSetup set_up_ping(const PingOptions& options);
+
+/// Whether --keep names `what`.
+bool keeps(const PingOptions& options, const std::string& what);
 
 /// Places of about 10 000 surfels in head axes [m].
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);

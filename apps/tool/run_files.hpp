@@ -6,10 +6,11 @@
 
 #include "returns/ping.hpp"
 #include "returns/quantise.hpp"
+#include "simulate/simulate_ping.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
-#include "tool/head_setup.hpp"
 #include "tool/options.hpp"
+#include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
 #include "view/picture.hpp"
 
@@ -26,5 +27,10 @@ LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 
 /// Title of the picture of a ping: sonar, number, range.
 std::string picture_title(const std::string& sonar, const Ping& ping);
+
+/// Writes the files of --keep beside the cube: contributors.h5, insonification.ply and .pcd, paths.vtp; `manifest` gets
+/// a summary of each.
+void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
+                const PingSetup& setup, const SimulatedPing& ping, nlohmann::ordered_json& manifest);
 
 }  // namespace insonify::tool

@@ -15,7 +15,7 @@ const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonif
                           .comma_separated = true};
 const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
 const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
-const OptionRules absorption_orders{.within = std::pair(0, 2), .shown_as = "INT"};
+const OptionRules absorption_orders{.within = std::pair(-1, 2), .shown_as = "INT"};
 
 }  // namespace
 
@@ -40,7 +40,8 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   return {
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
-       "gridded: narrow band, far field; true-delays: wide band and near field, slow at short range; direct and "
+       "planned: as the plan of the ping says; gridded: narrow band, far field; true-delays: wide band and near field, "
+       "slow at short range; direct and "
        "element-exact: "
        "the slow referees of both; or incoherent: the expected level, no speckle",
        methods},
@@ -58,6 +59,8 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
        "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg", file, true},
       {"ping", "time", "--time", &o.time, "of transmission on the trajectory [s]"},
       {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", worlds},
+      {"ping", "accuracy_db", "--accuracy-db", &o.accuracy_db,
+       "[dB] budget of all that is left out as not needed; `insonify plan` shows what that is"},
       {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", samplings},
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
        "surfels are split until a resolution cell holds so many"},
@@ -67,7 +70,8 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "amplitude", "--amplitude", &o.amplitude, "speckle, random-phase or coherent", amplitudes},
       {"ping", "noise", "--noise", &o.noise,
        "add thermal noise, and the wind's and the platform's if the environment has them"},
-      {"ping", "multipath", "--multipath", &o.multipath, "add echoes by way of the environment's surface and bottom"},
+      {"ping", "multipath", "--multipath", &o.multipath,
+       "add echoes by way of the environment's surface and bottom even where --accuracy-db does not need them"},
       {"ping", "keep", "--keep", &o.keep,
        "elements: also write elements.h5, the series of every element of a line array; mask: mark in the cube where "
        "the scan has holes; contributors: write contributors.h5, the strongest surfels of every pixel; insonification: "
@@ -82,7 +86,7 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "looks_pings", "--looks-pings", &o.looks_pings,
        "pulses of independent speckle, each a whole ping of work, over which they average", looks},
       {"ping", "absorption_order", "--absorption-order", &o.absorption_order,
-       "0: one absorption for the pulse; 1, 2: slope, curvature", absorption_orders},
+       "0: one absorption for the pulse; 1, 2: slope, curvature; -1: as --accuracy-db needs", absorption_orders},
       {"ping", "velocity", "--velocity", &o.velocity, "vx,vy,vz [m/s] of the head in the world"},
       {"ping", "turn_rate", "--turn-rate", &o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world"},
       {"ping", "threshold_db", "--threshold", &o.threshold_db, "[dB] of a detection above the noise floor"},

@@ -1,15 +1,14 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/element_file.hpp"
-#include "tool/kept_files.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/run_files.hpp"
@@ -22,9 +21,6 @@ namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void print_summary(const std::string& output, const ordered_json& manifest) {
   fmt::print("{}: {} scatterers of {} visible surfels, {} soundings, peak {:.1f} dB re 1 uPa\n", output,
@@ -40,16 +36,15 @@ void ping(const PingCommand& command) {
   // The whole command line is checked before any work.
   Progress progress(common, 4);
   const PingSetup ready = set_up_ping(o);
-  const Pose& pose = ready.pose;
   const HeadSetup& setup = ready.head;
   const SimulationOptions& simulation = ready.simulation;
   RunDirectory directory(o.run.output, o.run.force);
 
   progress.step("loading " + o.scene.path);
-  auto start = Clock::now();
+  StopWatch watch;
   const PingScene in_reach = load_ping_scene(o, ready);
   const LoadedScene& loaded = in_reach.loaded;
-  const double load_seconds = seconds_since(start);
+  const double load_seconds = watch.lap();
   ordered_json manifest = {{"schema", 1},
                            {"insonify_version", INSONIFY_VERSION},
                            {"seed", common.seed},
@@ -62,14 +57,15 @@ void ping(const PingCommand& command) {
   for (const std::string& note : setup.notes) note_to_user(note);
   for (const std::string& note : loading_notes(loaded.report)) note_to_user(note);
 
-  manifest["plan"] = plan_json(plan_ping(loaded.scene, setup.head, pose, setup.environment, simulation));
+  const PingPlan plan = plan_ping(loaded.scene, setup.head, ready.pose, setup.environment, simulation);
+  manifest["plan"] = plan_json(plan);
 
   progress.step("pinging");
-  const SimulatedPing result = simulate_ping(loaded.scene, setup.head, pose, setup.environment, simulation);
+  const SimulatedPing result = simulate_ping(loaded.scene, setup.head, ready.pose, setup.environment, plan.options);
   for (const std::string& note : ping_notes(result, ready, in_reach.places)) note_to_user(note);
 
   progress.step("writing " + o.run.output);
-  start = Clock::now();
+  watch.lap();
   save_soundings(directory.file("returns.pcd"), result.soundings);
   save_soundings(directory.file("returns.ply"), result.soundings);
   if (simulation.outputs.elements)
@@ -88,7 +84,7 @@ void ping(const PingCommand& command) {
                          {"synthesis", result.seconds.synthesis},
                          {"detection", result.seconds.detection},
                          {"contributors", result.seconds.contributors},
-                         {"output", seconds_since(start)}};
+                         {"output", watch.lap()}};
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   progress.step("done");
   directory.commit();

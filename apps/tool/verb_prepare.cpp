@@ -7,7 +7,7 @@
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tile_writer.hpp"
-#include "tool/head_setup.hpp"
+#include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"

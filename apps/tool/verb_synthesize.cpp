@@ -1,4 +1,3 @@
-#include <chrono>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,6 +5,7 @@
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/synthesize.hpp"
+#include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
@@ -40,7 +40,6 @@ std::string settings_of(SynthesizeOptions o) {
 
 void synthesize(const SynthesizeOptions& o) {
   const CommonOptions& common = o.common;
-  using Clock = std::chrono::steady_clock;
   Progress progress(common, 3);
   const HeadSetup setup = set_up_head(common, o.run);
   RunDirectory directory(o.run.output, o.run.force);
@@ -50,7 +49,7 @@ void synthesize(const SynthesizeOptions& o) {
 
   // The same elevation pattern and beams as in a ping; amplitudes and cross-sections are the caller's.
   progress.step("synthesizing");
-  const auto start = Clock::now();
+  StopWatch watch;
   const SonarHead& head = setup.head;
   const EchoOptions echo_options =
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
@@ -59,7 +58,7 @@ void synthesize(const SynthesizeOptions& o) {
   const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = method == SynthesisMethod::incoherent;
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = watch.lap();
 
   progress.step("writing " + o.run.output);
   nlohmann::ordered_json manifest = {{"schema", 1},

@@ -5,7 +5,6 @@
 #include "store/run_directory.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/program.hpp"
-#include "viewer/load_viewer_data.hpp"
 #include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"
 

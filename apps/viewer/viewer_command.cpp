@@ -1,6 +1,16 @@
 #include "viewer/viewer_command.hpp"
 
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "core/error.hpp"
 #include "scene_io/load_scene.hpp"
+#include "store/contributor_file.hpp"
+#include "store/cube.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/ping_setup.hpp"
+#include "tool/run_settings.hpp"
 #include "tool/shared_options.hpp"
 #include "viewer/viewer_state.hpp"
 
@@ -41,6 +51,87 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
   tool::add_common(list, c.common, false);
 }
 
+namespace fs = std::filesystem;
+
+// Reads the cube of a complete run; runs appear atomically, including the manifest.
+std::string finished_cube(const std::string& target) {
+  if (!fs::is_directory(target)) return target;
+  for (const auto& entry : fs::directory_iterator(target))
+    if (entry.path().filename().string().find("cube.h5.tmp") == 0)
+      fail(ErrorKind::content, target, ": the run is unfinished (", entry.path().filename().string(),
+           "); wait for it, or ping again");
+  const fs::path cube = fs::path(target) / "cube.h5";
+  if (!fs::exists(cube)) fail(ErrorKind::content, target, ": holds no cube.h5, so it is no run directory");
+  if (!fs::exists(fs::path(target) / "manifest.json"))
+    fail(ErrorKind::content, target,
+         ": has no manifest.json, so the run is unfinished or damaged; ping again, or view ", cube.string(), " alone");
+  return cube.string();
+}
+
+// True if the ids of the contributors match the scene.
+bool belong_together(const Contributors& list, const SceneCloud& scene) {
+  const std::size_t step = 1 + list.surfel.size() / 10000;
+  for (std::size_t i = 0; i < list.surfel.size(); i += step)
+    if (list.surfel[i] != Contributors::none &&
+        (list.surfel[i] >= scene.size() || scene.id[list.surfel[i]] != list.id[i]))
+      return false;
+  return true;
+}
+
+void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
+  if (command.no_scene) return;
+  tool::SceneOptions options = tool::scene_of_run(command.target);
+  if (!command.scene.path.empty()) {
+    const std::string path = command.scene.path;
+    options = command.scene;
+    options.path = path;
+  } else if (options.path.empty() || !fs::exists(options.path)) {
+    view.notes.push_back(options.path.empty()
+                             ? "the run does not say what its scene was: give it with --scene for the 3-D panel"
+                             : options.path + ": the scene of the run is missing: give it with --scene");
+    return;
+  }
+  LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
+  for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
+  if (loaded.mesh && !view.data.contributors.empty()) {
+    const tool::PingOptions run = tool::load_ping_settings((fs::path(command.target) / "run.toml").string());
+    tool::sample_for_ping(run, tool::set_up_ping(run), loaded);
+  }
+  for (const Contributors& list : view.data.contributors)
+    if (!belong_together(list, loaded.scene)) {
+      view.notes.push_back(options.path + ": is not the scene of the run's contributors, so it is not shown");
+      return;
+    }
+  view.data.scene = std::move(loaded.scene);
+  view.data.view = tool::view_of_run(command.target, whole_of(view.data.scene), command.common.threads);
+}
+
+// The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
+PixelPlace loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
+  const Ping& ping = data.pings[ping_index];
+  const Grid<float> level = range_compensated_level_db(ping, data.absorption_db_per_m);
+  Eigen::Index bin = 0;
+  level.row(static_cast<Eigen::Index>(beam)).maxCoeff(&bin);
+  return {beam, static_cast<std::size_t>(bin)};
+}
+
+void choose_start(const ViewerCommand& command, LoadedView& view) {
+  const ViewerExtent extent = extent_of(view.data);
+  ViewerState& start = view.start;
+  if (command.ping >= extent.pings)
+    fail(ErrorKind::argument, "--ping = ", command.ping, ", must be below ", extent.pings, ", the number of pings in ",
+         command.target);
+  start.ping = command.ping;
+  if (!command.beam.empty()) {
+    const double beam = tool::parse_number("--beam", command.beam);
+    if (!(beam >= 0 && beam < static_cast<double>(extent.beams) && beam == std::floor(beam)))
+      fail(ErrorKind::argument, "--beam = ", command.beam, ", must be a whole number below ", extent.beams,
+           ", the number of beams");
+    start.selected = loudest_of(view.data, start.ping, static_cast<std::size_t>(beam));
+  }
+  if (view.data.scene.materials.size() > 1) start.scene_colour = SceneColour::material;
+}
+
 }  // namespace
 
 ViewerCommand parse_viewer_command(int argc, char** argv) {
@@ -53,6 +144,52 @@ ViewerCommand parse_viewer_command(int argc, char** argv) {
   add_options(line.options(), command);
   command.exit_code = line.parse(argc, argv);
   return command;
+}
+
+bool is_run(const std::string& target) { return fs::is_directory(target) || fs::path(target).extension() == ".h5"; }
+
+LoadedView load_run(const ViewerCommand& command) {
+  if (!command.run.sonar.empty() || !command.pose.empty())
+    fail(ErrorKind::argument, command.target,
+         " is a run, whose sonar and poses are known; leave --sonar and --pose out");
+  LoadedView view;
+  Cube cube = read_cube(finished_cube(command.target));
+  view.data.title = cube.sonar;
+  view.data.absorption_db_per_m = cube.absorption_db_per_m;
+  view.data.pings = std::move(cube.pings);
+  const fs::path run(command.target), contributors = run / "contributors.h5", returns = run / "returns.ply";
+  if (fs::is_directory(run) && fs::exists(contributors) && view.data.pings.size() == 1) {
+    NamedContributors named = read_contributor_file(contributors.string());
+    view.data.contributors.push_back(std::move(named.contributors));
+    view.data.material_names = std::move(named.materials);
+  }
+  if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());
+  load_scene_of_run(command, view);
+  choose_start(command, view);
+  return view;
+}
+
+LoadedView load_inspection(const ViewerCommand& command) {
+  if (command.run.sonar.empty())
+    fail(ErrorKind::argument, "--sonar must be given to inspect a scene, e.g. --sonar p900-45; see insonify sonars");
+  if (command.pose.empty())
+    fail(ErrorKind::argument, "--pose must be given to inspect a scene, e.g. --pose=0,0,-3,0,10,0");
+  LoadedView view;
+  const tool::HeadSetup setup = tool::set_up_head(command.common, command.run);
+  view.start.mode = ViewerMode::inspect;
+  view.start.head = head_place(tool::parse_pose(command.pose, command.world));
+  view.start.scene_colour = SceneColour::visibility;
+  view.data.fan = setup.head.fan;
+  view.data.gate = setup.head.gate;
+  tool::SceneOptions options = command.scene;
+  options.path = command.target;
+  LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
+  for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
+  view.data.title = setup.head.name + " before " + fs::path(command.target).filename().string();
+  view.data.scene = std::move(loaded.scene);
+  view.data.view =
+      resolve_ping(whole_of(view.data.scene), setup.head, pose_of(view.start.head), setup.environment).view;
+  return view;
 }
 
 }  // namespace insonify::viewer

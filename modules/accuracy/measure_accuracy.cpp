@@ -7,8 +7,8 @@
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
 #include "core/peak_memory.hpp"
+#include "core/stop_watch.hpp"
 #include "returns/compare.hpp"
-#include "simulate/stop_watch_internal.hpp"
 
 namespace insonify {
 namespace {

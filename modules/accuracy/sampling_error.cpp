@@ -8,10 +8,10 @@
 #include "core/parallel.hpp"
 #include "core/pose.hpp"
 #include "core/random.hpp"
+#include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
-#include "simulate/stop_watch_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -31,8 +31,9 @@ WidebandArray::WidebandArray(const WidebandPlan& plan) : plan_(plan), phase_(lin
   }
 }
 
-void WidebandArray::apply(double curvature, const WidebandEffort& effort, WidebandSpectrum& echoes,
+void WidebandArray::apply(std::size_t part, double curvature, const WidebandEffort& effort, WidebandSpectrum& echoes,
                           WidebandSpectrum* excess) {
+  response_ = plan_.response[part].data();
   tap_ = effort.order < steep_order ? &plan_.tap : &plan_.steep_tap;
   for (std::size_t r = 0; r < plan_.rows(); ++r) {
     const double k = static_cast<double>(r) - static_cast<double>(plan_.most);
@@ -98,7 +99,7 @@ void WidebandArray::begin_cubic() {
   };
   odd(echo_, arriving_);
   clear(spare_);
-  add_cubic(plan_.response.data() + line_, echo_, spare_);
+  add_cubic(response_ + line_, echo_, spare_);
   odd(spare_, undone_);
 }
 
@@ -116,7 +117,7 @@ void WidebandArray::bend(int n, int factorial_of, SpectrumChunk from, SpectrumCh
 void WidebandArray::form(int n, int factorial_of, SpectrumChunk from, SpectrumChunk to) const {
   const kernels::BentLines bent{phase_.data(), plan_.squared_wavelength.data() + line_, plan_.place_end.data() + line_};
   kernels::add_weighted_power(n, inverse_factorial(factorial_of), plan_.rows(), plan_.place.data(), bent,
-                              plan_.response.data() + line_, plan_.fine_row, from, to);
+                              response_ + line_, plan_.fine_row, from, to);
 }
 
 void WidebandArray::filter(const std::vector<float>& tap, SpectrumChunk& chunk) {

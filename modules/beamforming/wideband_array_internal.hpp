@@ -22,8 +22,9 @@ class WidebandArray {
   explicit WidebandArray(const WidebandPlan& plan);
 
   /// In place. With two fields `excess` holds the echoes weighted by their excess of curvature, and is left with what
-  /// beams hear less for each part of their own excess.
-  void apply(double curvature, const WidebandEffort& effort, WidebandSpectrum& echoes, WidebandSpectrum* excess);
+  /// beams hear less for each part of their own excess. `part`: of the array.
+  void apply(std::size_t part, double curvature, const WidebandEffort& effort, WidebandSpectrum& echoes,
+             WidebandSpectrum* excess);
 
  private:
   void apply(std::size_t first_line, const WidebandEffort& effort, WidebandSpectrum& echoes, WidebandSpectrum* excess);
@@ -41,7 +42,8 @@ class WidebandArray {
   const WidebandPlan& plan_;
   std::vector<float> room_, phase_, shift_;
   const std::vector<float>* tap_ = nullptr;
-  std::size_t line_ = 0;  ///< first of those at work
+  const float* response_ = nullptr;  ///< of the part at work
+  std::size_t line_ = 0;             ///< first of those at work
   // Echoes times powers of S, what elements hear, and beams; the same of the second field; third order; spare.
   kernels::SpectrumChunk echo_, heard_, beam_, echo_2_, heard_2_, beam_2_, arriving_, undone_, spare_;
 };

@@ -12,15 +12,9 @@ constexpr std::size_t batch = 256;  // echoes handed to the kernel at once
 
 kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
 
-/// Where a direction lies on the grid: the linear part of the third order of its wavefront moves it.
-double column_of(const WidebandPlan& plan, double u, double curvature) {
-  const double moved = u - 0.5 * plan.cubic * u * (1 - u * u) * curvature * curvature;
-  return (moved / plan.period + 0.5) * static_cast<double>(plan.grid);
-}
-
 /// What an echo weighs in a field.
-double weight_of(const WidebandBlock& block, bool excess, double range) {
-  return excess ? 1 / (range * block.curvature) - 1 : 1;
+double weight_of(const WidebandBlock& block, bool excess, double curvature) {
+  return excess ? curvature / block.curvature - 1 : 1;
 }
 
 }  // namespace
@@ -29,7 +23,8 @@ WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
     : to_harmonics(plan.grid, 1, FFTW_FORWARD),
       to_directions(plan.grid, wideband_tile, wideband_tile_row, FFTW_BACKWARD),
       to_frequencies(plan.fine, 1, FFTW_FORWARD),
-      to_bins(plan.cycle, 1, FFTW_BACKWARD) {}
+      to_bins(plan.cycle, 1, FFTW_BACKWARD),
+      to_samples(plan.fine, 1, FFTW_BACKWARD) {}
 
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
     : plan_(plan),
@@ -45,19 +40,23 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
       touched_(plan.fine / wideband_tile + 2),
       bins_row_((plan.cycle + 15) / 8 * 8) {}
 
-void WidebandRoom::image(const Echoes& echoes, const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure) {
+void WidebandRoom::image(const SeenEchoes& seen, const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure) {
   const bool two = block.effort.fields == 2;
   if (two && !excess_spectrum_) {
     excess_spectrum_ = std::make_unique<WidebandSpectrum>(plan_.rows() * plan_.fine_row);
     excess_bins_ = std::make_unique<WidebandSpectrum>(plan_.rows() * bins_row_);
   }
-  grid_echoes(echoes, block, false);
+  if (plan_.parts.count() > 1 && !samples_) samples_ = std::make_unique<WidebandSpectrum>(plan_.grid * plan_.fine_row);
+  if (plan_.parts.count() > 1 && two && !excess_samples_)
+    excess_samples_ = std::make_unique<WidebandSpectrum>(plan_.grid * plan_.fine_row);
+  grid_echoes(seen, block, false);
   to_frequencies(spectrum_);
   if (two) {
-    grid_echoes(echoes, block, true);
+    grid_echoes(seen, block, true);
     to_frequencies(*excess_spectrum_);
   }
-  array_.apply(block.curvature, block.effort, spectrum_, two ? excess_spectrum_.get() : nullptr);
+  array_.apply(block.part, block.curvature, block.effort, spectrum_, two ? excess_spectrum_.get() : nullptr);
+  if (plan_.parts.count() > 1) return add_part(block, pressure);
   to_bins(spectrum_, bins_);
   if (two) {
     to_bins(*excess_spectrum_, *excess_bins_);
@@ -66,18 +65,19 @@ void WidebandRoom::image(const Echoes& echoes, const WidebandBlock& block, std::
   to_beams(block, ends, pressure);
 }
 
-void WidebandRoom::grid_echoes(const Echoes& echoes, const WidebandBlock& block, bool excess) {
+void WidebandRoom::grid_echoes(const SeenEchoes& seen, const WidebandBlock& block, bool excess) {
   re_.clear();
   im_.clear();
   std::fill(touched_.begin(), touched_.end(), false);
-  if (plan_.one_shape && echoes.doppler.empty())
-    grid_alike(echoes, block, excess);
+  if (plan_.one_shape && seen.echoes.doppler.empty())
+    grid_alike(seen, block, excess);
   else
-    grid_singly(echoes, block, excess);
+    grid_singly(seen, block, excess);
 }
 
-void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, bool excess) {
+void WidebandRoom::grid_alike(const SeenEchoes& seen, const WidebandBlock& block, bool excess) {
   const WidebandPlan& plan = plan_;
+  const Echoes& echoes = seen.echoes;
   std::array<std::uint32_t, batch> row, column;
   std::array<float, batch> row_offset, column_offset, re, im;
   const kernels::GridTargets<float> targets{row.data(),           column.data(), row_offset.data(),
@@ -89,11 +89,12 @@ void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, 
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = list[k];
       const double delay = echoes.delay[i];
-      const double low_column = column_of(plan, echoes.u[i], block.curvature) - half_width;
+      const double low_column =
+          plan.column_of(echoes.u[i], plan.moving_curvature(block.curvature, seen.curvature[i])) - half_width;
       const double column_0 = std::ceil(low_column);
       const double low_row = (delay - plan.half - start) / plan.fine_step, row_0 = std::ceil(low_row);
-      const double weight = weight_of(block, excess, 0.5 * c * delay);
-      const double gain = weight * std::exp(-plan.medium.absorption.a0 * c * delay) / block.unit;
+      const double weight = weight_of(block, excess, seen.curvature[i]);
+      const double gain = weight * std::exp(-plan.medium.absorption.a0 * c * seen.path[i]) / block.unit;
       column[k] = static_cast<std::uint32_t>(column_0);
       column_offset[k] = static_cast<float>(2 * (column_0 - low_column) - 1);
       row[k] = static_cast<std::uint32_t>(row_0);
@@ -107,17 +108,19 @@ void WidebandRoom::grid_alike(const Echoes& echoes, const WidebandBlock& block, 
   }
 }
 
-void WidebandRoom::grid_singly(const Echoes& echoes, const WidebandBlock& block, bool excess) {
+void WidebandRoom::grid_singly(const SeenEchoes& seen, const WidebandBlock& block, bool excess) {
   const WidebandPlan& plan = plan_;
+  const Echoes& echoes = seen.echoes;
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
   const double start = plan.start_of(block.number);
   const PulseReach reach(plan.head.pulse, plan.medium.absorption, c, !echoes.doppler.empty(), plan.cut);
   for (const std::uint32_t i : block.list) {
     const double delay = echoes.delay[i];
-    const double low_column = column_of(plan, echoes.u[i], block.curvature) - half_width;
-    const double column_0 = std::ceil(low_column), half = reach.at(delay);
-    const double weight = weight_of(block, excess, 0.5 * c * delay);
-    const EchoEnvelope envelope = plan.shapes.of(delay, echoes.doppler_of(i));
+    const double low_column =
+        plan.column_of(echoes.u[i], plan.moving_curvature(block.curvature, seen.curvature[i])) - half_width;
+    const double column_0 = std::ceil(low_column), half = reach.at(seen.path[i]);
+    const double weight = weight_of(block, excess, seen.curvature[i]);
+    const EchoEnvelope envelope = plan.shapes.of(seen.path[i], echoes.doppler_of(i));
     const double first = std::max(0.0, std::ceil((delay - half - start) / plan.fine_step));
     const double last =
         std::min(std::floor((delay + half - start) / plan.fine_step), static_cast<double>(plan.fine) - 1);
@@ -196,7 +199,7 @@ void WidebandRoom::steer(double curvature) {
   beam_row_.clear();
   const std::size_t width = plan_.kernel.width();
   for (const double u : beam_cosines(plan_.head.fan)) {
-    const double column = column_of(plan_, u, curvature);
+    const double column = plan_.column_of(u, curvature);
     const double first = std::ceil(column - 0.5 * static_cast<double>(width));
     for (std::size_t k = 0; k < width; ++k) {
       beam_weight_.push_back(static_cast<float>(plan_.kernel.at(first + static_cast<double>(k) - column)));

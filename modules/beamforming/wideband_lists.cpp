@@ -5,7 +5,9 @@
 
 namespace insonify {
 
-WidebandLists::WidebandLists(const Echoes& echoes, const WidebandPlan& plan) : echoes_(echoes), plan_(plan) {
+WidebandLists::WidebandLists(const SeenEchoes& seen, const WidebandPlan& plan, std::size_t array_part)
+    : seen_(seen), plan_(plan), array_part_(array_part) {
+  const Echoes& echoes = seen.echoes;
   const double length = static_cast<double>(plan.block) / static_cast<double>(parts) * plan.axis.step;
   const double start = plan.start_of(0) + static_cast<double>(plan.guard) * plan.axis.step;
   const std::size_t all = plan.blocks() * parts;
@@ -39,18 +41,15 @@ std::vector<WidebandBlock> WidebandLists::of(std::size_t block) const {
 }
 
 WidebandBlock WidebandLists::block_of(std::size_t number, std::span<const std::uint32_t> list) const {
-  const double c = plan_.medium.sound_speed;
-  double first = echoes_.delay[list[0]], last = first, unit = 0;
+  const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed;
+  double least = seen_.curvature[list[0]], most = least, unit = 0;
   for (const std::uint32_t i : list) {
-    first = std::min(first, echoes_.delay[i]);
-    last = std::max(last, echoes_.delay[i]);
-    unit = std::max(unit, std::abs(echoes_.amplitude[i]) *
-                              std::exp(-plan_.medium.absorption.a0 * c * std::max(0.0, echoes_.delay[i])));
+    least = std::min(least, seen_.curvature[i]);
+    most = std::max(most, seen_.curvature[i]);
+    unit = std::max(unit, std::abs(seen_.echoes.amplitude[i]) * std::exp(-loss * std::max(0.0, seen_.path[i])));
   }
-  first = std::max(first, 1e-3 * plan_.axis.step);
-  last = std::max(last, first);
-  const double curvature = (1 / first + 1 / last) / c;
-  return {number, list, curvature, unit > 0 ? unit : 1, plan_.effort(curvature, 2 / (c * first * curvature) - 1)};
+  const double curvature = 0.5 * (least + most);
+  return {array_part_, number, list, curvature, unit > 0 ? unit : 1, plan_.effort(curvature, most / curvature - 1)};
 }
 
 }  // namespace insonify

@@ -10,7 +10,7 @@ namespace insonify {
 /// Which echoes belong to which block, in order of parts of a block and, within one, of number.
 class WidebandLists {
  public:
-  WidebandLists(const Echoes& echoes, const WidebandPlan& plan);
+  WidebandLists(const SeenEchoes& seen, const WidebandPlan& plan, std::size_t array_part);
 
   bool empty(std::size_t block) const { return begin_[block * parts] == begin_[(block + 1) * parts]; }
   /// The echoes of a block; cut by range, if their wavefronts differ too much, as often as it takes.
@@ -24,8 +24,9 @@ class WidebandLists {
   }
   WidebandBlock block_of(std::size_t number, std::span<const std::uint32_t> list) const;
 
-  const Echoes& echoes_;
+  const SeenEchoes& seen_;
   const WidebandPlan& plan_;
+  std::size_t array_part_;
   std::vector<std::uint32_t> begin_, echo_;
 };
 

@@ -1,4 +1,5 @@
-#include <utility>
+#include <cmath>
+#include <numbers>
 
 #include "beamforming/target_clones_internal.hpp"
 #include "beamforming/wideband_loops_internal.hpp"
@@ -10,17 +11,25 @@ constexpr std::size_t lines = lines_at_once;
 
 #define INSONIFY_INLINE [[gnu::always_inline]] inline
 
-INSONIFY_INLINE void filter_plane(const float* tap, std::size_t reach, std::size_t rows, const float* __restrict x,
-                                  float* __restrict y) {
-  for (std::size_t k = 0; k < rows; ++k) {
-    const float* here = x + k * lines;
-    float sum[lines];
-    for (std::size_t c = 0; c < lines; ++c) sum[c] = tap[0] * here[c];
+using Eight = float __attribute__((vector_size(32)));
+
+INSONIFY_INLINE void load(const float* from, Eight& eight) { __builtin_memcpy(&eight, from, sizeof eight); }
+
+/// Filters one plane with an even or odd set of taps.
+template <bool odd>
+INSONIFY_INLINE void filter_plane(const float* tap, std::size_t reach, std::size_t rows, const float* x, float* y) {
+  constexpr std::size_t half = lines / 2;
+  for (std::size_t k = 0; k < 2 * rows; ++k) {
+    const float* here = x + k * half;
+    Eight sum, before, after;
+    load(here, sum);
+    sum *= tap[0];
     for (std::size_t l = 1; l <= reach; ++l) {
-      const float *before = here - l * lines, *after = here + l * lines;
-      for (std::size_t c = 0; c < lines; ++c) sum[c] += tap[l] * (before[c] + after[c]);
+      load(here - l * lines, before);
+      load(here + l * lines, after);
+      sum += tap[l] * (odd ? before - after : before + after);
     }
-    for (std::size_t c = 0; c < lines; ++c) y[k * lines + c] = sum[c];
+    __builtin_memcpy(y + k * half, &sum, sizeof sum);
   }
 }
 
@@ -48,12 +57,76 @@ INSONIFY_INLINE void add_turned(int n, const float* power, const float* __restri
   }
 }
 
+/// sin and cos of 2 pi x by their series over half the angle, to 1e-7.
+INSONIFY_INLINE void turn(double x, double* cosine, double* sine) {
+  constexpr double whole = 6755399441055744.0;  // adding and subtracting this rounds to an integer
+  const double h = std::numbers::pi * (x - ((x + whole) - whole)), q = h * h;
+  const double s = h * (1 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q * (1.0 / 362880 - q / 39916800)))));
+  const double c =
+      1 + q * (-0.5 + q * (1.0 / 24 + q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 + q / 479001600)))));
+  *cosine = 1 - 2 * s * s;
+  *sine = 2 * s * c;
+}
+
+/// The kernel at eight places, `low` the position less half its width; returns the first place.
+INSONIFY_INLINE std::size_t kernel_at(double low, const float* coefficient, std::size_t degree, Eight& value) {
+  const double first = std::ceil(low);
+  const auto t = static_cast<float>(2 * (first - low) - 1);
+  load(coefficient, value);
+  for (std::size_t k = 1; k <= degree; ++k) {
+    Eight next;
+    load(coefficient + 8 * k, next);
+    value = value * t + next;
+  }
+  return static_cast<std::size_t>(first);
+}
+
+/// Adds eight rows, weighted, of eight complex numbers each.
+INSONIFY_INLINE void add_rows(const Eight& weight, const float* x, std::size_t stride, Eight& low, Eight& high) {
+  for (std::size_t k = 0; k < 8; ++k) {
+    Eight first, second;
+    load(x + 2 * k * stride, first);
+    load(x + 2 * k * stride + 8, second);
+    low += weight[k] * first;
+    high += weight[k] * second;
+  }
+}
+
 }  // namespace
 
 INSONIFY_CLONES
+void see_from(double y, double waves, std::size_t count, const double* range, const double* u, double* extra,
+              double* range_there, double* u_there, double* cosine, double* sine) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const double r = range[k], there = std::sqrt(r * r - 2 * r * y * u[k] + y * y);  // (E61)
+    range_there[k] = there;
+    u_there[k] = (r * u[k] - y) / there;
+    extra[k] = there - r;
+  }
+  for (std::size_t k = 0; k < count; ++k) turn(waves * extra[k], cosine + k, sine + k);
+}
+
+INSONIFY_CLONES
+void interpolate_points(ImagePoints at, std::size_t count, const float* coefficient, std::size_t degree,
+                        const float* field, const float* second, std::size_t stride, float* re, float* im) {
+  for (std::size_t i = 0; i < count; ++i) {
+    Eight across, along, low = {}, high = {};
+    const std::size_t row = kernel_at(at.row[i] - 4, coefficient, degree, across);
+    const std::size_t place = 2 * (row * stride + kernel_at(at.column[i] - 4, coefficient, degree, along));
+    add_rows(across, field + place, stride, low, high);
+    if (second) add_rows(across * at.excess[i], second + place, stride, low, high);
+    using Places = int __attribute__((vector_size(32)));
+    const Eight sum = low * __builtin_shuffle(along, Places{0, 0, 1, 1, 2, 2, 3, 3}) +
+                      high * __builtin_shuffle(along, Places{4, 4, 5, 5, 6, 6, 7, 7});
+    re[i] = (sum[0] + sum[2]) + (sum[4] + sum[6]);
+    im[i] = (sum[1] + sum[3]) + (sum[5] + sum[7]);
+  }
+}
+
+INSONIFY_CLONES
 void filter_rows(const float* tap, std::size_t reach, std::size_t rows, SpectrumChunk x, SpectrumChunk y) {
-  filter_plane(tap, reach, rows, x.re, y.re);
-  filter_plane(tap, reach, rows, x.im, y.im);
+  filter_plane<false>(tap, reach, rows, x.re, y.re);
+  filter_plane<false>(tap, reach, rows, x.im, y.im);
 }
 
 INSONIFY_CLONES
@@ -79,15 +152,8 @@ void add_weighted_power(int n, float scale, std::size_t rows, const float* place
 
 INSONIFY_CLONES
 void filter_rows_odd(const float* tap, std::size_t reach, std::size_t rows, SpectrumChunk x, SpectrumChunk y) {
-  for (const auto& [from, to] : {std::pair{x.re, y.re}, std::pair{x.im, y.im}})
-    for (std::size_t k = 0; k < rows; ++k) {
-      float sum[lines] = {};
-      for (std::size_t l = 1; l <= reach; ++l) {
-        const float *here = from + k * lines, *before = here - l * lines, *after = here + l * lines;
-        for (std::size_t c = 0; c < lines; ++c) sum[c] += tap[l] * (before[c] - after[c]);
-      }
-      for (std::size_t c = 0; c < lines; ++c) to[k * lines + c] = sum[c];
-    }
+  filter_plane<true>(tap, reach, rows, x.re, y.re);
+  filter_plane<true>(tap, reach, rows, x.im, y.im);
 }
 
 INSONIFY_CLONES

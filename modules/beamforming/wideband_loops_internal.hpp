@@ -48,6 +48,23 @@ void merge_planes(const float* re, const float* im, std::size_t count, float* ro
 void interpolate_scaled(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid,
                         std::size_t stride, std::size_t count, double scale, bool add, double* sum);
 
+/// For places at `range` from the array's centre in direction `u` (direction cosine along the array), as seen from `y`
+/// on the array: how much longer the path is [m], range and direction cosine from there, and cosine and sine of that
+/// path in waves, `waves` of them to a metre.
+void see_from(double y, double waves, std::size_t count, const double* range, const double* u, double* extra,
+              double* range_there, double* u_there, double* cosine, double* sine);
+
+/// Points of an image by direction and time, in grid steps; `excess` is what the second field weighs.
+struct ImagePoints {
+  const double *row, *column;
+  const float* excess;
+};
+
+/// Interpolates rows of complex numbers, `stride` of them apart, with an even kernel of eight steps in both directions;
+/// coefficients (degree + 1) x 8 of its polynomials. Without `second` it is not added. Writes real and imaginary parts.
+void interpolate_points(ImagePoints at, std::size_t count, const float* coefficient, std::size_t degree,
+                        const float* field, const float* second, std::size_t stride, float* re, float* im);
+
 /// Puts them together again.
 void merge_row(const float* re, const float* im, float factor, float* row);
 

@@ -14,15 +14,13 @@
 namespace insonify {
 namespace {
 
-constexpr double margin = 0.1;  // of the period, over which the pattern may end
 constexpr std::size_t most_taps = 14;
-constexpr std::size_t bend_rows = 16;  // harmonics to which wavefronts may bend what is at the array's ends
-constexpr int highest_order = 24;
+constexpr int highest_order = 24, highest_order_whole = 10, highest_order_part = 6;
 
-/// The smallest power of 2, or 3 or 5 times one, from `least` on: FFTW's fastest lengths.
+/// The smallest power of 2, or small odd number times one, from `least` on: FFTW's fastest lengths.
 std::size_t fast_length(std::size_t least) {
   std::size_t best = std::bit_ceil(std::max<std::size_t>(least, 16));
-  for (const std::size_t odd : {3, 5}) best = std::min(best, odd * std::bit_ceil((least + odd - 1) / odd));
+  for (const std::size_t odd : {3, 5, 9, 15}) best = std::min(best, odd * std::bit_ceil((least + odd - 1) / odd));
   return best;
 }
 
@@ -51,18 +49,38 @@ double end_spectrum(double end_decay, double x) {
   return (root < 1e-6 ? 1 : std::sinh(root) / root) * end_decay / std::sinh(end_decay);
 }
 
+double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
+
+/// The largest |u| of echoes from `nearest` on as any place on the array sees them.
+double widest_seen(const LineArray& array, double widest, double nearest) {
+  const double half = 0.5 * length_of(array), across = nearest * widest + half;
+  return std::min(1.0, across / std::hypot(across, nearest * std::sqrt(1 - widest * widest)));
+}
+
+/// A gate as parts of the array hear it, up to half its length earlier or later.
+RangeGate gate_of_parts(RangeGate gate, const ArrayParts& parts) {
+  const double beyond = std::ceil(0.5 * parts.centre.back() / gate.bin_size) * gate.bin_size;
+  gate.max_range = gate.min_range + static_cast<double>(gate.bins()) * gate.bin_size + beyond;
+  gate.min_range -= beyond;
+  return gate;
+}
+
 }  // namespace
 
 WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options,
-                           double widest_in)
+                           double widest_in, std::size_t part_count, double nearest_in)
     : head(head_in),
       medium(medium_in),
       tolerance(options.tolerance),
-      widest(widest_in),
-      axis(head.gate, medium.sound_speed),
+      parts(head.array, part_count),
+      nearest_used(nearest_in),
+      widest(part_count == 1 ? widest_in : widest_seen(head.array, widest_in, nearest_in)),
+      beam_axis(head.gate, medium.sound_speed),
+      axis(gate_of_parts(head.gate, parts), medium.sound_speed),
       cut(pulse_cut(options.tolerance)),
       shapes(head.pulse, medium),
-      aperture(head.array.spacing * static_cast<double>(head.array.elements() - 1)) {
+      margin(part_count == 1 ? 0.1 : 0.25),
+      bend_rows(part_count == 1 ? 16 : 6) {
   plan_moments();
   kernel = GriddingKernel(8, oversampling_for(tolerance));
   plan_time();
@@ -73,11 +91,12 @@ WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, co
 
 void WidebandPlan::plan_moments() {
   const std::size_t n = head.array.elements();
-  const auto place_of = [&](std::size_t m) { return head.array.spacing * element_place(m, n); };
   double energy = 0, second = 0, fourth = 0;
   moment.assign(highest_order + 2, 0);
-  for (std::size_t m = 0; m < n; ++m) {
-    const double squared = place_of(m) * place_of(m), w = head.array.shading[m] * head.array.shading[m];
+  for (std::size_t m = 0, p = 0; m < n; ++m) {
+    if (m == parts.first[p + 1]) ++p;
+    const double y = head.array.spacing * element_place(m, n) - parts.centre[p], squared = y * y;
+    const double w = head.array.shading[m] * head.array.shading[m];
     energy += w;
     second += w * squared;
     fourth += w * squared * squared;
@@ -88,11 +107,14 @@ void WidebandPlan::plan_moments() {
 
   // What share of the pattern's energy is beside its main lobe: the pattern squared, summed to four lobe widths.
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  LineArray part = head.array;
+  if (parts.count() > 1) part.shading.assign(n / parts.count(), 1);
+  if (parts.count() > 1) energy = static_cast<double>(part.elements());
   constexpr int steps = 100;
-  const double step = 2 * wavelength / std::max(aperture, wavelength) / steps;
+  const double step = 2 * wavelength / std::max(parts.aperture, wavelength) / steps;
   double lobe = 0;
-  for (int k = -steps; k <= steps; ++k) lobe += std::pow(array_response(head.array, wavelength, k * step, 0), 2) * step;
-  const double all = wavelength / head.array.spacing * energy / static_cast<double>(n * n);
+  for (int k = -steps; k <= steps; ++k) lobe += std::pow(array_response(part, wavelength, k * step, 0), 2) * step;
+  const double all = wavelength / part.spacing * energy / static_cast<double>(part.elements() * part.elements());
   side_lobes = std::sqrt(std::clamp(1 - lobe / all, 1e-3, 1.0));
 }
 
@@ -100,9 +122,10 @@ void WidebandPlan::plan_time() {
   const double c = medium.sound_speed;
   const PulseReach reach(head.pulse, medium.absorption, c, true, cut);
   const double last = axis.start + static_cast<double>(axis.bins) * axis.step;
-  const double across = 0.5 * aperture / c * 2.2 * widest;
-  guard = static_cast<std::size_t>(std::ceil((across + reach.at(last)) / axis.step)) + 2;
-  block = std::max<std::size_t>(384, 3 * guard);
+  const double across = 0.5 * parts.aperture / c * 2.2 * widest;
+  guard = static_cast<std::size_t>(std::ceil((across + reach.at(last)) / axis.step)) + (parts.count() == 1 ? 2 : 4);
+  block =
+      std::max(3 * guard, static_cast<std::size_t>(std::clamp(0.2 * nearest_used / head.gate.bin_size, 32.0, 384.0)));
   cycle = fast_length(block + 2 * guard);
   block = cycle - 2 * guard;
   half_band = band_of(head.pulse, tolerance);
@@ -125,9 +148,11 @@ void WidebandPlan::plan_directions() {
   double beams = 0;
   for (const double u : beam_cosines(head.fan)) beams = std::max(beams, std::abs(u));
   widest = std::max(widest, beams);
+  if (parts.count() > 1) beams = widest;
   period = 2 * (widest + beams) / (1 - margin);
   // The array as long as it is at the highest frequency, the ends of the pattern's transform, and room to bend.
-  const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.75 * half_band) / medium.sound_speed;
+  const double wavelengths =
+      0.5 * parts.aperture * (head.pulse.centre_frequency + 0.75 * half_band) / medium.sound_speed;
   most =
       static_cast<std::size_t>(std::ceil(wavelengths * period + end_decay_for(tolerance) / (pi * margin))) + bend_rows;
   grid = fast_length(static_cast<std::size_t>(std::ceil(oversampling_for(tolerance) * static_cast<double>(rows()))));
@@ -144,7 +169,7 @@ void WidebandPlan::plan_directions() {
 }
 
 void WidebandPlan::plan_response(int threads) {
-  response.assign(rows() * fine_row, 0);
+  response.assign(parts.count(), std::vector<float>(rows() * fine_row, 0));
   bend.assign(fine_row, 0);
   squared_wavelength.assign(fine_row, 0);
   place_end.assign(fine_row, 0);
@@ -162,10 +187,16 @@ void WidebandPlan::plan_response(int threads) {
     const double wavelength = medium.sound_speed / std::max(std::abs(frequency), 0.05 * head.pulse.centre_frequency);
     bend[l] = static_cast<float>(std::copysign(0.5 * pi * wavelength * widest * widest, frequency));
     squared_wavelength[l] = static_cast<float>(wavelength * wavelength);
-    place_end[l] = static_cast<float>(std::pow(0.6 * aperture / wavelength, 2));
-    for (std::size_t m = 0; m < elements; ++m) {
-      const double z = period * frequency / medium.sound_speed * head.array.spacing * element_place(m, elements);
-      const double weight = head.array.shading[m] / static_cast<double>(elements);
+    place_end[l] = static_cast<float>(
+        std::pow(0.5 * parts.aperture / wavelength + std::max(0.1 * parts.aperture / wavelength, 2.0), 2));
+    // Parts are interpolated in time: what the kernel does there is undone here.
+    const double all =
+        static_cast<double>(elements) * (parts.count() == 1 ? 1 : kernel.transform(line / static_cast<double>(fine)));
+    for (std::size_t m = 0, p = 0; m < elements; ++m) {
+      if (m == parts.first[p + 1]) ++p;
+      const double y = head.array.spacing * element_place(m, elements) - parts.centre[p];
+      const double z = period * frequency / medium.sound_speed * y;
+      const double weight = head.array.shading[m] / all;
       const double first = std::max(std::ceil(z - reach), -static_cast<double>(most));
       const double last = std::min(std::floor(z + reach), static_cast<double>(most));
       const double sine = std::sin(pi * (first - z)) / pi;
@@ -175,7 +206,7 @@ void WidebandPlan::plan_response(int threads) {
         const auto j = static_cast<std::size_t>(at);
         const double end = ends[j] + part * (ends[j + 1] - ends[j]);
         const double sinc = std::abs(q) < 1e-9 ? 1 : sign * sine / q;
-        response[static_cast<std::size_t>(k + static_cast<double>(most)) * fine_row + l] +=
+        response[p][static_cast<std::size_t>(k + static_cast<double>(most)) * fine_row + l] +=
             static_cast<float>(weight * sinc * end);
       }
     }
@@ -225,8 +256,9 @@ std::vector<float> WidebandPlan::harmonics(const std::function<double(double)>& 
 WidebandEffort WidebandPlan::effort(double curvature, double spread) const {
   // Phases of a wavefront between directions far apart and a main lobe apart: by the square of a place [1/m^2].
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency, enough = 0.25 * tolerance;
+  const double lobe = std::min(1.0, wavelength / std::max(parts.aperture, 1e-3 * wavelength));
   const double far = pi * curvature / wavelength * widest * widest;
-  const double near = pi * curvature / wavelength * 1.2 * wavelength / aperture * widest;
+  const double near = pi * curvature / wavelength * 1.2 * lobe * widest;
   const auto beyond = [&](int n) {
     const double all = moment[n] / std::tgamma(n + 1.0);
     return (side_lobes * std::pow(far, n) + std::pow(near, n)) * all;
@@ -234,17 +266,31 @@ WidebandEffort WidebandPlan::effort(double curvature, double spread) const {
   WidebandEffort effort;
   const double late = pi * curvature / wavelength * moment[1] * pulse_range * curvature;
   effort.fields = spread * beyond(1) + late < enough ? 1 : 2;
-  const double cubic_phase = 2 * pi / wavelength * curvature * curvature * std::pow(moment[1], 1.5) * widest;
-  effort.cubic = 0.2 * (side_lobes + wavelength / aperture) * cubic_phase > enough;
+  const double cubic_phase = 0.4 * pi / wavelength * curvature * curvature * std::pow(moment[1], 1.5) * widest;
+  effort.cubic = (side_lobes + lobe) * cubic_phase > enough;
   effort.order = effort.fields - 1;
   while (effort.order < highest_order && beyond(effort.order + 1) > enough) ++effort.order;
 
-  // What is left out, and whether wavefronts bend across more harmonics than there are.
+  // What is left out: powers, the third order beside the second, the fourth; and whether wavefronts bend across more
+  // harmonics than there are.
   effort.error = beyond(effort.order + 1);
   if (effort.fields == 2) effort.error += spread * spread * beyond(1) + 0.5 * late * late;
-  effort.error += 1.5 * std::pow(aperture * curvature, 2.7);  // measured: of orders left out, for wide fans
-  if (0.25 * aperture * aperture * curvature * period / wavelength > bend_rows) effort.error = 1;
+  const double fourth = pi / wavelength * std::pow(curvature, 3) * moment[1] * moment[1] * widest * widest;
+  effort.error += (side_lobes + lobe) * ((effort.cubic ? cubic_phase * far * moment[1] : 0) + 0.2 * fourth +
+                                         (parts.count() == 1 ? 5 : 2) * spread * cubic_phase);
+  if (0.25 * parts.aperture * parts.aperture * curvature * period / wavelength > static_cast<double>(bend_rows))
+    effort.error = 1;
   return effort;
+}
+
+double WidebandPlan::nearest() const {
+  const double length = length_of(head.array), beside = parts.count() == 1 ? 0 : 0.35 * length;
+  double range = 0.5 * length + 0.1 * parts.aperture;
+  for (;; range *= 1.05) {
+    const WidebandEffort needed = effort(1 / (range - beside), 0.05);
+    if (needed.error <= tolerance && needed.order <= (parts.count() == 1 ? highest_order_whole : highest_order_part))
+      return range;
+  }
 }
 
 }  // namespace insonify

@@ -1,18 +1,15 @@
 #include <utility>
 
 #include "acoustics/reverberation_echoes.hpp"
+#include "core/stop_watch.hpp"
 #include "returns/find_contributors.hpp"
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
-#include "simulate/stop_watch_internal.hpp"
 
 namespace insonify {
 namespace {
-
-/// Part of the elevation width by which rays may bend without a change of the pattern's response.
-constexpr double unresolved_bend = 0.02;
 
 void mark_holes(const PreparedScene& prepared, const ResolvedPing& ping, SimulatedPing& result) {
   const View& view = ping.view;
@@ -65,11 +62,8 @@ RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
   const SoundSpeedProfile& profile = *ping.environment.profile;
   const double head_depth = ping.environment.water.depth;
   const Pose& pose = ping.view.world_from_head;
-  const Choice choice = ping.options.effects.refraction;
   report.bound = refraction_bound(profile, head_depth, pose, scatterers);
-  const bool needed = report.bound.range >= ping.head.gate.bin_size ||
-                      report.bound.elevation >= unresolved_bend * ping.head.fan.elevation_width;
-  report.bent = choice == Choice::always || (choice == Choice::as_needed && needed);
+  report.bent = ping.options.effects.refraction == Choice::always;
   if (report.bent) report.silenced = bend_paths(profile, head_depth, pose, scatterers, ping.options.threads);
   return report;
 }

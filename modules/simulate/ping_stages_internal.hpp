@@ -8,8 +8,7 @@
 /// The stages of simulate_ping that are more than one call.
 namespace insonify {
 
-/// Bends the rays to the scatterers if asked for, or if straight ones would be off by a range bin, or by an angle that
-/// the elevation pattern resolves. Without a profile nothing is done.
+/// Bends the rays to the scatterers if the options, settled, say so. Without a profile nothing is done.
 RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.

@@ -1,11 +1,17 @@
 // Stages of the plan that are effects of water, boundaries, motion and materials.
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
+#include "acoustics/bend_paths.hpp"
+#include "acoustics/motion.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "core/units.hpp"
-#include "simulate/ping_stages_internal.hpp"
+#include "simulate/heard_energy_internal.hpp"
+#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
+#include "simulate/pulse_spectrum_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -13,45 +19,110 @@ namespace {
 using E = Environment;
 using O = SimulationOptions;
 
+/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine, 1 for
+/// none:
+/// that of Gaussian pulses of the bandwidth, times that of the array's patterns.
+class EchoOverlap {
+ public:
+  explicit EchoOverlap(const ResolvedPing& ping) : array_(ping.head.array), bandwidth_(ping.head.pulse.bandwidth) {
+    step_ = 2 * pi * ping.head.pulse.centre_frequency / ping.sent.medium.sound_speed * array_.spacing;
+  }
+  double of(double delay, double doppler, double u) const {
+    const double pulses = pi * bandwidth_ * delay, tones = doppler / bandwidth_;
+    return std::exp(-pulses * pulses / (4 * std::numbers::ln2) - std::numbers::ln2 * tones * tones) * patterns(u);
+  }
+
+ private:
+  double patterns(double u) const {
+    double sum = 0, all = 0;
+    for (std::size_t m = 0; m < array_.elements(); ++m) {
+      const double energy = array_.shading[m] * array_.shading[m];
+      all += energy;
+      sum += energy * std::cos(step_ * element_place(m, array_.elements()) * u);
+    }
+    return sum / all;
+  }
+  const LineArray& array_;
+  double bandwidth_, step_;
+};
+
+/// Bound of what turns the echoes `before` of the sample into those `after`.
+double difference_bound(const PlanFacts& facts, const Echoes& before, const Echoes& after) {
+  const EchoOverlap overlap(facts.ping);
+  return changed_bound(facts, [&](std::size_t i) {
+    const std::complex<double> ratio = after.amplitude[i] / before.amplitude[i];
+    return 1 + std::norm(ratio) -
+           2 * ratio.real() *
+               overlap.of(after.delay[i] - before.delay[i], after.doppler_of(i), after.u[i] - before.u[i]);
+  });
+}
+
+Echoes echoes_of(const PlanFacts& facts, const Scatterers& places) {
+  EchoOptions mean_power = facts.ping.sent.echo_options;
+  mean_power.amplitude = SurfaceAmplitude::mean_power;
+  return direct_echoes(places, facts.scene.materials, facts.ping.sent.pulse, facts.ping.sent.medium, mean_power);
+}
+
+/// Error of an echo of the centre frequency's absorption, over the pulse's spectrum.
 StageVerdict judge_absorption_slope(const PlanFacts& facts) {
   const Environment& environment = facts.ping.environment;
   const Pulse& pulse = facts.ping.head.pulse;
   const Absorption full =
       absorption_about(environment.water, pulse.centre_frequency, 2, environment.absorption_formula);
-  const bool asked = facts.ping.options.effects.absorption_order > 0;
-  const double half_band = 0.5 * pulse.bandwidth, path = 2 * facts.sample.in_view_farthest;
-  return {asked,
-          asked ? "asked for: each frequency of the pulse has its own absorption"
-                : "a peak stays SL - 2 TL + TS: one absorption for the whole pulse",
-          path * half_band * (std::abs(full.a1) + std::abs(full.a2) * half_band)};
+  const auto change = [&](std::size_t i) {
+    const double path = 2 * facts.sample.places.range[i];
+    double error = 0;
+    for (const SpectrumNode& node : spectrum_nodes(pulse))
+      error += node.weight * std::pow(std::expm1(-path * node.frequency * (full.a1 + full.a2 * node.frequency)), 2);
+    return error;
+  };
+  return {false, "each frequency of the pulse has its own absorption", changed_bound(facts, change),
+          seconds_of_own_shapes(facts)};
 }
 
 StageVerdict judge_refraction(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   if (!ping.environment.profile) return {false, "one sound speed everywhere", 0};
-  Scatterers places = facts.sample.places;
-  const RefractionReport report = refract(ping, places);
-  const double turn = 4 * pi * ping.head.pulse.centre_frequency / ping.sent.medium.sound_speed * report.bound.range;
-  return {report.bent,
-          report.bent ? "straight rays would be off by a bin, or by what the elevation pattern feels"
-                      : "straight rays stay within a bin; speckle changes, levels do not",
-          std::min(plan_margin, turn)};
+  Scatterers bent = facts.sample.places;
+  bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
+             ping.options.threads);
+  return {false, "rays are bent: echoes arrive at other times and angles",
+          difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent)),
+          seconds_of_bent_rays(facts)};
 }
 
 StageVerdict judge_motion(const PlanFacts& facts) {
-  const bool still = facts.ping.options.effects.motion.none();
-  return {!still, still ? "the head is at rest" : "the head moves", 0};
+  const ResolvedPing& ping = facts.ping;
+  const Motion& motion = ping.options.effects.motion;
+  if (motion.none()) return {false, "the head is at rest", 0};
+  const Echoes still = echoes_of(facts, facts.sample.places);
+  Echoes moved = still;
+  move_echoes(motion, ping.view.world_from_head, facts.sample.places, ping.head.pulse.centre_frequency,
+              ping.sent.medium.sound_speed, moved);
+  return {false, "the head moves while sound is under way", difference_bound(facts, still, moved),
+          seconds_of_moved_echoes(facts)};
 }
 
-bool has_boundary(const Environment& e) { return e.surface || e.bottom; }
-
+/// Energy of the echoes by the boundaries, of the sample.
 StageVerdict judge_multipath(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   if (!has_boundary(ping.environment)) return {false, "no surface and no bottom", 0};
-  const bool asked = ping.options.effects.multipath;
-  const double bounce = strongest_bounce(ping.environment, ping.view, ping.sent);
-  return {asked, asked ? "asked for" : "not asked for",
-          bounce == 0 ? 0 : (2 * bounce + bounce * bounce) * relative_amplitude(facts, facts.sample.anywhere)};
+  Transmission sent = ping.sent;
+  sent.echo_options.amplitude = SurfaceAmplitude::mean_power;
+  View view = ping.view;
+  view.sampling.scatterers_per_cell = 0;
+  view.sampling.kind = SamplingKind::surfels;
+  const Echoes bounced = multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
+  HeardEnergy heard(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
+  double energy = 0;
+  for (std::size_t i = 0; i < bounced.size(); ++i) {
+    const double range = 0.5 * sent.medium.sound_speed * bounced.delay[i];
+    if (range < ping.head.gate.min_range || range > ping.head.gate.max_range) continue;
+    energy += std::norm(bounced.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
+              heard.at(bounced.u[i], bounced.v.empty() ? 0 : bounced.v[i]);
+  }
+  return {false, "sound also comes by way of surface or bottom", added_bound(facts, energy),
+          seconds_of_multipath(facts)};
 }
 
 StageVerdict by_strength(bool given) {
@@ -66,17 +137,15 @@ StageVerdict judge_volume(const PlanFacts& facts) { return by_strength(volume_sc
 StageVerdict judge_surface(const PlanFacts& facts) { return by_strength(surface_scatters(facts.ping.environment)); }
 StageVerdict judge_bottom(const PlanFacts& facts) { return by_strength(bottom_scatters(facts.ping.environment)); }
 
-/// Noise power in the image over that of its echoes, as amplitudes.
+/// Energy of noise in all bins over that of the echoes.
 StageVerdict judge_noise(const PlanFacts& facts) {
   const SonarHead& head = facts.ping.head;
-  const double noise =
-      2 * power_from_db(facts.ping.beam_noise_db) * micropascal * micropascal * static_cast<double>(head.gate.bins());
+  const double noise = 2 * power_from_db(facts.ping.beam_noise_db) * micropascal * micropascal *
+                       static_cast<double>(head.fan.beams() * head.gate.bins());
   const double pulse_bins =
       0.469719 / head.pulse.bandwidth * facts.ping.sent.medium.sound_speed / (2 * head.gate.bin_size);
-  const double share = facts.synthesis.share;
   const bool asked = facts.ping.options.effects.noise;
-  return {asked, asked ? "asked for" : "not asked for",
-          relative_amplitude(facts, noise / (share * share * pulse_bins))};
+  return {asked, asked ? "asked for" : "not asked for", added_bound(facts, noise / pulse_bins)};
 }
 
 bool any_material(const PlanFacts& facts, double Material::*number) {
@@ -95,32 +164,38 @@ StageVerdict judge_coherent_part(const PlanFacts& facts) {
 }
 
 constexpr PlanStage stages[] = {
-    {"absorption-slope", judge_absorption_slope, [](bool in, E&, O& o) { o.effects.absorption_order = in ? 2 : 0; }},
-    {"refraction", judge_refraction,
-     [](bool in, E&, O& o) { o.effects.refraction = in ? Choice::always : Choice::never; },
-     [](const E& e, const O&) { return e.profile ? nullptr : "there is no sound-speed profile"; }},
-    {"motion", judge_motion, [](bool in, E&, O& o) { o.effects.motion = in ? o.effects.motion : Motion{}; },
-     [](const E&, const O& o) { return o.effects.motion.none() ? "the head is at rest" : nullptr; }},
-    {"multipath", judge_multipath, [](bool in, E&, O& o) { o.effects.multipath = in; },
-     [](const E& e, const O&) { return has_boundary(e) ? nullptr : "there is neither surface nor bottom"; }},
-    {"volume", judge_volume,
+    {"absorption-slope", DecidedBy::budget, judge_absorption_slope,
+     [](bool in, E&, O& o) { o.effects.absorption_order = in ? 2 : 0; }, nullptr,
+     [](const O& o) {
+       return o.effects.absorption_order < 0 ? Choice::as_needed : chosen(o.effects.absorption_order > 0);
+     }},
+    {"refraction", DecidedBy::budget, judge_refraction, [](bool in, E&, O& o) { o.effects.refraction = chosen(in); },
+     [](const E& e, const O&) { return e.profile ? nullptr : "there is no sound-speed profile"; },
+     [](const O& o) { return o.effects.refraction; }},
+    {"motion", DecidedBy::budget, judge_motion, [](bool in, E&, O& o) { o.effects.moving = chosen(in); },
+     [](const E&, const O& o) { return o.effects.motion.none() ? "the head is at rest" : nullptr; },
+     [](const O& o) { return o.effects.moving; }},
+    {"multipath", DecidedBy::budget, judge_multipath, [](bool in, E&, O& o) { o.effects.multipath = chosen(in); },
+     [](const E& e, const O&) { return has_boundary(e) ? nullptr : "there is neither surface nor bottom"; },
+     [](const O& o) { return o.effects.multipath; }},
+    {"volume", DecidedBy::choice, judge_volume,
      [](bool in, E& e, O&) {
        if (!in) e.volume_scattering_db.reset();
      },
      [](const E& e, const O&) { return volume_scatters(e) ? nullptr : "volume.scattering_db is not given"; }},
-    {"surface", judge_surface,
+    {"surface", DecidedBy::choice, judge_surface,
      [](bool in, E& e, O&) {
        if (!in && e.surface) e.surface->scattering_strength_db.reset();
      },
      [](const E& e, const O&) { return surface_scatters(e) ? nullptr : "surface.scattering_db is not given"; }},
-    {"bottom", judge_bottom,
+    {"bottom", DecidedBy::choice, judge_bottom,
      [](bool in, E& e, O&) {
        if (!in && e.bottom) e.bottom->lambert_mu.reset();
      },
      [](const E& e, const O&) { return bottom_scatters(e) ? nullptr : "bottom.lambert_mu_db is not given"; }},
-    {"noise", judge_noise, [](bool in, E&, O& o) { o.effects.noise = in; }},
-    {"micro-relief", judge_micro_relief},
-    {"coherent-part", judge_coherent_part}};
+    {"noise", DecidedBy::choice, judge_noise, [](bool in, E&, O& o) { o.effects.noise = in; }},
+    {"micro-relief", DecidedBy::scene, judge_micro_relief},
+    {"coherent-part", DecidedBy::scene, judge_coherent_part}};
 
 }  // namespace
 

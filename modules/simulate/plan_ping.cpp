@@ -1,5 +1,6 @@
-// The plan of a ping: each stage of the three tables is judged on a sample of the scene. Costs one pass over 20 000
-// surfels at most, and for the bound of true delays one over the array's pattern.
+// The plan of a ping: each stage of the three tables is judged on a sample of the scene, and those that the budget
+// decides
+// are in where their bound exceeds their share.
 #include "simulate/plan_ping.hpp"
 
 #include <algorithm>
@@ -8,14 +9,19 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 
 namespace insonify {
 
-double relative_amplitude(const PlanFacts& facts, double power) {
-  if (power == 0) return 0;
+double added_bound(const PlanFacts& facts, double energy) {
+  if (energy == 0) return 0;
   const double in_view = facts.sample.in_view;
-  return in_view > 0 ? plan_margin * std::sqrt(power / in_view) : std::numeric_limits<double>::infinity();
+  return in_view > 0 ? plan_margin * std::sqrt(energy / in_view) : std::numeric_limits<double>::infinity();
+}
+
+const char* decided_by_name(DecidedBy by) {
+  return by == DecidedBy::budget ? "budget" : by == DecidedBy::choice ? "choice" : "scene";
 }
 
 namespace {
@@ -25,6 +31,18 @@ std::vector<PlanStage> all_stages() {
   for (const auto group : {geometry_stages(), effect_stages(), synthesis_stages()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
+}
+
+double level_of(double relative_error) { return db_from_amplitude(1 + relative_error); }
+
+/// The part of the budget that each stage may cost: even in squares.
+double budget_share(const std::vector<PlanStage>& stages, double accuracy_db) {
+  const auto n = std::count_if(stages.begin(), stages.end(), [](auto& s) { return s.by == DecidedBy::budget; });
+  return (amplitude_from_db(accuracy_db) - 1) / std::sqrt(static_cast<double>(n));
+}
+
+bool is_open(const PlanStage& stage, const SimulationOptions& options) {
+  return stage.by == DecidedBy::budget && stage.asked(options) == Choice::as_needed;
 }
 
 /// How one row of beams is gridded, or would be if the method is another: those may ask for more than gridding can.
@@ -37,34 +55,60 @@ SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
       .choice();
 }
 
-/// Rough costs: 0.6 us per scatterer for sampling and echoes, 0.1 us per scatterer and row for gridding, and the
-/// transforms of all bins.
-void estimate_costs(const PlanFacts& facts, PingPlan& plan) {
-  const SonarHead& head = facts.ping.head;
-  plan.surfels_in_view = facts.sample.surfels;
-  plan.scatterers = facts.sample.scatterers;
-  const auto rows = static_cast<double>(fan_rows(head.fan).size()), bins = static_cast<double>(head.gate.bins());
-  const auto beams = static_cast<double>(head.fan.beams()), surfels = static_cast<double>(facts.scene.size());
-  plan.seconds = 2e-8 * surfels + 6e-7 * plan.scatterers + rows * (1e-7 * plan.scatterers + 6e-6 * bins);
-  plan.mib = (120 * plan.scatterers + 40 * beams * bins + 45 * surfels) / 0x1p20;
+/// One stage, judged: open ones by the budget, which sets `settled`.
+PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& settled) {
+  auto [included, why, bound, seconds] = stage.judge(facts);
+  if (stage.by == DecidedBy::budget) {
+    const Choice asked = stage.asked(facts.ping.options);
+    if (asked != Choice::as_needed) why = asked == Choice::always ? "asked for" : "left out on request";
+    included = asked == Choice::always || (asked == Choice::as_needed && bound > share);
+    Environment unchanged = facts.ping.environment;
+    if (asked == Choice::as_needed) stage.force(included, unchanged, settled);
+  }
+  return {stage.name, stage.by, included, std::move(why), bound, level_of(bound), seconds};
 }
 
 }  // namespace
 
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                    const Environment& environment, const SimulationOptions& options) {
+  require_valid(options, "plan_ping");
   require_valid(scene, "plan_ping");
-  const ResolvedPing ping = resolve_ping(whole_of(scene), head, world_from_head, environment, options, "plan_ping");
+  const WholeScene whole = whole_of(scene);
+  const ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, options, "plan_ping");
   const PlanFacts facts{scene, ping, sample_scene(scene, ping), gridding_of_a_row(ping)};
+  const std::vector<PlanStage> stages = all_stages();
   PingPlan plan;
+  plan.options = options;
   plan.synthesis = facts.synthesis;
-  for (const PlanStage& stage : all_stages()) {
-    auto [included, why, bound] = stage.judge(facts);
-    if (included) bound = 0;
-    plan.stages.push_back({stage.name, included, std::move(why), bound, db_from_amplitude(1 + bound)});
+  plan.share_relative = budget_share(stages, options.accuracy_db);
+  plan.share_db = level_of(plan.share_relative);
+  double left_out = 0;
+  for (const PlanStage& stage : stages) {
+    const PlannedStage& planned = plan.stages.emplace_back(plan_stage(stage, facts, plan.share_relative, plan.options));
+    if (stage.by == DecidedBy::budget && !planned.included) left_out += planned.bound_relative * planned.bound_relative;
   }
-  estimate_costs(facts, plan);
+  plan.left_out_db = level_of(std::sqrt(left_out));
+  plan.surfels_in_view = static_cast<std::size_t>(facts.sample.surfels);
+  plan.scatterers = scatterers_of(facts, plan.options);
+  const PingCost cost = cost_of(facts, plan.options);
+  plan.seconds = cost.seconds;
+  plan.mib = cost.bytes / 0x1p20;
   return plan;
+}
+
+SimulationOptions settled_options(const SceneCloud& scene, const WholeScene& whole, const SonarHead& head,
+                                  const Pose& world_from_head, const Environment& environment,
+                                  const SimulationOptions& options, const char* who) {
+  const ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, options, who);
+  const std::vector<PlanStage> stages = all_stages();
+  SimulationOptions settled = options;
+  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, options); })) return settled;
+  const PlanFacts facts{scene, ping, sample_scene(scene, ping), {}};
+  const double share = budget_share(stages, options.accuracy_db);
+  for (const PlanStage& stage : stages)
+    if (is_open(stage, options)) plan_stage(stage, facts, share, settled);
+  return settled;
 }
 
 void force_stage(const std::string& name, bool included, Environment& environment, SimulationOptions& options) {

@@ -2,10 +2,13 @@
 #include <span>
 #include <string>
 
-#include "beamforming/ping_synthesizer.hpp"
+#include "simulate/ping_plan.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
 /// The stages of a plan, group by group. A new stage is an entry in the table of its group, in the order of the plan.
+///
+/// The budget: options.accuracy_db as a relative error, shared evenly in squares among the stages of these tables that
+/// the budget decides: budget_share. A stage of a larger bound is in. Nowhere else is a threshold.
 namespace insonify {
 
 /// What stages are judged by.
@@ -16,29 +19,54 @@ struct PlanFacts {
   SynthesisChoice synthesis;  ///< for one row of beams
 };
 
-/// Factor in amplitude for speckle, and for what of the scene hides other parts of it.
+/// Factor in amplitude between the error expected of the sample and its bound.
 constexpr double plan_margin = 2;
 
-/// Amplitude of what `power` adds to the image, relative to what is in view, times the margin; infinite if nothing is.
-double relative_amplitude(const PlanFacts& facts, double power);
+/// Bound of an effect that adds independent echoes of this energy to the image, relative to what is in view; infinite
+/// if
+/// nothing is.
+double added_bound(const PlanFacts& facts, double energy);
+
+/// Bound of an effect that changes the echoes of the sample: `change(i)` is the squared error of the echo of place i,
+/// relative to its energy, expected over speckle.
+template <typename Change>
+double changed_bound(const PlanFacts& facts, const Change& change) {
+  const SceneSample& s = facts.sample;
+  double energy = 0;
+  for (std::size_t i = 0; i < s.energy.size(); ++i)
+    if (s.energy[i] > 0) energy += s.energy[i] * change(i);
+  return energy > 0 ? added_bound(facts, energy) : 0;
+}
 
 struct StageVerdict {
-  bool included;
+  bool included;  ///< counts unless the budget decides
   std::string why;
-  double bound;  ///< relative error of the image without it; does not count if it is included
+  double bound;        ///< relative error of the image without it
+  double seconds = 0;  ///< what it costs on one core
 };
 
 struct PlanStage {
   const char* name;
+  DecidedBy by;
   StageVerdict (*judge)(const PlanFacts&);
   /// Sets the options, or takes the cause out of the environment, so that the stage is in or out; nullptr: it cannot.
   void (*force)(bool included, Environment&, SimulationOptions&) = nullptr;
   /// What keeps it from being forced in; nullptr if nothing does.
   const char* (*obstacle)(const Environment&, const SimulationOptions&) = nullptr;
+  /// What the options say of a stage that the budget decides where they leave it open.
+  Choice (*asked)(const SimulationOptions&) = nullptr;
 };
 
 std::span<const PlanStage> geometry_stages();
 std::span<const PlanStage> effect_stages();
 std::span<const PlanStage> synthesis_stages();
+
+constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
+
+/// The options with all that they leave as needed decided by the plan: as plan_ping, but only open stages are judged,
+/// and the scene is taken as valid. `who` names the caller in errors.
+SimulationOptions settled_options(const SceneCloud& scene, const WholeScene& whole, const SonarHead& head,
+                                  const Pose& world_from_head, const Environment& environment,
+                                  const SimulationOptions& options, const char* who);
 
 }  // namespace insonify

@@ -1,21 +1,27 @@
 // Stages of the plan that are ways of forming beams.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
 
+#include "beamforming/element_series.hpp"
 #include "core/units.hpp"
+#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
+#include "simulate/pulse_spectrum_internal.hpp"
 
 namespace insonify {
 namespace {
 
-/// Sets `method`, or leaves it for gridding if it is the one in force; another method stays as it is.
-template <SynthesisMethod method>
-void force_method(bool included, Environment&, SimulationOptions& options) {
-  SynthesisMethod& chosen = options.synthesis.method;
+/// Sets the direct sum, or leaves it for gridding if it is the one in force; another method stays as it is.
+void force_direct_sum(bool included, Environment&, SimulationOptions& options) {
+  SynthesisMethod& method = options.synthesis.method;
   if (included)
-    chosen = method;
-  else if (chosen == method)
-    chosen = SynthesisMethod::gridded;
+    method = SynthesisMethod::direct;
+  else if (method == SynthesisMethod::direct)
+    method = SynthesisMethod::gridded;
 }
 
 const char* sums_intensities(const Environment&, const SimulationOptions& options) {
@@ -28,41 +34,127 @@ StageVerdict judge_direct_sum(const PlanFacts& facts) {
   return {direct, direct ? "asked for" : "gridding keeps the tolerance", facts.ping.options.synthesis.tolerance};
 }
 
-/// First-order change of the image by the pulse's different arrival at the elements, 2.668 B / (2 pi f) |du B'|, and by
-/// what focusing leaves of the waves' curvature, |du B''| u / (k r), each as a root mean square over the pattern B.
-double true_delay_bound(const PlanFacts& facts) {
-  const SonarHead& head = facts.ping.head;
-  const double k = 2 * pi * head.pulse.centre_frequency / facts.ping.sent.medium.sound_speed;
-  std::vector<double> u_beam;
-  for (std::size_t b = 0; b < head.fan.beams(); ++b)
-    u_beam.push_back(std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
-  const auto [low, high] = std::minmax_element(u_beam.begin(), u_beam.end());
-  const double span = std::min(2.0, *high - *low + 2 * std::sin(std::min(head.fan.beam_width, pi / 2)));
-  const std::size_t elements = head.array.elements(), steps = 8 * elements + 64;
-  double pattern = 0, first = 0, second = 0;
-  for (std::size_t s = 0; s < steps; ++s) {
-    const double du = span * (2 * (static_cast<double>(s) + 0.5) / static_cast<double>(steps) - 1);
-    double b = 0, b1 = 0, b2 = 0;
-    for (std::size_t m = 0; m < elements; ++m) {
-      const double y = head.array.spacing * element_place(m, elements), w = head.array.shading[m];
-      const double cosine = std::cos(k * y * du), sine = std::sin(k * y * du);
-      b += w * cosine, b1 -= w * k * y * sine, b2 -= w * k * y * k * y * cosine;
-    }
-    pattern += b * b, first += du * du * b1 * b1, second += du * du * b2 * b2;
+/// The narrow-band, far-field image against what elements receive, for some echoes of the sample in some beams: at
+/// frequency f off the carrier the phase of element y is k (1 + f / f_c) times the difference of the ways to it that
+/// echo and focus have (E61, E62); gridding takes -k y (u - u_b) (E10). The focus stands where the bin is: the pulse's
+/// length before and behind the echo.
+class NarrowBandError {
+ public:
+  explicit NarrowBandError(const PlanFacts& facts) : head_(facts.ping.head), nodes_(spectrum_nodes(head_.pulse)) {
+    const double c = facts.ping.sent.medium.sound_speed;
+    wavenumber_ = 2 * pi * head_.pulse.centre_frequency / c;
+    off_focus_ = std::sqrt(3 * std::numbers::ln2 / 2) * c / (2 * pi * head_.pulse.bandwidth);
+    for (std::size_t b = 0; b < head_.fan.beams(); ++b)
+      u_beam_.push_back(std::cos(head_.fan.elevation[b]) * std::sin(head_.fan.azimuth[b]));
   }
-  const double band = 2.668 * head.pulse.bandwidth / (2 * pi * head.pulse.centre_frequency);
-  const double steepest = std::max(std::abs(*low), std::abs(*high));
-  const double nearest = facts.sample.in_view_nearest;
-  const double curvature = nearest > 0 ? steepest / (k * nearest) : 0;
-  return std::min(2.0, plan_margin * (band * std::sqrt(first / pattern) + curvature * std::sqrt(second / pattern)));
+
+  /// How many places to add.
+  double places() const { return std::max(32.0, 768.0 / static_cast<double>(std::min(u_beam_.size(), near_beams))); }
+
+  /// Adds an echo from (range, u) that stands for `times`: all beams that have it in or near their main lobes, and a
+  /// few that stand for the rest.
+  void add(double range, double u, double times) {
+    const std::size_t beams = u_beam_.size(), near = std::min(near_beams, beams);
+    std::sort(u_beam_.begin(), u_beam_.end(), [u](double a, double b) { return std::abs(a - u) < std::abs(b - u); });
+    for (std::size_t b = 0; b < near; ++b) add_beam(range, u, u_beam_[b], times);
+    const std::size_t rest = beams - near, step = std::max<std::size_t>(1, rest / far_beams);
+    for (std::size_t b = near + step / 2; b < beams; b += step)
+      add_beam(range, u, u_beam_[b], times * static_cast<double>(step));
+  }
+  /// Squared error relative to the energy.
+  double squared() const { return image_ > 0 ? error_ / image_ : 0; }
+
+ private:
+  static constexpr std::size_t near_beams = 16, far_beams = 8;
+
+  // Nodes of the spectrum with the focus at the echo, and nodes of the pulse's length at the carrier: both at once are
+  // of
+  // higher order.
+  void add_beam(double range, double u, double u_beam, double weight) {
+    std::complex<double> truth[5] = {}, before = 0, behind = 0, narrow = 0;
+    const std::size_t elements = head_.array.elements();
+    for (std::size_t m = 0; m < elements; ++m) {
+      const double y = head_.array.spacing * element_place(m, elements), w = head_.array.shading[m];
+      const double there = way_to(y, range, u), carrier = wavenumber_ * (there - way_to(y, range, u_beam));
+      const std::complex<double> centre = w * unit(carrier);
+      narrow += w * unit(-wavenumber_ * y * (u - u_beam));
+      before += w * unit(wavenumber_ * (there - way_to(y, std::max(range - off_focus_, 0.3 * range), u_beam)));
+      behind += w * unit(wavenumber_ * (there - way_to(y, range + off_focus_, u_beam)));
+      truth[2] += centre;
+      for (const std::size_t n : {std::size_t{3}, std::size_t{4}}) {  // nodes come in pairs
+        const std::complex<double> off = unit(carrier * nodes_[n].frequency / head_.pulse.centre_frequency);
+        truth[n] += centre * off;
+        truth[4 - n] += centre * std::conj(off);
+      }
+    }
+    const auto add_node = [&](const std::complex<double>& t, double part) {
+      error_ += weight * part * std::norm(t - narrow);
+      image_ += weight * part * std::norm(t);
+    };
+    for (std::size_t n = 0; n < nodes_.size(); ++n) add_node(truth[n], nodes_[n].weight - (n == 2 ? 1.0 / 3 : 0));
+    add_node(before, 1.0 / 6);
+    add_node(behind, 1.0 / 6);
+  }
+  static std::complex<double> unit(double phase) { return {std::cos(phase), std::sin(phase)}; }
+  static double way_to(double y, double range, double u) {
+    const double squared = y * y - 2 * range * y * u;
+    return squared / (std::sqrt(std::max(0.0, range * range + squared)) + range);
+  }
+
+  const SonarHead& head_;
+  std::array<SpectrumNode, 5> nodes_;
+  double wavenumber_, off_focus_, error_ = 0, image_ = 0;
+  std::vector<double> u_beam_;
+};
+
+/// Some places of the sample, each standing for the same power at an element.
+double narrow_band_bound(const PlanFacts& facts) {
+  const SceneSample& s = facts.sample;
+  NarrowBandError error(facts);
+  const double all = std::accumulate(s.power.begin(), s.power.end(), 0.0), part = all / error.places();
+  double passed = -0.5 * part;
+  for (std::size_t i = 0; i < s.power.size(); ++i) {
+    passed += s.power[i];
+    if (s.power[i] == 0 || passed < 0) continue;
+    const double times = std::floor(passed / part) + 1;
+    error.add(s.places.range[i], std::cos(s.places.elevation[i]) * std::sin(s.places.azimuth[i]), times);
+    passed -= times * part;
+  }
+  return added_bound(facts, error.squared() * s.in_view);
 }
 
 StageVerdict judge_true_delays(const PlanFacts& facts) {
-  const SynthesisMethod method = facts.ping.options.synthesis.method;
-  const bool exact = method == SynthesisMethod::element_exact || method == SynthesisMethod::true_delays;
-  return {exact,
-          exact ? "asked for" : "one beam pattern at all frequencies and ranges, focused: narrow band, far field",
-          true_delay_bound(facts)};
+  if (facts.ping.options.synthesis.method == SynthesisMethod::incoherent)
+    return {false, "intensities have no delays across the array", 0};
+  return {false, "elements receive wide bands and near echoes at other times: one pattern does not hold",
+          narrow_band_bound(facts), seconds_of_true_delays(facts)};
+}
+
+/// What the plan does where the narrow-band image is not good enough.
+void force_true_delays(bool included, Environment&, SimulationOptions& options) {
+  auto& [method, tolerance, true_delays] = options.synthesis;
+  true_delays = chosen(included);
+  if (!included) {
+    if (method == SynthesisMethod::true_delays || method == SynthesisMethod::element_exact)
+      method = SynthesisMethod::gridded;
+    return;
+  }
+  const bool fast = tolerance >= min_true_delay_tolerance;  // finer than that only the referee is
+  method = fast ? SynthesisMethod::true_delays : SynthesisMethod::element_exact;
+  tolerance = std::min(tolerance, max_element_tolerance);
+}
+
+/// A method given by name is what it is; gridding leaves it to `true_delays`.
+Choice asked_true_delays(const SimulationOptions& options) {
+  switch (options.synthesis.method) {
+    case SynthesisMethod::gridded:
+      return options.synthesis.true_delays;
+    case SynthesisMethod::true_delays:
+    case SynthesisMethod::element_exact:
+      return Choice::always;
+    default:
+      return Choice::never;
+  }
 }
 
 StageVerdict judge_double_precision(const PlanFacts& facts) {
@@ -73,9 +165,9 @@ StageVerdict judge_double_precision(const PlanFacts& facts) {
 }
 
 constexpr PlanStage stages[] = {
-    {"direct-sum", judge_direct_sum, force_method<SynthesisMethod::direct>, sums_intensities},
-    {"true-delays", judge_true_delays, force_method<SynthesisMethod::element_exact>, sums_intensities},
-    {"double-precision", judge_double_precision}};
+    {"direct-sum", DecidedBy::choice, judge_direct_sum, force_direct_sum, sums_intensities},
+    {"true-delays", DecidedBy::budget, judge_true_delays, force_true_delays, sums_intensities, asked_true_delays},
+    {"double-precision", DecidedBy::scene, judge_double_precision}};
 
 }  // namespace
 

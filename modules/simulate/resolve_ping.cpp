@@ -11,6 +11,7 @@ namespace insonify {
 namespace {
 
 constexpr double nearest_range = 0.1;  // [m]: spreading would have no bound nearer by
+constexpr double nothing_db = -400;    // a pattern's level that is nothing
 constexpr double rounding = 1.001;     // of the ball that holds all paths
 
 EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
@@ -29,8 +30,9 @@ SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, cons
   s.scatterers_per_cell = o.sampling.scatterers_per_cell;
   s.range_resolution = range_resolution(head.pulse, medium.sound_speed);
   s.rays_per_beam = o.sampling.rays_per_beam;
-  s.elevation_half_extent = sampled_half_extent(head, o.sampling.elevation_floor_db);
-  s.azimuth_margin = o.sampling.azimuth_margin;
+  const bool all_elevations = o.sampling.outer_elevations == Choice::always;
+  s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
+  s.azimuth_margin = o.sampling.outer_azimuths == Choice::always ? pi : o.sampling.azimuth_margin;
   s.occlusion = o.sampling.occlusion;
   s.relief_outer_scale = scene.mean_spacing;
   s.seed = o.seed;
@@ -48,9 +50,20 @@ RangeGate sampled_gate(const WholeScene& scene, const SonarHead& head, const Med
   return gate;
 }
 
+/// Sector of all that may be sampled: what is open counts as in.
+Sector widest_sector(const ResolvedPing& ping) {
+  SamplingOptions widest = ping.view.sampling;
+  if (ping.options.sampling.outer_azimuths == Choice::as_needed) widest.azimuth_margin = pi;
+  if (ping.options.sampling.outer_elevations == Choice::as_needed)
+    widest.elevation_half_extent = sampled_half_extent(ping.head, nothing_db);
+  return insonified_sector(ping.head.fan, widest);
+}
+
+/// What is open counts as in.
 InsonifiedRegion region_of(const ResolvedPing& ping) {
   const View& view = ping.view;
-  if (!ping.options.effects.multipath) return {view.world_from_head, ping.sector, view.gate, view.sampling.footprint};
+  if (ping.options.effects.multipath == Choice::never || !has_boundary(ping.environment))
+    return {view.world_from_head, widest_sector(ping), view.gate, view.sampling.footprint};
   // Bounces come from all sides: whatever is nearer than the longest leg may reflect or block one.
   InsonifiedRegion region =
       region_around(view.world_from_head.translation(), rounding * longest_leg(ping.environment, view, ping.sent));
@@ -67,17 +80,20 @@ DetectionOptions detection_of(const SimulationOptions& o, double beam_noise_db) 
 
 }  // namespace
 
+bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
+
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
                           const Environment& environment, const SimulationOptions& options, const char* who) {
   require_valid(head, who);
   require_valid(environment, who);
   require_valid(options, who);
-  if (options.effects.multipath && !environment.surface && !environment.bottom)
-    fail(ErrorKind::argument, who, ": options.effects.multipath = true, but the environment has neither surface nor ",
+  if (options.effects.multipath == Choice::always && !has_boundary(environment))
+    fail(ErrorKind::argument, who, ": options.effects.multipath = always, but the environment has neither surface nor ",
          "bottom, must have one of them");
 
   ResolvedPing ping{head, environment, options, {}, {}, {}, {}, {}, {}, {}};
-  const Medium medium = medium_of(environment, head.pulse.centre_frequency, options.effects.absorption_order);
+  const Medium medium =
+      medium_of(environment, head.pulse.centre_frequency, std::max(0, options.effects.absorption_order));
   ping.sent = {head.pulse, medium, echo_options_of(head, options)};
   ping.view = {world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
                sampling_of(scene, head, medium, options)};

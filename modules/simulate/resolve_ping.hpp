@@ -15,11 +15,15 @@ struct ResolvedPing {
   Transmission sent;            ///< pulse, medium and the patterns that echoes are weighted by
   View view;                    ///< pose, fan, sampled ranges and sampling
   Sector sector;                ///< that is sampled
-  InsonifiedRegion region;      ///< all that can be heard or block sound; with multipath a ball about the head
+  InsonifiedRegion region;      ///< all that can be heard or block sound; with multipath a ball about the head. What
+                                ///< is left as needed counts as in here, and as out elsewhere
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
   double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
   DetectionOptions detection;   ///< with that noise floor, if the options leave it open
 };
+
+/// Whether sound can come by way of a surface or bottom.
+bool has_boundary(const Environment& environment);
 
 /// Resolves a ping of a scene with the properties `scene` (whole_of, PreparedScene::whole), for plan_ping,
 /// simulate_ping and all that asks what a ping would see. The surfels inside `region` alone, in their order and with

@@ -1,117 +1,164 @@
-// Echo power of an evenly strided sample of the scene, by where the surfels stand: incoherent sums of the direct echo
-// (E4, E7, E14) without occlusion, from which the plan derives its bounds and its estimates of surfels and scatterers.
+// The sample that a plan is made from. Surfels are sorted by where they stand; of each kind some thousands are pinged
+// by
+// the stages of simulate_ping themselves: visibility, direct echoes (E7), the beams' patterns (E10, E14).
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "acoustics/scattering.hpp"
 #include "core/units.hpp"
+#include "simulate/heard_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t most_sampled = 20000;
+constexpr std::size_t most_of_a_kind = 4096;
+constexpr double nearest = 1e-2;  // [m]: what is nearer is left to simulate_ping
 
-/// Adds up one surfel after another.
-class Sampler {
+enum Kind : std::uint8_t { in_view, other_range, off_azimuth, off_elevation, elsewhere, kinds };
+
+/// Sorts places by what the plan asks about them.
+class Sorter {
  public:
-  Sampler(const SceneCloud& scene, const ResolvedPing& ping)
-      : scene_(scene),
-        ping_(ping),
-        sector_(ping.sector),
+  explicit Sorter(const ResolvedPing& ping)
+      : sector_(insonified_sector(ping.head.fan, narrow(ping))),
+        all_(widest_sector(ping)),
         gate_(ping.view.gate),
-        to_head_(ping.view.world_from_head.linear().transpose()),
-        shift_(scene.origin - ping.view.world_from_head.translation()),
-        source_(source_pressure(ping.head.pulse)) {}
+        farthest_(2 * gate_.max_range - ping.head.gate.max_range) {}
 
-  void add(std::size_t i) {
-    const Eigen::Vector3d p = to_head_ * (shift_ + scene_.point[i].cast<double>());
+  Kind kind_of(const Eigen::Vector3d& p) const {
     const double r = p.norm();
-    if (r < 1e-3) return;
-    const double cosine = -(to_head_ * scene_.normal[i].cast<double>()).dot(p) / r;
-    const double facing = scene_.normals_oriented ? std::max(0.0, cosine) : std::abs(cosine);
-    const Direction d = direction_of(p);
-    const bool in_azimuth = sector_.in_cones(p), in_elevation = sector_.in_elevations(p);
-    const bool in_gate = r >= gate_.min_range && r <= gate_.max_range;
-
-    const double power = echo_power(i, r, facing, d.elevation);
-    if (in_gate && in_azimuth && !in_elevation) sums_.off_elevation += power;
-    if (in_gate && in_elevation && !in_azimuth) sums_.off_azimuth += power;
-    if (!in_gate && in_azimuth && in_elevation) sums_.beyond_gate += power * left_in_gate(r);
-    if (in_gate && in_azimuth && in_elevation) add_in_view(i, {r, d.azimuth, d.elevation}, facing, power);
+    const bool in_cones = sector_.in_cones(p), in_elevations = sector_.in_elevations(p);
+    if (r < nearest || !all_.holds(p)) return elsewhere;
+    if (in_cones && in_elevations)
+      return r >= gate_.min_range && r <= gate_.max_range ? in_view : r <= farthest_ ? other_range : elsewhere;
+    if (r < gate_.min_range || r > gate_.max_range) return elsewhere;
+    return in_elevations ? off_azimuth : off_elevation;
   }
-
-  /// The sums, with the numbers of surfels and scatterers scaled from `sampled` surfels to the scene.
-  SceneSample finish(double sampled) {
-    const double scale = static_cast<double>(scene_.size()) / sampled;
-    sums_.surfels = static_cast<std::size_t>(surfels_ * scale);
-    sums_.back_facing = static_cast<std::size_t>(back_facing_ * scale);
-    sums_.scatterers *= scale;
-    return std::move(sums_);
+  RangeGate reach() const { return {nearest, farthest_, gate_.bin_size}; }
+  static SamplingOptions widest(const ResolvedPing& ping) {
+    SamplingOptions s = ping.view.sampling;
+    s.kind = SamplingKind::surfels;
+    s.scatterers_per_cell = 0;
+    s.azimuth_margin = pi;
+    s.elevation_half_extent = sampled_half_extent(ping.head, -400);
+    return s;
   }
 
  private:
-  struct Place {
-    double range, azimuth, elevation;
-  };
-
-  /// |echo|^2 by the pattern, and, for the sum over the scene, without it and broadside.
-  double echo_power(std::size_t i, double r, double facing, double elevation) {
-    const double pattern = elevation_pattern(ping_.sent.echo_options, elevation);
-    const double amplitude = source_ * std::exp(-2 * ping_.sent.medium.absorption.a0 * r) / (r * r);
-    const Material& material = scene_.materials[scene_.material[i]];
-    const double area = scene_.area[i], frequency = ping_.head.pulse.centre_frequency;
-    sums_.anywhere += cross_section(material, {1, 1, area}, frequency) * amplitude * amplitude;
-    return cross_section(material, {facing, facing, facing * area}, frequency) * amplitude * amplitude * pattern *
-           pattern;
+  static SamplingOptions narrow(const ResolvedPing& ping) {
+    SamplingOptions s = ping.view.sampling;
+    s.azimuth_margin = ping.options.sampling.azimuth_margin;
+    s.elevation_half_extent = sampled_half_extent(ping.head, ping.options.sampling.elevation_floor_db);
+    return s;
   }
+  static Sector widest_sector(const ResolvedPing& ping) { return insonified_sector(ping.head.fan, widest(ping)); }
 
-  /// What a pulse from beyond the gate still has inside it: a Gaussian, cut where the sampled ranges end.
-  double left_in_gate(double r) const {
-    const RangeGate& gate = ping_.head.gate;
-    const double reach = gate_.max_range - gate.max_range;
-    const double gap = r > gate_.max_range ? r - gate.max_range : gate.min_range - r;
-    return std::pow(0.5 * ping_.options.synthesis.tolerance, 2 * std::pow(std::max(1.0, gap / reach), 2));
-  }
-
-  void add_in_view(std::size_t i, const Place& place, double facing, double power) {
-    if (!(facing > 0)) {
-      ++back_facing_;
-      return;
-    }
-    ++surfels_;
-    sums_.in_view += power;
-    sums_.places.range.push_back(place.range);
-    sums_.places.azimuth.push_back(place.azimuth);
-    sums_.places.elevation.push_back(place.elevation);
-    sums_.in_view_farthest = std::max(sums_.in_view_farthest, place.range);
-    sums_.in_view_nearest = sums_.in_view_nearest > 0 ? std::min(sums_.in_view_nearest, place.range) : place.range;
-    const SamplingOptions& sampling = ping_.view.sampling;
-    const double sine = std::sqrt(std::max(0.0, 1 - facing * facing)), cell_length = sampling.range_resolution;
-    const double length = std::min(cell_length / std::max(sine, 1e-6), 2 * std::sqrt(2 * place.range * cell_length));
-    sums_.scatterers += std::max(1.0, sampling.scatterers_per_cell * static_cast<double>(scene_.area[i]) /
-                                          (length * place.range * ping_.head.fan.beam_width));
-  }
-
-  const SceneCloud& scene_;
-  const ResolvedPing& ping_;
-  SectorBounds sector_;
+  SectorBounds sector_, all_;
   const RangeGate& gate_;  // the sampled one
-  Eigen::Matrix3d to_head_;
-  Eigen::Vector3d shift_;
-  double source_, surfels_ = 0, back_facing_ = 0;
-  SceneSample sums_;
+  double farthest_;
 };
+
+/// The sampled surfels, kind by kind.
+struct Sampled {
+  SceneCloud scene;
+  std::vector<Kind> kind;
+  std::vector<double> stands_for;  ///< so many surfels
+  double back_facing = 0;          ///< of those in view, for the whole scene
+};
+
+Sampled sampled_surfels(const SceneCloud& scene, const ResolvedPing& ping, const Sorter& sorter) {
+  const Eigen::Matrix3d to_head = ping.view.world_from_head.linear().transpose();
+  const Eigen::Vector3d shift = scene.origin - ping.view.world_from_head.translation();
+  const double legs = has_boundary(ping.environment) ? longest_leg(ping.environment, ping.view, ping.sent) : 0;
+  const double farthest = std::max(sorter.reach().max_range, legs);
+  std::array<std::vector<std::uint32_t>, kinds> members;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Eigen::Vector3d p = shift + scene.point[i].cast<double>();
+    if (p.squaredNorm() > farthest * farthest) continue;
+    const Kind kind = sorter.kind_of(to_head * p);
+    if (kind != elsewhere || legs > 0) members[kind].push_back(static_cast<std::uint32_t>(i));
+  }
+
+  Sampled sampled;
+  std::vector<std::uint32_t> keep;
+  for (std::size_t k = 0; k < kinds; ++k) {
+    const std::size_t n = members[k].size(), step = std::max<std::size_t>(1, (n + most_of_a_kind - 1) / most_of_a_kind);
+    const auto count = static_cast<double>((n + step - 1 - step / 2) / step);
+    for (std::size_t i = step / 2; i < n; i += step) {
+      keep.push_back(members[k][i]);
+      sampled.kind.push_back(static_cast<Kind>(k));
+      sampled.stands_for.push_back(static_cast<double>(n) / count);
+      const Eigen::Vector3d p = shift + scene.point[members[k][i]].cast<double>();
+      const bool away = p.dot(scene.normal[members[k][i]].cast<double>()) >= 0;
+      if (k == in_view && away && scene.normals_oriented) sampled.back_facing += sampled.stands_for.back();
+    }
+  }
+  sampled.scene = subset(scene, keep);
+  sampled.scene.part_of.reset();
+  for (std::size_t i = 0; i < keep.size(); ++i) sampled.scene.area[i] *= static_cast<float>(sampled.stands_for[i]);
+  return sampled;
+}
+
+/// What a pulse from beyond the gate still has inside it: a Gaussian, cut where the sampled ranges end.
+double left_in_gate(const ResolvedPing& ping, double r) {
+  const RangeGate &heard = ping.head.gate, &sampled = ping.view.gate;
+  const double reach = sampled.max_range - heard.max_range;
+  const double gap = r > heard.max_range ? r - heard.max_range : heard.min_range - r;
+  if (gap <= 0) return 1;
+  return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
+}
+
+/// How many scatterers surfels of the area `area` are split into, on average.
+double parts_of(const ResolvedPing& ping, double area, double range, double cosine) {
+  const SamplingOptions& sampling = ping.view.sampling;
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), cell = sampling.range_resolution;
+  const double length = std::min(cell / std::max(sine, 1e-6), 2 * std::sqrt(2 * range * cell));
+  return std::max(1.0, sampling.scatterers_per_cell * area / (length * range * ping.head.fan.beam_width));
+}
 
 }  // namespace
 
 SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
-  if (scene.size() == 0) return {};
-  Sampler sampler(scene, ping);
-  const std::size_t step = (scene.size() + most_sampled - 1) / most_sampled;
-  double sampled = 0;
-  for (std::size_t i = step / 2; i < scene.size(); i += step, ++sampled) sampler.add(i);
-  return sampler.finish(sampled);
+  const Sorter sorter(ping);
+  Sampled sampled = sampled_surfels(scene, ping, sorter);
+  const View& view = ping.view;
+  Scatterers patches =
+      find_scatterers(sampled.scene, view.world_from_head, view.fan, sorter.reach(), Sorter::widest(ping)).scatterers;
+  EchoOptions mean_power = ping.sent.echo_options;
+  mean_power.amplitude = SurfaceAmplitude::mean_power;
+  const Medium& medium = ping.sent.medium;
+  const Echoes echoes = direct_echoes(patches, scene.materials, ping.sent.pulse, medium, mean_power);
+
+  // Energies and numbers, by where the echoes come from.
+  SceneSample s;
+  HeardEnergy heard(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
+  double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
+  double none = 0;
+  double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations};
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const std::uint32_t surfel = patches.surfel[i];
+    const Kind kind = sampled.kind[surfel];
+    s.energy.push_back(0);
+    s.power.push_back(0);
+    if (kind == elsewhere) continue;
+    const double r = patches.range[i], times = sampled.stands_for[surfel];
+    const double power =
+        std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) * left_in_gate(ping, r);
+    const double energy = power * heard.at(echoes.u[i], std::sin(patches.elevation[i]));
+    *energies[kind] += energy;
+    *numbers[kind] += times * parts_of(ping, sampled.scene.area[surfel] / times, r, patches.cos_incidence[i]);
+    if (kind != in_view) continue;
+    s.surfels += times;
+    s.energy.back() = energy;
+    s.power.back() = power;
+  }
+  if (view.sampling.kind == SamplingKind::rays)
+    s.scatterers = static_cast<double>(ping.head.fan.beams()) * view.sampling.rays_per_beam;
+  s.back_facing = sampled.back_facing;
+  s.scene = std::move(sampled.scene);
+  s.places = std::move(patches);
+  return s;
 }
 
 }  // namespace insonify

@@ -1,26 +1,33 @@
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "simulate/resolve_ping.hpp"
 
 namespace insonify {
 
-/// Echo power that a sample of the scene would send, by where it stands: sums of |echo|^2 [Pa^2], before occlusion.
+/// A sample of the scene, pinged without splitting and with unit amplitudes: the expected energy of the echoes in the
+/// image, by where they come from [Pa^2, summed over beams at an echo's peak].
 struct SceneSample {
-  double in_view = 0;           ///< inside fan, gate and pattern
-  double beyond_gate = 0;       ///< in these directions, but farther or nearer than gate and pulse
-  double off_elevation = 0;     ///< weighted by the elevation pattern where it is below the sampled floor
-  double off_azimuth = 0;       ///< beside the sector, with the elevation pattern alone
-  double anywhere = 0;          ///< of the whole scene, seen broadside, without pattern
-  double in_view_farthest = 0;  ///< range of the farthest surfel in view [m]; 0: none
-  double in_view_nearest = 0;   ///< of the nearest [m]
-  double scatterers = 0;        ///< after splitting, estimated
-  std::size_t surfels = 0;      ///< in view, estimated
-  std::size_t back_facing = 0;  ///< in view but turned away, estimated
-  Scatterers places;            ///< range, azimuth and elevation of the sampled surfels in view
+  double in_view = 0;        ///< inside fan, gate and pattern
+  double other_ranges = 0;   ///< in these directions, but farther or nearer than gate and pulse
+  double off_azimuth = 0;    ///< beside the sector: what side lobes receive
+  double off_elevation = 0;  ///< where the elevation pattern is below its floor
+
+  SceneCloud scene;            ///< the surfels, with areas scaled up to stand for all
+  Scatterers places;           ///< those of them that are not hidden
+  std::vector<double> energy;  ///< of each of `places` [Pa^2, as above]; 0 outside the view
+  std::vector<double> power;   ///< the same at one element, without the beams [Pa^2]
+
+  double scatterers = 0;        ///< in view after splitting, estimated
+  double outer_azimuths = 0;    ///< the same of off_azimuth
+  double outer_elevations = 0;  ///< and of off_elevation
+  double surfels = 0;           ///< in view and visible, estimated
+  double back_facing = 0;       ///< in view but turned away, estimated
 };
 
-/// Adds up 20 000 surfels at most, evenly strided.
+/// Samples at most 4096 surfels of each kind of place, evenly strided. Kinds are sampled one by one: what a part of the
+/// scene gives does not depend on whether other parts were loaded.
 SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping);
 
 }  // namespace insonify

@@ -3,20 +3,25 @@
 #include <utility>
 
 #include "acoustics/multipath_echoes.hpp"
+#include "core/stop_watch.hpp"
 #include "simulate/average_looks_internal.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
-#include "simulate/stop_watch_internal.hpp"
+#include "simulate/plan_stages_internal.hpp"
 
 namespace insonify {
 
 SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
                             const Environment& environment, const SimulationOptions& options) {
-  ResolvedPing ping = resolve_ping(prepared.whole(), head, world_from_head, environment, options, "simulate_ping");
   const SceneCloud& scene = prepared.scene();
+  const WholeScene& whole = prepared.whole();
+  // What is computed: as the options say, and where they leave it open as the accuracy asks for.
+  const SimulationOptions settled =
+      settled_options(scene, whole, head, world_from_head, environment, options, "simulate_ping");
+  ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, settled, "simulate_ping");
   const Transmission& sent = ping.sent;
-  const EffectSettings& effects = options.effects;
+  const EffectSettings& effects = settled.effects;
   SimulatedPing result;
   StopWatch watch;
 
@@ -28,7 +33,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase.
   Echoes echoes = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, sent.echo_options);
-  if (!effects.motion.none())
+  if (effects.moving == Choice::always)
     move_echoes(effects.motion, world_from_head, patches, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
   result.seconds.acoustics = watch.lap();
 
@@ -36,8 +41,9 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   LayerSum layers(ping);
   layers.add("direct", echoes);
   Multipath bounced;
-  if (effects.multipath) bounced = multipath_echoes(scene, patches, environment, ping.view, sent);
-  if (effects.multipath) layers.add("multipath", bounced.echoes);
+  const bool bounces = effects.multipath == Choice::always;
+  if (bounces) bounced = multipath_echoes(scene, patches, environment, ping.view, sent);
+  if (bounces) layers.add("multipath", bounced.echoes);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (effects.noise) layers.add_noise();
   layers.finish(result);

@@ -20,8 +20,7 @@ struct StageSeconds {
   double sampling = 0, acoustics = 0, synthesis = 0, detection = 0, contributors = 0;
 };
 
-/// What refraction does to this scene. Unless asked for, rays are bent only when the error of straight ones would reach
-/// a range bin, or 2 % of the elevation width.
+/// What refraction does to this scene.
 struct RefractionReport {
   RefractionBound bound;     ///< of leaving refraction out
   bool bent = false;         ///< the scatterers stand where they seem to be
@@ -73,8 +72,9 @@ struct SimulatedPing {
   std::vector<std::string> notes{};  ///< what limits this ping's accuracy, one sentence each with a remedy
 };
 
-/// One ping: the whole signal path. Start reading here. What the environment does not hold and the options do not ask
-/// for is not computed. The result does not depend on the thread count. Throws Error for an invalid scene, head, pose,
+/// One ping: the whole signal path. Start reading here. What the options leave as needed is computed where the plan of
+/// the ping (plan_ping) needs it for options.accuracy_db; what the environment does not hold is not. The result does
+/// not depend on the thread count. Throws Error for an invalid scene, head, pose,
 /// environment or option, named in the message; options are checked before any work.
 SimulatedPing simulate_ping(const PreparedScene& scene, const SonarHead& head, const Pose& world_from_head,
                             const Environment& environment, const SimulationOptions& options = {});

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_contributors = 255, most_looks = 1024;
+constexpr double most_accuracy_db = 20;
 
 bool at_least_0(double value) { return value >= 0 && std::isfinite(value); }
 
@@ -49,7 +50,8 @@ void require_valid(const SynthesisSettings& s, bool elements, const char* who) {
     check.require(t >= min_element_tolerance && t <= max_element_tolerance, "tolerance", t,
                   "within 1e-12 and 0.1 for method element_exact and the output of elements");
   if (s.method == SynthesisMethod::true_delays)
-    check.require(t >= 1e-5 && t <= 0.1, "tolerance", t, "within 1e-5 and 0.1 for method true_delays");
+    check.require(t >= min_true_delay_tolerance && t <= 0.1, "tolerance", t,
+                  "within 1e-5 and 0.1 for method true_delays");
 }
 
 void require_valid(const DetectionOptions& d, const char* who) {
@@ -69,7 +71,7 @@ void require_valid(const SimulationOptions& o, const char* who) {
   require_valid(o.detection, who);
   require_valid(o.effects.motion, who);
   const int order = o.effects.absorption_order;
-  Checker{who, "effects."}.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");
+  Checker{who, "effects."}.require(order >= -1 && order <= 2, "absorption_order", order, "0, 1 or 2; -1: as needed");
   const Checker outputs{who, "outputs."};
   outputs.require(o.outputs.paths >= 0, "paths", o.outputs.paths, "at least 0");
   outputs.require(o.outputs.contributors >= 0 && o.outputs.contributors <= most_contributors, "contributors",
@@ -82,6 +84,8 @@ void require_valid(const SimulationOptions& o, const char* who) {
   outputs.require(!(o.outputs.elements && o.synthesis.method == SynthesisMethod::incoherent), "elements", "true",
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
   const Checker top{who, ""};
+  top.require(o.accuracy_db > 0 && o.accuracy_db <= most_accuracy_db, "accuracy_db", o.accuracy_db,
+              "above 0 and at most 20 dB");
   top.require(std::isfinite(o.time), "time", o.time, "finite");
   top.require(o.threads >= 0, "threads", o.threads, "at least 0; 0: all cores");
 }

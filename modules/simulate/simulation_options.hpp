@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Whether something is done: as the scene needs it, always, or never.
+/// Whether something is done: as the plan of the ping finds it needed for the accuracy asked for, always, or never.
 enum class Choice { as_needed, always, never };
 
 /// Which points stand for the scene.
@@ -24,7 +24,12 @@ struct SamplingSettings {
   /// scatterers per cell; rays: rays per beam) by what the error asks for, up to six samplings and 2^23 scatterers or
   /// rays (about 1.5 GiB). 0: the sampling is taken as it is.
   double level_error_db = 0;
+  Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are sampled too
+  Choice outer_azimuths = Choice::as_needed;    ///< always: all that side lobes receive is sampled, whatever the margin
 };
+
+/// The smallest tolerance that method true_delays keeps.
+constexpr double min_true_delay_tolerance = 1e-5;
 
 /// How beams are formed of echoes.
 struct SynthesisSettings {
@@ -34,15 +39,19 @@ struct SynthesisSettings {
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
+  /// Whether method gridded gives way to true_delays; as_needed: where the narrow-band image's error exceeds its share.
+  Choice true_delays = Choice::never;
 };
 
-/// What is computed beside direct echoes along straight rays from a head at rest.
+/// What is computed beside direct echoes along straight rays from a head at rest. Noise is a choice: no plan adds it.
 struct EffectSettings {
-  bool multipath = false;                 ///< echoes by way of the environment's surface and bottom (E48)
+  Choice multipath = Choice::as_needed;   ///< echoes by way of the environment's surface and bottom (E48)
   bool noise = false;                     ///< thermal, wind and self noise of independent elements (E18, E25, E41)
   Motion motion{};                        ///< of the head during the ping (E44); only direct echoes are shifted by it
-  int absorption_order = 0;               ///< 0: absorption of the centre frequency for the whole pulse; at most 2
+  int absorption_order = -1;              ///< 0: absorption of the centre frequency for the whole pulse; 1: its slope
+                                          ///< too; 2: its curvature too; -1: 0 or 2, as needed
   Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
+  Choice moving = Choice::as_needed;      ///< whether `motion` counts
 };
 
 /// What the result holds beside ping, scatterers and soundings.
@@ -61,6 +70,8 @@ struct OutputSettings {
 
 /// All that can be chosen for a ping of a given head, place and environment.
 struct SimulationOptions {
+  /// Budget of all effects that are left out as not needed [dB], above 0 and at most 20: see plan_ping.
+  double accuracy_db = 0.1;
   std::uint64_t seed = 1;
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   SamplingSettings sampling{};

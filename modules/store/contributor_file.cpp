@@ -4,7 +4,6 @@
 #include <type_traits>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "store/hdf5_internal.hpp"
 
 namespace insonify {
@@ -77,26 +76,22 @@ void require_named(const NamedContributors& named, const std::string& path) {
 void write_contributor_file(const std::string& path, const NamedContributors& named) {
   require_named(named, path);
   const Contributors& c = named.contributors;
-  const QuietErrors quiet;
-  const Place place{path, ErrorKind::file};
-  PendingFile pending(path);
-  Handle file = create_file(place, pending.temporary());
-  write_attribute(place, file, "schema", contributor_schema);
-  write_attribute(place, file, "content", content);
-  write_attribute(place, file, "paths", std::string("0 direct, 1 one bounce, 2 two bounces"));
-  const Extent lists = {c.beams, c.bins, c.per_pixel}, image = {c.beams, c.bins};
-  write_numbers(place, file, surfel_name, lists, c.surfel.data());
-  write_numbers(place, file, id_name, lists, c.id.data());
-  write_numbers(place, file, share_name, lists, c.share.data());
-  write_numbers(place, file, elevations_name, lists, c.elevation.data());
-  write_numbers(place, file, material_name, lists, c.material.data());
-  static_assert(sizeof(PathKind) == 1);
-  write_numbers(place, file, path_name, lists, reinterpret_cast<const std::uint8_t*>(c.path.data()));
-  write_numbers(place, file, material_image_name, image, material_image(c).data());
-  write_numbers(place, file, instance_image_name, image, instance_image(c).data());
-  write_names(place, file, named.materials);
-  place.checked(file.close(), "cannot be written");  // a full disk shows here
-  pending.commit();
+  write_hdf5(path, [&](const Place& place, hid_t file) {
+    write_attribute(place, file, "schema", contributor_schema);
+    write_attribute(place, file, "content", content);
+    write_attribute(place, file, "paths", std::string("0 direct, 1 one bounce, 2 two bounces"));
+    const Extent lists = {c.beams, c.bins, c.per_pixel}, image = {c.beams, c.bins};
+    write_numbers(place, file, surfel_name, lists, c.surfel.data());
+    write_numbers(place, file, id_name, lists, c.id.data());
+    write_numbers(place, file, share_name, lists, c.share.data());
+    write_numbers(place, file, elevations_name, lists, c.elevation.data());
+    write_numbers(place, file, material_name, lists, c.material.data());
+    static_assert(sizeof(PathKind) == 1);
+    write_numbers(place, file, path_name, lists, reinterpret_cast<const std::uint8_t*>(c.path.data()));
+    write_numbers(place, file, material_image_name, image, material_image(c).data());
+    write_numbers(place, file, instance_image_name, image, instance_image(c).data());
+    write_names(place, file, named.materials);
+  });
 }
 
 NamedContributors read_contributor_file(const std::string& path) {

@@ -1,7 +1,6 @@
 #include "store/element_file.hpp"
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "returns/ping.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
@@ -20,26 +19,20 @@ void write_element_file(const std::string& path, const ElementSeries& series, co
     fail(ErrorKind::argument, "write_element_file: ", path, ": the series has ", series.pressure.rows(),
          " elements and ", series.pressure.cols(), " samples, must have ", head.array.elements(), " elements");
   const ComplexGridF pressure = stored_pressure(series.pressure, "write_element_file");
-  const QuietErrors quiet;
-  const Place place{path, ErrorKind::file};
-  PendingFile pending(path);
-  Handle file = create_file(place, pending.temporary());
-  write_attribute(place, file, "schema", element_schema);
-  write_attribute(place, file, "start", series.start);
-  write_attribute(place, file, "step", series.step);
-  write_attribute(place, file, "spacing", head.array.spacing);
-  write_attribute(place, file, "centre_frequency", head.pulse.centre_frequency);
-  write_attribute(place, file, "sound_speed", sound_speed);
-  write_attribute(place, file, "steering", std::string("exp(+2 pi i f y u / c)"));
-  {
+  write_hdf5(path, [&](const Place& place, hid_t file) {
+    write_attribute(place, file, "schema", element_schema);
+    write_attribute(place, file, "start", series.start);
+    write_attribute(place, file, "step", series.step);
+    write_attribute(place, file, "spacing", head.array.spacing);
+    write_attribute(place, file, "centre_frequency", head.pulse.centre_frequency);
+    write_attribute(place, file, "sound_speed", sound_speed);
+    write_attribute(place, file, "steering", std::string("exp(+2 pi i f y u / c)"));
     const Extent extent = {static_cast<hsize_t>(pressure.rows()), static_cast<hsize_t>(pressure.cols())};
     const Handle dataset = create_dataset(place, file, pressure_name, complex_type(place, H5T_IEEE_F32LE), extent);
     place.checked(
         H5Dwrite(dataset, complex_type(place, H5T_NATIVE_FLOAT), H5S_ALL, H5S_ALL, H5P_DEFAULT, pressure.data()),
         pressure_name.path);
-  }
-  place.checked(file.close(), "cannot be written");
-  pending.commit();
+  });
 }
 
 }  // namespace insonify

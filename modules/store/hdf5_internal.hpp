@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "core/error.hpp"
+#include "core/pending_file.hpp"
 #include "store/cube_layout_internal.hpp"
 
 namespace insonify::hdf5 {
@@ -63,6 +64,18 @@ using Extent = std::vector<hsize_t>;
 
 /// Creates a file without timestamps: same input, same bytes.
 Handle create_file(const Place& place, const std::string& name);
+
+/// Writes a file by body(place, file), to a temporary name that is then renamed.
+template <typename Body>
+void write_hdf5(const std::string& path, Body&& body) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::file};
+  PendingFile pending(path);
+  Handle file = create_file(place, pending.temporary());
+  body(place, file);
+  place.checked(file.close(), "cannot be written");  // a full disk shows here
+  pending.commit();
+}
 
 /// Opens an existing file for reading. Throws Error(file) if it is missing or a folder, Error(content) if it is not
 /// HDF5.

@@ -3,7 +3,6 @@
 #include <type_traits>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "store/cube.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
@@ -170,19 +169,15 @@ void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
 
 void write_cube(const std::string& path, const Cube& cube) {
   require_writable(cube, path);
-  const QuietErrors quiet;
-  const Place place{path, ErrorKind::file};
-  PendingFile pending(path);
-  Handle file = create_file(place, pending.temporary());
-  write_root_attributes(place, file, cube);
-  write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
-  write_track(place, file, cube.pings);
-  write_images(place, file, pressure_name, cube.pings,
-               [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
-  write_layers(place, file, cube.pings);
-  write_maps(place, file, cube.pings);
-  place.checked(file.close(), "cannot be written");  // a full disk shows here
-  pending.commit();
+  write_hdf5(path, [&](const Place& place, hid_t file) {
+    write_root_attributes(place, file, cube);
+    write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
+    write_track(place, file, cube.pings);
+    write_images(place, file, pressure_name, cube.pings,
+                 [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
+    write_layers(place, file, cube.pings);
+    write_maps(place, file, cube.pings);
+  });
 }
 
 }  // namespace insonify

@@ -17,7 +17,6 @@
 
 #include "core/parallel.hpp"
 #include "view/canvas_internal.hpp"
-#include "view/fonts_internal.hpp"
 #include "view/off_screen_internal.hpp"
 
 namespace insonify {

@@ -6,8 +6,9 @@
 
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextProperty.h>
 
-#include "view/colour_bar_internal.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/off_screen_internal.hpp"
 
@@ -79,5 +80,12 @@ class Canvas {
 /// Draws a picture off-screen and writes it. Errors as Canvas::save_png.
 void save_picture(const PictureOptions& options, const char* who, const std::string& png_path,
                   const std::function<void(Canvas&)>& draw);
+
+/// Sets the font: DejaVu Sans if installed, else a similar one, else VTK's built-in font (which lacks Greek: see
+/// readable_text).
+void set_font(vtkTextProperty* property, int font_size);
+
+/// The text, with µ written as u if only VTK's built-in font is available.
+std::string readable_text(const std::string& text);
 
 }  // namespace insonify

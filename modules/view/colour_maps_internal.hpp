@@ -2,9 +2,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/grid.hpp"
 #include "view/picture.hpp"
+#include "view/placed_text.hpp"
 
 namespace insonify {
 
@@ -32,5 +34,23 @@ double automatic_max_db(const Grid<float>& level_db, double window_db);
 /// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a
 /// window that is not positive, or max_db <= min_db.
 ColourScale colour_scale(const Grid<float>& level_db, const PictureOptions& options, const char* who);
+
+/// Layout of a colour bar, its ticks and texts: vertical with labels on the right, or horizontal with labels below.
+struct ColourBar {
+  Box bar;
+  bool lying = false;
+  std::vector<Path> ticks;
+  std::vector<PlacedText> texts;  ///< labels, and the unit as title
+
+  Box outer() const;  ///< bounding box of bar, ticks and texts
+};
+
+/// A vertical bar from `bottom` to `top` whose outer box ends at `right`.
+ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double right,
+                             double bottom, double top);
+
+/// A horizontal bar from `left` to `right` whose outer box begins at `bottom`.
+ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left, double right,
+                           double bottom);
 
 }  // namespace insonify

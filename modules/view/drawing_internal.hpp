@@ -7,7 +7,7 @@
 
 #include "view/axes_internal.hpp"
 #include "view/canvas_internal.hpp"
-#include "view/colour_bar_internal.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/line_chart_internal.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "view/colour_bar_internal.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/picture.hpp"
 
 namespace insonify {

@@ -4,7 +4,7 @@
 #include <vtkStdString.h>
 #include <vtkTextRenderer.h>
 
-#include "view/fonts_internal.hpp"
+#include "view/canvas_internal.hpp"
 #include "view/placed_text.hpp"
 
 namespace insonify {

@@ -5,7 +5,7 @@
 #include <vtkProperty.h>
 
 #include "view/canvas_internal.hpp"
-#include "view/scene_actor_parts_internal.hpp"
+#include "view/scene_actors_internal.hpp"
 #include "view/scene_camera_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 #include "view/scene_surfels_internal.hpp"
@@ -48,200 +48,187 @@ Polyline normal_of(const SceneCloud& scene, std::uint32_t i, double least) {
 
 }  // namespace
 
-void SceneActors::Parts::make_surfels() {
-  const std::size_t most = look.most_surfels > 0 ? look.most_surfels : scene.size();
-  drawn = drawn_surfels(scene, most);
-  const std::vector<std::uint32_t> few = drawn_surfels(scene, std::min(most, most_moving));
-  moving_drawn = few.size();
-  surfels = point_arrays(scene.point, surfel_sides(scene));
-  still = point_actor(surfels, drawn);
-  moving = point_actor(surfels, few);
-  moving->VisibilityOff();
-  const Colour blue = fan_colour(options.dark);
-  footprint = plain_points(surfels, blue, 2.5 * thin(), 0.004);
-  marks = plain_points(surfels, highlight_colour, 6 * thin(), 1);
-  soundings = point_actor(sounding_arrays = point_arrays({}, {}), {});
-  mapper_of(soundings)->min_pixels = 3 * thin();
-  mapper_of(soundings)->lift = 0.006;
+void SceneActors::make_surfels() {
+  const std::size_t most = look_.most_surfels > 0 ? look_.most_surfels : scene_.size();
+  drawn_ = drawn_surfels(scene_, most);
+  const std::vector<std::uint32_t> few = drawn_surfels(scene_, std::min(most, most_moving));
+  moving_drawn_ = few.size();
+  surfels_ = point_arrays(scene_.point, surfel_sides(scene_));
+  still_ = point_actor(surfels_, drawn_);
+  moving_ = point_actor(surfels_, few);
+  moving_->VisibilityOff();
+  const Colour blue = fan_colour(options_.dark);
+  footprint_ = plain_points(surfels_, blue, 2.5 * thin(), 0.004);
+  marks_ = plain_points(surfels_, highlight_colour, 6 * thin(), 1);
+  soundings_ = point_actor(sounding_arrays_ = point_arrays({}, {}), {});
+  mapper_of(soundings_)->min_pixels = 3 * thin();
+  mapper_of(soundings_)->lift = 0.006;
   grow();
 }
 
-void SceneActors::Parts::make_lines() {
-  const Colour blue = fan_colour(options.dark), line = theme(options.dark).line;
-  outline = line_actor(blue, 1.3 * thin());
-  arcs = line_actor(blue, 0.8 * thin());
-  beams = line_actor(blue, 0.8 * thin());
-  for (std::size_t i = 0; i < 3; ++i) head_axes[i] = line_actor(axis_colours[i], 2.5 * thin());
-  body = body_actor();
-  floor = line_actor(line, thin());
-  grid = line_actor(line, 0.6 * thin());
-  grid->GetProperty()->SetOpacity(0.4);
+void SceneActors::make_lines() {
+  const Colour blue = fan_colour(options_.dark), line = theme(options_.dark).line;
+  outline_ = line_actor(blue, 1.3 * thin());
+  arcs_ = line_actor(blue, 0.8 * thin());
+  beams_ = line_actor(blue, 0.8 * thin());
+  for (std::size_t i = 0; i < 3; ++i) head_axes_[i] = line_actor(axis_colours[i], 2.5 * thin());
+  body_ = body_actor();
+  floor_ = line_actor(line, thin());
+  grid_ = line_actor(line, 0.6 * thin());
+  grid_->GetProperty()->SetOpacity(0.4);
 }
 
-void SceneActors::Parts::colour() {
-  SceneColours colours = colour_surfels(scene, look, options, who);
-  key = std::move(colours.key);
-  if (look.colour == SceneColour::visibility && !look.holes.empty())
-    key.legend.push_back({"hole of the scan", hole_rgb});
-  set_colours(surfels.colours, colours.colour);
+void SceneActors::recolour() {
+  SceneColours colours = colour_surfels(scene_, look_, options_, who_);
+  key_ = std::move(colours.key);
+  if (look_.colour == SceneColour::visibility && !look_.holes.empty())
+    key_.legend.push_back({"hole of the scan", hole_rgb});
+  set_colours(surfels_.colours, colours.colour);
 }
 
 // Enlarges thinned surfels so that they cover the area of all.
-void SceneActors::Parts::grow() {
+void SceneActors::grow() {
   const auto growth = [&](std::size_t count) {
-    return look.point_size * std::sqrt(static_cast<double>(scene.size()) / static_cast<double>(count));
+    return look_.point_size * std::sqrt(static_cast<double>(scene_.size()) / static_cast<double>(count));
   };
-  mapper_of(still)->growth = growth(drawn.size());
-  mapper_of(moving)->growth = growth(moving_drawn);
-  mapper_of(footprint)->growth = mapper_of(marks)->growth = look.point_size;
+  mapper_of(still_)->growth = growth(drawn_.size());
+  mapper_of(moving_)->growth = growth(moving_drawn_);
+  mapper_of(footprint_)->growth = mapper_of(marks_)->growth = look_.point_size;
 }
 
-SceneActors::SceneActors(const SceneCloud& scene, SceneLook look, const PictureOptions& options, const char* who) {
-  require_drawable(scene, look, who);
-  parts_ = std::make_unique<Parts>(scene, std::move(look), options, who);
-  Parts& p = *parts_;
-  p.make_surfels();
-  p.make_lines();
-  p.make_marks();
-  p.colour();
-  p.look_again();
-  p.axes_shown = p.look.axes;
-  if (p.look.head) show_head(p.look.head->world_from_head, p.look.head->fan, p.look.head->gate);
-  highlight(std::vector<std::uint32_t>(p.look.highlighted));
-  show_soundings(Soundings(p.look.soundings));
-  show_holes(std::vector<Eigen::Vector3d>(p.look.holes));
-  show_normals(p.look.normals);
+SceneActors::SceneActors(const SceneCloud& scene, SceneLook look, const PictureOptions& options, const char* who)
+    : scene_(scene), look_(std::move(look)), options_(options), who_(who) {
+  require_drawable(scene_, look_, who_);
+  make_surfels();
+  make_lines();
+  make_marks();
+  recolour();
+  look_again();
+  axes_shown_ = look_.axes;
+  if (look_.head) show_head(look_.head->world_from_head, look_.head->fan, look_.head->gate);
+  highlight(std::vector<std::uint32_t>(look_.highlighted));
+  show_soundings(Soundings(look_.soundings));
+  show_holes(std::vector<Eigen::Vector3d>(look_.holes));
+  show_normals(look_.normals);
 }
-
-SceneActors::~SceneActors() = default;
 
 void SceneActors::add_to(vtkRenderer* renderer) {
-  for (vtkActor* actor : parts_->actors()) renderer->AddActor(actor);
+  for (vtkActor* actor : actors()) renderer->AddActor(actor);
 }
 
 void SceneActors::set_colour(SceneColour colour) {
-  const SceneColour before = std::exchange(parts_->look.colour, colour);
+  const SceneColour before = std::exchange(look_.colour, colour);
   try {
-    parts_->colour();
+    recolour();
   } catch (...) {
-    parts_->look.colour = before;
+    look_.colour = before;
     throw;
   }
 }
 
 void SceneActors::set_visibility(std::vector<Visibility> visibility) {
-  require_length(visibility.size(), parts_->scene, "visibility", parts_->who);
-  parts_->look.visibility = std::move(visibility);
-  if (parts_->look.colour == SceneColour::visibility && !parts_->look.visibility.empty()) parts_->colour();
+  require_length(visibility.size(), scene_, "visibility", who_);
+  look_.visibility = std::move(visibility);
+  if (look_.colour == SceneColour::visibility && !look_.visibility.empty()) recolour();
 }
 
 void SceneActors::set_level_range(double min_db, double max_db) {
-  parts_->options.min_db = min_db;
-  parts_->options.max_db = max_db;
-  if (parts_->look.colour == SceneColour::level) parts_->colour();
-  show_soundings(Soundings(parts_->look.soundings));
+  options_.min_db = min_db;
+  options_.max_db = max_db;
+  if (look_.colour == SceneColour::level) recolour();
+  show_soundings(Soundings(look_.soundings));
 }
 
 void SceneActors::set_colour_map(const std::string& name) {
-  colour_table(name, parts_->who);
-  parts_->options.colour_map = name;
-  set_level_range(parts_->options.min_db, parts_->options.max_db);
+  colour_table(name, who_);
+  options_.colour_map = name;
+  set_level_range(options_.min_db, options_.max_db);
 }
 
 void SceneActors::highlight(std::span<const std::uint32_t> surfels) {
-  require_surfels(surfels, parts_->scene, parts_->who);
-  set_points(parts_->marks, parts_->surfels, surfels);
-  parts_->look.highlighted.assign(surfels.begin(), surfels.end());
+  require_surfels(surfels, scene_, who_);
+  set_points(marks_, surfels_, surfels);
+  look_.highlighted.assign(surfels.begin(), surfels.end());
 }
 
 void SceneActors::show_soundings(const Soundings& soundings) {
-  Parts& p = *parts_;
-  require_valid(soundings, p.who);
-  p.look.soundings = soundings;
-  p.sounding_places.clear();
+  require_valid(soundings, who_);
+  look_.soundings = soundings;
+  sounding_places_.clear();
   std::vector<Rgb> colour;
   if (soundings.size() > 0) {
-    const ColourScale scale = level_scale(p.look, p.options, p.who);
+    const ColourScale scale = level_scale(look_, options_, who_);
     for (std::size_t i = 0; i < soundings.size(); ++i) {
-      p.sounding_places.push_back((soundings.position[i] - p.scene.origin).cast<float>());
+      sounding_places_.push_back((soundings.position[i] - scene_.origin).cast<float>());
       colour.push_back(scale.colour(soundings.level_db[i]));
     }
   }
-  p.sounding_arrays = point_arrays(p.sounding_places, std::vector<float>(soundings.size()));
-  set_colours(p.sounding_arrays.colours, colour);
-  set_points(p.soundings, p.sounding_arrays, counted(soundings.size()));
-  if (p.look.colour == SceneColour::level && !p.look.level_db.empty())
-    p.colour();  // surfels and soundings share one scale
+  sounding_arrays_ = point_arrays(sounding_places_, std::vector<float>(soundings.size()));
+  set_colours(sounding_arrays_.colours, colour);
+  set_points(soundings_, sounding_arrays_, counted(soundings.size()));
+  if (look_.colour == SceneColour::level && !look_.level_db.empty())
+    recolour();  // surfels and soundings share one scale
 }
 
 void SceneActors::show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate) {
-  Parts& p = *parts_;
   const SceneHead head{world_from_head, fan, gate};
-  require_valid(head, p.who);
-  p.look.head = head;
-  p.look_again();
-  const double size = 0.022 * std::min(gate.max_range, p.box().diagonal().norm());
-  const HeadLines lines = head_lines(head, p.scene.origin, size);
-  set_lines(p.outline, lines.outline);
-  set_lines(p.arcs, lines.arcs);
-  set_lines(p.beams, lines.beams);
-  for (std::size_t i = 0; i < 3; ++i) set_lines(p.head_axes[i], {lines.axes[i]});
-  set_body(p.body, lines.body_rings);
-  set_points(p.footprint, p.surfels, footprint_outline(p.scene, head));
-  if (p.look.colour == SceneColour::grazing || p.look.colour == SceneColour::incidence) p.colour();
+  require_valid(head, who_);
+  look_.head = head;
+  look_again();
+  const double size = 0.022 * std::min(gate.max_range, box().diagonal().norm());
+  const HeadLines lines = head_lines(head, scene_.origin, size);
+  set_lines(outline_, lines.outline);
+  set_lines(arcs_, lines.arcs);
+  set_lines(beams_, lines.beams);
+  for (std::size_t i = 0; i < 3; ++i) set_lines(head_axes_[i], {lines.axes[i]});
+  set_body(body_, lines.body_rings);
+  set_points(footprint_, surfels_, footprint_outline(scene_, head));
+  if (look_.colour == SceneColour::grazing || look_.colour == SceneColour::incidence) recolour();
 }
 
-void SceneActors::Parts::make_marks() {
-  holes = point_actor(hole_arrays = point_arrays({}, {}), {});
-  holes->GetMapper()->ScalarVisibilityOff();
-  holes->GetProperty()->SetColor(hole_rgb[0] / 255.0, hole_rgb[1] / 255.0, hole_rgb[2] / 255.0);
-  mapper_of(holes)->min_pixels = 3 * thin();
-  mapper_of(holes)->lift = 0.008;
-  normals = line_actor(options.dark ? Colour{0.5, 0.9, 0.6} : Colour{0.1, 0.45, 0.2}, 0.8 * thin());
+void SceneActors::make_marks() {
+  holes_ = point_actor(hole_arrays_ = point_arrays({}, {}), {});
+  holes_->GetMapper()->ScalarVisibilityOff();
+  holes_->GetProperty()->SetColor(hole_rgb[0] / 255.0, hole_rgb[1] / 255.0, hole_rgb[2] / 255.0);
+  mapper_of(holes_)->min_pixels = 3 * thin();
+  mapper_of(holes_)->lift = 0.008;
+  normals_ = line_actor(options_.dark ? Colour{0.5, 0.9, 0.6} : Colour{0.1, 0.45, 0.2}, 0.8 * thin());
 }
 
 void SceneActors::show_holes(const std::vector<Eigen::Vector3d>& places) {
-  Parts& p = *parts_;
-  p.hole_places.clear();
-  for (const Eigen::Vector3d& place : places) p.hole_places.push_back((place - p.scene.origin).cast<float>());
-  p.look.holes = places;
-  p.hole_arrays = point_arrays(p.hole_places, std::vector<float>(places.size()));
-  set_points(p.holes, p.hole_arrays, counted(places.size()));
-  if (p.look.colour == SceneColour::visibility) p.colour();  // the legend names them
+  hole_places_.clear();
+  for (const Eigen::Vector3d& place : places) hole_places_.push_back((place - scene_.origin).cast<float>());
+  look_.holes = places;
+  hole_arrays_ = point_arrays(hole_places_, std::vector<float>(places.size()));
+  set_points(holes_, hole_arrays_, counted(places.size()));
+  if (look_.colour == SceneColour::visibility) recolour();  // the legend names them
 }
 
 void SceneActors::show_normals(bool on) {
-  Parts& p = *parts_;
-  p.look.normals = on;
+  look_.normals = on;
   std::vector<Polyline> lines;
-  const double least = normal_length * p.box().diagonal().norm();
+  const double least = normal_length * box().diagonal().norm();
   if (on)
-    for (const std::uint32_t i : drawn_surfels(p.scene, std::min(most_normals, p.scene.size())))
-      lines.push_back(normal_of(p.scene, i, least));
-  set_lines(p.normals, lines);
+    for (const std::uint32_t i : drawn_surfels(scene_, std::min(most_normals, scene_.size())))
+      lines.push_back(normal_of(scene_, i, least));
+  set_lines(normals_, lines);
 }
 
 void SceneActors::set_detail(SceneDetail detail) {
-  parts_->still->SetVisibility(detail == SceneDetail::still);
-  parts_->moving->SetVisibility(detail == SceneDetail::moving);
+  still_->SetVisibility(detail == SceneDetail::still);
+  moving_->SetVisibility(detail == SceneDetail::moving);
 }
 
 void SceneActors::set_point_size(double point_size) {
-  require_point_size(point_size, parts_->who);
-  parts_->look.point_size = point_size;
-  parts_->grow();
+  require_point_size(point_size, who_);
+  look_.point_size = point_size;
+  grow();
 }
 
-double SceneActors::point_size() const { return parts_->look.point_size; }
-
-const SceneLook& SceneActors::look() const { return parts_->look; }
-const SceneKey& SceneActors::key() const { return parts_->key; }
-
 std::optional<SceneKey> SceneActors::soundings_key() const {
-  const Parts& p = *parts_;
-  const bool shared = p.look.colour == SceneColour::level && !p.look.level_db.empty();
-  if (p.look.soundings.size() == 0 || shared) return {};
-  return SceneKey{level_scale(p.look, p.options, p.who), p.look.level_unit, {}};
+  const bool shared = look_.colour == SceneColour::level && !look_.level_db.empty();
+  if (look_.soundings.size() == 0 || shared) return {};
+  return SceneKey{level_scale(look_, options_, who_), look_.level_unit, {}};
 }
 
 }  // namespace insonify

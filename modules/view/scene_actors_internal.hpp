@@ -1,18 +1,27 @@
 #pragma once
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+#include <vtkActor.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 
+#include "view/fan_layout_internal.hpp"
+#include "view/scene_camera_internal.hpp"
 #include "view/scene_colours_internal.hpp"
 #include "view/scene_lines_internal.hpp"
+#include "view/scene_points_internal.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify {
+
+constexpr Rgb hole_rgb = {222, 45, 38};
 
 /// Level of detail. A subset of the surfels is chosen by their ids alone and drawn larger to close the gaps.
 enum class SceneDetail {
@@ -27,7 +36,6 @@ class SceneActors {
  public:
   /// Throws as show_scene for an unusable look. `who` names the caller in errors.
   SceneActors(const SceneCloud& scene, SceneLook look, const PictureOptions& options, const char* who);
-  ~SceneActors();
   SceneActors(const SceneActors&) = delete;
   SceneActors& operator=(const SceneActors&) = delete;
 
@@ -48,7 +56,7 @@ class SceneActors {
 
   void set_detail(SceneDetail detail);
   void set_point_size(double point_size);  ///< as SceneLook::point_size
-  double point_size() const;
+  double point_size() const { return look_.point_size; }
 
   /// Updates edges, ticks and labels of the axes, on the far side from the camera; call it after the camera has moved.
   void update_axes(vtkRenderer* renderer);
@@ -66,13 +74,51 @@ class SceneActors {
   /// surfels drawn at `still` detail are found.
   std::optional<std::uint32_t> surfel_at(vtkRenderer* renderer, double x, double y) const;
 
-  const SceneLook& look() const;
-  const SceneKey& key() const;                    ///< for the surfels' colours
+  const SceneLook& look() const { return look_; }
+  const SceneKey& key() const { return key_; }    ///< for the surfels' colours
   std::optional<SceneKey> soundings_key() const;  ///< for the soundings, if their colours differ
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  const SceneCloud& scene_;
+  SceneLook look_;
+  PictureOptions options_;
+  const char* who_;
+  SceneKey key_;
+  std::vector<Eigen::Vector3d> interest_;  // framed by the camera
+
+  // Surfels; both levels of detail share their arrays.
+  PointCloudArrays surfels_;
+  std::vector<std::uint32_t> drawn_;  // at detail `still`
+  std::size_t moving_drawn_ = 0;
+  vtkSmartPointer<vtkActor> still_, moving_, footprint_, marks_;
+
+  std::vector<Eigen::Vector3f> sounding_places_;
+  PointCloudArrays sounding_arrays_;
+  vtkSmartPointer<vtkActor> soundings_;
+  std::vector<Eigen::Vector3f> hole_places_;
+  PointCloudArrays hole_arrays_;
+  vtkSmartPointer<vtkActor> holes_, normals_;
+
+  vtkSmartPointer<vtkActor> outline_, arcs_, beams_, body_, floor_, grid_;
+  std::array<vtkSmartPointer<vtkActor>, 3> head_axes_;
+  std::vector<vtkSmartPointer<vtkTextActor>> labels_;
+  bool axes_shown_ = true;
+
+  std::vector<vtkActor*> actors() const {
+    return {still_.Get(),     moving_.Get(),       footprint_.Get(),    marks_.Get(),
+            soundings_.Get(), outline_.Get(),      arcs_.Get(),         beams_.Get(),
+            body_.Get(),      floor_.Get(),        grid_.Get(),         holes_.Get(),
+            normals_.Get(),   head_axes_[0].Get(), head_axes_[1].Get(), head_axes_[2].Get()};
+  }
+  double thin() const { return line_width_for(font_size_for(options_)); }
+  Eigen::AlignedBox3d box() const;  // of `interest` and of the axes
+
+  void make_surfels();
+  void make_lines();
+  void make_marks();  // holes and normals
+  void recolour();
+  void grow();
+  void look_again() { interest_ = points_of_interest(scene_, look_); }
 };
 
 }  // namespace insonify

@@ -9,46 +9,42 @@
 
 #include "core/units.hpp"
 #include "view/canvas_internal.hpp"
-#include "view/fonts_internal.hpp"
-#include "view/scene_actor_parts_internal.hpp"
+#include "view/scene_actors_internal.hpp"
 #include "view/scene_camera_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 #include "view/scene_surfels_internal.hpp"
 
 namespace insonify {
 
-Eigen::AlignedBox3d SceneActors::Parts::box() const {
+Eigen::AlignedBox3d SceneActors::box() const {
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : interest) box.extend(point);
+  for (const Eigen::Vector3d& point : interest_) box.extend(point);
   return box;
 }
 
 void SceneActors::show_axes(bool on) {
-  parts_->axes_shown = on;
-  for (vtkProp* prop : {static_cast<vtkProp*>(parts_->floor), static_cast<vtkProp*>(parts_->grid)})
-    prop->SetVisibility(on);
-  for (const auto& label : parts_->labels) label->SetVisibility(on);
+  axes_shown_ = on;
+  for (vtkProp* prop : {static_cast<vtkProp*>(floor_), static_cast<vtkProp*>(grid_)}) prop->SetVisibility(on);
+  for (const auto& label : labels_) label->SetVisibility(on);
 }
 
 std::vector<AxisLabel> SceneActors::turn_axes(vtkRenderer* renderer) {
-  Parts& p = *parts_;
-  show_axes(p.axes_shown);
-  if (!p.axes_shown) return {};
-  SceneAxes axes = lay_out_axes(p.box(), p.scene.origin, view(renderer));
+  show_axes(axes_shown_);
+  if (!axes_shown_) return {};
+  SceneAxes axes = lay_out_axes(box(), scene_.origin, view(renderer));
   axes.edges.insert(axes.edges.end(), axes.ticks.begin(), axes.ticks.end());
-  set_lines(p.floor, axes.edges);
-  set_lines(p.grid, axes.grid);
+  set_lines(floor_, axes.edges);
+  set_lines(grid_, axes.grid);
   return axes.labels;
 }
 
 void SceneActors::update_axes(vtkRenderer* renderer) {
-  Parts& p = *parts_;
-  for (const auto& label : p.labels) renderer->RemoveActor2D(label);
-  p.labels.clear();
-  const auto [behind, colour, line] = theme(p.options.dark);
+  for (const auto& label : labels_) renderer->RemoveActor2D(label);
+  labels_.clear();
+  const auto [behind, colour, line] = theme(options_.dark);
   const int* size = renderer->GetSize();
   const Box frame{0, static_cast<double>(size[0]), 0, static_cast<double>(size[1])};
-  for (const PlacedText& text : place_labels(turn_axes(renderer), view(renderer), frame, font_size_for(p.options))) {
+  for (const PlacedText& text : place_labels(turn_axes(renderer), view(renderer), frame, font_size_for(options_))) {
     vtkNew<vtkTextActor> actor;
     actor->SetInput(text.text.c_str());
     actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
@@ -60,25 +56,24 @@ void SceneActors::update_axes(vtkRenderer* renderer) {
     actor->GetTextProperty()->SetJustificationToLeft();
     actor->GetTextProperty()->SetVerticalJustificationToBottom();
     renderer->AddActor2D(actor);
-    p.labels.emplace_back(actor);
+    labels_.emplace_back(actor);
   }
 }
 
 void SceneActors::place_camera(vtkRenderer* renderer, const SceneCamera& camera) const {
-  const Parts& p = *parts_;
   const int* size = renderer->GetSize();
   const double narrow = std::min(size[0], size[1]);
   const auto place = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
-    return place_view(p.scene, p.look, camera, points, size[0], size[1], margin, p.who);
+    return place_view(scene_, look_, camera, points, size[0], size[1], margin, who_);
   };
-  CameraView view = place(p.interest, 0.04 * narrow);
+  CameraView view = place(interest_, 0.04 * narrow);
 
   // The view determines which edges carry the axes; the labels are then placed in it.
-  if (p.axes_shown) {
-    std::vector<Eigen::Vector3d> points = p.interest;
+  if (axes_shown_) {
+    std::vector<Eigen::Vector3d> points = interest_;
     double widest = 0;
-    const int font = font_size_for(p.options);
-    for (const AxisLabel& label : lay_out_axes(p.box(), p.scene.origin, view).labels) {
+    const int font = font_size_for(options_);
+    for (const AxisLabel& label : lay_out_axes(box(), scene_.origin, view).labels) {
       points.push_back(label.place);
       widest = std::max(widest, text_size(label.text, font).width);
     }
@@ -94,7 +89,6 @@ void SceneActors::place_camera(vtkRenderer* renderer, const SceneCamera& camera)
 }
 
 std::optional<std::uint32_t> SceneActors::surfel_at(vtkRenderer* renderer, double x, double y) const {
-  const Parts& p = *parts_;
   vtkMatrix4x4* clip =
       renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
   const Eigen::Matrix4d clip_from_world =
@@ -104,8 +98,8 @@ std::optional<std::uint32_t> SceneActors::surfel_at(vtkRenderer* renderer, doubl
                              {x - renderer->GetOrigin()[0], y - renderer->GetOrigin()[1]},
                              static_cast<double>(renderer->GetSize()[0]),
                              static_cast<double>(renderer->GetSize()[1]),
-                             focal_length * mapper_of(p.still)->growth};
-  return front_surfel(p.scene, p.drawn, sides_of(p.surfels), window);
+                             focal_length * mapper_of(still_)->growth};
+  return front_surfel(scene_, drawn_, sides_of(surfels_), window);
 }
 
 CameraView SceneActors::view(vtkRenderer* renderer) {

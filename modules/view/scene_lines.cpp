@@ -1,9 +1,16 @@
+#include <algorithm>
+#include <cmath>
+
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "view/axes_internal.hpp"
+#include "view/drawn_cells_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 
 namespace insonify {
@@ -28,6 +35,52 @@ vtkSmartPointer<vtkActor> empty_actor() {
   actor->SetMapper(mapper);
   return actor;
 }
+
+constexpr double largest_step = 0.035;  // [rad] between points of an arc
+constexpr std::size_t most_rows = 5;
+constexpr int ring_corners = 20;
+
+// Angles from low to high, close enough for a smooth arc.
+std::vector<double> steps_between(double low, double high) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((high - low) / largest_step)));
+  std::vector<double> angles;
+  for (int i = 0; i <= steps; ++i) angles.push_back(low + (high - low) * i / steps);
+  return angles;
+}
+
+// Converts directions and ranges in head axes to positions in the scene.
+class Placer {
+ public:
+  Placer(const SceneHead& head, const Eigen::Vector3d& origin)
+      : turn_(head.world_from_head.linear()), at_(head.world_from_head.translation() - origin) {}
+
+  Eigen::Vector3d place(const Eigen::Vector3d& in_head) const { return turn_ * in_head + at_; }
+  Eigen::Vector3d place(double azimuth, double elevation, double range) const {
+    return place(range * unit_vector({azimuth, elevation}));
+  }
+  Polyline across(const FanSector& sector, double elevation, double range) const {
+    Polyline line;
+    for (const double azimuth : steps_between(sector.low_azimuth, sector.high_azimuth))
+      line.push_back(place(azimuth, elevation, range));
+    return line;
+  }
+  Polyline upwards(double azimuth, const FanSector& sector, double range) const {
+    Polyline line;
+    for (const double elevation : steps_between(sector.low_elevation, sector.high_elevation))
+      line.push_back(place(azimuth, elevation, range));
+    return line;
+  }
+  Polyline ray(double azimuth, double elevation, const RangeGate& gate) const {
+    return {place(azimuth, elevation, gate.min_range), place(azimuth, elevation, gate.max_range)};
+  }
+
+ private:
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d at_;
+};
+
+// The angle plus whole turns, within half a turn of `middle`.
+double unwrapped(double angle, double middle) { return middle + std::remainder(angle - middle, 2 * pi); }
 
 }  // namespace
 
@@ -83,6 +136,103 @@ void set_body(vtkActor* actor, const std::array<Polyline, 2>& rings) {
   shape->SetPoints(points);
   if (corners > 0) shape->SetPolys(faces);
   show(actor, shape);
+}
+
+FanSector fan_sector(const BeamFan& fan) {
+  // Beam order of a fan picture; bearings have the opposite sign of azimuths.
+  const BeamCells cells =
+      order_beams({fan, {1, 2, 1}, Grid<float>::Zero(static_cast<Eigen::Index>(fan.beams()), 1), ""});
+  FanSector sector;
+  sector.low_azimuth = -cells.high();
+  sector.high_azimuth = -cells.low();
+  sector.full_circle = cells.high() - cells.low() > 2 * pi - std::max(1e-6, 0.5 * cells.mean_width());
+  const double middle = (sector.low_azimuth + sector.high_azimuth) / 2;
+  sector.first_azimuth = 1e300, sector.last_azimuth = -1e300;
+  for (const double azimuth : fan.azimuth) {
+    sector.first_azimuth = std::min(sector.first_azimuth, unwrapped(azimuth, middle));
+    sector.last_azimuth = std::max(sector.last_azimuth, unwrapped(azimuth, middle));
+  }
+
+  std::vector<double> rows = fan.elevation;
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  sector.low_elevation = std::max(-pi / 2, rows.front() - fan.elevation_width / 2);
+  sector.high_elevation = std::min(pi / 2, rows.back() + fan.elevation_width / 2);
+  const std::size_t shown = std::min(rows.size(), most_rows);
+  for (std::size_t i = 0; i < shown; ++i)
+    sector.rows.push_back(rows[shown < 2 ? 0 : i * (rows.size() - 1) / (shown - 1)]);
+  return sector;
+}
+
+HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin, double size) {
+  const FanSector sector = fan_sector(head.fan);
+  const Placer at(head, scene_origin);
+  HeadLines lines;
+  for (const double range : {head.gate.min_range, head.gate.max_range}) {
+    for (const double elevation : {sector.low_elevation, sector.high_elevation})
+      lines.outline.push_back(at.across(sector, elevation, range));
+    if (!sector.full_circle)
+      for (const double azimuth : {sector.low_azimuth, sector.high_azimuth})
+        lines.outline.push_back(at.upwards(azimuth, sector, range));
+  }
+  if (!sector.full_circle)
+    for (const double azimuth : {sector.low_azimuth, sector.high_azimuth})
+      for (const double elevation : {sector.low_elevation, sector.high_elevation})
+        lines.outline.push_back(at.ray(azimuth, elevation, head.gate));
+
+  // Arcs in the plane of the fan; with several rows only the last arc of each.
+  const double step = round_step(head.gate.max_range / 4);
+  for (const double elevation : sector.rows) {
+    lines.arcs.push_back(at.across(sector, elevation, head.gate.max_range));
+    if (sector.full_circle) continue;  // its first and last beams are adjacent
+    lines.beams.push_back(at.ray(sector.first_azimuth, elevation, head.gate));
+    lines.beams.push_back(at.ray(sector.last_azimuth, elevation, head.gate));
+  }
+  for (const double range : multiples(step, head.gate.min_range, 0.99 * head.gate.max_range))
+    lines.arcs.push_back(at.across(sector, sector.rows[sector.rows.size() / 2], range));
+
+  for (int i = 0; i < 3; ++i)
+    lines.axes[static_cast<std::size_t>(i)] = {at.place(Eigen::Vector3d::Zero()),
+                                               at.place(2 * size * Eigen::Vector3d::Unit(i))};
+  for (int i = 0; i < ring_corners; ++i) {
+    const double angle = 2 * pi * i / ring_corners, y = std::cos(angle), z = std::sin(angle);
+    lines.body_rings[0].push_back(at.place(size * Eigen::Vector3d(-1, 0.3 * y, 0.3 * z)));
+    lines.body_rings[1].push_back(at.place(size * Eigen::Vector3d(0.1, 0.42 * y, 0.42 * z)));
+  }
+  return lines;
+}
+
+std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const SceneHead& head) {
+  const FanSector sector = fan_sector(head.fan);
+  const double middle = (sector.low_azimuth + sector.high_azimuth) / 2;
+  const double half_azimuth = (sector.high_azimuth - sector.low_azimuth) / 2;
+  const Eigen::Isometry3d head_from_world = head.world_from_head.inverse();
+
+  // Distance of a surfel inside each pair of walls [m]; on the outline it is close to one wall and not outside any.
+  const auto on_outline = [&](std::size_t i) {
+    const Eigen::Vector3d normal = scene.normal[i].cast<double>();
+    const Eigen::Vector3d place = head_from_world * (scene.origin + scene.point[i].cast<double>());
+    const double range = place.norm(), reach = 0.7 * std::sqrt(static_cast<double>(scene.area[i]));
+    if (!(range > 0) || range > head.gate.max_range + reach) return false;
+    if (scene.normals_oriented && (head_from_world.linear() * normal).dot(place) > 0) return false;
+    const Direction towards = direction_of(place);
+    const double turned = std::abs(unwrapped(towards.azimuth, middle) - middle);
+    const double level_range = range * std::cos(towards.elevation);
+    const double inside_sides = sector.full_circle ? 1e300 : level_range * (half_azimuth - turned);
+    const double inside_rows = range * std::min(towards.elevation - sector.low_elevation,  //
+                                                sector.high_elevation - towards.elevation);
+    const double inside_gate = std::min(range - head.gate.min_range, head.gate.max_range - range);
+    return std::abs(std::min({inside_sides, inside_rows, inside_gate})) <= reach;
+  };
+
+  std::vector<std::uint8_t> marked(scene.size());
+  parallel_blocks(scene.size(), 1 << 16, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) marked[i] = on_outline(i);
+  });
+  std::vector<std::uint32_t> outline;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i]) outline.push_back(static_cast<std::uint32_t>(i));
+  return outline;
 }
 
 }  // namespace insonify

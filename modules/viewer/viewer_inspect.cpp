@@ -1,5 +1,3 @@
-#include "viewer/viewer_inspect.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 #include "sampling/find_holes.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "sampling/gate_surfels_internal.hpp"
+#include "viewer/viewer_explain.hpp"
 
 namespace insonify {
 namespace {

@@ -4,7 +4,7 @@
 #include <vtkCamera.h>
 
 #include "returns/sounding_columns.hpp"
-#include "view/colour_bar_internal.hpp"
+#include "view/colour_maps_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 

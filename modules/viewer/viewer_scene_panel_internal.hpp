@@ -5,7 +5,7 @@
 
 #include "view/scene_actors_internal.hpp"
 #include "viewer/viewer_data.hpp"
-#include "viewer/viewer_inspect.hpp"
+#include "viewer/viewer_explain.hpp"
 #include "viewer/viewer_panel_internal.hpp"
 
 namespace insonify {

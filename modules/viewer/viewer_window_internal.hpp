@@ -13,7 +13,6 @@
 #include "viewer/viewer_controls_internal.hpp"
 #include "viewer/viewer_explain.hpp"
 #include "viewer/viewer_flat_panels_internal.hpp"
-#include "viewer/viewer_inspect.hpp"
 #include "viewer/viewer_layout.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 

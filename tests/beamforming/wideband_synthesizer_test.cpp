@@ -74,6 +74,10 @@ INSTANTIATE_TEST_SUITE_P(heads, WidebandPromise,
                                          Case{"narrow_fan", 1800e3, 150e3, 160, 28, 4, 4.4},
                                          Case{"long_array", 400e3, 40e3, 128, 120, 20, 21},
                                          Case{"near", 400e3, 100e3, 40, 90, 0.5, 0.7},
+                                         Case{"oculus_m750d", 750e3, 187.5e3, 64, 130, 0.5, 0.6},
+                                         Case{"em2040", 400e3, 37.5e3, 64, 140, 0.5, 0.9},
+                                         Case{"aris_3000", 3000e3, 250e3, 128, 28, 0.4, 0.45},
+                                         Case{"p900_45", 900e3, 29.5e3, 64, 45, 0.5, 0.8},
                                          Case{"as_near_as_the_array_is_long", 400e3, 100e3, 40, 90, 0.075, 0.2}),
                          [](const auto& one) { return std::string(one.param.name); });
 

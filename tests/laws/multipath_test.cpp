@@ -19,7 +19,8 @@ SimulatedPing ping_of_one_patch(const Environment& environment) {
   SimulationOptions options;
   options.amplitude = SurfaceAmplitude::coherent;
   options.sampling.scatterers_per_cell = 0;
-  options.effects.multipath = options.outputs.layers = true;
+  options.outputs.layers = true;
+  options.effects.multipath = Choice::always;
   Pose pose = Pose::Identity();
   pose.translation() = Eigen::Vector3d(0, 0, -2);
   return simulate_ping(scene, head, pose, environment, options);

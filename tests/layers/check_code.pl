@@ -22,7 +22,6 @@ my %lent = (
   'sampling/gate_surfels_internal.hpp' => 'viewer',  # the viewer explains why a surfel is not seen
   'sampling/hit_rule_internal.hpp' => 'viewer',      #
   'simulate/stage_options_internal.hpp' => 'accuracy',
-  'simulate/stop_watch_internal.hpp' => 'accuracy',
 );
 my %long_file = ();      # path => why it may be longer
 my %long_function = ();  # "path: first line" => why it may be longer

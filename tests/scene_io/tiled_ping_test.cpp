@@ -67,7 +67,7 @@ TEST(TiledPing, multipath_is_the_same_from_all_sides) {
   environment.surface = SeaSurface{.rms_height = 0.0};
   environment.bottom = FlatBottom{.height = -8.5};
   expect_same_ping(harbour(), harbour_pose(), environment,
-                   {.sampling = {.scatterers_per_cell = 2}, .effects = {.multipath = true}}, 0.9);
+                   {.sampling = {.scatterers_per_cell = 2}, .effects = {.multipath = Choice::always}}, 0.9);
 }
 
 TEST(TiledPing, utm_coordinates_keep_their_millimetres) {

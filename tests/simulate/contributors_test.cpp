@@ -73,8 +73,8 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   environment.surface = SeaSurface{};
   Pose pose = Pose::Identity();
   pose.translation() = Eigen::Vector3d(0, 0, -2);
-  const SimulatedPing p =
-      simulate_ping(scene, wide, pose, environment, {.effects = {.multipath = true}, .outputs = {.contributors = 4}});
+  const SimulatedPing p = simulate_ping(scene, wide, pose, environment,
+                                        {.effects = {.multipath = Choice::always}, .outputs = {.contributors = 4}});
   const double direct = std::hypot(10, 2), bounced = std::hypot(10, 6);
   const auto at_range = [&](double range) {
     const auto bin = static_cast<std::size_t>((range - wide.gate.min_range) / wide.gate.bin_size);

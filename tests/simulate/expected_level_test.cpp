@@ -104,7 +104,7 @@ TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
 TEST(ExpectedLevel, adds_layers_by_their_squares) {
   const SimulatedPing p = ping({.sampling = {.scatterers_per_cell = 2},
                                 .synthesis = {.method = SynthesisMethod::incoherent},
-                                .effects = {.multipath = true, .noise = true},
+                                .effects = {.multipath = Choice::always, .noise = true},
                                 .outputs = {.layers = true}},
                                loud_sea());
   ASSERT_EQ(p.ping.layers.size(), 6u);

@@ -29,7 +29,7 @@ struct Case {
   Environment environment = full_environment();
   SonarHead head = small_head(sonar);
   double lambert_mu = 1e-3;
-  SimulationOptions options{.effects = {.multipath = true, .noise = true}, .outputs = {.layers = true}};
+  SimulationOptions options{.effects = {.multipath = Choice::always, .noise = true}, .outputs = {.layers = true}};
 
   SimulatedPing ping() const {
     const SceneCloud wall = make_built_in_scene("wall", {.points = 3000, .size = {2, 2}, .lambert_mu = lambert_mu});
@@ -113,7 +113,7 @@ TEST(Layers, are_kept_only_on_request_and_change_nothing) {
 // One after another is taken away: the others stay as they are, to the last bit.
 TEST(Layers, are_what_each_is_without_the_others) {
   const std::map<std::string, std::function<void(Case&)>> removals = {
-      {"multipath", [](Case& c) { c.options.effects.multipath = false; }},
+      {"multipath", [](Case& c) { c.options.effects.multipath = Choice::never; }},
       {"volume", [](Case& c) { c.environment.volume_scattering_db.reset(); }},
       {"surface", [](Case& c) { c.environment.surface->scattering_strength_db.reset(); }},
       {"bottom", [](Case& c) { c.environment.bottom->lambert_mu.reset(); }},
@@ -128,7 +128,8 @@ TEST(Layers, are_what_each_is_without_the_others) {
   }
   Case direct_alone;
   direct_alone.environment = {};
-  direct_alone.options.effects.multipath = direct_alone.options.effects.noise = false;
+  direct_alone.options.effects.multipath = Choice::never;
+  direct_alone.options.effects.noise = false;
   EXPECT_TRUE(same(layers_of(direct_alone.ping()).at("direct"), reference().at("direct")));
 }
 

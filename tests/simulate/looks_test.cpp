@@ -36,16 +36,19 @@ struct Speckle {
 };
 Speckle speckle_of(int range, int pings) {
   double n = 0, level = 0, level2 = 0, amplitude = 0, mean = 0, square = 0;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    SimulationOptions expected = looks(range, 1, seed);
-    expected.synthesis.method = SynthesisMethod::incoherent;
-    // Without looks there is no intensity, of an expected level either.
-    const auto intensity_of = [](const Ping& p) {
-      return Grid<double>(p.intensity.size() > 0 ? Grid<double>(p.intensity.cast<double>())
-                                                 : Grid<double>(p.pressure.cast<std::complex<double>>().abs2()));
-    };
-    const Grid<double> usual = intensity_of(ping(expected).ping),
-                       image = intensity_of(ping(looks(range, pings, seed)).ping);
+  const auto intensity_of = [](const Ping& p) -> Grid<double> {
+    if (p.intensity.size() > 0) return p.intensity.cast<double>();
+    return p.pressure.cast<std::complex<double>>().abs2();
+  };
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Grid<double> image = intensity_of(ping(looks(range, pings, seed)).ping);
+    // Every pulse has a seed of its own, by which its scatterers are placed.
+    Grid<double> usual = Grid<double>::Zero(image.rows(), image.cols());
+    for (int k = 0; k < pings; ++k) {
+      SimulationOptions expected = looks(range, 1, seed + static_cast<std::uint64_t>(k) * 0x9e3779b97f4a7c15);
+      expected.synthesis.method = SynthesisMethod::incoherent;
+      usual += intensity_of(ping(expected).ping) / pings;
+    }
     for (Eigen::Index b = 0; b < image.rows(); ++b)
       for (Eigen::Index bin = 20; bin + 20 < image.cols(); bin += 3) {
         const double intensity = image(b, bin) / usual(b, bin), db = db_from_power(intensity);

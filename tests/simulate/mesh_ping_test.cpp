@@ -56,10 +56,10 @@ Eigen::ArrayXd beam_levels_db(const Ping& p) {
 
 }  // namespace
 
-// Over three samplings, which for one is up to 0.4 dB.
+// Over three samplings; of one, the worst of 512 beams is 0.3 dB off.
 TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
   SceneCloud strip;
-  add_rectangle(strip, {-1, -38, 0}, {2, 0, 0}, {0, 76, 0}, {0, 0, 1}, 0.03);
+  add_rectangle(strip, {-1.2, -38, 0}, {2.4, 0, 0}, {0, 76, 0}, {0, 0, 1}, 0.02, 0.5);
   const Eigen::ArrayXd fine = beam_levels_db(ping(strip, {.sampling = {.scatterers_per_cell = 0}}).ping);
   Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(512);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -73,7 +73,7 @@ TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
     EXPECT_LT(error.abs().maxCoeff(), 0.5);
     mean += error / 3;
   }
-  EXPECT_LT(mean.abs().maxCoeff(), 0.3);
+  EXPECT_LT(mean.abs().maxCoeff(), 0.2);
   EXPECT_LT(std::abs(mean.mean()), 0.02);
 }
 

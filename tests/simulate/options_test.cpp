@@ -27,7 +27,7 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
       {{.sampling = {.level_error_db = -1}}, "sampling.level_error_db = -1, must be finite and > 0 dB; 0: "},
       {{.sampling = {.level_error_db = not_a_number}}, "sampling.level_error_db = nan, must be"},
       {{.sampling = {.level_error_db = infinity}}, "sampling.level_error_db = inf, must be"},
-      {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2"},
+      {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2; -1: as needed"},
       {{.outputs = {.paths = -1}}, "outputs.paths = -1, must be at least 0"},
       {{.outputs = {.contributors = 300}}, "outputs.contributors = 300, must be within 0 and 255"},
       {{.outputs = {.contributors = -1}}, "outputs.contributors = -1, must be within 0 and 255"},
@@ -37,6 +37,12 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
       {{.detection = {.threshold_db = not_a_number}}, "detection.threshold_db = nan, must be a number"},
       {{.detection = {.side_lobe_margin_db = not_a_number}}, "detection.side_lobe_margin_db = nan, must be a number"},
       {{.detection = {.above_db = not_a_number}}, "detection.above_db = nan, must be a number"},
+      {{.accuracy_db = 0}, "accuracy_db = 0, must be above 0 and at most 20 dB"},
+      {{.accuracy_db = -0.1}, "accuracy_db = -0.1, must be above 0"},
+      {{.accuracy_db = not_a_number}, "accuracy_db = nan, must be above 0"},
+      {{.accuracy_db = infinity}, "accuracy_db = inf, must be above 0"},
+      {{.accuracy_db = 21}, "accuracy_db = 21, must be above 0 and at most 20 dB"},
+      {{.effects = {.absorption_order = -2}}, "effects.absorption_order = -2, must be 0, 1 or 2"},
       {{.time = infinity}, "time = inf, must be finite"},
       {{.threads = -1}, "threads = -1, must be at least 0; 0: all cores"}};
   SceneCloud broken;  // no stage accepts it: a later check would complain about the scene
@@ -47,9 +53,10 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
     EXPECT_THAT(text, testing::StartsWith(std::string("simulate_ping: options.") + message));
   }
   EXPECT_THAT(error_of([] {
-                simulate_ping(SceneCloud{}, small_head({}), Pose::Identity(), {}, {.effects = {.multipath = true}});
+                simulate_ping(SceneCloud{}, small_head({}), Pose::Identity(), {},
+                              {.effects = {.multipath = Choice::always}});
               }),
-              HasSubstr("effects.multipath = true, but the environment has neither surface nor bottom"));
+              HasSubstr("effects.multipath = always, but the environment has neither surface nor bottom"));
 }
 
 TEST(PingOptions, have_the_tolerance_that_their_method_can_keep) {

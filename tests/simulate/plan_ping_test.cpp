@@ -23,6 +23,13 @@ struct Situation {
   SimulationOptions options;
 };
 
+/// Leaves out all that the budget decides.
+void close(SimulationOptions& o) {
+  o.sampling.outer_elevations = o.sampling.outer_azimuths = Choice::never;
+  o.effects.refraction = o.effects.moving = o.effects.multipath = Choice::never;
+  o.effects.absorption_order = 0;
+}
+
 /// A random head above a random bottom with a wall, in random water; nothing special.
 Situation situation(std::uint64_t number) {
   const auto a = random_uniform(number, RandomStage::scene_points, {1, 0, 0});
@@ -46,6 +53,7 @@ Situation situation(std::uint64_t number) {
   s.pose = pose_from_yaw_pitch_roll({0, 0, 1.5 + b[3]}, 0, radians(10 + 15 * b[0]), 0);
   s.options.seed = number;
   s.options.sampling.scatterers_per_cell = 3;
+  close(s.options);
   return s;
 }
 
@@ -77,14 +85,13 @@ TEST(PlanPing, effect_of_every_stage_left_out_stays_below_its_bound) {
     Situation s = situation(number);
     s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
     s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
-    s.options.effects.refraction = Choice::never;
     const PingPlan plan = plan_of(s);
     outer_elevations += stage(plan, "outer-elevations").bound_relative;
     for (const std::string name : {"outer-elevations", "outer-azimuths", "absorption-slope", "refraction", "multipath",
                                    "noise", "direct-sum", "true-delays"}) {
       const PlannedStage& out = stage(plan, name);
       EXPECT_FALSE(out.included) << name;
-      if (name != "outer-elevations") {  // not every bottom reaches so far off the axis
+      if (name != "outer-elevations" && name != "multipath") {  // not every pattern reaches bottom or surface
         EXPECT_GT(out.bound_relative, 0) << name;
       }
       EXPECT_LE(effect_of(s, name), out.bound_relative + 1e-6) << name << " in situation " << number;
@@ -162,8 +169,10 @@ TEST(PlanPing, what_the_environment_calls_for_is_in) {
   s.environment.surface = SeaSurface{.height = 5, .scattering_strength_db = -30.0};
   s.environment.bottom = FlatBottom{.height = -1, .lambert_mu = 0.002};
   s.environment.volume_scattering_db = -70;
-  s.options.effects.multipath = s.options.effects.noise = true;
+  s.options.effects.multipath = Choice::always;
+  s.options.effects.noise = true;
   s.options.effects.absorption_order = 1;
+  s.options.effects.moving = Choice::as_needed;
   s.options.effects.motion.velocity = {1, 0, 0};
   s.scene.materials[0].relief_slope = 0.1;
   s.scene.materials[0].coherent_fraction = 0.5;
@@ -181,20 +190,73 @@ TEST(PlanPing, what_the_environment_calls_for_is_in) {
 // Out of a ping of another method, a way of summing is out already; into one of intensities it does not go.
 TEST(PlanPing, forcing_a_method_out_leaves_another_method_alone) {
   using enum SynthesisMethod;
-  const std::pair<const char*, SynthesisMethod> stages[] = {{"direct-sum", direct}, {"true-delays", element_exact}};
-  for (const auto& [name, method] : stages) {
-    for (const SynthesisMethod chosen : {gridded, direct, spectrum, element_exact, incoherent}) {
+  const auto is_true = [](SynthesisMethod m) { return m == element_exact || m == true_delays; };
+  for (const SynthesisMethod chosen : {gridded, direct, spectrum, element_exact, true_delays, incoherent})
+    for (const std::string name : {"direct-sum", "true-delays"}) {
       Situation s = situation(1);
       s.options.synthesis.method = chosen;
       force_stage(name, false, s.environment, s.options);
-      EXPECT_EQ(s.options.synthesis.method, chosen == method ? gridded : chosen) << name;
+      const bool was_it = name == "direct-sum" ? chosen == direct : is_true(chosen);
+      EXPECT_EQ(s.options.synthesis.method, was_it ? gridded : chosen) << name;
       if (chosen == incoherent) {
         EXPECT_THROW(effect_of(s, name), Error) << name;
         continue;
       }
       force_stage(name, true, s.environment, s.options);
-      EXPECT_EQ(s.options.synthesis.method, method) << name;
+      EXPECT_EQ(s.options.synthesis.method, name == "direct-sum" ? direct : true_delays) << name;
     }
+}
+
+// Finer than the fast method keeps, true delays are those of the referee; a tolerance that it refuses is lowered.
+TEST(PlanPing, true_delays_keep_the_tolerance) {
+  Situation s = situation(1);
+  s.options.synthesis.tolerance = 1e-7;
+  force_stage("true-delays", true, s.environment, s.options);
+  EXPECT_EQ(s.options.synthesis.method, SynthesisMethod::element_exact);
+  s.options.synthesis = {.tolerance = 0.5};
+  force_stage("true-delays", true, s.environment, s.options);
+  EXPECT_EQ(s.options.synthesis.tolerance, 0.1);
+}
+
+// Each of seven stages has a seventh of the budget's square, and is in if its bound is larger.
+TEST(PlanPing, budget_decides_what_is_left_open) {
+  Situation s = situation(2);
+  s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
+  s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
+  s.options.effects = {};
+  s.options.sampling = {.scatterers_per_cell = 3};
+  s.options.synthesis.true_delays = Choice::as_needed;
+  std::size_t in_before = 99;
+  for (const double accuracy_db : {1e-6, 0.1, 1.0, 20.0}) {
+    s.options.accuracy_db = accuracy_db;
+    const PingPlan plan = plan_of(s);
+    EXPECT_NEAR(plan.share_relative, (amplitude_from_db(accuracy_db) - 1) / std::sqrt(7), 1e-12);
+    EXPECT_LE(plan.left_out_db, accuracy_db);
+    std::size_t in = 0;
+    for (const PlannedStage& stage : plan.stages)
+      if (stage.by == DecidedBy::budget) {
+        EXPECT_EQ(stage.included, stage.bound_relative > plan.share_relative) << stage.name;
+        in += stage.included;
+      }
+    EXPECT_LE(in, in_before) << accuracy_db;
+    in_before = in;
+    const bool exact = stage(plan, "true-delays").included;
+    EXPECT_EQ(plan.options.synthesis.method, exact ? SynthesisMethod::true_delays : SynthesisMethod::gridded);
+  }
+  EXPECT_LE(in_before, 1U);  // only straight rays cost more than 20 dB, if any
+}
+
+// A ping of open options is the ping of its plan, to the byte.
+TEST(PlanPing, is_what_a_ping_does) {
+  Situation s = situation(5);
+  s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
+  s.options.effects = {};
+  s.options.sampling = {.scatterers_per_cell = 1};
+  for (const double accuracy_db : {0.1, 3.0}) {
+    s.options.accuracy_db = accuracy_db;
+    Situation planned = s;
+    planned.options = plan_of(s).options;
+    EXPECT_TRUE((image(s) == image(planned)).all());
   }
 }
 

@@ -231,7 +231,8 @@ TEST_F(EnvironmentRun, run_toml_records_every_option) {
   const std::string text = read("out/run.toml");
   for (const char* line : {"seed = 42",
                            "tolerance = 1e-05",
-                           "method = \"gridded\"",
+                           "method = \"planned\"",
+                           "accuracy_db = 0.1",
                            "environment_file = \"sea.toml\"",
                            "profile_file = \"\"",
                            "path = \"harbour.ply\"",

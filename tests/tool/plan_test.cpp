@@ -28,6 +28,15 @@ TEST_F(Plan, lists_stages_with_reason_and_bound_and_writes_nothing) {
   EXPECT_THAT(succeed("plan " + ping), HasSubstr("absorption-slope"));
 }
 
+TEST_F(Plan, decides_by_the_budget) {
+  const auto rough = nlohmann::json::parse(succeed("plan " + ping + " --json --accuracy-db 20"));
+  const auto fine = nlohmann::json::parse(succeed("plan " + ping + " --json --accuracy-db 0.001"));
+  EXPECT_FALSE(included(rough, "outer-azimuths"));
+  EXPECT_TRUE(included(fine, "outer-azimuths"));
+  EXPECT_LT(rough["scatterers"], fine["scatterers"]);
+  EXPECT_LE(rough["left_out_db"], 20);
+}
+
 TEST_F(Plan, stands_in_the_manifest_of_the_ping_that_follows_it) {
   succeed(
       "ping plane.ply --sonar p900-45 --set sonar.beams=8 --pose=0,0,3,0,15,0 --range 4:4.5 -q -o out --no-picture "
@@ -46,6 +55,8 @@ TEST_F(Plan, refuses_stages_that_are_unknown_or_have_no_cause) {
   expect_refused("ping " + ping + " -o out --with multipath", 2, {"multipath", "neither surface nor bottom"});
   expect_refused("ping " + ping + " -o out --with refraction", 2, {"refraction", "no sound-speed profile"});
   expect_refused("ping " + ping + " -o out --with volume", 2, {"volume.scattering_db"});
+  for (const std::string bad : {"0", "-1", "nan", "inf", "21"})
+    expect_refused("plan " + ping + " --accuracy-db=" + bad, 2, {"accuracy_db = ", "above 0 and at most 20 dB"});
   expect_refused("ping " + ping + " -o out --keep everything", 2, {"--keep"});
 }
 

@@ -3,7 +3,6 @@
 
 #include "support/test.hpp"
 #include "viewer/three_targets.hpp"
-#include "viewer/viewer_inspect.hpp"
 
 using testing::Not;
 

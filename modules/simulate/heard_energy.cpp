@@ -1,0 +1,61 @@
+// The squared pattern of N elements is that of 2N - 1, shaded by the autocorrelation R of the shading. Summed over
+// beams:
+//   sum_b B_b(u)^2 = R_0 beams + 2 Re sum_m R_m exp(i k d m u) sum_b exp(-i k d m u_b)
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/units.hpp"
+#include "simulate/heard_energy_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using complex = std::complex<double>;
+
+/// Products R_m sum_b exp(-i k d m u_b), m = 0 .. N-1, those of m > 0 twice.
+std::vector<complex> beam_terms(const SonarHead& head, double step) {
+  const std::vector<double>& w = head.array.shading;
+  const std::size_t n = w.size();
+  std::vector<complex> terms(n, 0);
+  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
+    const complex turn = std::polar(1.0, -step * std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
+    complex phase = 1;
+    for (std::size_t m = 0; m < n; ++m, phase *= turn) terms[m] += phase;
+  }
+  for (std::size_t m = 0; m < n; ++m) {
+    double sum = 0;
+    for (std::size_t j = 0; j + m < n; ++j) sum += w[j] * w[j + m];
+    terms[m] *= (m > 0 ? 2 : 1) * sum / static_cast<double>(n * n);
+  }
+  return terms;
+}
+
+}  // namespace
+
+HeardEnergy::HeardEnergy(const SonarHead& head, double wavelength) {
+  const double step = 2 * pi * head.array.spacing / wavelength;
+  const std::vector<complex> terms = beam_terms(head, step);
+  const std::vector<FanRow> rows = fan_rows(head.fan);
+  table_.resize(8 * terms.size() + 2);
+  for (std::size_t t = 0; t < table_.size(); ++t) {
+    const double u = 2 * static_cast<double>(t) / static_cast<double>(table_.size() - 1) - 1;
+    const complex turn = std::polar(1.0, step * u);
+    complex phase = 1, sum = 0;
+    for (const complex& term : terms) sum += term * phase, phase *= turn;
+    table_[t] = std::max(0.0, sum.real()) / static_cast<double>(rows.size());
+  }
+  if (rows.size() > 1 || head.column)
+    for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);
+}
+
+double HeardEnergy::at(double u, double v) {
+  const double place = 0.5 * (std::clamp(u, -1.0, 1.0) + 1) * static_cast<double>(table_.size() - 1);
+  const std::size_t left = std::min(static_cast<std::size_t>(place), table_.size() - 2);
+  const double energy = std::lerp(table_[left], table_[left + 1], place - static_cast<double>(left));
+  double rows = rows_.empty() ? 1 : 0;
+  for (RowResponse& row : rows_) rows += std::pow(row.at(v), 2);
+  return energy * rows;
+}
+
+}  // namespace insonify

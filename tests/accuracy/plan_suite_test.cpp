@@ -1,0 +1,32 @@
+// The plan's promise over the suite of docs/plan.md: no effect exceeds its bound, and no bound is idle.
+#include <gtest/gtest.h>
+
+#include "benchmarks/accuracy/plan_costs.hpp"
+
+using namespace insonify;
+
+TEST(PlanSuite, effects_are_below_their_bounds_and_above_a_fifth_of_them) {
+  int measured = 0;
+  for (const PlanCase& c : plan_cases())
+    for (const PlanEffect& e : plan_effects(c)) {
+      const std::string what = e.stage + ", " + e.scene + ", " + e.sonar;
+      EXPECT_LE(e.actual_db, e.bound_db + 1e-3) << what;
+      EXPECT_LE(e.bound_db, loosest * std::max(e.actual_db, least_effect_db)) << what;
+      measured += e.actual_db > least_effect_db;
+    }
+  EXPECT_GE(measured, 30);
+}
+
+// Of time nothing is asserted: it is in docs/plan.md.
+TEST(PlanSuite, memory_is_within_a_factor_of_1_5) {
+  int measured = 0;
+  for (const PlanCase& c : cost_cases()) {
+    if (c.scene != "many scatterers" && c.scene != "many bins" && c.scene != "large image") continue;
+    const PlanCost cost = measure_cost(c);
+    EXPECT_LE(cost.planned_mib, 1.5 * cost.mib) << c.scene;
+    EXPECT_LE(cost.mib, 1.5 * cost.planned_mib) << c.scene;
+    EXPECT_NEAR(cost.planned_scatterers / cost.scatterers, 1, 0.1) << c.scene;
+    ++measured;
+  }
+  EXPECT_EQ(measured, 3);
+}
