@@ -24,6 +24,8 @@ struct SceneOptions {
   std::string material_field;  ///< field of the cloud whose numbers mean materials, or empty: found by name
   std::string unit = "m";
   double mesh_spacing = 0;
+  std::string scan_noise;  ///< [m] or empty: the file's, else estimated
+  bool keep_strays = false;
 };
 
 /// Sonar, environment, synthesis and output of a run.

@@ -169,8 +169,9 @@ void print_plan(const PingPlan& plan) {
       plan.options.accuracy_db);
   fmt::print("left out: {:.2g} dB together\n", plan.left_out_db);
   fmt::print("synthesis: {}, {} precision, kernel {} of {} grid steps, {} samples per pulse\n",
-             name_of(method_words, plan.options.synthesis.method), plan.synthesis.single_precision ? "single" : "double",
-             plan.synthesis.kernel_width, plan.synthesis.grid, plan.synthesis.pulse_samples);
+             name_of(method_words, plan.options.synthesis.method),
+             plan.synthesis.single_precision ? "single" : "double", plan.synthesis.kernel_width, plan.synthesis.grid,
+             plan.synthesis.pulse_samples);
   fmt::print("about {} surfels in view, {:.2g} scatterers, {:.2g} s on one core, {:.0f} MiB\n", plan.surfels_in_view,
              plan.scatterers, plan.seconds, plan.mib);
 }

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "sampling/mesh_surfels.hpp"
@@ -166,6 +164,8 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
   options.threads = common.threads;
   options.unit = parse_unit(scene.unit);
   options.mesh_spacing = scene.mesh_spacing;
+  if (!scene.scan_noise.empty()) options.scan_noise = parse_numbers("--scan-noise", scene.scan_noise, 1, "metres")[0];
+  options.keep_strays = scene.keep_strays;
   if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
   if (!scene.materials_file.empty() || !scene.material.empty()) {
     const std::string path = scene.materials_file.empty() ? data_folder() + "/materials.toml" : scene.materials_file;
@@ -183,7 +183,7 @@ std::vector<std::string> loading_notes(const LoadReport& r) {
   const auto count = [&](std::size_t n, const char* what) {
     if (n > 0) notes.push_back(fmt::format("{}: {} {}", r.path, n, what));
   };
-  count(r.dropped_not_finite, "points with NaN or infinite coordinates dropped");
+  count(r.dropped_not_finite, "points with coordinates that are NaN, infinite or beyond 1e9 m dropped");
   count(r.dropped_duplicates, "duplicate points dropped");
   count(r.dropped_degenerate, "degenerate triangles dropped");
   count(r.repaired_normals, "zero or NaN normals replaced by estimates");

@@ -33,6 +33,10 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
       {"scene", "mesh_spacing", "--mesh-spacing", &o.mesh_spacing,
        "[m] between surfels of a mesh; 0: a ping samples it by what its beams resolve, other verbs take 200 000 "
        "surfels"},
+      {"scene", "scan_noise", "--scan-noise", &o.scan_noise,
+       "[m] standard deviation of a cloud across its surfaces; default: its field 'noise', else estimated"},
+      {"scene", "keep_strays", "--keep-strays", &o.keep_strays,
+       "points far from all others keep areas as large as their cells"},
   };
 }
 

@@ -28,8 +28,8 @@ void require_valid(const Pulse& pulse, const char* who) {
   if (!std::isfinite(pulse.bandwidth) || pulse.bandwidth <= 0 || pulse.bandwidth >= 2 * pulse.centre_frequency)
     fail(ErrorKind::argument, who, ": bandwidth = ", pulse.bandwidth, " Hz, must be > 0 and below twice the centre ",
          "frequency (", pulse.centre_frequency, " Hz)");
-  require(std::abs(pulse.source_level_db) <= 400, who, "source_level_db", pulse.source_level_db, "dB",
-          "within -400 and 400");
+  require(pulse.source_level_db >= -400 && pulse.source_level_db <= 260, who, "source_level_db", pulse.source_level_db,
+          "dB", "within -400 and 260");
   if (pulse.shape != PulseShape::linear_fm) return;
   if (!std::isfinite(pulse.duration) || pulse.duration <= 0)
     fail(ErrorKind::argument, who, ": duration = ", pulse.duration, " s, must be finite and > 0 for a sweep");

@@ -30,7 +30,7 @@ struct Pulse {
   ReplicaWindow window = ReplicaWindow::hamming;  ///< of a sweep's replica
 };
 
-/// Throws Error unless all is finite, 0 < bandwidth < 2 centre_frequency, -400 <= source_level_db <= 400 and, for a
+/// Throws Error unless all is finite, 0 < bandwidth < 2 centre_frequency, -400 <= source_level_db <= 260 and, for a
 /// sweep, 1 <= bandwidth duration <= 1e6.
 void require_valid(const Pulse& pulse, const char* who);
 

@@ -79,7 +79,8 @@ void require_valid(const SonarSpec& s, const char* who) {
   require(s.bandwidth > 0 && s.bandwidth < 2 * s.centre_frequency, who, "bandwidth_hz", s.bandwidth, "Hz",
           "> 0 and below twice centre_frequency_hz");
   require_pulse(s, who);
-  require(std::abs(s.source_level_db) <= 400, who, "source_level_db", s.source_level_db, "dB", "within -400 and 400");
+  require(s.source_level_db >= -400 && s.source_level_db <= 260, who, "source_level_db", s.source_level_db, "dB",
+          "within -400 and 260");
   require(s.beams >= 1 && s.beams <= 65536, who, "beams", static_cast<double>(s.beams), "", "within 1 and 65536");
   require(s.beams == 1 || !s.azimuths.empty() || within(s.field_of_view, 0, 2 * pi), who, "field_of_view_deg",
           degrees(s.field_of_view), "deg", "> 0 and at most 360");

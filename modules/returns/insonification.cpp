@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "acoustics/direct_echoes.hpp"
+#include "acoustics/scattering.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/response_table.hpp"
 #include "core/error.hpp"
@@ -53,6 +54,15 @@ class Beams {
     return best;
   }
 
+  /// Width in direction cosine of a rectangle of a beam's peak and integral, over eight beam widths to either side:
+  /// grating lobes do not count.
+  double equivalent_width(double beam_width) const {
+    const double step = beam_width / 64;
+    double sum = 0.5 * table_.intensity(0);
+    for (int k = 1; k < 8 * 64 && k * step < 1; ++k) sum += table_.intensity(k * step);
+    return 2 * step * sum;
+  }
+
   double intensity(const Beam& beam, double u, double v) {
     const double of_line = table_.intensity(u - beam.u);
     if (!has_row_response_) return of_line;
@@ -74,26 +84,54 @@ class Beams {
 struct SurfelContribution {
   std::uint32_t surfel;
   Beams::Beam beam;
-  double intensity = 0;  ///< [Pa^2], mean square
+  double intensity = 0;                ///< [Pa^2], mean square
+  double on_axis = 0;                  ///< [Pa^2], in a beam of that row that looks there
+  double cross_section = 0, area = 0;  ///< [m^2]
+  double cell = 0;                     ///< [m^2], resolution cell on the surface, at the first part
   bool hit = false;
   float cosine = 0, range = 0;  ///< extremes over the parts that count as insonified
 };
 
-std::vector<SurfelContribution> surfel_contributions(std::size_t surfels, const Scatterers& scatterers,
+/// Area of a resolution cell on a surface [m^2] (E74): equivalent widths of pulse and beam.
+class ResolutionCell {
+ public:
+  ResolutionCell(const SonarHead& head, const Medium& medium, const Beams& beams)
+      : length_(std::sqrt(pi / (4 * std::log(2))) * range_resolution(head.pulse, medium.sound_speed)),
+        width_(beams.equivalent_width(head.fan.beam_width)) {}
+
+  double area(double range, double cos_incidence, double u, double v) const {
+    const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence)), ahead = 1 - u * u - v * v;
+    const double along = std::min(length_ / sine, 2 * std::sqrt(2 * range * length_));
+    return along * range * width_ * std::sqrt((1 - v * v) / std::max(ahead, 1e-6));
+  }
+
+ private:
+  double length_, width_;
+};
+
+std::vector<SurfelContribution> surfel_contributions(const SceneCloud& scene, const Scatterers& scatterers,
                                                      const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                                      double min_response) {
   Beams beams(head, medium);
-  std::vector<std::uint32_t> place(surfels, none);
+  const ResolutionCell cell(head, medium, beams);
+  std::vector<std::uint32_t> place(scene.size(), none);
   std::vector<SurfelContribution> contributions;
   for (std::size_t i = 0; i < scatterers.size(); ++i) {
     const std::uint32_t surfel = scatterers.surfel[i];
     if (place[surfel] == none) {
       place[surfel] = static_cast<std::uint32_t>(contributions.size());
       contributions.push_back({surfel, beams.best(echoes.u[i], echoes.v[i])});
+      contributions.back().cell = cell.area(scatterers.range[i], scatterers.cos_incidence[i], echoes.u[i], echoes.v[i]);
     }
     SurfelContribution& h = contributions[place[surfel]];
     const double range = scatterers.range[i], response = beams.intensity(h.beam, echoes.u[i], echoes.v[i]);
-    h.intensity += 0.5 * std::norm(echoes.amplitude[i]) * response * std::exp(-4 * medium.absorption.a0 * range);
+    const double arriving = 0.5 * std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * range);
+    const double cosine = scatterers.cos_incidence[i], seen_area = scatterers.projected_area[i];
+    h.intensity += arriving * response;
+    h.on_axis += arriving * beams.intensity({h.beam.row, echoes.u[i]}, echoes.u[i], echoes.v[i]);
+    h.cross_section += cross_section(scene.materials[scatterers.material[i]], {cosine, cosine, seen_area},
+                                     head.pulse.centre_frequency);
+    if (cosine > 0) h.area += seen_area / cosine;
     if (!(response >= min_response && range >= head.gate.min_range && range <= head.gate.max_range)) continue;
     const auto r = static_cast<float>(range);
     h.range = h.hit ? std::min(h.range, r) : r;
@@ -105,7 +143,8 @@ std::vector<SurfelContribution> surfel_contributions(std::size_t surfels, const 
 
 void require_map(const Insonification& map, const SceneCloud& scene) {
   const std::size_t n = map.pings == 0 && map.hits.empty() ? 0 : scene.size();
-  for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.grazing_angle.size(), map.range.size()})
+  for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.scattering_db.size(),
+                                 map.cell_level_db.size(), map.grazing_angle.size(), map.range.size()})
     if (size != n)
       fail(ErrorKind::argument, me, ": the map has ", size, " surfels, but the scene has ", scene.size(),
            "; give an empty map, or one of this scene");
@@ -131,12 +170,13 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
       direct_echoes(scatterers, scene.materials, head.pulse, medium, with_patterns(echo_options, head));
   const double min_response = power_from_db(options.min_response_db);
   const std::vector<SurfelContribution> contributions =
-      surfel_contributions(scene.size(), scatterers, echoes, head, medium, min_response);
+      surfel_contributions(scene, scatterers, echoes, head, medium, min_response);
 
   // Update the extremes over all pings.
   if (map.hits.empty()) {
     map.hits.assign(scene.size(), 0);
-    map.level_db.assign(scene.size(), -std::numeric_limits<float>::infinity());
+    for (std::vector<float>* levels : {&map.level_db, &map.scattering_db, &map.cell_level_db})
+      levels->assign(scene.size(), -std::numeric_limits<float>::infinity());
     map.grazing_angle.assign(scene.size(), 0);
     map.range.assign(scene.size(), std::numeric_limits<float>::infinity());
   }
@@ -144,8 +184,14 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
   for (const SurfelContribution& h : contributions) {
     if (!h.hit) continue;
     ++map.hits[h.surfel];
-    const auto level = static_cast<float>(db_from_power(h.intensity / (micropascal * micropascal)));  // (E64)
-    map.level_db[h.surfel] = std::max(map.level_db[h.surfel], level);
+    const auto raise = [&](std::vector<float>& levels, double power) {
+      levels[h.surfel] = std::max(levels[h.surfel], static_cast<float>(db_from_power(power)));
+    };
+    raise(map.level_db, h.intensity / (micropascal * micropascal));  // (E64)
+    if (h.area > 0) {
+      raise(map.scattering_db, h.cross_section / h.area);  // (E74)
+      raise(map.cell_level_db, h.on_axis / (micropascal * micropascal) * h.cell / h.area);
+    }
     map.grazing_angle[h.surfel] = std::max(map.grazing_angle[h.surfel], std::asin(std::min(1.0F, h.cosine)));
     map.range[h.surfel] = std::min(map.range[h.surfel], h.range);
   }

@@ -13,9 +13,11 @@ namespace insonify {
 /// Coverage of a scene by pings, one entry per surfel in every array; for surfels without hits only `hits` is
 /// meaningful.
 struct Insonification {
-  std::size_t pings = 0;            ///< number of pings added
-  std::vector<std::uint32_t> hits;  ///< number of pings that insonified the surfel
-  std::vector<float> level_db;      ///< highest level (E64) [dB re 1 uPa]
+  std::size_t pings = 0;             ///< number of pings added
+  std::vector<std::uint32_t> hits;   ///< number of pings that insonified the surfel
+  std::vector<float> level_db;       ///< highest level (E64) [dB re 1 uPa]
+  std::vector<float> scattering_db;  ///< of the surface itself, highest [dB re 1 m^2 per m^2] (E74)
+  std::vector<float> cell_level_db;  ///< highest level of a resolution cell full of this surface (E74) [dB re 1 uPa]
   std::vector<float>
       grazing_angle;         ///< largest angle between surface and direction of sound [rad]; pi/2: normal incidence
   std::vector<float> range;  ///< least range [m]
@@ -39,7 +41,15 @@ struct InsonificationOptions {
 ///
 /// with the mean intensity <|A_p|^2> of the direct echo (E7; all patterns but the beam's), the beam's response B_b
 /// (E10, E56) and the absorption a0 at the centre frequency. For one part on a beam's axis this is SL - 2 TL + TS, TS =
-/// 10 log10 sigma. It grows with the surfel's area, so it depends on the density of the cloud.
+/// 10 log10 sigma. It grows with the surfel's area, so it depends on the density of the cloud. Two others do not (E74):
+///
+///   scattering_db = 10 log10( sum_p sigma_p / sum_p S_p )
+///   cell_level_db = 10 log10( sum_p 1/2 <|A_p|^2> exp(-4 a0 r_p) / (1 uPa)^2 / sum_p S_p x S_cell )
+///   S_cell        = min(dr / sin(incidence), 2 sqrt(2 r dr)) x r du / cos(azimuth)
+///
+/// with the cross-sections sigma_p and areas S_p of the parts, the equivalent widths of the pulse's intensity in range,
+/// dr, and of the beam's in direction cosine, du. cell_level_db is what a picture of intensity shows on an
+/// even surface, exact for a horizontal one under a level head. All are the highest of the pings.
 ///
 /// map         empty, or a previous result for the same scene; unchanged if an error is thrown
 /// scatterers  visible patches of `scene`, as returned by find_scatterers

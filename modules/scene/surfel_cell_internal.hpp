@@ -108,7 +108,14 @@ inline DistinctPoints find_distinct(std::span<const Vector3f> points) {
 class AreaEstimator {
  public:
   AreaEstimator(std::span<const Vector3f> points, int neighbours, double steepest)
-      : points_(points), index_(points), neighbours_(static_cast<std::size_t>(neighbours)), steepest_(steepest) {}
+      : AreaEstimator(points, points, neighbours, steepest) {}
+  // Neighbours are sought, and cells lie, among `charted`: where the points stand on a plane, or in which directions.
+  AreaEstimator(std::span<const Vector3f> charted, std::span<const Vector3f> points, int neighbours, double steepest)
+      : charted_(charted),
+        points_(points),
+        index_(charted),
+        neighbours_(static_cast<std::size_t>(neighbours)),
+        steepest_(steepest) {}
 
   double area(std::size_t i, const Vector3f& normal, Workspace& work) const {
     // A neighbourhood that is a line (one scan line of a lidar) is widened until the next lines come into it.
@@ -145,13 +152,14 @@ class AreaEstimator {
   void find_flat_neighbours(std::size_t i, const Vector3f& normal, std::size_t k, Workspace& work) const {
     const Vector3d n = normal.cast<double>();
     const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
-    index_.find_nearest(points_[i], k + 1, work.found);
+    index_.find_nearest(charted_[i], k + 1, work.found);
     work.places.clear();
     for (const Neighbour& neighbour : work.found) {
       if (neighbour.index == i) continue;
-      const Vector3d d = (points_[neighbour.index] - points_[i]).cast<double>();
+      const Vector3d d = (charted_[neighbour.index] - charted_[i]).cast<double>();
       const Vector2d flat(t1.dot(d), t2.dot(d));
-      if (std::abs(n.dot(d)) <= steepest_ * flat.norm()) work.places.push_back({flat, d});
+      if (std::abs(n.dot(d)) <= steepest_ * flat.norm())
+        work.places.push_back({flat, (points_[neighbour.index] - points_[i]).cast<double>()});
     }
     find_gaps(work);
   }
@@ -172,7 +180,7 @@ class AreaEstimator {
     std::uint32_t nearest = static_cast<std::uint32_t>(i);
     for (auto n = work.found.rbegin(); n != work.found.rend(); ++n)
       if (n->index != i) nearest = n->index;
-    index_.find_nearest(points_[nearest], 4, work.found);
+    index_.find_nearest(charted_[nearest], 4, work.found);
     return std::sqrt(static_cast<double>(work.found.back().squared_distance));
   }
 
@@ -213,7 +221,7 @@ class AreaEstimator {
     return work.cell.size() < 3 ? 0 : area_of(work.cell);
   }
 
-  std::span<const Vector3f> points_;
+  std::span<const Vector3f> charted_, points_;
   SceneIndex index_;
   std::size_t neighbours_;
   double steepest_;  // a neighbour may rise by so much of its distance

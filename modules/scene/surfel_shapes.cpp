@@ -1,9 +1,10 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/parallel.hpp"
+#include "scene/relief_fit_internal.hpp"
+#include "scene/scene_index.hpp"
 #include "scene/surfel_area.hpp"
 #include "scene/surfel_cell_internal.hpp"
 
@@ -13,25 +14,11 @@ using namespace cells;
 
 namespace {
 
-using Eigen::Matrix3d;
-
-// Mean square distance of the first `count` neighbours from their plane.
-double square_distance_from_plane(std::span<const Vector3f> points, const std::vector<Neighbour>& nearest,
-                                  std::size_t count) {
-  count = std::min(count, nearest.size());
-  if (count < 4) return 0;
-  Vector3d mean = Vector3d::Zero();
-  for (std::size_t k = 0; k < count; ++k) mean += points[nearest[k].index].cast<double>();
-  mean /= static_cast<double>(count);
-  Matrix3d moments = Matrix3d::Zero();
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vector3d offset = points[nearest[k].index].cast<double>() - mean;
-    moments += offset * offset.transpose();
-  }
-  Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
-  solver.computeDirect(moments, Eigen::EigenvaluesOnly);
-  return std::max(0.0, solver.eigenvalues()[0]) / static_cast<double>(count - 3);
-}
+constexpr double least_cosine = 0.1;           // between a surface and the plane on which its cells lie
+constexpr double least_seen_cosine = 0.1;      // and between a surface and the direction in which it was seen
+constexpr std::size_t neighbours_fitted = 16;  // by a cubic, which has ten terms
+constexpr std::size_t around = 17;             // points that decide together
+constexpr double flat_chart = 100;             // rise of a neighbour on a chart, which has none but for rounding
 
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -39,85 +26,202 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-// Whether relief, not noise, takes the points about each one off their plane: noise is as large among 9 as among 33
-// neighbours, relief grows with the distance. What a line through both variances leaves for no distance at all is noise.
-std::vector<std::uint8_t> find_clean(std::span<const Vector3f> points, const SceneIndex& index, int threads) {
-  constexpr std::size_t few = 9, many = 33;
-  std::vector<double> small(points.size()), large(points.size());
-  std::vector<std::uint8_t> clean(points.size());
+Vector3f on_plan(const Vector3f& point) { return {point.x(), point.y(), 0}; }
+
+// Points seen from above.
+struct Plan {
+  std::vector<std::uint32_t> points;  // all but those that hang alone over the others
+  std::vector<std::uint8_t> single;   // of each point of the cloud: of a height field
+};
+
+// Height fields have one height each: none of the four links of a point to its neighbours is steeper than five to one,
+// or at most a third of those around are. Between surfaces one above the other more are.
+Plan find_height_fields(std::span<const Vector3f> points, int threads) {
+  constexpr std::size_t links = 4;
+  std::vector<Vector3f> flat;
+  for (const Vector3f& p : points) flat.push_back(on_plan(p));
+  const SceneIndex index(flat);
+  Plan plan;
+  plan.single.resize(points.size());
+  std::vector<std::uint8_t> steep(points.size()), hangs(points.size());
   parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
     for (std::size_t i = begin; i < end; ++i) {
-      index.find_nearest(points[i], many, nearest);
-      small[i] = square_distance_from_plane(points, nearest, few);
-      large[i] = square_distance_from_plane(points, nearest, many);
+      index.find_nearest(flat[i], links + 1, nearest);
+      const auto steeper_than = [&](float slope) {
+        return static_cast<std::size_t>(std::count_if(nearest.begin(), nearest.end(), [&](const Neighbour& n) {
+          const float rise = points[n.index].z() - points[i].z();
+          return rise * rise > slope * slope * n.squared_distance;
+        }));
+      };
+      steep[i] = static_cast<std::uint8_t>(steeper_than(5));
+      hangs[i] = steeper_than(16) >= links;
     }
   });
   parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
-    std::vector<double> of_few, of_many;
     for (std::size_t i = begin; i < end; ++i) {
-      index.find_nearest(points[i], many, nearest);
-      of_few.clear(), of_many.clear();
-      for (const Neighbour& n : nearest) of_few.push_back(small[n.index]), of_many.push_back(large[n.index]);
-      const double near = median_of(of_few), wide = median_of(of_many);
-      clean[i] = 2 * near - wide <= 0.25 * near;
+      plan.single[i] = steep[i] == 0;
+      if (plan.single[i] || hangs[i]) continue;
+      index.find_nearest(flat[i], around, nearest);
+      std::size_t sum = 0;
+      for (const Neighbour& n : nearest) sum += steep[n.index];
+      plan.single[i] = 3 * sum <= links * nearest.size();
     }
   });
-  return clean;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (!hangs[i]) plan.points.push_back(i);
+  return plan;
 }
 
-// Points whose cell is far larger than those around them take their neighbours' area; returns how many.
-std::size_t bound_strays(const SceneIndex& index, std::span<const Vector3f> points, std::vector<double>& areas,
-                         int threads) {
-  constexpr std::size_t around = 17;
+// What the neighbours of a point show of its surface.
+struct Look {
+  Vector3f frame;          // normal of the plane on which the cell lies
+  Vector3f relief, plane;  // normals that follow the neighbours one by one, or all of them together
+  double cell = 0;         // [m^2] on that plane
+  double left_by_relief = 0, left_by_plane = 0;  // [m^2], mean squares
+};
+
+Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& frame, bool charted, Workspace& work) {
+  Look look{frame, frame, frame};
+  look.cell = estimator.area(i, frame, work);
+  const Vector3d up = frame.cast<double>(), right = up.unitOrthogonal(), ahead = up.cross(right);
+  const auto tilted = [&](const Vector2d& slope) -> Vector3f {
+    return (up - slope.x() * right - slope.y() * ahead).normalized().cast<float>();
+  };
+  const Vector3d facet = AreaEstimator::facet_normal(work);
+  if (facet.dot(up) >= least_cosine) look.relief = facet.cast<float>();
+  if (work.places.size() < neighbours_fitted) return look;
+  const std::span<const Place> all(work.places), near = all.first(neighbours_fitted);
+  const ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
+  if (!cubic.found) return look;
+  look.left_by_relief = cubic.misfit;
+  look.left_by_plane = flat.misfit;
+  if (!charted) return look;
+  if (work.gaps.empty()) look.relief = tilted(cubic.slope);
+  look.plane = tilted(fit_relief<1>(all, up).slope);
+  return look;
+}
+
+// Height fields on their plan; elsewhere on the base planes.
+std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
+                              const ShapeOptions& options) {
+  std::vector<Look> looks(e.position.size());
+  Plan plan{{}, std::vector<std::uint8_t>(looks.size())};
+  if (options.height_fields) plan = find_height_fields(e.position, options.threads);
+  std::vector<Vector3f> flat, raised;
+  for (const std::uint32_t p : plan.points) {
+    raised.push_back(e.position[p]);
+    flat.push_back(on_plan(e.position[p]));
+  }
+  const AreaEstimator chart(flat, raised, 2 * options.neighbours, flat_chart);
+  const auto each = [&](std::size_t count, auto&& body) {
+    parallel_blocks(count, 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+      Workspace work;
+      for (std::size_t k = begin; k < end; ++k) body(k, work);
+    });
+  };
+  each(plan.points.size(), [&](std::size_t k, Workspace& work) {
+    const std::uint32_t i = plan.points[k];
+    if (plan.single[i]) looks[i] = look_at(chart, k, Vector3f::UnitZ(), true, work);
+  });
+  each(looks.size(), [&](std::size_t i, Workspace& work) {
+    if (!plan.single[i]) looks[i] = look_at(estimator, i, base[i], false, work);
+  });
+  return looks;
+}
+
+// Relief where a cubic leaves at most half of what a plane leaves, as it does not of noise; else the mean plane around.
+// The cell on its plane becomes one on the surface (E69). Returns the number of strays: cells far larger than those
+// around, which take the area that is typical there unless `keep_strays`.
+std::size_t choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options,
+                          Estimate& e, std::vector<Vector3f>& normals) {
   constexpr double far_larger = 16;
-  std::vector<double> bounded = areas;
-  std::vector<std::uint8_t> stray(areas.size(), 0);
-  parallel_blocks(areas.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+  std::atomic<std::size_t> strays{0};
+  parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
-    std::vector<double> others;
+    std::vector<double> by_relief, by_plane, cells;
     for (std::size_t i = begin; i < end; ++i) {
-      index.find_nearest(points[i], around, nearest);
-      others.clear();
-      for (const Neighbour& n : nearest) others.push_back(areas[n.index]);
-      const double typical = median_of(others);
-      stray[i] = areas[i] > far_larger * typical;
-      if (stray[i]) bounded[i] = typical;
+      const Look& look = looks[i];
+      index.find_nearest(e.position[i], around, nearest);
+      by_relief.clear(), by_plane.clear(), cells.clear();
+      Vector3f mean = Vector3f::Zero();
+      for (const Neighbour& n : nearest) {
+        const Look& other = looks[n.index];
+        by_relief.push_back(other.left_by_relief), by_plane.push_back(other.left_by_plane), cells.push_back(other.cell);
+        mean += other.plane.dot(look.plane) < 0 ? Vector3f(-other.plane) : other.plane;
+      }
+      const bool relief = 2 * median_of(by_relief) <= median_of(by_plane);
+      const Vector3f found = relief ? look.relief : mean.normalized();
+      normals[i] = found.dot(normals[i]) < 0 ? Vector3f(-found) : found;
+      e.area[i] = look.cell / std::max<double>(least_cosine, std::abs(found.dot(look.frame)));
+      const double typical = median_of(cells);
+      if (!(look.cell > far_larger * typical)) continue;
+      ++strays;
+      if (!options.keep_strays) e.area[i] = typical;
     }
   });
-  areas = std::move(bounded);
-  return static_cast<std::size_t>(std::count(stray.begin(), stray.end(), 1));
+  return strays;
+}
+
+// Shapes of points whose lines of sight are not known; returns the number of strays.
+std::size_t estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vector3f>& normals) {
+  const AreaEstimator estimator(e.position, 2 * options.neighbours, same_rough_sheet);
+  return choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals);
+}
+
+// Voronoi cells among `places`, unit vectors or points of a plan, whose tangent planes have the normals `up`.
+std::vector<double> cells_among(const std::vector<Vector3f>& places, const std::vector<Vector3f>& up,
+                                const AreaOptions& options) {
+  const AreaEstimator estimator(places, places, options.neighbours, flat_chart);
+  std::vector<double> cells(places.size());
+  parallel_blocks(cells.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+    Workspace work;
+    for (std::size_t i = begin; i < end; ++i) cells[i] = estimator.area(i, up[i], work);
+  });
+  return cells;
+}
+
+// Median deviation from the median, as a part of it.
+double spread_of(std::vector<double> cells) {
+  const double typical = median_of(cells);
+  for (double& cell : cells) cell = std::abs(cell - typical);
+  return typical > 0 ? median_of(cells) / typical : 0;
+}
+
+// Areas of points that were all seen from one place: their cells among the directions in which they were seen (E73).
+// False if the cells are more alike on the plan: then the cloud is a raster of heights, whatever `viewpoint` is.
+bool estimate_seen(const Vector3d& viewpoint, const std::vector<Vector3f>& normals, const AreaOptions& options,
+                   Estimate& e) {
+  std::vector<Vector3f> direction, flat;
+  for (const Vector3f& p : e.position) {
+    direction.push_back((p.cast<double>() - viewpoint).normalized().cast<float>());
+    flat.push_back(on_plan(p));
+  }
+  const std::vector<double> solid_angles = cells_among(direction, direction, options);
+  const std::vector<Vector3f> up(flat.size(), Vector3f::UnitZ());
+  if (spread_of(cells_among(flat, up, options)) < spread_of(solid_angles)) return false;
+  for (std::size_t i = 0; i < e.area.size(); ++i) {
+    const double cosine = std::max<double>(least_seen_cosine, std::abs(normals[i].dot(direction[i])));
+    e.area[i] = solid_angles[i] * (e.position[i].cast<double>() - viewpoint).squaredNorm() / cosine;
+  }
+  return true;
 }
 
 }  // namespace
 
 SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<const Vector3f> base_normals,
-                                    const AreaOptions& options) {
-  require_valid(points, base_normals, options, "estimate_surfel_shapes");
+                                    const ShapeOptions& options) {
+  const AreaOptions area_options{options.neighbours, options.threads};
+  require_valid(points, base_normals, area_options, "estimate_surfel_shapes");
   SurfelShapes shapes{{base_normals.begin(), base_normals.end()}, std::vector<float>(points.size(), 0.0f), 0};
   if (points.size() < 4) return shapes;
-  constexpr double least_cosine = 0.1;  // between a facet and its base plane
   Estimate e = distinct_points(points);
   std::vector<Vector3f> normals;
   for (const std::uint32_t first : e.distinct.first) normals.push_back(base_normals[first]);
-  const AreaEstimator estimator(e.position, 2 * options.neighbours, same_rough_sheet);
-  const std::vector<std::uint8_t> clean = find_clean(e.position, estimator.index(), options.threads);
-  parallel_blocks(e.area.size(), 4096, options.threads, [&](std::size_t begin, std::size_t end) {
-    Workspace work;
-    for (std::size_t d = begin; d < end; ++d) {
-      e.area[d] = estimator.area(d, normals[d], work);
-      if (!clean[d]) continue;
-      // The cell on the base plane, on the facets (E68).
-      const Vector3d facet = AreaEstimator::facet_normal(work), base = normals[d].cast<double>();
-      const double cosine = facet.dot(base);
-      if (!(cosine >= least_cosine)) continue;
-      e.area[d] /= cosine;
-      normals[d] = facet.cast<float>();
-    }
-  });
+  if (!options.viewpoint || !estimate_seen(*options.viewpoint, normals, area_options, e))
+    shapes.strays = estimate_around(options, e, normals);
   limit_cells(e.area);
-  shapes.strays = bound_strays(estimator.index(), e.position, e.area, options.threads);
   shapes.area = shared_areas(e, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) shapes.normal[i] = normals[e.distinct.position[i]];
   return shapes;

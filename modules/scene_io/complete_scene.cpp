@@ -146,6 +146,13 @@ std::string share(std::size_t part, std::size_t whole, const char* noun) {
   return text.str();
 }
 
+void note_no_area(double total_area, std::vector<std::string>& notes) {
+  if (total_area > 0) return;
+  notes.push_back(
+      "all areas are 0, so nothing returns an echo: remove the field 'area' to have areas estimated, which takes four "
+      "points or more");
+}
+
 void check_options(const LoadOptions& options, const char* who) {
   if (!(options.unit > 0) || !std::isfinite(options.unit)) {
     fail(ErrorKind::argument, who, ": unit = ", options.unit, " m, must be > 0; 0.001 for millimetres");
@@ -252,6 +259,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     sample_mesh(raw, options, result);
   }
   scene.origin = raw.origin;
+  note_no_area(std::accumulate(scene.area.begin(), scene.area.end(), 0.0), result.report.notes);
   if (!raw.tags.prepared) {
     for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area), options.unit)) {
       result.report.notes.push_back(std::move(doubt));

@@ -26,7 +26,11 @@ std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>
 /// Gives every point of `raw` a unit normal, drops points without one, and reports the changes.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
-/// Uses the file's areas where valid, else estimates them (E15, E68); with estimated normals, refines these too.
+/// The largest area that one point of a cloud can have [m^2]: twice the square of its extent; 1e18 of fewer than four
+/// points and of what save_scene wrote.
+double largest_area(const RawCloud& raw);
+
+/// Uses the file's areas where valid, else estimates them (E15, E69, E73); with estimated normals, refines these too.
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report);
 
 /// Uses the file's noise, else that of the options, else estimates it (E67).
@@ -51,6 +55,9 @@ void sample_mesh(const RawCloud& mesh, const LoadOptions& options, LoadedScene& 
 /// Warnings about doubtful coordinates: units, precision. `spacing` is the typical spacing of the cloud [m]; `unit` has
 /// been applied already.
 std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, double unit);
+
+/// Notes that a scene without any area returns nothing.
+void note_no_area(double total_area, std::vector<std::string>& notes);
 
 /// "12 of 3400 points (0.4 %)".
 std::string share(std::size_t part, std::size_t whole, const char* noun);

@@ -9,9 +9,15 @@
 namespace insonify {
 namespace {
 
+/// An organised cloud with a viewpoint: one view, of which every line of sight is known.
+bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint; }
+
 /// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
 void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
-  SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, {.threads = options.threads});
+  ShapeOptions shaping{.threads = options.threads, .keep_strays = options.keep_strays};
+  shaping.height_fields = !raw.viewpoint || raw.height > 1;
+  if (seen_at_once(raw)) shaping.viewpoint = *raw.viewpoint - raw.origin;
+  SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, shaping);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
     const bool seen = !raw.viewpoint || shapes.normal[i].cast<double>().dot(*raw.viewpoint - raw.origin -
                                                                             raw.point[i].cast<double>()) > 0;
@@ -21,15 +27,22 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
   report.areas_estimated = true;
   report.strays = shapes.strays;
   if (shapes.strays > 0)
-    report.notes.push_back(share(shapes.strays, raw.point.size(), "points") +
-                           " stand far from all others: their areas are those of their neighbours");
+    report.notes.push_back(share(shapes.strays, raw.point.size(), "points") + " stand far from all others: " +
+                           (options.keep_strays ? "kept with areas as large as their cells"
+                                                : "their areas are those of their neighbours"));
 }
 
 }  // namespace
 
+double largest_area(const RawCloud& raw) {
+  if (raw.tags.prepared || raw.points_in_file < 4) return farthest_coordinate * farthest_coordinate;
+  return 2 * (raw.box.max - raw.box.min).squaredNorm();
+}
+
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   if (raw.area.empty() && report.normals_estimated) return complete_shapes(raw, options, report);
-  const auto bad = [](float area) { return !(std::isfinite(area) && area >= 0); };
+  const double limit = largest_area(raw);
+  const auto bad = [&](float area) { return !(area >= 0 && area <= limit); };
   const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));
   if (!raw.area.empty() && wrong == 0) return;
   std::vector<float> estimates = estimate_surfel_areas(raw.point, raw.normal, {.threads = options.threads});
@@ -38,7 +51,8 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
     raw.area = std::move(estimates);
     return;
   }
-  report.notes.push_back(share(wrong, raw.area.size(), "areas") + " were negative or NaN: estimated");
+  report.notes.push_back(share(wrong, raw.area.size(), "areas") +
+                         " were negative, NaN or larger than the cloud: estimated");
   for (std::size_t i = 0; i < raw.area.size(); ++i) {
     if (bad(raw.area[i])) raw.area[i] = estimates[i];
   }
@@ -52,14 +66,12 @@ void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene
     result.report.notes.push_back(share(wrong, scene.size(), "noise values") + " were negative or NaN: taken as 0");
     std::replace_if(scene.noise.begin(), scene.noise.end(), bad, 0.0f);
   }
-  if (!scene.noise.empty() || raw.tags.prepared) return;
-  if (options.scan_noise) {
-    scene.noise.assign(scene.size(), static_cast<float>(*options.scan_noise));
-    return;
-  }
+  if (!scene.noise.empty()) return;
+  if (options.scan_noise) scene.noise.assign(scene.size(), static_cast<float>(*options.scan_noise));
+  if (options.scan_noise || raw.tags.prepared) return;
   scene.noise = estimate_surfel_noise(scene.point, {.threads = options.threads});
   result.report.noise_estimated = true;
-  if (raw.height > 1 && raw.viewpoint) trust_lines_of_sight(*raw.viewpoint, options.threads, scene);
+  if (seen_at_once(raw)) trust_lines_of_sight(*raw.viewpoint, options.threads, scene);
 }
 
 }  // namespace insonify

@@ -50,7 +50,8 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
   std::vector<std::string>& problems = file.problems;
   problems = raw.notes;
   if (raw.not_finite > 0)
-    problems.push_back(share(raw.not_finite, file.points, "points") + " are not finite: will be dropped");
+    problems.push_back(share(raw.not_finite, file.points, "points") +
+                       " are not finite, or beyond 1e9 m: will be dropped");
   if (file.duplicates > 0 && raw.triangle.empty())
     problems.push_back(share(file.duplicates, file.points, "points") +
                        " coincide with an earlier one: will be dropped");

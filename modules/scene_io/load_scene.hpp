@@ -22,9 +22,10 @@ struct LoadOptions {
   std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
   std::uint64_t seed = 1;                    ///< of mesh sampling
   int threads = 0;                           ///< 0: all cores
-  /// Standard deviation of the scan across its surfaces [m], of all points; a `noise` field of the file wins. Empty:
-  /// estimated, unless the file is a prepared one, a mesh or tiles.
+  /// Standard deviation of the scan across its surfaces [m], of all points of a cloud; a `noise` field of the file
+  /// wins. Empty: estimated, unless the file is a prepared one. Meshes and tiles have none.
   std::optional<double> scan_noise{};
+  bool keep_strays = false;        ///< points far from all others keep the areas that are estimated of them
   MaterialField material_field{};  ///< which scalar field says the material, and how; unused with `material`
 };
 
@@ -41,7 +42,7 @@ struct LoadReport {
   bool normals_estimated = false;
   bool areas_estimated = false;
   bool noise_estimated = false;
-  std::size_t strays = 0;  ///< points far from all others, whose areas were cut down
+  std::size_t strays = 0;  ///< points far from all others, whose areas were cut down unless options.keep_strays
   bool materials_found = false;
   std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
@@ -62,18 +63,17 @@ std::string scene_extensions();
 
 /// Reads a cloud or mesh by its extension, one of scene_extensions(), fields by name and type. Clouds without normals
 /// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else two-sided; without areas,
-/// estimated ones (E15, E68); without noise, estimated noise (E67), raised where a line of sight of an organised cloud
-/// with a viewpoint proves that a surfel hides nothing. Meshes are sampled, area-preserving and stratified; their
-/// normals are the file's, else follow the winding, two-sided if more than 1 % of the shared edges contradict it. Ids
-/// are the file's if unique, else row numbers (meshes: sample numbers).
-/// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
-/// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
-/// are counted. A surfel of a mesh takes the material of its nearest corner. Error(content) lists the file's fields if it
-/// has none of the name asked for.
-/// A .tiles file is loaded whole and as it is: options do not change it.
-/// Coordinates may be float or double; the centre of the bounding box, in whole metres, becomes the origin.
-/// Throws Error(file) if missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds
-/// no usable point: always naming the file and what to do.
+/// estimated ones (E15, E69; E73 for an organised cloud with a viewpoint); without noise, estimated noise (E67), raised
+/// where a line of sight of an organised cloud with a viewpoint proves that a surfel hides nothing. Meshes are sampled,
+/// area-preserving and stratified; their normals are the file's, else follow the winding, two-sided if more than 1 % of
+/// the shared edges contradict it. Ids are the file's if unique, else row numbers (meshes: sample numbers). Materials
+/// are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field; numbers in
+/// no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and are counted.
+/// A surfel of a mesh takes the material of its nearest corner. Error(content) lists the file's fields if it has none of
+/// the name asked for. A .tiles file is loaded whole and as it is: options do not change it. Coordinates may be float
+/// or double; the centre of the bounding box, in whole metres, becomes the origin. Throws Error(file) if missing or
+/// unreadable; Error(content) if it is not what its name says, is cut off, or holds no usable point: always naming the
+/// file and what to do.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
 
 /// Reads soundings from a .ply that save_soundings wrote: positions in double, everything else bit for bit. Throws

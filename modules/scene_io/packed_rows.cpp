@@ -80,14 +80,16 @@ PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudForm
   rows.rows = scene.size();
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
-  add_columns(rows, prefix, {"level_db", "grazing_deg", "range"}, NumberType::float32);
+  add_columns(rows, prefix, {"level_db", "scattering_db", "cell_level_db", "grazing_deg", "range"},
+              NumberType::float32);
   add_columns(rows, prefix, {"hits", "material", "id"}, NumberType::uint32);
   rows.write_row = [&scene, &map, wide](std::size_t i, char* out) {
     constexpr float never_insonified = std::numeric_limits<float>::quiet_NaN();
     const bool insonified = map.hits[i] > 0;
     put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
     for (const float n : scene.normal[i]) put(out, n);
-    put(out, insonified ? map.level_db[i] : never_insonified);
+    for (const auto* levels : {&map.level_db, &map.scattering_db, &map.cell_level_db})
+      put(out, insonified ? (*levels)[i] : never_insonified);
     put(out, insonified ? static_cast<float>(degrees(map.grazing_angle[i])) : never_insonified);
     put(out, insonified ? map.range[i] : never_insonified);
     put(out, map.hits[i]);

@@ -22,6 +22,7 @@ struct Survey {
   RawCloud whole;  // tags, box, counts; no points
   bool normals = false, areas = false, ids_ascend = true;
   std::size_t bad_areas = 0;
+  float largest_area = 0;
   std::vector<std::size_t> label_count = std::vector<std::size_t>(no_label + 1, 0);
   bool labels = false;
 };
@@ -57,12 +58,15 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     whole.box.min = whole.box.min.cwiseMin(raw.box.min);
     whole.box.max = whole.box.max.cwiseMax(raw.box.max);
     whole.not_finite += raw.not_finite;
+    whole.too_far += raw.too_far;
     whole.float_coordinates = raw.float_coordinates;
     whole.label_field = raw.label_field;
     survey.normals = !raw.normal.empty();
     survey.areas = !raw.area.empty();
     survey.labels = !raw.label.empty();
     survey.bad_areas += static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad_area));
+    for (const float area : raw.area)
+      if (std::isfinite(area)) survey.largest_area = std::max(survey.largest_area, area);
     for (const std::uint16_t label : raw.label) ++survey.label_count[label];
     survey.ids_ascend = survey.ids_ascend && !raw.id.empty();
     for (const std::uint32_t id : raw.id) {
@@ -71,9 +75,9 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     }
     report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
-  if (whole.not_finite == survey.file.rows)
-    fail(ErrorKind::content, whole.path, ": holds no usable point (", survey.file.rows,
-         " points, none with finite coordinates); export the cloud again");
+  require_usable_points(whole, survey.file.rows);
+  whole.points_in_file = survey.file.rows;
+  if (survey.largest_area > largest_area(whole)) ++survey.bad_areas;
 }
 
 /// Sets the materials and returns the material index of each label.
@@ -147,8 +151,8 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   report.dropped_not_finite = whole.not_finite;
   report.areas_estimated = !survey.areas || survey.bad_areas > 0;
   if (survey.bad_areas > 0)
-    report.notes.push_back(share(survey.bad_areas, survey.file.rows, "areas") +
-                           " were negative or NaN: all were estimated");
+    report.notes.push_back("at least " + share(survey.bad_areas, survey.file.rows, "areas") +
+                           " were negative, NaN or larger than the cloud: all were estimated");
   if (!survey.ids_ascend && std::any_of(survey.file.columns.begin(), survey.file.columns.end(),
                                         [](const auto& c) { return c.name == "id" || c.name == "scalar_id"; }))
     report.notes.push_back("the ids in the file do not ascend: renumbered by row");
@@ -174,6 +178,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   }
   PreparedTiles prepared{{}, writer.finish(), writing.normals_oriented, true};
   report.dropped_duplicates = prepared.tiles.dropped_duplicates;
+  note_no_area(prepared.tiles.total_area, report.notes);
   const double spacing =
       std::sqrt(prepared.tiles.total_area / std::max(1.0, static_cast<double>(prepared.tiles.surfels)));
   if (!whole.tags.prepared)

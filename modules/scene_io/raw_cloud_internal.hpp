@@ -48,9 +48,10 @@ struct RawCloud {
   std::vector<std::uint32_t> id;
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
-  std::size_t not_finite = 0;
-  bool float_coordinates = false;            ///< stored as float32
-  std::optional<Eigen::Vector3d> viewpoint;  ///< [m]
+  std::size_t not_finite = 0;                            ///< too far ones among them
+  std::size_t too_far = 0;                               ///< beyond farthest_coordinate
+  bool float_coordinates = false;                        ///< stored as float32
+  std::optional<Eigen::Vector3d> viewpoint;              ///< [m]
   SceneTags tags;
   std::vector<std::string> notes;
 };
@@ -90,6 +91,9 @@ ReadOptions read_options(const LoadOptions& options);
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
+/// Throws Error(content) if none of the file's points is usable, and says why.
+void require_usable_points(const RawCloud& raw, std::size_t points);
+
 Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit);
 
 /// Coordinates of the rows in double [m], relative to options.origin; NaN where unusable.

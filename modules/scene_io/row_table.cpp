@@ -79,21 +79,24 @@ Eigen::Vector3d read_triple(const std::array<const RowTable::Column*, 3>& column
   return {number(0), number(1), number(2)};
 }
 
-bool usable(const Eigen::Vector3d& position) {
-  return position.allFinite() && position.cwiseAbs().maxCoeff() <= farthest_coordinate;
+bool too_far(const Eigen::Vector3d& position) {
+  return position.allFinite() && position.cwiseAbs().maxCoeff() > farthest_coordinate;
 }
+
+bool usable(const Eigen::Vector3d& position) { return position.allFinite() && !too_far(position); }
 
 /// Finds bounding box, number of usable points, and origin.
 void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
   const std::size_t blocks = (table.rows + block_rows - 1) / block_rows;
   std::vector<Bounds> boxes(blocks);
-  std::vector<std::size_t> unusable(blocks, 0);
+  std::vector<std::size_t> unusable(blocks, 0), far(blocks, 0);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     Bounds& box = boxes[first / block_rows];
     for (std::size_t i = 0; i < rows; ++i) {
       const Eigen::Vector3d p = options.unit * read_triple(found.position, bytes + i * table.stride);
       if (!usable(p)) {
         ++unusable[first / block_rows];
+        far[first / block_rows] += too_far(p);
         continue;
       }
       box.min = box.min.cwiseMin(p);
@@ -104,14 +107,13 @@ void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const 
     raw.box.min = raw.box.min.cwiseMin(boxes[b].min);
     raw.box.max = raw.box.max.cwiseMax(boxes[b].max);
     raw.not_finite += unusable[b];
+    raw.too_far += far[b];
   }
   if (options.origin) {
     raw.origin = *options.origin;
     return;
   }
-  if (raw.not_finite == table.rows)
-    fail(ErrorKind::content, raw.path, ": holds no usable point (", table.rows,
-         " points, none with finite coordinates); export the cloud again");
+  require_usable_points(raw, table.rows);
   raw.origin = origin_of(raw.box, raw.tags, options.unit);
 }
 
@@ -142,6 +144,16 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
 }
 
 }  // namespace
+
+void require_usable_points(const RawCloud& raw, std::size_t points) {
+  if (raw.not_finite < points) return;
+  if (raw.too_far == 0)
+    fail(ErrorKind::content, raw.path, ": holds no usable point (", points,
+         " points, none with finite coordinates); export the cloud again");
+  fail(ErrorKind::content, raw.path, ": holds no usable point (", points, " points, ", raw.too_far,
+       " of them with coordinates beyond ", farthest_coordinate,
+       " m, the others not finite); give the unit of the file, or move the cloud");
+}
 
 Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit) {
   if (tags.origin && unit == 1) return *tags.origin;

@@ -81,7 +81,8 @@ void save_soundings(const std::string& path, const Soundings& soundings) {
 
 void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map) {
   const CloudFormat format = format_of(path, "save_insonification");
-  for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.grazing_angle.size(), map.range.size()})
+  for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.scattering_db.size(),
+                                 map.cell_level_db.size(), map.grazing_angle.size(), map.range.size()})
     if (size != scene.size())
       fail(ErrorKind::argument, "save_insonification: ", path, ": the map has ", size, " surfels, but the scene has ",
            scene.size(), "; give the map of this scene");

@@ -8,10 +8,10 @@
 #include "acoustics/motion.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "core/units.hpp"
-#include "simulate/heard_energy_internal.hpp"
 #include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 #include "simulate/pulse_spectrum_internal.hpp"
+#include "simulate/received_energy_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -113,7 +113,7 @@ StageVerdict judge_multipath(const PlanFacts& facts) {
   view.sampling.scatterers_per_cell = 0;
   view.sampling.kind = SamplingKind::surfels;
   const Echoes bounced = multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
-  HeardEnergy heard(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
+  ReceivedEnergy heard(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
   double energy = 0;
   for (std::size_t i = 0; i < bounced.size(); ++i) {
     const double range = 0.5 * sent.medium.sound_speed * bounced.delay[i];

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "simulate/heard_energy_internal.hpp"
+#include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {
@@ -132,7 +132,7 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
 
   // Energies and numbers, by where the echoes come from.
   SceneSample s;
-  HeardEnergy heard(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
+  ReceivedEnergy heard(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
   double none = 0;
   double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations};

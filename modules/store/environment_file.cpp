@@ -204,6 +204,9 @@ Environment load_environment(const std::string& path) {
 void set_environment_value(Environment& e, const std::string& section, const std::string& key,
                            const std::string& value) {
   const std::string name = section + "." + key;
+  if (section == "profile")
+    fail(ErrorKind::argument, name,
+         ": a profile is set as a whole: by [profile] of an environment file, or by a CSV file (--profile)");
   require_known(name);
   if (is_formula(name)) {
     set_formula_key(e, name, value);

@@ -121,13 +121,13 @@ TEST(ExtremeLevels, n33_weak_echo_keeps_its_accuracy_beside_one_300_db_louder) {
 TEST(ExtremeLevels, n34_image_scales_with_the_source_level_and_stays_finite) {
   const SceneCloud scene = plate(5, 2, 10);
   const double reference = pressure_level_db(image(ping_of(scene)).abs().maxCoeff());
-  for (const double level : {-400.0, -50.0, 0.0, 260.0, 300.0, 400.0}) {
+  for (const double level : {-400.0, -50.0, 0.0, 260.0}) {
     const SimulatedPing p = ping_of(scene, {}, loud_sonar(level));
     EXPECT_TRUE(all_finite(p)) << level;
     EXPECT_NEAR(pressure_level_db(image(p).abs().maxCoeff()) - reference, level - 220, 1e-3) << level;
   }
-  for (const double level : {401.0, -500.0, infinity, not_a_number})
-    expect_error(ErrorKind::argument, {"source_level_db", "dB", "within -400 and 400"},
+  for (const double level : {260.5, 400.0, -500.0, infinity, not_a_number})
+    expect_error(ErrorKind::argument, {"source_level_db", "dB", "within -400 and 260"},
                  [&] { make_head(loud_sonar(level), 1500); });
 }
 
@@ -139,7 +139,7 @@ TEST(ExtremeLevels, n34_pressure_beyond_single_precision_is_refused) {
     expect_error(ErrorKind::argument, {"source_level_db"},
                  [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
   }
-  head.pulse.source_level_db = 400;
+  head.pulse.source_level_db = 260;
   SceneCloud scene = plate(5, 1, 3);
   for (float& area : scene.area) area = 3e38F;
   scene.materials[0].lambert_mu = 1e30;

@@ -189,6 +189,7 @@ TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_4
     options.sampling.scatterers_per_cell = 0;
     options.amplitude = SurfaceAmplitude::coherent;
     options.synthesis.tolerance = 1e-7;
+    options.effects.absorption_order = 0;
     options.effects.motion.velocity = {speed, 0, 0};
     return simulate_ping(scene, head, Pose::Identity(), water, options);
   };

@@ -1,11 +1,12 @@
 // A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval Postgraduate School): what its
 // equations and figures come to when they are put right. docs/thesis.md has the details.
+#include "thesis/thesis.hpp"
+
 #include "acoustics/scattering.hpp"
 #include "beamforming/beam_pattern.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "support/test.hpp"
-#include "thesis/thesis.hpp"
 
 using namespace insonify::thesis;
 

@@ -110,6 +110,34 @@ TEST(Insonification, reports_the_grazing_angle) {
   EXPECT_NEAR(map.level_db[0], sonar_equation(7) + 20 * std::log10(0.5), 1e-4);
 }
 
+// A flat bottom of Lambert's law: mu sin^2 of the grazing angle per square metre, and per cell the sonar equation with
+// a cell of the equivalent widths: whatever the density of the cloud.
+TEST(Insonification, scattering_and_cell_level_of_a_flat_bottom_are_closed_forms) {
+  const SonarHead head = small_head();
+  const double depth = 3, wavelength = 1500 / 600e3;
+  double width = 0;  // of the beam's intensity, in direction cosine
+  for (double u = -0.5; u < 0.5; u += 1e-4)
+    width += 1e-4 * std::pow(std::abs(array_response(head.array, wavelength, u, 0)), 2);
+  const double length = 750 * std::sqrt(std::log(2) / pi) / 30e3;  // of exp(-pi^2 B^2 t^2 / ln 2)
+  for (const double side : {0.02, 0.05}) {
+    SceneCloud scene = empty_scene();
+    for (const double x : {5.0, 8.0})
+      for (const double y : {0.0, 1.5}) add_surfel(scene, {x, y, -depth}, {0, 0, 1}, side * side);
+    const Insonification map = map_of(scene, head);
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      const Eigen::Vector3d p = scene.point[i].cast<double>();
+      const double range = p.norm(), sine = depth / range, elevation = std::asin(sine);
+      const double cell = length / std::cos(elevation) * range * width * p.head<2>().norm() / p.x();
+      const double pattern = db_from_power(elevation_response(head.elevation_shape, radians(30), elevation) *
+                                           elevation_response(head.elevation_shape, radians(30), elevation));
+      EXPECT_NEAR(map.scattering_db[i], 10 * std::log10(mu * sine * sine), 1e-3);
+      EXPECT_NEAR(map.cell_level_db[i], sonar_equation(range) + 10 * std::log10(sine * sine * cell / area) + pattern,
+                  0.02)
+          << p.transpose();
+    }
+  }
+}
+
 // A plate hides the one behind it; a third is beside the fan, a fourth beyond the gate.
 TEST(Insonification, hidden_or_outside_surfels_have_no_hits) {
   SceneCloud scene = empty_scene();

@@ -148,6 +148,48 @@ TEST(CompleteScene, unusable_areas_are_estimated) {
   EXPECT_TRUE(has_note(loaded.report, "1 of 100 areas"));
 }
 
+namespace {
+
+// A grid of 10 x 10 points, 1 m apart, with areas of 0.5 m^2 but for `areas`.
+std::string grid_with_areas(const std::string& all, int changed = -1, const std::string& other = "") {
+  std::string text = "x y z nx ny nz area\n";
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(i / 10) + " " + std::to_string(i % 10) + " 0 0 0 1 " + (i == changed ? other : all) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST(CompleteScene, areas_larger_than_the_cloud_are_estimated) {
+  for (const char* huge : {"1e30", "inf", "400"}) {
+    const LoadedScene loaded = load_scene(own_file("huge.txt", grid_with_areas("0.5", 44, huge)));
+    EXPECT_NEAR(loaded.scene.area[44], 1.0f, 1e-4f) << huge;
+    EXPECT_TRUE(has_note(loaded.report, "1 of 100 areas (1 %) were negative, NaN or larger than the cloud")) << huge;
+  }
+  EXPECT_EQ(load_scene(own_file("large.txt", grid_with_areas("0.5", 44, "300"))).scene.area[44], 300.0f);
+}
+
+TEST(CompleteScene, a_scene_without_area_is_noted) {
+  EXPECT_TRUE(has_note(load_scene(own_file("zero.txt", grid_with_areas("0"))).report, "nothing returns an echo"));
+  EXPECT_FALSE(has_note(load_scene(own_file("some.txt", grid_with_areas("0", 7, "1"))).report, "nothing returns"));
+}
+
+TEST(CompleteScene, strays_keep_their_areas_if_asked_to) {
+  std::string text = plate_text(30, 0.02);
+  for (int k = 0; k < 4; ++k) text += std::to_string(0.1 * k) + " 0.3 " + std::to_string(2 + 0.5 * k) + "\n";
+  const std::string path = own_file("strays.xyz", text);
+  LoadOptions options;
+  const LoadedScene cut = load_scene(path, options);
+  options.keep_strays = true;
+  const LoadedScene kept = load_scene(path, options);
+  EXPECT_GT(cut.report.strays, 0U);
+  EXPECT_EQ(kept.report.strays, cut.report.strays);
+  EXPECT_TRUE(has_note(cut.report, "their areas are those of their neighbours"));
+  EXPECT_TRUE(has_note(kept.report, "kept with areas as large as their cells"));
+  const auto largest = [](const LoadedScene& s) { return *std::max_element(s.scene.area.begin(), s.scene.area.end()); };
+  EXPECT_GT(largest(kept), 16 * largest(cut));
+}
+
 TEST(Materials, labels_choose_from_the_table_given) {
   const std::string path = own_file("a.csv", "x,y,z,label\n0,0,0,0\n1,0,0,1\n0,1,0,1\n1,1,0,0\n");
   LoadOptions options;

@@ -20,7 +20,13 @@ SceneCloud three_surfels(const Eigen::Vector3d& origin) {
 
 Insonification three_entries() {
   constexpr float inf = std::numeric_limits<float>::infinity();
-  return {4, {3, 0, 1}, {120.5F, -inf, 99}, {static_cast<float>(radians(30)), 0, 1}, {7.25F, inf, 9}};
+  return {4,
+          {3, 0, 1},
+          {120.5F, -inf, 99},
+          {-27, -inf, -30},
+          {140, -inf, 120},
+          {static_cast<float>(radians(30)), 0, 1},
+          {7.25F, inf, 9}};
 }
 
 template <typename T>
@@ -46,6 +52,8 @@ TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
   EXPECT_EQ(field<float>(cloud, 0, "x"), 11);
   EXPECT_EQ(field<float>(cloud, 2, "normal_z"), 1);
   EXPECT_EQ(field<float>(cloud, 0, "level_db"), 120.5F);
+  EXPECT_EQ(field<float>(cloud, 0, "scattering_db"), -27);
+  EXPECT_EQ(field<float>(cloud, 2, "cell_level_db"), 120);
   EXPECT_NEAR(field<float>(cloud, 0, "grazing_deg"), 30, 1e-5);
   EXPECT_EQ(field<float>(cloud, 0, "range"), 7.25F);
   EXPECT_EQ(field<std::uint32_t>(cloud, 0, "hits"), 3U);
@@ -59,7 +67,8 @@ TEST(SaveInsonification, surfels_never_insonified_have_no_level) {
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
   EXPECT_EQ(field<std::uint32_t>(cloud, 1, "hits"), 0U);
-  for (const char* name : {"level_db", "grazing_deg", "range"}) EXPECT_TRUE(std::isnan(field<float>(cloud, 1, name)));
+  for (const char* name : {"level_db", "scattering_db", "cell_level_db", "grazing_deg", "range"})
+    EXPECT_TRUE(std::isnan(field<float>(cloud, 1, name)));
 }
 
 TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
@@ -68,16 +77,17 @@ TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
   const std::string bytes = file_bytes(path);
   EXPECT_THAT(bytes, HasSubstr("element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
                                "property float nx\nproperty float ny\nproperty float nz\n"
-                               "property float scalar_level_db\nproperty float scalar_grazing_deg\n"
+                               "property float scalar_level_db\nproperty float scalar_scattering_db\n"
+                               "property float scalar_cell_level_db\nproperty float scalar_grazing_deg\n"
                                "property float scalar_range\nproperty uint scalar_hits\n"
                                "property uint scalar_material\nproperty uint scalar_id\nend_header\n"));
-  const std::size_t start = bytes.find("end_header\n") + 11, row = 3 * 8 + 9 * 4;
+  const std::size_t start = bytes.find("end_header\n") + 11, row = 3 * 8 + 11 * 4;
   ASSERT_EQ(bytes.size(), start + 3 * row);
   double x = 0;
   std::memcpy(&x, bytes.data() + start, sizeof x);
   EXPECT_NEAR(x, 500001, 1e-6);
   std::uint32_t hits = 0;
-  std::memcpy(&hits, bytes.data() + start + 2 * row + 3 * 8 + 6 * 4, sizeof hits);
+  std::memcpy(&hits, bytes.data() + start + 2 * row + 3 * 8 + 8 * 4, sizeof hits);
   EXPECT_EQ(hits, 1U);
 }
 

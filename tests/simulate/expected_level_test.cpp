@@ -79,7 +79,7 @@ struct Spread {
 TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
   SimulationOptions options{.sampling = {.scatterers_per_cell = 4},
                             .synthesis = {.method = SynthesisMethod::incoherent},
-                            .effects = {.noise = true},
+                            .effects = {.multipath = Choice::never, .noise = true},
                             .outputs = {.layers = true}};
   const SimulatedPing expected = ping(options, loud_sea());
   EXPECT_TRUE(expected.ping.expected_level);
@@ -145,8 +145,12 @@ TEST(LevelError, is_an_upper_estimate_for_jittered_rays) {
 
 TEST(LevelError, asked_for_is_kept_in_99_of_100_cells) {
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
-    SimulationOptions options{
-        .sampling = {.kind = kind, .scatterers_per_cell = 2, .rays_per_beam = 32, .level_error_db = 0.7}};
+    SimulationOptions options{.sampling = {.kind = kind,
+                                           .scatterers_per_cell = 2,
+                                           .rays_per_beam = 32,
+                                           .level_error_db = 0.7,
+                                           .outer_elevations = Choice::never,
+                                           .outer_azimuths = Choice::never}};
     const SimulatedPing p = ping(options);
     const ConvergenceReport& report = p.convergence;
     EXPECT_TRUE(report.reached);

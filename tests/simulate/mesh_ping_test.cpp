@@ -65,7 +65,7 @@ TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const MeshSurfels mesh = surfels_for({.seed = seed});
     EXPECT_EQ(mesh.coarsening, 1);
-    EXPECT_LT(mesh.scene.size(), 30000U);
+    EXPECT_LT(mesh.scene.size(), 70000U);
     const SimulatedPing sampled = ping(mesh.scene, {.seed = seed});
     EXPECT_EQ(sampled.sampling.sparse_beams, 0U);
     EXPECT_TRUE(sampled.notes.empty());

@@ -105,4 +105,8 @@ TEST(EnvironmentFile, refuses_text_that_is_no_number) {
             "argument: wind.speed_m_s = 'strong', must be a number");
   EXPECT_EQ(error_with_kind([&] { set_environment_value(e, "wind", "sped_m_s", "1"); }),
             "argument: wind.sped_m_s is unknown; did you mean wind.speed_m_s?");
+  EXPECT_EQ(
+      error_with_kind([&] { set_environment_value(e, "profile", "depth_m", "[0, 1]"); }),
+      "argument: profile.depth_m: a profile is set as a whole: by [profile] of an environment file, or by a CSV file "
+      "(--profile)");
 }

@@ -1,5 +1,4 @@
 #include "store/csv_tables.hpp"
-
 #include "support/test.hpp"
 
 namespace {

@@ -42,6 +42,10 @@ TEST_F(BadEnvironment, set_out_of_range) {
   refuse("--set water.absorption_formula=thorp", {"thorp", "francois-garrison, fisher-simmons, ainslie-mccolm"});
   refuse("--set wind.sped_m_s=3", {"wind.sped_m_s", "did you mean wind.speed_m_s"});
   refuse("--set weather.rain=1", {"weather.rain is unknown"});
+  refuse("--set profile.sound_speed=1500", {"profile.sound_speed", "set as a whole", "--profile"});
+  refuse("--set sonar.source_level_db=261", {"source_level_db = 261 dB", "within -400 and 260"});
+  refuse("--scan-noise -0.1", {"scan_noise = -0.1 m", "must be finite and >= 0"});
+  refuse("--scan-noise rough", {"--scan-noise", "rough", "metres"});
 }
 
 TEST_F(BadEnvironment, file_of_the_environment) {

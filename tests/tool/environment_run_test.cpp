@@ -97,7 +97,7 @@ TEST_F(EnvironmentRun, rough_sea_without_multipath_is_noted) {
 
 TEST_F(EnvironmentRun, wind_and_platform_raise_the_noise_by_the_closed_form) {
   const std::string away =
-      "ping harbour.ply --pose=30,0,-3,0,-90,0 --sonar micron --range 2:60 --no-picture -q --noise ";
+      "ping harbour.ply --pose=30,0,3,0,-90,0 --sonar micron --range 2:60 --no-picture -q --noise ";
   const auto level = [&](const std::string& more) {
     succeed(away + "--force -o out " + more);
     EXPECT_NEAR(mean_level_db(ping("out"), 2, 60), manifest("out")["sampling"]["noise_floor_db"].get<double>(), 0.3);
@@ -227,7 +227,8 @@ TEST_F(EnvironmentRun, run_toml_records_every_option) {
   succeed(
       "ping harbour.ply -o out --sonar p900-45 --set sonar.beams=8 --range 2:12 --no-picture -q --trajectory way.csv "
       "--time 2.5 --environment sea.toml --noise --layers --absorption-order 1 --threshold 9 --all-bins-above 80 "
-      "--scatterers-per-cell 7 --amplitude random-phase --seed 42 --tolerance 1e-5 --material-field material");
+      "--scatterers-per-cell 7 --amplitude random-phase --seed 42 --tolerance 1e-5 --material-field material "
+      "--scan-noise 0.01 --keep-strays");
   const std::string text = read("out/run.toml");
   for (const char* line : {"seed = 42",
                            "tolerance = 1e-05",
@@ -238,6 +239,8 @@ TEST_F(EnvironmentRun, run_toml_records_every_option) {
                            "path = \"harbour.ply\"",
                            "material_field = \"material\"",
                            "mesh_spacing = 0",
+                           "scan_noise = \"0.01\"",
+                           "keep_strays = true",
                            "pose = \"\"",
                            "trajectory = \"way.csv\"",
                            "time = 2.5",

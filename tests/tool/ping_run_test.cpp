@@ -130,7 +130,7 @@ TEST_F(PingRun, moving_scene_and_head_by_a_million_metres_changes_nothing) {
 }
 
 TEST_F(PingRun, a_view_of_nothing_is_silent_and_says_so) {
-  const ToolResult result = run("ping harbour.ply --sonar p900-45 --pose=30,0,-3,0,-90,0 --range 2:25 -o out");
+  const ToolResult result = run("ping harbour.ply --sonar p900-45 --pose=30,0,3,0,-90,0 --range 2:25 -o out");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("the ping is silent"));
   EXPECT_EQ(image("out").abs().maxCoeff(), 0);
@@ -139,7 +139,7 @@ TEST_F(PingRun, a_view_of_nothing_is_silent_and_says_so) {
 
 // Nothing in view: what is left is thermal noise, a beam's directivity below that of one element.
 TEST_F(PingRun, noise_fills_a_silent_view_at_the_noise_floor) {
-  succeed("ping harbour.ply --sonar p900-45 --pose=30,0,-3,0,-90,0 --range 2:25 --noise --no-picture -q -o out");
+  succeed("ping harbour.ply --sonar p900-45 --pose=30,0,3,0,-90,0 --range 2:25 --noise --no-picture -q -o out");
   const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
   const Ping ping = read_cube(path("out/cube.h5")).pings.at(0);
   EXPECT_NEAR(mean_level_db(ping, 2, 25), manifest["sampling"]["noise_floor_db"].get<double>(), 0.4);

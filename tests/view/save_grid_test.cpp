@@ -1,5 +1,3 @@
-#include "view/save_vtk.hpp"
-
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
@@ -12,6 +10,7 @@
 #include <vtkXMLStructuredGridReader.h>
 
 #include "support/test.hpp"
+#include "view/save_vtk.hpp"
 
 namespace insonify {
 namespace {

@@ -1,11 +1,10 @@
-#include "view/show_image.hpp"
-
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPNMReader.h>
 
 #include "support/test.hpp"
+#include "view/show_image.hpp"
 #include "view/test_pictures.hpp"
 
 namespace {

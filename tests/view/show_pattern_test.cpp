@@ -1,6 +1,5 @@
-#include "view/show_image.hpp"
-
 #include "support/test.hpp"
+#include "view/show_image.hpp"
 #include "view/test_pictures.hpp"
 
 namespace {

@@ -1,7 +1,6 @@
+#include "support/test.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/show_image.hpp"
-
-#include "support/test.hpp"
 #include "view/test_pictures.hpp"
 
 namespace {

@@ -1,3 +1,4 @@
+#include "core/hidden_internal.hpp"
 
 namespace insonify {
 struct TimeAxis {

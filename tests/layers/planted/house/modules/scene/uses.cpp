@@ -1,0 +1,1 @@
+#include "core/hidden_internal.hpp"

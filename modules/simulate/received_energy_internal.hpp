@@ -7,9 +7,9 @@ namespace insonify {
 
 /// What all beams of a head receive of a plane wave: the sum of the squared responses over beams (E10, E56), side lobes
 /// included, from a table over u (within 1 % where a main lobe is, 5 % where side lobes alone are).
-class HeardEnergy {
+class ReceivedEnergy {
  public:
-  HeardEnergy(const SonarHead& head, double wavelength);
+  ReceivedEnergy(const SonarHead& head, double wavelength);
   double at(double u, double v);
 
  private:

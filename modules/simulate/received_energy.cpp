@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "core/units.hpp"
-#include "simulate/heard_energy_internal.hpp"
+#include "simulate/received_energy_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -33,7 +33,7 @@ std::vector<complex> beam_terms(const SonarHead& head, double step) {
 
 }  // namespace
 
-HeardEnergy::HeardEnergy(const SonarHead& head, double wavelength) {
+ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength) {
   const double step = 2 * pi * head.array.spacing / wavelength;
   const std::vector<complex> terms = beam_terms(head, step);
   const std::vector<FanRow> rows = fan_rows(head.fan);
@@ -49,7 +49,7 @@ HeardEnergy::HeardEnergy(const SonarHead& head, double wavelength) {
     for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);
 }
 
-double HeardEnergy::at(double u, double v) {
+double ReceivedEnergy::at(double u, double v) {
   const double place = 0.5 * (std::clamp(u, -1.0, 1.0) + 1) * static_cast<double>(table_.size() - 1);
   const std::size_t left = std::min(static_cast<std::size_t>(place), table_.size() - 2);
   const double energy = std::lerp(table_[left], table_[left + 1], place - static_cast<double>(left));
