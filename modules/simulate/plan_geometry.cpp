@@ -36,8 +36,7 @@ StageVerdict judge_outer_azimuths(const PlanFacts& facts) {
 
 StageVerdict judge_occlusion(const PlanFacts& facts) {
   const bool occlusion = facts.ping.options.sampling.occlusion;
-  return {occlusion, occlusion ? "surfels hide others" : "left out on request",
-          std::numeric_limits<double>::infinity()};
+  return {occlusion, occlusion ? "surfels hide others" : "off by the options", std::numeric_limits<double>::infinity()};
 }
 
 constexpr PlanStage stages[] = {

@@ -60,7 +60,7 @@ PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double s
   auto [included, why, bound, seconds] = stage.judge(facts);
   if (stage.by == DecidedBy::budget) {
     const Choice asked = stage.asked(facts.ping.options);
-    if (asked != Choice::as_needed) why = asked == Choice::always ? "asked for" : "left out on request";
+    if (asked != Choice::as_needed) why = asked == Choice::always ? "asked for" : "off by the options";
     included = asked == Choice::always || (asked == Choice::as_needed && bound > share);
     Environment unchanged = facts.ping.environment;
     if (asked == Choice::as_needed) stage.force(included, unchanged, settled);
