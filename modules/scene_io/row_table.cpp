@@ -151,8 +151,7 @@ void require_usable_points(const RawCloud& raw, std::size_t points) {
     fail(ErrorKind::content, raw.path, ": holds no usable point (", points,
          " points, none with finite coordinates); export the cloud again");
   fail(ErrorKind::content, raw.path, ": holds no usable point (", points, " points, ", raw.too_far,
-       " of them with coordinates beyond ", farthest_coordinate,
-       " m, the others not finite); give the unit of the file, or move the cloud");
+       " of them with coordinates beyond 1e9 m, the others not finite); give the unit of the file, or move the cloud");
 }
 
 Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit) {
