@@ -57,7 +57,7 @@ Default options. True delays are out at any bound, because the narrow-band image
 - **outer azimuths** are what side lobes receive: most where the fan is narrow, nothing where it spans the scene;
 - **absorption's slope** grows with band and range: out only for narrow bands close by;
 - **refraction** and **motion** turn phases at once; in wherever there is a profile or a moving head;
-- **multipath** is in where pattern and pose let a boundary be heard.
+- **multipath** is in where pattern and pose let an echo by a boundary be received.
 
 | scene | outer elevations | outer azimuths | absorption's slope | refraction | motion | multipath | true delays | left out |
 |---|---|---|---|---|---|---|---|---|

@@ -86,9 +86,9 @@ std::vector<SpectrumLine> spectrum_lines(const ImageRun& run, const ImageOptions
     std::iota(beams.begin(), beams.end(), 0);
   }
   const double step_time = 2 * ping.gate.bin_size / run.cube.sound_speed;
-  const BeamSpectrum heard = beam_spectrum(ping.pressure, beams, step_time, {run.cube.centre_frequency, 0});
-  const double power =
-      std::accumulate(heard.density.begin(), heard.density.end(), 0.0) * (heard.frequency[1] - heard.frequency[0]);
+  const BeamSpectrum received = beam_spectrum(ping.pressure, beams, step_time, {run.cube.centre_frequency, 0});
+  const double power = std::accumulate(received.density.begin(), received.density.end(), 0.0) *
+                       (received.frequency[1] - received.frequency[0]);
   Pulse pulse;
   if (run.head) pulse = run.head->pulse;
   pulse.centre_frequency = run.cube.centre_frequency;
@@ -96,8 +96,8 @@ std::vector<SpectrumLine> spectrum_lines(const ImageRun& run, const ImageOptions
   const std::string name =
       fmt::format("pulse, {} of {:g} kHz", pulse.shape == PulseShape::gaussian ? "Gaussian" : "linear FM sweep",
                   pulse.bandwidth / 1000);
-  return {{heard.frequency, heard.density, beam_text(chosen, ping.fan)},
-          {heard.frequency, pulse_density(pulse, step_time, heard.frequency, power), name}};
+  return {{received.frequency, received.density, beam_text(chosen, ping.fan)},
+          {received.frequency, pulse_density(pulse, step_time, received.frequency, power), name}};
 }
 
 void draw_spectrum(const ViewJob& job) {

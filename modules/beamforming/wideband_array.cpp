@@ -22,7 +22,8 @@ float inverse_factorial(int n) {
 
 WidebandArray::WidebandArray(const WidebandPlan& plan) : plan_(plan), phase_(lines_at_once), shift_(plan.rows()) {
   const std::size_t plane = (plan.rows() + 2 * pad) * lines_at_once;
-  SpectrumChunk* chunks[] = {&echo_, &heard_, &beam_, &echo_2_, &heard_2_, &beam_2_, &arriving_, &undone_, &spare_};
+  SpectrumChunk* chunks[] = {&echo_,   &received_, &beam_,   &echo_2_, &received_2_,
+                             &beam_2_, &arriving_, &undone_, &spare_};
   room_.assign(2 * std::size(chunks) * plane, 0);
   float* next = room_.data() + pad * lines_at_once;
   for (SpectrumChunk* chunk : chunks) {
@@ -53,25 +54,25 @@ void WidebandArray::apply(std::size_t first_line, const WidebandEffort& effort, 
   const std::size_t plane = plan_.rows() * lines_at_once;
   line_ = first_line;
   read(echoes, echo_);
-  copy(echo_, heard_);
+  copy(echo_, received_);
   clear(beam_);
   if (effort.cubic) begin_cubic();
-  if (effort.cubic && order == 0) add_cubic(nullptr, arriving_, heard_);
-  form(order, order, heard_, beam_);
+  if (effort.cubic && order == 0) add_cubic(nullptr, arriving_, received_);
+  form(order, order, received_, beam_);
   if (excess) {
     read(*excess, echo_2_);
     filter(plan_.whole_tap, echo_2_);
-    copy(echo_, heard_2_);
+    copy(echo_, received_2_);
     clear(beam_2_);
-    form(order, order - 1, heard_2_, beam_2_);
+    form(order, order - 1, received_2_, beam_2_);
   }
   for (int n = 1; n <= order; ++n) {
     filter(*tap_, echo_);
-    bend(n, n, echo_, heard_);
+    bend(n, n, echo_, received_);
     if (excess) add_second_field(n, order);
-    if (effort.cubic && n == order) add_cubic(nullptr, arriving_, heard_);
+    if (effort.cubic && n == order) add_cubic(nullptr, arriving_, received_);
     filter(*tap_, beam_);
-    form(order - n, order - n, heard_, beam_);
+    form(order - n, order - n, received_, beam_);
   }
   if (effort.cubic) {
     for (std::size_t k = 0; k < plane; ++k) beam_.re[k] -= undone_.re[k];
@@ -84,12 +85,12 @@ void WidebandArray::apply(std::size_t first_line, const WidebandEffort& effort, 
 }
 
 void WidebandArray::add_second_field(int n, int order) {
-  bend(n, n - 1, echo_2_, heard_);
-  bend(n, n, echo_, heard_2_);
+  bend(n, n - 1, echo_2_, received_);
+  bend(n, n, echo_, received_2_);
   if (n == order) return;
   filter(*tap_, echo_2_);
   filter(*tap_, beam_2_);
-  form(order - n, order - n - 1, heard_2_, beam_2_);
+  form(order - n, order - n - 1, received_2_, beam_2_);
 }
 
 /// The third order of what arrives, and of what beams undo, each with nothing else.

@@ -45,7 +45,7 @@ class WidebandArray {
   const float* response_ = nullptr;  ///< of the part at work
   std::size_t line_ = 0;             ///< first of those at work
   // Echoes times powers of S, what elements hear, and beams; the same of the second field; third order; spare.
-  kernels::SpectrumChunk echo_, heard_, beam_, echo_2_, heard_2_, beam_2_, arriving_, undone_, spare_;
+  kernels::SpectrumChunk echo_, received_, beam_, echo_2_, received_2_, beam_2_, arriving_, undone_, spare_;
 };
 
 }  // namespace insonify

@@ -19,8 +19,7 @@ namespace {
 using E = Environment;
 using O = SimulationOptions;
 
-/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine, 1 for
-/// none:
+/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine: 1 for none,
 /// that of Gaussian pulses of the bandwidth, times that of the array's patterns.
 class EchoOverlap {
  public:
@@ -113,13 +112,13 @@ StageVerdict judge_multipath(const PlanFacts& facts) {
   view.sampling.scatterers_per_cell = 0;
   view.sampling.kind = SamplingKind::surfels;
   const Echoes bounced = multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
-  ReceivedEnergy heard(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
+  ReceivedEnergy received(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
   double energy = 0;
   for (std::size_t i = 0; i < bounced.size(); ++i) {
     const double range = 0.5 * sent.medium.sound_speed * bounced.delay[i];
     if (range < ping.head.gate.min_range || range > ping.head.gate.max_range) continue;
     energy += std::norm(bounced.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
-              heard.at(bounced.u[i], bounced.v.empty() ? 0 : bounced.v[i]);
+              received.at(bounced.u[i], bounced.v.empty() ? 0 : bounced.v[i]);
   }
   return {false, "sound also comes by way of surface or bottom", added_bound(facts, energy),
           seconds_of_multipath(facts)};

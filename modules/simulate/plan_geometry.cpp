@@ -1,6 +1,5 @@
 // Stages of the plan that decide which surfels count: directions, ranges, occlusion. Bounds compare the energy that
-// beams
-// receive of a sample of the scene outside sector and gate with that from inside.
+// beams receive of a sample of the scene outside sector and gate with that from inside.
 #include <limits>
 
 #include "simulate/ping_cost_internal.hpp"

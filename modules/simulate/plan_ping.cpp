@@ -1,6 +1,5 @@
 // The plan of a ping: each stage of the three tables is judged on a sample of the scene, and those that the budget
-// decides
-// are in where their bound exceeds their share.
+// decides are in where their bound exceeds their share.
 #include "simulate/plan_ping.hpp"
 
 #include <algorithm>

@@ -23,8 +23,7 @@ struct PlanFacts {
 constexpr double plan_margin = 2;
 
 /// Bound of an effect that adds independent echoes of this energy to the image, relative to what is in view; infinite
-/// if
-/// nothing is.
+/// if nothing is.
 double added_bound(const PlanFacts& facts, double energy);
 
 /// Bound of an effect that changes the echoes of the sample: `change(i)` is the squared error of the echo of place i,

@@ -68,8 +68,7 @@ class NarrowBandError {
   static constexpr std::size_t near_beams = 16, far_beams = 8;
 
   // Nodes of the spectrum with the focus at the echo, and nodes of the pulse's length at the carrier: both at once are
-  // of
-  // higher order.
+  // of higher order.
   void add_beam(double range, double u, double u_beam, double weight) {
     std::complex<double> truth[5] = {}, before = 0, behind = 0, narrow = 0;
     const std::size_t elements = head_.array.elements();

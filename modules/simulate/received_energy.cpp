@@ -1,5 +1,4 @@
-// The squared pattern of N elements is that of 2N - 1, shaded by the autocorrelation R of the shading. Summed over
-// beams:
+// The squared pattern of N elements is that of 2N - 1, shaded by the autocorrelation R of the shading. Over all beams:
 //   sum_b B_b(u)^2 = R_0 beams + 2 Re sum_m R_m exp(i k d m u) sum_b exp(-i k d m u_b)
 #include <algorithm>
 #include <cmath>

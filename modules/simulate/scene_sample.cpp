@@ -1,6 +1,5 @@
 // The sample that a plan is made from. Surfels are sorted by where they stand; of each kind some thousands are pinged
-// by
-// the stages of simulate_ping themselves: visibility, direct echoes (E7), the beams' patterns (E10, E14).
+// by the stages of simulate_ping themselves: visibility, direct echoes (E7), the beams' patterns (E10, E14).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,9 +101,9 @@ Sampled sampled_surfels(const SceneCloud& scene, const ResolvedPing& ping, const
 
 /// What a pulse from beyond the gate still has inside it: a Gaussian, cut where the sampled ranges end.
 double left_in_gate(const ResolvedPing& ping, double r) {
-  const RangeGate &heard = ping.head.gate, &sampled = ping.view.gate;
-  const double reach = sampled.max_range - heard.max_range;
-  const double gap = r > heard.max_range ? r - heard.max_range : heard.min_range - r;
+  const RangeGate &gate = ping.head.gate, &sampled = ping.view.gate;
+  const double reach = sampled.max_range - gate.max_range;
+  const double gap = r > gate.max_range ? r - gate.max_range : gate.min_range - r;
   if (gap <= 0) return 1;
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
 }
@@ -132,7 +131,7 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
 
   // Energies and numbers, by where the echoes come from.
   SceneSample s;
-  ReceivedEnergy heard(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
+  ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
   double none = 0;
   double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations};
@@ -145,7 +144,7 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
     const double r = patches.range[i], times = sampled.stands_for[surfel];
     const double power =
         std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) * left_in_gate(ping, r);
-    const double energy = power * heard.at(echoes.u[i], std::sin(patches.elevation[i]));
+    const double energy = power * received.at(echoes.u[i], std::sin(patches.elevation[i]));
     *energies[kind] += energy;
     *numbers[kind] += times * parts_of(ping, sampled.scene.area[surfel] / times, r, patches.cos_incidence[i]);
     if (kind != in_view) continue;

@@ -16,14 +16,15 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
                             const Environment& environment, const SimulationOptions& options) {
   const SceneCloud& scene = prepared.scene();
   const WholeScene& whole = prepared.whole();
+  SimulatedPing result;
+  StopWatch watch;
+
   // What is computed: as the options say, and where they leave it open as the accuracy asks for.
   const SimulationOptions settled =
       settled_options(scene, whole, head, world_from_head, environment, options, "simulate_ping");
   ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, settled, "simulate_ping");
   const Transmission& sent = ping.sent;
   const EffectSettings& effects = settled.effects;
-  SimulatedPing result;
-  StopWatch watch;
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
   Sampling sampling = sample_view(prepared, ping, result.convergence);

@@ -189,7 +189,7 @@ TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_4
     options.sampling.scatterers_per_cell = 0;
     options.amplitude = SurfaceAmplitude::coherent;
     options.synthesis.tolerance = 1e-7;
-    options.effects.absorption_order = 0;
+    options.effects.absorption_order = 0;  // its slope lowers the carrier by 1211 Hz
     options.effects.motion.velocity = {speed, 0, 0};
     return simulate_ping(scene, head, Pose::Identity(), water, options);
   };
@@ -199,9 +199,9 @@ TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_4
                  high = std::log(std::abs(p(0, n + 1)));
     return head.gate.centre(static_cast<std::size_t>(n)) + 0.002 * 0.5 * (low - high) / (low - 2 * mid + high);
   };
-  Eigen::Index n;
+  Eigen::Index n, at_rest;
   const ComplexGrid rest = image(ping(0)), closing = image(ping(v)), leaving = image(ping(-v));
-  EXPECT_NEAR(peak_range(rest, n), r, 1e-6);
+  EXPECT_NEAR(peak_range(rest, at_rest), r, 1e-6);
   EXPECT_NEAR(peak_range(leaving, n) - r, r * v / (c - v), 2e-5);
   EXPECT_NEAR(peak_range(closing, n) - r, -r * v / (c + v), 2e-5);
   EXPECT_NEAR(r * v / (c + v), 0.040, 1e-4);
@@ -209,7 +209,7 @@ TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_4
   // exp(-2 pi i f_d t): the phase turns by 2 pi f_d 2 dr / c from bin to bin.
   const double turn = -std::arg(closing(0, n + 3) * std::conj(closing(0, n - 3))) / 6;
   EXPECT_NEAR(turn / (2 * pi) * c / (2 * 0.002), 2403, 3);
-  EXPECT_NEAR(std::arg(rest(0, n) * std::conj(rest(0, n - 1))), 0, 1e-6);
+  EXPECT_NEAR(std::arg(rest(0, at_rest) * std::conj(rest(0, at_rest - 1))), 0, 1e-6);
   // Over the pulse's length 1 / B that is half a radian: 2 pi 2403 / 29500 = 0.51.
   EXPECT_NEAR(2 * pi * 2403 / 29.5e3, 0.51, 0.005);
 }

@@ -17,13 +17,11 @@ struct PlanCase {
 };
 
 /// Fourteen cases of generated scenes and shipped sonars, each with a part of its beams and a short range gate: some
-/// 5000
-/// surfels each.
+/// 5000 surfels each.
 std::vector<PlanCase> plan_cases();
 
 /// A stage that the budget decides, in one case. Levels are 20 log10(1 + e), e the relative L2 norm of the difference
-/// that
-/// the stage makes to the complex image, of that without it.
+/// that the stage makes to the complex image, of that without it.
 struct PlanEffect {
   std::string stage, scene, sonar;
   double bound_db = 0, actual_db = 0;

@@ -1,6 +1,5 @@
 // Prints the tables of docs/plan.md: what the plan promises of each stage and what forcing the stage in does, or,
-// called
-// with `costs`, what it says of time and memory and what pings take.
+// called with `costs`, what it says of time and memory and what pings take.
 #include <algorithm>
 #include <cstdio>
 #include <string>
