@@ -34,6 +34,7 @@ struct SurfelShapes {
   std::vector<float> area;              ///< [m^2]
   std::size_t strays =
       0;  ///< cells more than 16 times as large as those around, cut down to their median; 0 with a viewpoint
+  std::size_t height_field = 0;  ///< points of height fields that show their relief, not noise
 };
 
 /// Normals and areas of points that have none, fitting each other. `base_normals`, unit vectors, are those of planes

@@ -80,10 +80,12 @@ struct Look {
   Vector3f relief, plane;  // normals that follow the neighbours one by one, or all of them together
   double cell = 0;         // [m^2] on that plane
   double left_by_relief = 0, left_by_plane = 0;  // [m^2], mean squares
+  bool charted = false;                          // on the plan of a height field
 };
 
 Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& frame, bool charted, Workspace& work) {
   Look look{frame, frame, frame};
+  look.charted = charted;
   look.cell = estimator.area(i, frame, work);
   const Vector3d up = frame.cast<double>(), right = up.unitOrthogonal(), ahead = up.cross(right);
   const auto tilted = [&](const Vector2d& slope) -> Vector3f {
@@ -132,12 +134,12 @@ std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& ba
 }
 
 // Relief where a cubic leaves at most half of what a plane leaves, as it does not of noise; else the mean plane around.
-// The cell on its plane becomes one on the surface (E69). Returns the number of strays: cells far larger than those
-// around, which take the area that is typical there unless `keep_strays`.
-std::size_t choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options,
-                          Estimate& e, std::vector<Vector3f>& normals) {
+// The cell on its plane becomes one on the surface (E69). Strays, cells far larger than those around, take the area that
+// is typical there unless `keep_strays`.
+void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options, Estimate& e,
+                   std::vector<Vector3f>& normals, SurfelShapes& counts) {
   constexpr double far_larger = 16;
-  std::atomic<std::size_t> strays{0};
+  std::atomic<std::size_t> strays{0}, height_field{0};
   parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
     std::vector<double> by_relief, by_plane, cells;
@@ -152,6 +154,7 @@ std::size_t choose_shapes(const std::vector<Look>& looks, const SceneIndex& inde
         mean += other.plane.dot(look.plane) < 0 ? Vector3f(-other.plane) : other.plane;
       }
       const bool relief = 2 * median_of(by_relief) <= median_of(by_plane);
+      height_field += look.charted && relief;
       const Vector3f found = relief ? look.relief : mean.normalized();
       normals[i] = found.dot(normals[i]) < 0 ? Vector3f(-found) : found;
       e.area[i] = look.cell / std::max<double>(least_cosine, std::abs(found.dot(look.frame)));
@@ -161,13 +164,14 @@ std::size_t choose_shapes(const std::vector<Look>& looks, const SceneIndex& inde
       if (!options.keep_strays) e.area[i] = typical;
     }
   });
-  return strays;
+  counts.strays = strays;
+  counts.height_field = height_field;
 }
 
-// Shapes of points whose lines of sight are not known; returns the number of strays.
-std::size_t estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vector3f>& normals) {
+// Shapes of points whose lines of sight are not known.
+void estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vector3f>& normals, SurfelShapes& counts) {
   const AreaEstimator estimator(e.position, 2 * options.neighbours, same_rough_sheet);
-  return choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals);
+  choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals, counts);
 }
 
 // Voronoi cells among `places`, unit vectors or points of a plan, whose tangent planes have the normals `up`.
@@ -214,13 +218,13 @@ SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<
                                     const ShapeOptions& options) {
   const AreaOptions area_options{options.neighbours, options.threads};
   require_valid(points, base_normals, area_options, "estimate_surfel_shapes");
-  SurfelShapes shapes{{base_normals.begin(), base_normals.end()}, std::vector<float>(points.size(), 0.0f), 0};
+  SurfelShapes shapes{{base_normals.begin(), base_normals.end()}, std::vector<float>(points.size(), 0.0f)};
   if (points.size() < 4) return shapes;
   Estimate e = distinct_points(points);
   std::vector<Vector3f> normals;
   for (const std::uint32_t first : e.distinct.first) normals.push_back(base_normals[first]);
   if (!options.viewpoint || !estimate_seen(*options.viewpoint, normals, area_options, e))
-    shapes.strays = estimate_around(options, e, normals);
+    estimate_around(options, e, normals, shapes);
   limit_cells(e.area);
   shapes.area = shared_areas(e, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) shapes.normal[i] = normals[e.distinct.position[i]];

@@ -251,6 +251,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     scene.origin = raw.origin;
     complete_noise(raw, options, result);
     complete_materials(raw, options, result);
+    if (options.mesh_spacing == 0) add_raster(raw, result);
   } else {
     // The corners have materials, of which the surfels take theirs.
     scene.point = raw.point;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,12 @@ double largest_area(const RawCloud& raw);
 /// Uses the file's areas where valid, else estimates them (E15, E69, E73); with estimated normals, refines these too.
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report);
 
+/// The triangles between the points of a raster of heights, seen from above: two in each cell of four nodes, apart along
+/// the diagonal that is shorter on the surface, one where a node is missing. Empty unless each point stands within 2 % of
+/// a node of a grid along x and y, one on each, on a sixteenth of the nodes or more. The shape of the grid's cells is
+/// free.
+std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Eigen::Vector3f> points);
+
 /// Uses the file's noise, else that of the options, else estimates it (E67).
 void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
@@ -48,6 +55,9 @@ void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedS
 
 /// Drops all points not listed in `keep` (ascending).
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep);
+
+/// Makes the triangles of raw.raster, if there are any, the mesh of a completed cloud.
+void add_raster(const RawCloud& raw, LoadedScene& result);
 
 /// Samples a mesh: fills points, normals, areas, labels and ids of result.scene, and the report.
 void sample_mesh(const RawCloud& mesh, const LoadOptions& options, LoadedScene& result);

@@ -15,7 +15,8 @@ bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint;
 /// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
 void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   ShapeOptions shaping{.threads = options.threads, .keep_strays = options.keep_strays};
-  shaping.height_fields = !raw.viewpoint || raw.height > 1;
+  std::vector<std::array<std::uint32_t, 3>> raster = raster_triangles(raw.point);
+  shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raster.empty();
   if (seen_at_once(raw)) shaping.viewpoint = *raw.viewpoint - raw.origin;
   SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, shaping);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
@@ -26,6 +27,8 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
   raw.area = std::move(shapes.area);
   report.areas_estimated = true;
   report.strays = shapes.strays;
+  // Where most points show no noise, the surface between them is known too.
+  if (2 * shapes.height_field >= raw.point.size()) raw.raster = std::move(raster);
   if (shapes.strays > 0)
     report.notes.push_back(share(shapes.strays, raw.point.size(), "points") + " stand far from all others: " +
                            (options.keep_strays ? "kept with areas as large as their cells"

@@ -53,8 +53,9 @@ struct LoadReport {
 struct LoadedScene {
   SceneCloud scene;
   LoadReport report;
-  /// Of a mesh without mesh_spacing: `scene` is a sample of about 200 000 surfels for an overview, and a ping samples
-  /// the mesh by what its head resolves (mesh_surfels).
+  /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or of a raster
+  /// of heights, of which `scene` has the points. A ping samples it by what its head resolves (mesh_surfels). A raster is
+  /// a cloud without normals and areas whose points stand on a grid along x and y and show no noise.
   std::optional<SceneMesh> mesh{};
 };
 

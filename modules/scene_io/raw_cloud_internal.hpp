@@ -47,6 +47,7 @@ struct RawCloud {
   std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;
   std::vector<std::array<std::uint32_t, 3>> triangle;
+  std::vector<std::array<std::uint32_t, 3>> raster;  ///< triangles between the points, if they are a raster of heights
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
   std::size_t not_finite = 0;                            ///< too far ones among them
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate

@@ -157,6 +157,22 @@ SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadRepor
 
 }  // namespace
 
+void add_raster(const RawCloud& raw, LoadedScene& result) {
+  if (raw.raster.empty()) return;
+  const SceneCloud& scene = result.scene;
+  SceneMesh mesh{.origin = scene.origin,
+                 .point = scene.point,
+                 .normal = {},
+                 .material = scene.material,
+                 .triangle = raw.raster,
+                 .materials = scene.materials,
+                 .normals_oriented = scene.normals_oriented,
+                 .whole = whole_of(scene)};
+  if (raw.viewpoint) face_viewpoint(*raw.viewpoint - mesh.origin, mesh);
+  result.report.format += ", raster of heights";
+  result.mesh = std::move(mesh);
+}
+
 void sample_mesh(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneMesh mesh = usable_mesh(raw, options, result.report);
   SceneCloud& scene = result.scene;

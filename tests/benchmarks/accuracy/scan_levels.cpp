@@ -13,6 +13,7 @@
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
 #include "support/height_field.hpp"
+#include "support/scene_for_ping.hpp"
 
 using namespace insonify;
 
@@ -42,7 +43,8 @@ HeightField field_of(const SceneCloud& scene) {
 void run(char** argv) {
   LoadOptions load;
   load.viewpoint = Eigen::Vector3d(std::stod(argv[3]), std::stod(argv[4]), 1000);
-  const SceneCloud scene = load_scene(argv[1], load).scene;
+  const LoadedScene loaded = load_scene(argv[1], load);
+  const SceneCloud& scene = loaded.scene;
   const Medium medium = medium_of(Water{}, 750e3);
   SonarSpec sonar = find_sonar(argv[2]).spec;
   sonar.min_range = std::stod(argv[8]);
@@ -55,7 +57,8 @@ void run(char** argv) {
                                                   medium_of(Water{}, head.pulse.centre_frequency), 2, groups, bands);
   SimulationOptions options;
   options.synthesis.method = SynthesisMethod::incoherent;
-  const Grid<double> energy = energy_of(simulate_ping(scene, head, pose, {}, options).ping.pressure, groups, bands);
+  const Grid<double> energy = energy_of(
+      simulate_ping(scene_for_ping(loaded, head, pose, options), head, pose, {}, options).ping.pressure, groups, bands);
 
   const auto error = [](double a, double b) { return b > 0 ? db_from_power(a / b) : 0; };
   std::printf("error of the total %+.2f dB\nof bands of range, near to far [dB]:", error(energy.sum(), truth.sum()));

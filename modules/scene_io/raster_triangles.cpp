@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene_io/complete_scene_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Evenly spaced values along one axis of a grid.
+struct GridAxis {
+  double first = 0, step = 0;  ///< [m]
+  std::size_t nodes = 0;       ///< 0: the values are not evenly spaced
+
+  std::size_t node(float value) const { return static_cast<std::size_t>(std::lround((value - first) / step)); }
+};
+
+/// The step is the typical gap between values, of those that are more than rounding.
+GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
+  std::vector<float> values;
+  for (const Vector3f& p : points) values.push_back(p[axis]);
+  std::sort(values.begin(), values.end());
+  const double extent = values.back() - values.front(), least = extent / (2 * static_cast<double>(values.size()));
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] - values[i - 1] > least) gaps.push_back(values[i] - values[i - 1]);
+  if (gaps.empty()) return {};
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+
+  GridAxis grid{values.front(), 0, static_cast<std::size_t>(std::lround(extent / *middle)) + 1};
+  grid.step = extent / static_cast<double>(grid.nodes - 1);
+  const bool even = std::all_of(values.begin(), values.end(), [&](float v) {
+    return std::abs(v - grid.first - static_cast<double>(grid.node(v)) * grid.step) <= 0.02 * grid.step;
+  });
+  return even ? grid : GridAxis{};
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vector3f> points) {
+  if (points.size() < 3) return {};
+  const GridAxis x = grid_axis(points, 0), y = grid_axis(points, 1);
+  if (x.nodes < 2 || y.nodes < 2 || x.nodes > 16 * points.size() / y.nodes) return {};
+  std::vector<std::uint32_t> at(x.nodes * y.nodes, none);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    std::uint32_t& node = at[y.node(points[i].y()) * x.nodes + x.node(points[i].x())];
+    if (node != none) return {};
+    node = i;
+  }
+
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a != none && b != none && c != none) triangles.push_back({a, b, c});
+  };
+  for (std::size_t row = 0; row + 1 < y.nodes; ++row)
+    for (std::size_t column = 0; column + 1 < x.nodes; ++column) {
+      // Counter-clockwise from the cell's corner nearest to the origin of the grid.
+      const std::uint32_t *low = &at[row * x.nodes + column], *high = low + x.nodes;
+      const std::uint32_t a = low[0], b = low[1], c = high[1], d = high[0];
+      const auto length = [&](std::uint32_t i, std::uint32_t j) { return (points[i] - points[j]).squaredNorm(); };
+      const bool whole = a != none && b != none && c != none && d != none;
+      if (a == none || c == none || (whole && length(b, d) < length(a, c))) {
+        add(a, b, d);
+        add(b, c, d);
+      } else {
+        add(a, b, c);
+        add(a, c, d);
+      }
+    }
+  return triangles;
+}
+
+}  // namespace insonify

@@ -1,0 +1,16 @@
+#pragma once
+#include "sampling/mesh_surfels.hpp"
+#include "scene_io/load_scene.hpp"
+#include "simulate/resolve_ping.hpp"
+
+namespace insonify {
+
+/// What a ping in default water sees of a loaded scene: its surfels, or those of its mesh.
+inline SceneCloud scene_for_ping(const LoadedScene& loaded, const SonarHead& head, const Pose& pose,
+                                 const SimulationOptions& options) {
+  if (!loaded.mesh) return loaded.scene;
+  const ResolvedPing ping = resolve_ping(loaded.mesh->whole, head, pose, {}, options);
+  return mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling).scene;
+}
+
+}  // namespace insonify
