@@ -136,8 +136,8 @@ ordered_json write_insonification(const RunDirectory& directory, const SceneClou
   add_ping(map, scene, ping.scatterers, setup.head.head, ping.medium, options);
   save_insonification(directory.file("insonification.ply"), scene, map);
   save_insonification(directory.file("insonification.pcd"), scene, map);
-  const auto heard = map.size() - static_cast<std::size_t>(std::count(map.hits.begin(), map.hits.end(), 0U));
-  return {{"surfels", map.size()}, {"heard", heard}};
+  const auto insonified = map.size() - static_cast<std::size_t>(std::count(map.hits.begin(), map.hits.end(), 0U));
+  return {{"surfels", map.size()}, {"insonified", insonified}};
 }
 
 ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths) {

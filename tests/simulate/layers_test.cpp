@@ -79,7 +79,7 @@ void expect_scaled(const Case& changed, const std::map<std::string, double>& fac
 
 }  // namespace
 
-TEST(Layers, stand_in_the_order_in_which_they_are_heard) {
+TEST(Layers, stand_in_the_order_in_which_they_are_added) {
   const SimulatedPing& p = reference_ping();
   ASSERT_EQ(p.ping.layers.size(), all_layers.size());
   for (std::size_t i = 0; i < all_layers.size(); ++i) {

@@ -52,8 +52,8 @@ TEST_F(KeptFiles, insonification_opens_as_a_cloud_of_the_whole_scene) {
   const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
   const std::size_t surfels = load_scene(path("harbour.ply")).scene.size();
   EXPECT_EQ(manifest["insonification"]["surfels"], surfels);
-  EXPECT_GT(manifest["insonification"]["heard"], surfels / 100);
-  EXPECT_LE(manifest["insonification"]["heard"], manifest["sampling"]["visible"]);
+  EXPECT_GT(manifest["insonification"]["insonified"], surfels / 100);
+  EXPECT_LE(manifest["insonification"]["insonified"], manifest["sampling"]["visible"]);
   for (const std::string file : {"out/insonification.ply", "out/insonification.pcd"}) {
     const LoadedScene loaded = load_scene(path(file));
     EXPECT_EQ(loaded.scene.size(), surfels) << file;
