@@ -64,7 +64,14 @@ struct RowTable {
   struct Column {
     std::string name;
     NumberType type = NumberType::float64;
-    std::size_t offset = 0;  ///< within a row [bytes]
+    std::size_t offset = 0;       ///< within a row [bytes]
+    double scale = 1, shift = 0;  ///< the value is scale x number + shift
+    std::uint8_t mask = 0xff;     ///< of a uint8: its bits that count
+
+    double value(const char* row) const {
+      if (mask != 0xff) return row[offset] & mask;
+      return scale * read_number(row + offset, type) + shift;
+    }
   };
   std::vector<Column> columns;
   std::size_t rows = 0, stride = 0;
@@ -107,6 +114,7 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options);
 RawCloud read_ply(const std::string& path, const ReadOptions& options);
 RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
+RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp, .stl
 
 }  // namespace insonify

@@ -22,10 +22,11 @@ struct RowFile {
   std::optional<Eigen::Vector3d> viewpoint;  ///< [file units]
 };
 
-/// The layout of a binary PLY or PCD without faces; nothing for files that must be read as a whole. Throws as
+/// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole. Throws as
 /// load_scene for files that are missing, truncated or of another format than their extension.
 std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
+std::optional<RowFile> find_las_rows(const std::string& path);
 
 /// `count` rows starting at `first`, in this machine's byte order.
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count);

@@ -75,7 +75,7 @@ void for_each_block(const RowTable& table, int threads, const Body& body) {
 }
 
 Eigen::Vector3d read_triple(const std::array<const RowTable::Column*, 3>& columns, const char* row) {
-  const auto number = [&](int axis) { return read_number(row + columns[axis]->offset, columns[axis]->type); };
+  const auto number = [&](int axis) { return columns[axis]->value(row); };
   return {number(0), number(1), number(2)};
 }
 
@@ -136,7 +136,7 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
   std::atomic<bool> good{true};
   for_each_block(table, threads, [&](std::size_t, std::size_t rows, const char* bytes) {
     for (std::size_t i = 0; i < rows; ++i) {
-      const double id = read_number(bytes + i * table.stride + column.offset, column.type);
+      const double id = column.value(bytes + i * table.stride);
       if (!(id >= 0 && id <= std::numeric_limits<std::uint32_t>::max() && id == std::floor(id))) good = false;
     }
   });
@@ -210,7 +210,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;
-      const auto number = [&](const RowTable::Column& c) { return read_number(row + c.offset, c.type); };
+      const auto number = [&](const RowTable::Column& c) { return c.value(row); };
       const Eigen::Vector3d p = options.unit * read_triple(found.position, row);
       raw.point[first + i] = usable(p) ? Eigen::Vector3f((p - raw.origin).cast<float>())
                                        : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());

@@ -19,7 +19,8 @@ const std::vector<SceneReader>& scene_readers() {
       {{".vtp"}, {"<?xml", "<VTKFile"}, "an XML file, if of VTK polydata", "", read_vtk},
       {{".xyz", ".txt", ".csv", ".asc"}, {}, "text", "", read_text_cloud},
       {{".tiles"}, {"insotile"}, "an insonify tiles file", "", nullptr, nullptr, load_all_tiles},
-      {{".las", ".laz"}, {"LASF"}, "a LAS/LAZ file", "convert it first: pdal translate in.las out.ply"},
+      {{".las"}, {"LASF"}, "a LAS file", "", read_las, find_las_rows},
+      {{".laz"}, {}, "a LAZ file", "convert it first: pdal translate in.laz out.las"},
       {{".e57"}, {"ASTM-E57"}, "an E57 file", "convert it first: pdal translate in.e57 out.ply"},
   };
   return readers;

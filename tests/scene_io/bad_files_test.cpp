@@ -36,7 +36,7 @@ TEST(BadFile, empty_and_unknown_files_say_what_was_expected) {
   expect_bad(own_file("a.ply", ""), {"empty (0 bytes)"});
   expect_bad(own_file("a.blend", "BLENDER"),
              {"unknown extension '.blend'", ".pcd .ply .obj", scene_extensions(), "text beginning with 'BLENDER'"});
-  expect_bad(own_file("a.las", "LASF...."), {"unknown extension '.las'", "pdal translate"});
+  expect_bad(own_file("a.laz", "LASF...."), {"unknown extension '.laz'", "pdal translate"});
   expect_bad(own_file("noextension", "ply\n"), {"unknown extension ''", "rename it to .ply"});
 }
 

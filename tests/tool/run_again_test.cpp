@@ -79,11 +79,11 @@ TEST(RunSettings, every_setting_of_a_ping_reads_back) {
 TEST_F(RunAgain, the_same_bytes_for_all_kinds_of_options) {
   const std::vector<std::string> sets{
       pose + " --sampling rays --rays-per-beam 16 --seed 12345678901234567890 --amplitude random-phase",
-      pose + " --method element-exact --keep elements --scatterers-per-cell 1 --range 6:9 --set sonar.beams=5",
+      pose + " --method element-exact --keep elements --scatterers-per-cell 1 --range 8.7:9 --set sonar.beams=5",
       pose + " --keep contributors,mask,paths,insonification --contributors 2 --layers --threshold 8",
       pose + " --with outer-azimuths --with absorption-slope --without occlusion --all-bins-above 60.5",
       " --trajectory track.csv --time 0.75 --absorption-order 1 --material-field material",
-      pose + " --velocity=1,0.5,0 --turn-rate=0,0,30 --method incoherent --level-error-db 1.5",
+      pose + " --velocity=1,0.5,0 --turn-rate=0,0,30 --method incoherent --level-error-db 3",
       pose +
           " --multipath --noise --layers --environment sea.toml --profile ctd.csv --set bottom.height_m=-9 "
           "--set bottom.lambert_mu_db=-23.7 --set wind.speed_m_s=7.3 --set water.temperature_c=4.7"};
