@@ -11,8 +11,6 @@
 namespace insonify {
 namespace {
 
-constexpr double speed = 1500;
-
 SonarHead head_of(const TaskSpec& task, double field_of_view) {
   SonarSpec s;
   s.name = "accuracy";
@@ -23,15 +21,15 @@ SonarHead head_of(const TaskSpec& task, double field_of_view) {
   s.beam_width = task.beam_width;
   s.elevation_width = radians(20);
   s.min_range = 1;
-  s.bin_size = 0.44 * speed / (2 * task.bandwidth);
+  s.bin_size = 0.44 * nominal_sound_speed / (2 * task.bandwidth);
   s.max_range = 1 + (static_cast<double>(task.bins) - 0.5) * *s.bin_size;
-  return make_head(s, speed);
+  return make_head(s, nominal_sound_speed);
 }
 
 Medium medium_of(const TaskSpec& task, const SonarHead& head) {
   const double fc = head.pulse.centre_frequency, length = head.gate.max_range - head.gate.min_range;
   Medium m;
-  m.sound_speed = speed;
+  m.sound_speed = nominal_sound_speed;
   m.absorption.a0 = task.dynamic_range_db * nepers_per_db / (2 * length);
   if (task.absorption_order >= 1) m.absorption.a1 = m.absorption.a0 / fc;
   if (task.absorption_order >= 2) m.absorption.a2 = m.absorption.a0 / (fc * fc);
@@ -48,7 +46,7 @@ AccuracyTask make_task(const TaskSpec& spec) {
   const double length = task.head.gate.max_range - task.head.gate.min_range;
   for (std::size_t i = 0; i < spec.scatterers; ++i) {
     const auto at = random_uniform(spec.seed, RandomStage::scene_points, {i, 0, 0});
-    task.echoes.delay.push_back(2 * (task.head.gate.min_range + length * (1.02 * at[0] - 0.01)) / speed);
+    task.echoes.delay.push_back(2 * (task.head.gate.min_range + length * (1.02 * at[0] - 0.01)) / nominal_sound_speed);
     task.echoes.u.push_back(std::sin((at[1] - 0.5) * (field + spec.beam_width)));
     task.echoes.amplitude.push_back(random_complex_normal(spec.seed, RandomStage::surface_amplitude, {i, 0, 0}));
   }

@@ -16,7 +16,7 @@
 namespace insonify {
 namespace {
 
-constexpr double height = 3, pitch = radians(30), middle = 6, half_strip = 0.25, speed = 1500;
+constexpr double height = 3, pitch = radians(30), middle = 6, half_strip = 0.25;
 constexpr double size_x = 14, size_y = 8;  // of the clouds [m]
 
 SonarHead bottom_head() {
@@ -31,7 +31,7 @@ SonarHead bottom_head() {
   s.side_lobe_db = 0;
   s.min_range = 4;
   s.max_range = 10;
-  return make_head(s, speed);
+  return make_head(s, nominal_sound_speed);
 }
 
 /// Power of each beam from the strip, up to a constant.
@@ -44,7 +44,7 @@ class Strip {
     if (std::abs(x) >= 1) return;
     const double weight = std::pow(std::cos(0.5 * pi * x), 2), u = std::cos(elevation) * std::sin(azimuth);
     for (std::size_t b = 0; b < power_.size(); ++b) {
-      const double response = array_response(head_.array, speed / head_.pulse.centre_frequency, u,
+      const double response = array_response(head_.array, nominal_sound_speed / head_.pulse.centre_frequency, u,
                                              std::cos(head_.fan.elevation[b]) * std::sin(head_.fan.azimuth[b]));
       power_[b] += weight * sigma * response * response / std::pow(range, 4);
     }
@@ -117,7 +117,7 @@ class SamplingBench {
 
   SamplingErrorRow found(const std::string& name, double parameter, SamplingOptions o, const SceneCloud& scene) const {
     o.elevation_half_extent = extent_;
-    o.range_resolution = range_resolution(head_.pulse, speed);
+    o.range_resolution = range_resolution(head_.pulse, nominal_sound_speed);
     o.occlusion = false;
     o.threads = options_.threads;
     return over_trials(name, parameter, [&](std::uint64_t seed, Strip& strip) {

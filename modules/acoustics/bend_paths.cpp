@@ -21,7 +21,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t block = 4096;
+constexpr std::size_t echoes_at_once = 4096;
 
 void require_valid_call(const char* who, const SoundSpeedProfile& profile, double head_depth, const Pose& pose) {
   require_valid(profile, who);
@@ -168,14 +168,14 @@ std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, cons
 
   // Where the scatterers are, and the rays that get there.
   std::vector<Place> places(s.size());
-  parallel_blocks(s.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(s.size(), echoes_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       places[i] = place_of(world_from_head, head_depth, s.range[i], unit_vector({s.azimuth[i], s.elevation[i]}));
   });
   const RefractionTable table(profile, head_depth, box_of(places), threads);
 
   std::atomic<std::size_t> silenced{0};
-  parallel_blocks(s.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(s.size(), echoes_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto seen = table.see(places[i].depth, places[i].horizontal);
       if (!seen) {

@@ -16,7 +16,7 @@ constexpr Complex i_unit{0, 1};
 /// Echoes weaker by more than this are silent: 80 Np are 695 dB.
 constexpr double most_nepers = 80;
 
-double sinc(double u) { return std::abs(u) < 1e-9 ? 1 : std::sin(u) / u; }
+double sine_over(double u) { return std::abs(u) < 1e-9 ? 1 : std::sin(u) / u; }
 
 /// sinh(u) / u for small u.
 Complex small_sinhc(Complex u) {
@@ -118,10 +118,10 @@ Complex LinearFmEcho::at(double t) const {
 Complex LinearFmEcho::lossless(double t) const {
   const double overlap = duration_ - std::abs(t);
   const double q = pi * (rate_ * t + doppler_) * overlap;
-  Complex sum = window_.level * sinc(q);
+  Complex sum = window_.level * sine_over(q);
   if (window_.swing != 0) {
     const double turn = pi * t / duration_, b = pi * overlap / duration_;
-    const double below = sinc(q - b), above = sinc(q + b);
+    const double below = sine_over(q - b), above = sine_over(q + b);
     sum += 0.5 * window_.swing * Complex((above + below) * std::cos(turn), (above - below) * std::sin(turn));
   }
   sum *= gain_ * overlap / (window_.level * duration_);  // (E54)

@@ -30,8 +30,7 @@ using Eigen::Vector3d;
 using complex = std::complex<double>;
 
 constexpr const char* me = "multipath_echoes";
-constexpr double echo_floor = 1e-4;   // -80 dB: what pattern and reflection may leave of an echo
-constexpr double pulse_floor = 1e-4;  // of its envelope's peak: where a pulse ends
+constexpr double echo_floor = 1e-4;  // -80 dB: what pattern and reflection may leave of an echo
 constexpr std::size_t patches_per_block = 4096;
 
 /// How far outside the gate an echo may stand whose pulse reaches into it [m].

@@ -44,6 +44,9 @@ double range_resolution(const Pulse& pulse, double sound_speed);
 /// What datasheets call range resolution [m]: c / 2B.
 double nominal_range_resolution(const Pulse& pulse, double sound_speed);
 
+/// Of the envelope's peak: where a pulse ends for paths and cells.
+inline constexpr double pulse_floor = 1e-4;
+
 /// Half-length [s] beyond which the envelope is below `tolerance` of its peak, without absorption (E8); tolerance in
 /// (0, 1). Of a sweep an upper bound, at most its duration, outside of which there is nothing (E54).
 double pulse_half_length(const Pulse& pulse, double tolerance);

@@ -9,8 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr double pulse_floor = 1e-4;      // of its envelope's peak: where a pulse ends
-constexpr double pattern_floor_db = -80;  // two-way
+constexpr double two_way_floor_db = -80;  // two-way
 constexpr std::size_t steps = 1 << 14;    // of the elevation law
 constexpr double most_cells = 1 << 27;
 
@@ -58,7 +57,7 @@ std::complex<double> cell_amplitude(const EchoOptions& echo_options, RandomStage
 ElevationLaw::ElevationLaw(const BeamFan& fan, const EchoOptions& echo_options) : low_(-pi / 2), high_(pi / 2) {
   if (echo_options.elevation_width > 0) {
     const double half =
-        elevation_half_extent(echo_options.elevation_shape, echo_options.elevation_width, pattern_floor_db);
+        elevation_half_extent(echo_options.elevation_shape, echo_options.elevation_width, two_way_floor_db);
     low_ = std::max(low_, echo_options.elevation_centre - half);
     high_ = std::min(high_, echo_options.elevation_centre + half);
   } else {

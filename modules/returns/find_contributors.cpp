@@ -26,7 +26,6 @@
 namespace insonify {
 namespace {
 
-constexpr const char* me = "find_contributors";
 constexpr std::size_t samples_at_once = 1 << 19;  ///< pulse samples in memory
 constexpr double interpolation_error = 1e-6;      ///< error of B^2 between nodes, relative to its size there
 constexpr std::size_t max_nodes = 16;
@@ -252,13 +251,13 @@ Contributors Search::contributors(const SceneCloud& scene) const {
 
 void require_options(const SonarHead& head, const ContributorOptions& o) {
   if (o.per_pixel < 1 || o.per_pixel > 255)
-    fail(ErrorKind::argument, me, ": per_pixel = ", o.per_pixel, ", must be within 1 and 255");
-  require(o.floor_db < 0 && o.floor_db >= -200, me, "floor_db", o.floor_db, "dB", "within -200 and 0");
+    fail(ErrorKind::argument, "find_contributors", ": per_pixel = ", o.per_pixel, ", must be within 1 and 255");
+  require(o.floor_db < 0 && o.floor_db >= -200, "find_contributors", "floor_db", o.floor_db, "dB", "within -200 and 0");
   const double pixels = static_cast<double>(head.fan.beams()) * static_cast<double>(head.gate.bins());
   const double mib = pixels * (31 * o.per_pixel + 16) / (1 << 20);
   if (!(mib <= o.max_mib))
-    fail(ErrorKind::argument, me, ": ", head.fan.beams(), " beams x ", head.gate.bins(), " bins x ", o.per_pixel,
-         " contributors take ", std::ceil(mib), " MiB, must be at most ", o.max_mib,
+    fail(ErrorKind::argument, "find_contributors", ": ", head.fan.beams(), " beams x ", head.gate.bins(), " bins x ",
+         o.per_pixel, " contributors take ", std::ceil(mib), " MiB, must be at most ", o.max_mib,
          "; keep fewer contributors, or make the range gate shorter");
 }
 
@@ -266,12 +265,12 @@ void require_options(const SonarHead& head, const ContributorOptions& o) {
 
 Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEchoes> echoes, const SonarHead& head,
                                const Medium& medium, const ContributorOptions& options) {
-  require_valid(head, me);
-  require_valid(medium, me);
+  require_valid(head, "find_contributors");
+  require_valid(medium, "find_contributors");
   require_options(head, options);
   double doppler = 0;
   for (const SurfelEchoes& part : echoes) {
-    require_arrivals(scene, part, me);
+    require_arrivals(scene, part, "find_contributors");
     for (const double shift : part.echoes.doppler) doppler = std::max(doppler, std::abs(shift));
   }
   const DelayBins axis(head, medium, options.floor_db, doppler);

@@ -15,7 +15,6 @@
 namespace insonify {
 namespace {
 
-constexpr const char* me = "add_ping";
 constexpr std::uint32_t none = 0xffffffff;
 
 /// Intensity responses of the beams of a head.
@@ -146,7 +145,7 @@ void require_map(const Insonification& map, const SceneCloud& scene) {
   for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.scattering_db.size(),
                                  map.cell_level_db.size(), map.grazing_angle.size(), map.range.size()})
     if (size != n)
-      fail(ErrorKind::argument, me, ": the map has ", size, " surfels, but the scene has ", scene.size(),
+      fail(ErrorKind::argument, "add_ping", ": the map has ", size, " surfels, but the scene has ", scene.size(),
            "; give an empty map, or one of this scene");
 }
 
@@ -154,13 +153,14 @@ void require_map(const Insonification& map, const SceneCloud& scene) {
 
 void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& scatterers, const SonarHead& head,
               const Medium& medium, const InsonificationOptions& options) {
-  require_valid(head, me);
-  require_valid(medium, me);
+  require_valid(head, "add_ping");
+  require_valid(medium, "add_ping");
   require_map(map, scene);
-  require(options.min_response_db <= 0, me, "min_response_db", options.min_response_db, "dB", "<= 0");
+  require(options.min_response_db <= 0, "add_ping", "min_response_db", options.min_response_db, "dB", "<= 0");
   for (const std::uint32_t surfel : scatterers.surfel)
     if (surfel >= scene.size())
-      fail(ErrorKind::argument, me, ": a scatterer is of surfel ", surfel, ", but the scene has ", scene.size());
+      fail(ErrorKind::argument, "add_ping", ": a scatterer is of surfel ", surfel, ", but the scene has ",
+           scene.size());
 
   // A coherent amplitude of 1 is the rms amplitude of every speckle distribution.
   EchoOptions echo_options;

@@ -12,9 +12,9 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr std::size_t block = 8192;
-constexpr float cells_per_footprint = 2;               // along one side of a typical bounding box
-constexpr float most_cells_per_surfel = 64;            // upper limit of the average
-constexpr float slack_factor = 1.001f, slack = 4e-6f;  // boxes slightly wider than footprints, for rounding
+constexpr float cells_per_footprint = 2;                   // along one side of a typical bounding box
+constexpr float most_cells_per_surfel = 64;                // upper limit of the average
+constexpr float slack_factor = 1.001f, box_slack = 4e-6f;  // boxes slightly wider than footprints, for rounding
 
 // Bounding box of a footprint on one face: centre and half extents.
 struct Extent {
@@ -35,8 +35,8 @@ bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Exte
   if (!(front > 0)) return false;
   box.x = s.position[i] / d;
   box.y = s.position[j] / d;
-  box.half_x = reach(1 + box.x * box.x, s.away[i] - box.x * nf) / front * slack_factor + slack;
-  box.half_y = reach(1 + box.y * box.y, s.away[j] - box.y * nf) / front * slack_factor + slack;
+  box.half_x = reach(1 + box.x * box.x, s.away[i] - box.x * nf) / front * slack_factor + box_slack;
+  box.half_y = reach(1 + box.y * box.y, s.away[j] - box.y * nf) / front * slack_factor + box_slack;
   return true;
 }
 

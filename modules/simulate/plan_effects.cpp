@@ -162,7 +162,7 @@ StageVerdict judge_coherent_part(const PlanFacts& facts) {
   return {coherent, coherent ? "a material has a coherent fraction" : "no material has a coherent fraction", 0};
 }
 
-constexpr PlanStage stages[] = {
+constexpr PlanStage effects[] = {
     {"absorption-slope", DecidedBy::budget, judge_absorption_slope,
      [](bool in, E&, O& o) { o.effects.absorption_order = in ? 2 : 0; }, nullptr,
      [](const O& o) {
@@ -198,6 +198,6 @@ constexpr PlanStage stages[] = {
 
 }  // namespace
 
-std::span<const PlanStage> effect_stages() { return stages; }
+std::span<const PlanStage> effect_stages() { return effects; }
 
 }  // namespace insonify

@@ -38,7 +38,7 @@ StageVerdict judge_occlusion(const PlanFacts& facts) {
   return {occlusion, occlusion ? "surfels hide others" : "off by the options", std::numeric_limits<double>::infinity()};
 }
 
-constexpr PlanStage stages[] = {
+constexpr PlanStage geometry[] = {
     {"back-faces", DecidedBy::scene, judge_back_faces},
     {"other-ranges", DecidedBy::scene, judge_other_ranges},
     {"outer-elevations", DecidedBy::budget, judge_outer_elevations,
@@ -51,6 +51,6 @@ constexpr PlanStage stages[] = {
 
 }  // namespace
 
-std::span<const PlanStage> geometry_stages() { return stages; }
+std::span<const PlanStage> geometry_stages() { return geometry; }
 
 }  // namespace insonify

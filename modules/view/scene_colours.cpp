@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t block = 1 << 16;
+constexpr std::size_t colours_at_once = 1 << 16;
 
 // Ten colours distinguishable with most colour-vision deficiencies, the first for the commonest material.
 constexpr Rgb material_colours[] = {{203, 180, 135}, {86, 140, 185}, {214, 104, 74},  {104, 160, 92},  {150, 116, 176},
@@ -48,7 +48,7 @@ Rgb shaded(const Rgb& colour, float light) {
 template <typename ColourOf>
 std::vector<Rgb> per_surfel(const SceneCloud& scene, ColourOf&& colour_of) {
   std::vector<Rgb> colour(scene.size());
-  parallel_blocks(scene.size(), block, 0, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(scene.size(), colours_at_once, 0, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) colour[i] = colour_of(i);
   });
   return colour;

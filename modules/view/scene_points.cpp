@@ -27,7 +27,7 @@ namespace insonify {
 namespace {
 
 constexpr const char* side_name = "surfel_side";
-constexpr std::size_t block = 1 << 16;
+constexpr std::size_t points_at_once = 1 << 16;
 
 // Bounds in VTK's order: min and max of x, y, z; inverted if there are no points.
 std::array<double, 6> bounds_of(vtkDataArray* position, std::span<const std::uint32_t> drawn) {
@@ -122,7 +122,7 @@ std::span<const float> sides_of(const PointCloudArrays& arrays) {
 }
 
 void set_colours(vtkUnsignedCharArray* to, std::span<const Rgb> colour) {
-  parallel_blocks(colour.size(), block, 0, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(colour.size(), points_at_once, 0, [&](std::size_t begin, std::size_t end) {
     unsigned char* byte = to->GetPointer(static_cast<vtkIdType>(4 * begin));
     for (std::size_t i = begin; i < end; ++i) {
       byte = std::copy(colour[i].begin(), colour[i].end(), byte);

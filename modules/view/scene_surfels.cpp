@@ -10,7 +10,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t block = 1 << 15;
+constexpr std::size_t surfels_at_once = 1 << 15;
 constexpr float largest = 2.5F;      // side, in medians
 constexpr double picking_reach = 2;  // [pixels]
 
@@ -78,9 +78,9 @@ std::optional<std::uint32_t> front_surfel(const SceneCloud& scene, std::span<con
     if (hit.before(best)) best = hit;
   };
 
-  std::vector<Hit> best((drawn.size() + block - 1) / block);
-  parallel_blocks(drawn.size(), block, 0, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) look_at(drawn[i], best[begin / block]);
+  std::vector<Hit> best((drawn.size() + surfels_at_once - 1) / surfels_at_once);
+  parallel_blocks(drawn.size(), surfels_at_once, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) look_at(drawn[i], best[begin / surfels_at_once]);
   });
   Hit front;
   for (const Hit& hit : best)

@@ -11,7 +11,6 @@
 namespace insonify {
 namespace {
 
-constexpr const char* who = "show_panels";
 constexpr int min_width = 640, min_height = 480;
 constexpr double left_share = 0.56, lower_share = 0.42;  // of the picture
 constexpr double smaller_font = 0.85;                    // relative to a picture of a single drawing
@@ -74,15 +73,15 @@ void draw_panels(Canvas& canvas, const Panels& panels, const PictureOptions& opt
 }
 
 void show_panels(const Panels& panels, const PictureOptions& options, const std::string& png_path) {
-  require_drawable(panels.image, options, who);
+  require_drawable(panels.image, options, "show_panels");
   if (options.width < min_width || options.height < min_height)
-    fail(ErrorKind::argument, who, ": options.width x height = ", options.width, " x ", options.height,
+    fail(ErrorKind::argument, "show_panels", ": options.width x height = ", options.width, " x ", options.height,
          " pixels, must be at least ", min_width, " x ", min_height, " for four panels");
   if (panels.beam >= panels.image.fan.beams())
-    fail(ErrorKind::argument, who, ": beam = ", panels.beam, ", must be below the number of beams, ",
+    fail(ErrorKind::argument, "show_panels", ": beam = ", panels.beam, ", must be below the number of beams, ",
          panels.image.fan.beams());
-  if (!panels.azimuth.empty()) require_pattern(panels.azimuth, panels.pattern_db, who);
-  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_panels(canvas, panels, options); });
+  if (!panels.azimuth.empty()) require_pattern(panels.azimuth, panels.pattern_db, "show_panels");
+  save_picture(options, "show_panels", png_path, [&](Canvas& canvas) { draw_panels(canvas, panels, options); });
 }
 
 }  // namespace insonify

@@ -12,21 +12,20 @@
 namespace insonify {
 namespace {
 
-constexpr const char* who = "show_spectrum";
-
 void require_lines(const std::vector<SpectrumLine>& lines, const PictureOptions& options) {
-  if (lines.empty()) fail(ErrorKind::argument, who, ": no lines, must be at least one");
+  if (lines.empty()) fail(ErrorKind::argument, "show_spectrum", ": no lines, must be at least one");
   for (const SpectrumLine& line : lines) {
     const auto& f = line.frequency;
     if (f.size() < 2 || line.density.size() != f.size())
-      fail(ErrorKind::argument, who, ": ", f.size(), " frequencies and ", line.density.size(),
+      fail(ErrorKind::argument, "show_spectrum", ": ", f.size(), " frequencies and ", line.density.size(),
            " densities, must be at least 2 and as many");
     if (!std::isfinite(f.front()) || !std::isfinite(f.back()) ||
         std::adjacent_find(f.begin(), f.end(), [](double a, double b) { return !(a < b); }) != f.end())
-      fail(ErrorKind::argument, who, ": frequencies must be finite and ascend");
-    for (const double density : line.density) require(density >= 0, who, "density", density, "Pa^2/Hz", ">= 0");
+      fail(ErrorKind::argument, "show_spectrum", ": frequencies must be finite and ascend");
+    for (const double density : line.density)
+      require(density >= 0, "show_spectrum", "density", density, "Pa^2/Hz", ">= 0");
   }
-  require_picture_size(options, who);
+  require_picture_size(options, "show_spectrum");
 }
 
 ChartLine in_decibels(const SpectrumLine& line) {
@@ -80,7 +79,7 @@ void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const
 
 void show_spectrum(const std::vector<SpectrumLine>& lines, const PictureOptions& options, const std::string& png_path) {
   require_lines(lines, options);
-  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_spectrum(canvas, lines, options); });
+  save_picture(options, "show_spectrum", png_path, [&](Canvas& canvas) { draw_spectrum(canvas, lines, options); });
 }
 
 }  // namespace insonify

@@ -8,18 +8,16 @@
 namespace insonify {
 namespace {
 
-constexpr const char* who = "show_waterfall";
-
 void require_history(const PingHistory& history, const PictureOptions& options) {
-  require_valid(history.gate, who);
+  require_valid(history.gate, "show_waterfall");
   const auto pings = static_cast<std::size_t>(history.level_db.rows());
   const auto bins = static_cast<std::size_t>(history.level_db.cols());
-  if (pings < 2) fail(ErrorKind::argument, who, ": ", pings, " pings, must be at least 2");
+  if (pings < 2) fail(ErrorKind::argument, "show_waterfall", ": ", pings, " pings, must be at least 2");
   if (history.number.size() != pings || history.time.size() != pings || bins != history.gate.bins())
-    fail(ErrorKind::argument, who, ": history.level_db is ", pings, " x ", bins,
+    fail(ErrorKind::argument, "show_waterfall", ": history.level_db is ", pings, " x ", bins,
          ", must be pings x bins = ", history.number.size(), " x ", history.gate.bins(), ", with ", history.time.size(),
          " times as many");
-  require_picture_size(options, who);
+  require_picture_size(options, "show_waterfall");
 }
 
 // Ping numbers at the centres of their rows: round ones if numbers are consecutive, else at regular intervals.
@@ -72,7 +70,7 @@ void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOpt
 
 void show_waterfall(const PingHistory& history, const PictureOptions& options, const std::string& png_path) {
   require_history(history, options);
-  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_waterfall(canvas, history, options); });
+  save_picture(options, "show_waterfall", png_path, [&](Canvas& canvas) { draw_waterfall(canvas, history, options); });
 }
 
 }  // namespace insonify

@@ -14,6 +14,9 @@
 
 namespace insonify {
 
+/// The public call that errors of the viewer name.
+inline constexpr const char* viewer_caller = "show_viewer";
+
 /// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
 struct ViewerData {
   std::string title;

@@ -2,12 +2,12 @@
 
 #include "view/axes_internal.hpp"
 #include "view/off_screen_internal.hpp"
+#include "viewer/viewer_data.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr const char* who = "show_viewer";
 constexpr double slider_rows = 13;  // lines of text that the sliders occupy
 
 bool same_levels(const ViewerState& a, const ViewerState& b) {
@@ -162,7 +162,7 @@ void ViewerWindow::draw_words() {
 void ViewerWindow::save_png(const std::string& path) {
   drawn_.reset();
   draw();
-  save_window(window_, path, messages_, who);
+  save_window(window_, path, messages_, viewer_caller);
 }
 
 }  // namespace insonify

@@ -6,12 +6,11 @@
 #include "returns/sounding_columns.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "viewer/viewer_data.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 
 namespace insonify {
 namespace {
-
-constexpr const char* who = "show_viewer";
 
 // The returns as a scene, for runs whose scene is missing.
 SceneCloud scene_of_returns(const Soundings& returns) {
@@ -76,7 +75,7 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
   PictureOptions coloured = options;
   coloured.colour_map = state.colour_map;
-  actors_ = std::make_unique<SceneActors>(shown(), look, coloured, who);
+  actors_ = std::make_unique<SceneActors>(shown(), look, coloured, viewer_caller);
   drawn_.scene_colour = look.colour;
   panel.content->SetBackground(theme(options.dark).background.data());
   actors_->add_to(panel.content);

@@ -10,12 +10,12 @@
 
 #include "core/error.hpp"
 #include "view/off_screen_internal.hpp"
+#include "viewer/viewer_data.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr const char* who = "show_viewer";
 constexpr int samples_per_pixel = 4;
 constexpr unsigned long ticks_every_ms = 40;
 
@@ -24,12 +24,13 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 void require_start(const ViewerState& start, const ViewerExtent& extent) {
   if (start.mode == ViewerMode::inspect) return;
   if (start.ping >= extent.pings)
-    fail(ErrorKind::argument, who, ": ping = ", start.ping, ", must be below ", extent.pings, ", the number of pings");
+    fail(ErrorKind::argument, viewer_caller, ": ping = ", start.ping, ", must be below ", extent.pings,
+         ", the number of pings");
   if (start.selected && start.selected->beam >= extent.beams)
-    fail(ErrorKind::argument, who, ": beam = ", start.selected->beam, ", must be below ", extent.beams,
+    fail(ErrorKind::argument, viewer_caller, ": beam = ", start.selected->beam, ", must be below ", extent.beams,
          ", the number of beams");
   if (start.selected && start.selected->bin >= extent.bins)
-    fail(ErrorKind::argument, who, ": bin = ", start.selected->bin, ", must be below ", extent.bins,
+    fail(ErrorKind::argument, viewer_caller, ": bin = ", start.selected->bin, ", must be below ", extent.bins,
          ", the number of bins");
 }
 
@@ -80,7 +81,7 @@ ViewerWindow::~ViewerWindow() {
 void ViewerWindow::open(const ViewerOptions& options) {
   if (screen_ == ViewerScreen::off_screen) {
     const auto window = vtkSmartPointer<EglWindow>::New();
-    window->open(who);
+    window->open(viewer_caller);
     window_ = window;
     interactor_ = vtkSmartPointer<vtkGenericRenderWindowInteractor>::New();
   } else {
