@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,7 +13,6 @@
 namespace insonify::tool {
 namespace {
 
-namespace fs = std::filesystem;
 using Kind = TomlValue::Kind;
 
 std::string as_toml(const std::string& text) { return toml_text(text); }
@@ -67,13 +65,7 @@ struct FileValue {
 
 void read(const FileValue& from, std::string& text) {
   text = from.text(from.value);
-  if (!from.setting.is_path || text.empty() || fs::exists(text) || fs::path(text).is_absolute()) return;
-  const fs::path folder = fs::path(from.path).parent_path();
-  for (const fs::path& start : {folder, folder.parent_path()})
-    if (fs::exists(start / text)) {
-      text = (start / text).string();
-      return;
-    }
+  if (from.setting.is_path) text = path_named_in(from.path, text);
 }
 
 void read(const FileValue& from, double& number) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "acoustics/water.hpp"
 #include "core/text.hpp"
@@ -60,6 +61,19 @@ Pose pose_from_angles(const Row& row, const FilePlace& place) {
     if (!(std::abs(row[i]) <= 360))
       place.fail_here(trajectory_layouts[1][i], " = ", row[i], " degrees, must be within -360 and 360");
   return pose_from_yaw_pitch_roll({row[1], row[2], row[3]}, radians(row[4]), radians(row[5]), radians(row[6]));
+}
+
+// Adds an entry, which must be later than the one before.
+void append(Trajectory& trajectory, double time, const Pose& pose, const FilePlace& place) {
+  if (!trajectory.time.empty() && !(time > trajectory.time.back()))
+    place.fail_here("time_s = ", time, " s, must be later than the previous line, ", trajectory.time.back(), " s");
+  trajectory.time.push_back(time);
+  trajectory.pose.push_back(pose);
+}
+
+void require_two_entries(const Trajectory& trajectory, const std::string& path) {
+  if (trajectory.time.size() < 2)
+    fail(ErrorKind::content, path, ": has ", trajectory.time.size(), " entries, must have at least two");
 }
 
 const CsvColumns scatterer_columns = {"range_m", "azimuth_rad", "elevation_rad", "sigma_m2", "xi_re", "xi_im"};
@@ -131,15 +145,26 @@ Trajectory load_trajectory(const std::string& path) {
   Trajectory trajectory;
   read_csv(path, trajectory_layouts, [&](std::size_t layout) {
     return [&trajectory, layout](Row row, const FilePlace& place) {
-      if (!trajectory.time.empty() && !(row[0] > trajectory.time.back()))
-        place.fail_here("time_s = ", row[0], " s, must be later than the previous line, ", trajectory.time.back(),
-                        " s");
-      trajectory.time.push_back(row[0]);
-      trajectory.pose.push_back(layout == 0 ? pose_from_quaternion(row, place) : pose_from_angles(row, place));
+      append(trajectory, row[0], layout == 0 ? pose_from_quaternion(row, place) : pose_from_angles(row, place), place);
     };
   });
-  if (trajectory.time.size() < 2)
-    fail(ErrorKind::content, path, ": has ", trajectory.time.size(), " entries, must have at least two");
+  require_two_entries(trajectory, path);
+  return trajectory;
+}
+
+Trajectory load_tum_trajectory(const std::string& path) {
+  const CsvColumns& columns = trajectory_layouts[0];
+  Trajectory trajectory;
+  read_lines(path, [&](std::string_view line, const FilePlace& place) {
+    std::istringstream words{std::string(line)};
+    std::vector<double> row;
+    for (std::string word; words >> word;)
+      row.push_back(read_number(word, row.size() < columns.size() ? columns[row.size()] : "number", place));
+    if (row.size() != columns.size())
+      place.fail_here("has ", row.size(), " numbers, must have ", columns.size(), ": ", joined(columns, " "));
+    append(trajectory, row[0], pose_from_quaternion(row, place), place);
+  });
+  require_two_entries(trajectory, path);
   return trajectory;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include <toml++/toml.h>
 
@@ -82,6 +83,15 @@ double toml_number(const std::string& path, const TomlValue& table, const std::s
   const TomlValue& value = required(path, table, key);
   if (!value.is_number()) fail_in_file(path, value.line, key, " must be a number");
   return value.number;
+}
+
+std::string path_named_in(const std::string& file, const std::string& path) {
+  namespace fs = std::filesystem;
+  if (path.empty() || fs::exists(path) || fs::path(path).is_absolute()) return path;
+  const fs::path folder = fs::path(file).parent_path();
+  for (const fs::path& start : {folder, folder.parent_path()})
+    if (fs::exists(start / path)) return (start / path).string();
+  return path;
 }
 
 }  // namespace insonify

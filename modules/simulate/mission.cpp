@@ -1,0 +1,91 @@
+#include "simulate/mission.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.';
+  };
+  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), plain);
+}
+
+/// Refuses a name that another of the items before item `i` has.
+template <typename Item>
+void require_own_name(const std::vector<Item>& items, std::size_t i, const char* who, const char* what) {
+  const std::string& name = items[i].name;
+  if (!is_plain_name(name))
+    fail(ErrorKind::argument, who, ": ", what, " '", name,
+         "': a name must consist of letters, digits, '-', '_' and '.'");
+  for (std::size_t before = 0; before < i; ++before)
+    if (items[before].name == name)
+      fail(ErrorKind::argument, who, ": two ", what, "s are called '", name, "', must have names of their own");
+}
+
+void require_at_least_0(double value, const std::string& item, const char* name, const char* unit) {
+  if (!(value >= 0 && std::isfinite(value)))
+    fail(ErrorKind::argument, item, ": ", name, " = ", value, " ", unit, ", must be finite and > 0");
+}
+
+void require_valid(const HeadScan& scan, const std::string& head) {
+  const double span = std::abs(scan.stop - scan.start);
+  if (!(span > 0 && std::isfinite(span)))
+    fail(ErrorKind::argument, head, ": scan from ", degrees(scan.start), " to ", degrees(scan.stop),
+         " degrees, must be two finite angles");
+  if (!(scan.step > 0 && scan.step <= span * (1 + 1e-9)))
+    fail(ErrorKind::argument, head, ": scan.step = ", degrees(scan.step),
+         " degrees, must be > 0 and at most the span of ", degrees(span));
+}
+
+}  // namespace
+
+void require_valid_head(const Mission& mission, std::size_t i, const char* who) {
+  require_own_name(mission.heads, i, who, "head");
+  const MissionHead& head = mission.heads[i];
+  const std::string item = std::string(who) + ": head '" + head.name + "'";
+  require_at_least_0(head.interval, item, "time between pings", "s");
+  require_at_least_0(head.distance, item, "distance between pings", "m");
+  require_at_least_0(head.listening_time, item, "listening time", "s");
+  const int given = (head.interval > 0) + (head.distance > 0) + !head.times.empty();
+  if (given > 1 || (given == 0 && !head.scan))
+    fail(ErrorKind::argument, item, ": must say when it pings by one of rate_hz, every_m and times");
+  for (std::size_t k = 0; k < head.times.size(); ++k)
+    if (!std::isfinite(head.times[k]) || (k > 0 && !(head.times[k] > head.times[k - 1])))
+      fail(ErrorKind::argument, item, ": times[", k, "] = ", head.times[k],
+           " s, must be finite and later than the one before");
+  if (head.scan) require_valid(*head.scan, item);
+}
+
+void require_valid_leg(const Mission& mission, std::size_t i, const char* who) {
+  require_own_name(mission.legs, i, who, "leg");
+  const MissionLeg& leg = mission.legs[i];
+  const std::string item = std::string(who) + ": leg '" + leg.name + "'";
+  const double begin = mission.trajectory.time.front(), end = mission.trajectory.time.back();
+  if (!(leg.from < leg.to && leg.from >= begin && leg.to <= end))
+    fail(ErrorKind::argument, item, ": from ", leg.from, " to ", leg.to, " s, must ascend within the trajectory's ",
+         begin, " and ", end, " s");
+  if (i > 0 && leg.from < mission.legs[i - 1].to)
+    fail(ErrorKind::argument, item, ": begins at ", leg.from, " s, before leg '", mission.legs[i - 1].name,
+         "' ends at ", mission.legs[i - 1].to, " s; legs must not overlap");
+  require_at_least_0(leg.interval, item, "time between pings", "s");
+  require_at_least_0(leg.distance, item, "distance between pings", "m");
+  if (leg.interval > 0 && leg.distance > 0) fail(ErrorKind::argument, item, ": give rate_hz or every_m, not both");
+  for (const std::string& name : leg.heads)
+    if (std::none_of(mission.heads.begin(), mission.heads.end(), [&](const auto& head) { return head.name == name; }))
+      fail(ErrorKind::argument, item, ": heads: there is no head '", name, "'");
+}
+
+void require_valid(const Mission& mission, const char* who) {
+  require_valid(mission.trajectory, who);
+  if (mission.heads.empty()) fail(ErrorKind::argument, who, ": no head, must have at least one");
+  for (std::size_t i = 0; i < mission.heads.size(); ++i) require_valid_head(mission, i, who);
+  for (std::size_t i = 0; i < mission.legs.size(); ++i) require_valid_leg(mission, i, who);
+}
+
+}  // namespace insonify

@@ -1,0 +1,151 @@
+#include "simulate/survey_pings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double rounding = 1e-9;  // a ping that falls on the end of a leg but for rounding belongs to the next one
+
+/// Times at which the vehicle has gone each multiple of `distance` since `from`, before `to`.
+std::vector<double> times_by_distance(const Trajectory& t, double from, double to, double distance) {
+  std::vector<double> times{from};
+  double gone = 0, next = distance;
+  Eigen::Vector3d at = pose_at(t, from).translation();
+  double time = from;
+  for (std::size_t i = 0; i < t.time.size() && time < to; ++i) {
+    if (t.time[i] <= from) continue;
+    const Eigen::Vector3d there = t.pose[i].translation();
+    const double length = (there - at).norm();
+    for (; next <= gone + length; next += distance) {
+      const double then = time + (t.time[i] - time) * (next - gone) / length;
+      if (then >= to - rounding) return times;
+      times.push_back(then);
+    }
+    gone += length, at = there, time = t.time[i];
+  }
+  return times;
+}
+
+std::vector<double> times_on_leg(const Mission& mission, const MissionHead& head, const MissionLeg& leg) {
+  const bool own = leg.interval > 0 || leg.distance > 0;
+  const double distance = own ? leg.distance : head.distance;
+  double interval = own ? leg.interval : head.interval;
+  if (interval + distance == 0 && head.times.empty()) interval = head.listening_time;
+  if (distance > 0) return times_by_distance(mission.trajectory, leg.from, leg.to, distance);
+  std::vector<double> times;
+  if (interval > 0) {
+    for (double k = 0; leg.from + k * interval < leg.to - rounding; ++k) times.push_back(leg.from + k * interval);
+    return times;
+  }
+  const bool last = leg.to == mission.trajectory.time.back();
+  for (const double time : head.times)
+    if (time >= leg.from && (time < leg.to || (last && time == leg.to))) times.push_back(time);
+  return times;
+}
+
+/// Directions of a sweep, and where a scanning head looks after `k` steps since the begin of a leg.
+struct Sweep {
+  const HeadScan& scan;
+  std::int64_t directions;
+
+  explicit Sweep(const HeadScan& of) : scan(of) {
+    const double span = std::abs(of.stop - of.start);
+    directions = static_cast<std::int64_t>(span / of.step + 1e-9) + (span < 2 * pi - 1e-9 ? 1 : 0);
+  }
+  /// Steps until the next sweep begins.
+  std::int64_t length() const {
+    return scan.mode == ScanMode::sector ? std::max<std::int64_t>(1, directions - 1) : directions;
+  }
+  double angle(std::int64_t k) const {
+    const std::int64_t sweep = k / length(), j = k % length();
+    const bool back = scan.mode == ScanMode::sector && sweep % 2 == 1;
+    const double step = scan.stop < scan.start ? -scan.step : scan.step;
+    return scan.start + step * static_cast<double>(back ? directions - 1 - j : j);
+  }
+};
+
+/// Adds the pings of a head on one leg.
+void add_pings(const Mission& mission, std::size_t h, const MissionLeg& leg, std::vector<SurveyPing>& pings,
+               std::size_t first) {
+  const MissionHead& head = mission.heads[h];
+  if (!leg.active ||
+      (!leg.heads.empty() && std::find(leg.heads.begin(), leg.heads.end(), head.name) == leg.heads.end()))
+    return;
+  const std::vector<double> times = times_on_leg(mission, head, leg);
+  const std::int64_t sweep = pings.size() > first ? pings.back().sweep + 1 : 0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    SurveyPing ping{h, static_cast<std::int64_t>(pings.size() - first), times[k], 0, 0};
+    if (head.scan) {
+      const Sweep turn(*head.scan);
+      const auto step = static_cast<std::int64_t>(k);
+      if (head.scan->mode == ScanMode::single && step >= turn.directions) break;
+      ping.sweep = sweep + step / turn.length();
+      ping.scan_angle = turn.angle(step);
+    }
+    pings.push_back(ping);
+  }
+}
+
+void require_apart(const MissionHead& head, const std::vector<SurveyPing>& pings, std::size_t first) {
+  for (std::size_t p = first + 1; p < pings.size(); ++p)
+    if (const double apart = pings[p].time - pings[p - 1].time; apart < head.listening_time * (1 - rounding))
+      fail(ErrorKind::argument, "survey_pings: head '", head.name, "': pings ", pings[p - 1].number, " and ",
+           pings[p].number, " at ", pings[p - 1].time, " and ", pings[p].time, " s are ", apart,
+           " s apart, must be at least 2 max_range / c = ", head.listening_time, " s");
+}
+
+}  // namespace
+
+std::vector<SurveyPing> survey_pings(const Mission& mission) {
+  require_valid(mission, "survey_pings");
+  const Trajectory& t = mission.trajectory;
+  const std::vector<MissionLeg> whole{{"all", t.time.front(), t.time.back()}};
+  std::vector<SurveyPing> pings;
+  for (std::size_t h = 0; h < mission.heads.size(); ++h) {
+    const std::size_t first = pings.size();
+    for (const MissionLeg& leg : mission.legs.empty() ? whole : mission.legs) add_pings(mission, h, leg, pings, first);
+    require_apart(mission.heads[h], pings, first);
+  }
+  if (pings.empty()) fail(ErrorKind::argument, "survey_pings: no head pings on any leg");
+  return pings;
+}
+
+PingPlace place_of(const Mission& mission, const SurveyPing& ping) {
+  // Only the two entries about the time: interpolation checks the trajectory that it is given.
+  const Trajectory& t = mission.trajectory;
+  const auto after = std::upper_bound(t.time.begin(), t.time.end(), ping.time) - t.time.begin();
+  const auto i =
+      static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, static_cast<std::ptrdiff_t>(t.time.size()) - 1));
+  const Trajectory near{{t.time[i - 1], t.time[i]}, {t.pose[i - 1], t.pose[i]}};
+  const Pose vehicle = pose_at(near, ping.time);
+  Motion motion = motion_at(near, ping.time);
+
+  const Pose& mount = mission.heads.at(ping.head).vehicle_from_head;
+  motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(vehicle.linear() * mount.translation()));
+  return {vehicle * mount * Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ()), motion};
+}
+
+std::int64_t random_number_of(const SurveyPing& ping) {
+  return (static_cast<std::int64_t>(ping.head) << 40) + ping.number;
+}
+
+std::vector<SurveyBlock> survey_blocks(const std::vector<SurveyPing>& pings,
+                                       const std::vector<std::size_t>& per_block) {
+  std::vector<SurveyBlock> blocks;
+  for (std::size_t p = 0; p < pings.size(); ++p) {
+    const bool same_head = !blocks.empty() && blocks.back().head == pings[p].head;
+    if (!same_head || blocks.back().end - blocks.back().begin == per_block.at(pings[p].head))
+      blocks.push_back({pings[p].head, same_head ? blocks.back().number + 1 : 0, p, p});
+    blocks.back().end = p + 1;
+  }
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [&](const auto& a, const auto& b) { return pings[a.begin].time < pings[b.begin].time; });
+  return blocks;
+}
+
+}  // namespace insonify

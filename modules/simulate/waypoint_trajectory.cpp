@@ -1,0 +1,85 @@
+#include "simulate/waypoint_trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+constexpr const char* who = "waypoint_trajectory";
+
+/// Positions along the way and its direction there.
+struct Way {
+  std::vector<Vector3d> place, ahead;
+  void add(const Vector3d& at, const Vector3d& direction) {
+    if (!place.empty() && (at - place.back()).norm() < 1e-9) return;
+    place.push_back(at), ahead.push_back(direction);
+  }
+};
+
+/// Adds the arc about corner `i` that takes at most half of both legs.
+void add_turn(const Waypoints& w, std::size_t i, Way& way) {
+  const Vector3d in = w.points[i] - w.points[i - 1], out = w.points[i + 1] - w.points[i];
+  const Vector3d a = in.normalized(), b = out.normalized();
+  const double turn = std::acos(std::clamp(a.dot(b), -1.0, 1.0));
+  if (turn < 1e-6) return;
+  if (turn > pi - 1e-3)
+    fail(ErrorKind::argument, who, ": points[", i,
+         "]: the way goes straight back; give a point beside it for the turn");
+  const double room = std::min(in.norm(), out.norm()) / 2;
+  const double cut = std::min(room, w.turn_radius * std::tan(turn / 2)), radius = cut / std::tan(turn / 2);
+  const Vector3d begin = w.points[i] - cut * a, inward = (b - a.dot(b) * a).normalized();
+  const int steps = static_cast<int>(std::ceil(turn / radians(2)));
+  for (int s = 0; s <= steps; ++s) {
+    const double angle = turn * s / steps;
+    way.add(begin + radius * (std::sin(angle) * a + (1 - std::cos(angle)) * inward),
+            std::cos(angle) * a + std::sin(angle) * inward);
+  }
+}
+
+void require_valid(const Waypoints& w) {
+  if (w.points.size() < 2) fail(ErrorKind::argument, who, ": ", w.points.size(), " points, must be at least two");
+  for (std::size_t i = 0; i < w.points.size(); ++i) {
+    if (!w.points[i].allFinite()) fail(ErrorKind::argument, who, ": points[", i, "] must be finite");
+    if (i > 0 && (w.points[i] - w.points[i - 1]).norm() < 1e-6)
+      fail(ErrorKind::argument, who, ": points[", i, "] is at the place of the one before it");
+  }
+  for (const auto& [value, name, unit] :
+       {std::tuple(w.speed, "speed", "m/s"), std::tuple(w.turn_radius, "turn_radius", "m")})
+    if (!(value > 0 && std::isfinite(value)))
+      fail(ErrorKind::argument, who, ": ", name, " = ", value, " ", unit, ", must be finite and > 0");
+}
+
+/// The first direction that is not upright.
+Vector3d first_level(const Way& way) {
+  for (const Vector3d& ahead : way.ahead)
+    if (std::hypot(ahead.x(), ahead.y()) > 1e-6) return ahead;
+  return Vector3d::UnitX();
+}
+
+}  // namespace
+
+Trajectory waypoint_trajectory(const Waypoints& w) {
+  require_valid(w);
+  Way way;
+  way.add(w.points.front(), (w.points[1] - w.points[0]).normalized());
+  for (std::size_t i = 1; i + 1 < w.points.size(); ++i) add_turn(w, i, way);
+  way.add(w.points.back(), (w.points.back() - w.points[w.points.size() - 2]).normalized());
+
+  Trajectory t;
+  double gone = 0;
+  Vector3d level = first_level(way);
+  for (std::size_t i = 0; i < way.place.size(); ++i) {
+    if (i > 0) gone += (way.place[i] - way.place[i - 1]).norm();
+    if (std::hypot(way.ahead[i].x(), way.ahead[i].y()) > 1e-6) level = way.ahead[i];
+    t.time.push_back(w.start_time + gone / w.speed);
+    t.pose.push_back(pose_from_yaw_pitch_roll(way.place[i], std::atan2(level.y(), level.x()), 0, 0));
+  }
+  return t;
+}
+
+}  // namespace insonify

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulate/mission.hpp"
+
+namespace insonify {
+
+/// Where the origin of the world is, and which way its x axis points: for products with coordinates of the globe.
+struct Anchor {
+  double latitude_deg = 0, longitude_deg = 0;
+  double heading_deg = 0;  ///< of the world's x axis, clockwise from north
+};
+
+/// Which sonar a head of the mission is.
+struct MissionSonar {
+  std::string sonar;                  ///< preset, or path of a sonar file
+  std::string range;                  ///< "min:max" [m], or empty: the sonar's
+  std::vector<std::string> settings;  ///< "sonar.beams=128", ...
+};
+
+/// A mission file. Of the tables [scene] and [ping] only the lines are looked at: they hold settings of the tool.
+struct MissionFile {
+  std::string path, text;            ///< text: the whole file
+  std::string scene;                 ///< path
+  std::string environment, profile;  ///< paths, or empty
+  std::uint64_t seed = 1;
+  std::string start_utc;  ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
+  std::optional<Anchor> anchor;
+  std::string trajectory;            ///< path, or empty: waypoints
+  Mission mission;                   ///< listening times are 0: they follow from sonar and water
+  std::vector<MissionSonar> sonars;  ///< of each head
+};
+
+/// Reads a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from the
+/// folder of the file, then from the one above. Unknown keys, wrong types, and whatever require_valid(mission) refuses are
+/// errors with file, line and rule. Throws Error(file) or Error(content).
+MissionFile load_mission(const std::string& path);
+
+}  // namespace insonify

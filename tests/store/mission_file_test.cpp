@@ -1,0 +1,136 @@
+#include "store/mission_file.hpp"
+
+#include "core/head_place.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+const std::string whole = R"(schema = 1
+[survey]
+scene = "harbour.ply"
+seed = 7
+start_utc = "2026-05-01T08:30:00Z"
+anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }
+[trajectory]
+waypoints_m = [[0, 0, -3], [20, 0, -3]]
+speed_m_s = 2
+[[head]]
+name = "fls"
+sonar = "gemini-720im"
+range = "0.5:10"
+set = ["sonar.beams=64"]
+offset_m = [1, 0, -0.2]
+angles_deg = [0, 15, 0]
+rate_hz = 4
+[[head]]
+sonar = "ping360"
+[head.scan]
+start_deg = -90
+stop_deg = 90
+step_deg = 1.8
+mode = "sector"
+dwell_s = 0.2
+[[leg]]
+name = "out"
+to_s = 4
+[[leg]]
+name = "back"
+heads = ["fls"]
+every_m = 0.5
+[ping]
+noise = true
+)";
+
+/// What is said of the file with its first `from` replaced.
+std::string refusal(const std::string& from, const std::string& to) {
+  return error_of_file(load_mission, "m.toml", replaced(whole, from, to));
+}
+
+const std::string way = "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,1,2,3,40,-10,5\n10,11,2,3,40,-10,5\n";
+
+MissionFile with_trajectory(const std::string& lines) {
+  return load_mission(
+      own_file("m.toml", replaced(whole, "waypoints_m = [[0, 0, -3], [20, 0, -3]]\nspeed_m_s = 2", lines)));
+}
+
+}  // namespace
+
+TEST(MissionFile, reads_survey_trajectory_heads_and_legs) {
+  const MissionFile m = load_mission(own_file("m.toml", whole));
+  EXPECT_EQ(m.scene, "harbour.ply");
+  EXPECT_EQ(m.seed, 7U);
+  EXPECT_EQ(m.start_utc, "2026-05-01T08:30:00Z");
+  EXPECT_EQ(m.anchor.value().heading_deg, 30);
+  EXPECT_EQ(m.text, whole);
+  EXPECT_EQ(m.mission.trajectory.time.back(), 10);
+  ASSERT_EQ(m.mission.heads.size(), 2U);
+  const MissionHead& fls = m.mission.heads[0];
+  EXPECT_EQ(fls.interval, 0.25);
+  EXPECT_TRUE(fls.vehicle_from_head.isApprox(pose_from_yaw_pitch_roll({1, 0, -0.2}, 0, radians(15), 0), 1e-15));
+  EXPECT_EQ(m.sonars[0].sonar, "gemini-720im");
+  EXPECT_EQ(m.sonars[0].range, "0.5:10");
+  EXPECT_EQ(m.sonars[0].settings, std::vector<std::string>{"sonar.beams=64"});
+  const MissionHead& scanning = m.mission.heads[1];
+  EXPECT_EQ(scanning.name, "ping360") << "named for its sonar";
+  EXPECT_EQ(scanning.interval, 0.2);
+  EXPECT_EQ(scanning.scan->mode, ScanMode::sector);
+  EXPECT_NEAR(scanning.scan->start, -pi / 2, 1e-15);
+  ASSERT_EQ(m.mission.legs.size(), 2U);
+  EXPECT_EQ(m.mission.legs[0].from, 0) << "the begin of the trajectory";
+  EXPECT_EQ(m.mission.legs[1].from, 4) << "the end of the leg before";
+  EXPECT_EQ(m.mission.legs[1].to, 10) << "the end of the trajectory";
+  EXPECT_EQ(m.mission.legs[1].distance, 0.5);
+}
+
+TEST(MissionFile, reads_trajectories_of_other_programs) {
+  own_file("way.csv", way);
+  const Pose pose = with_trajectory("file = \"way.csv\"\ntime_offset_s = -2").mission.trajectory.pose[0];
+  EXPECT_TRUE(pose.isApprox(pose_from_yaw_pitch_roll({1, 2, 3}, radians(40), radians(-10), radians(5)), 1e-12));
+  EXPECT_EQ(with_trajectory("file = \"way.csv\"\ntime_offset_s = -2").mission.trajectory.time[0], -2);
+  const Pose ned = with_trajectory("file = \"way.csv\"\nframe = \"ned\"").mission.trajectory.pose[0];
+  EXPECT_TRUE(ned.isApprox(pose_from_ned({1, 2, 3}, radians(40), radians(-10), radians(5)), 1e-12));
+  // Yaw of 90 degrees is the quaternion (0, 0, sin 45, cos 45).
+  own_file("way.tum", "# time x y z qx qy qz qw\n100 1 2 3 0 0 0.70710678 0.70710678\n110 5 2 3 0 0 1 0\n");
+  const Trajectory tum = with_trajectory("file = \"way.tum\"\ntime_offset_s = -100").mission.trajectory;
+  EXPECT_EQ(tum.time, (std::vector<double>{0, 10}));
+  EXPECT_NEAR(head_place(tum.pose[0]).yaw, pi / 2, 1e-7);
+}
+
+TEST(MissionFile, turns_from_179_to_181_degrees_by_the_short_way) {
+  own_file("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,0,179,0,0\n10,0,0,0,-177,0,0\n");
+  const Trajectory t = with_trajectory("file = \"way.csv\"").mission.trajectory;
+  EXPECT_NEAR(degrees(head_place(pose_at(t, 2)).yaw), 179.8, 1e-9);
+  EXPECT_NEAR(degrees(head_place(pose_at(t, 5)).yaw), -179, 1e-9);
+}
+
+TEST(MissionFile, names_line_key_and_rule) {
+  EXPECT_EQ(refusal("schema = 1", "schema = 2"),
+            "content: m.toml:1: schema = 2, this version reads schema 1; the mission is of a newer insonify");
+  EXPECT_EQ(refusal("schema = 1", ""), "content: m.toml:1: missing key 'schema'");
+  EXPECT_EQ(refusal("scene =", "scen ="), "content: m.toml:3: unknown key 'scen'; did you mean 'scene'?");
+  EXPECT_EQ(refusal("seed = 7", "seed = -7"), "content: m.toml:4: seed must be an integer from 0, in quotes from 2^53");
+  EXPECT_THAT(refusal("T08:30", " 8:30"),
+              HasSubstr("m.toml:5: start_utc = '2026-05-01 8:30:00Z', must be a time of UTC"));
+  EXPECT_EQ(refusal("= 54.1", "= 541"), "content: m.toml:6: anchor: latitude_deg = 541, must be within -90 and 90");
+  EXPECT_EQ(refusal("speed_m_s = 2", "speed_m_s = 0"), "content: m.toml:9: speed_m_s = 0, must be finite and > 0");
+  EXPECT_THAT(refusal("[20, 0, -3]", "[0, 0, -3]"),
+              HasSubstr("m.toml:7: waypoint_trajectory: points[1] is at the place"));
+  EXPECT_THAT(refusal("[20, 0, -3]", "[20, 0]"), HasSubstr("m.toml:8: waypoints_m has 2 numbers, must have three"));
+  EXPECT_EQ(refusal("rate_hz = 4", "rate_Hz = 4"),
+            "content: m.toml:17: unknown key 'rate_Hz'; did you mean 'rate_hz'?");
+  EXPECT_EQ(refusal("rate_hz = 4", ""),
+            "content: m.toml:10: mission: head 'fls': must say when it pings by one of rate_hz, every_m and times");
+  EXPECT_EQ(refusal("\"sector\"", "\"turn\""),
+            "content: m.toml:24: mode = 'turn', must be one of continuous, sector, single");
+  EXPECT_EQ(refusal("sonar = \"ping360\"", "sonar = \"ping360\"\nname = \"fls\""),
+            "content: m.toml:18: mission: two heads are called 'fls', must have names of their own");
+  EXPECT_EQ(
+      refusal("name = \"back\"", "name = \"back\"\nfrom_s = 3"),
+      "content: m.toml:29: mission: leg 'back': begins at 3 s, before leg 'out' ends at 4 s; legs must not overlap");
+  EXPECT_THAT(refusal("to_s = 4", "to_s = 40"),
+              HasSubstr("m.toml:26: mission: leg 'out': from 0 to 40 s, must ascend"));
+  EXPECT_EQ(refusal("heads = [\"fls\"]", "heads = \"fls\""), "content: m.toml:31: heads must be a list");
+  own_file("way.csv", replaced(way, "10,11", "-1,11"));
+  EXPECT_THAT(error_of([] { with_trajectory("file = \"way.csv\""); }, ErrorKind::content),
+              HasSubstr("way.csv:3: time_s = -1 s, must be later than the previous line, 0 s"));
+}
