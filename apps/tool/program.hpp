@@ -3,13 +3,21 @@
 #include <exception>
 #include <functional>
 #include <new>
+#include <string>
 
 #include "core/error.hpp"
 
 namespace insonify::tool {
 
 /// Thrown at the next step after Ctrl-C.
-struct Interrupted {};
+struct Interrupted {
+  std::string kept = "nothing was written";
+};
+
+/// Thrown when some pings of a survey failed and all others are kept: exit code 5.
+struct SomeFailed {
+  std::string which;
+};
 
 /// Runs a program, reports on stderr what it throws, and returns the exit code (docs/troubles.md). `less` says what
 /// takes less memory.
@@ -17,9 +25,12 @@ inline int run_program(const std::function<int()>& run, const char* less) {
   constexpr int exit_codes[] = {1, 2, 3, 4};  // of runtime, argument, content, file
   try {
     return run();
-  } catch (const Interrupted&) {
-    std::fputs("insonify: interrupted; nothing was written\n", stderr);
+  } catch (const Interrupted& interrupted) {
+    std::fprintf(stderr, "insonify: interrupted; %s\n", interrupted.kept.c_str());
     return 130;
+  } catch (const SomeFailed& failed) {
+    std::fprintf(stderr, "insonify: %s\n", failed.which.c_str());
+    return 5;
   } catch (const Error& error) {
     std::fprintf(stderr, "insonify: %s\n", error.what());
     return exit_codes[static_cast<int>(error.kind())];

@@ -18,6 +18,8 @@ void catch_interrupts() {
   std::signal(SIGTERM, [](int) { interrupted = true; });
 }
 
+bool is_interrupted() { return interrupted; }
+
 Progress::Progress(const CommonOptions& common, int steps)
     : quiet_(common.quiet),
       verbose_(common.verbose),
@@ -38,15 +40,18 @@ void Progress::check() const {
 void Progress::step(const std::string& what) {
   check();
   if (verbose_) std::fprintf(stderr, "[%d/%d] %s\n", done_ + 1, steps_, what.c_str());
-  if (bar_) {
-    constexpr int width = 24;
-    const int filled = width * done_ / steps_;
-    const std::string full(static_cast<std::size_t>(filled), '#'), empty(static_cast<std::size_t>(width - filled), '.');
-    std::fprintf(stderr, "\r\033[K[%s%s] %s", full.c_str(), empty.c_str(), what.c_str());
-    std::fflush(stderr);
-    bar_shown_ = true;
-  }
+  show(static_cast<double>(done_) / steps_, what);
   ++done_;
+}
+
+void Progress::show(double part, const std::string& what) {
+  if (!bar_) return;
+  constexpr int width = 24;
+  const int filled = static_cast<int>(width * part);
+  const std::string full(static_cast<std::size_t>(filled), '#'), empty(static_cast<std::size_t>(width - filled), '.');
+  std::fprintf(stderr, "\r\033[K[%s%s] %s", full.c_str(), empty.c_str(), what.c_str());
+  std::fflush(stderr);
+  bar_shown_ = true;
 }
 
 void Progress::note(const std::string& sentence) {

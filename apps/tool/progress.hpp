@@ -9,6 +9,9 @@ namespace insonify::tool {
 /// Defers Ctrl-C and SIGTERM to the end of a step, so that nothing is left half-written.
 void catch_interrupts();
 
+/// Whether Ctrl-C or SIGTERM was caught.
+bool is_interrupted();
+
 /// Prints a result on stdout: as JSON with --json, else by `print`.
 template <typename Json, typename Print>
 void print_result(const CommonOptions& common, const Json& result, const Print& print) {
@@ -28,6 +31,8 @@ class Progress {
 
   /// Starts the next step. Throws Interrupted after Ctrl-C.
   void step(const std::string& what);
+  /// Moves the bar of a terminal to `part` (0 to 1) of the whole work; else nothing.
+  void show(double part, const std::string& what);
   /// Throws Interrupted after Ctrl-C: for steps that take long.
   void check() const;
   /// Shows a sentence unless quiet.

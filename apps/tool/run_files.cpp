@@ -23,29 +23,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings) {
-  return fmt::format(
-      "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\n"
-      "environment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
-      INSONIFY_VERSION, toml_text(run.environment), toml_text(run.profile), settings,
-      environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
-}
-
-Cube cube_of(const Ping& ping, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
-  Cube cube;
-  cube.pings = {ping};
-  cube.sound_speed = setup.medium.sound_speed;
-  cube.absorption_db_per_m = setup.medium.absorption.a0 / nepers_per_db;
-  cube.centre_frequency = setup.head.pulse.centre_frequency;
-  cube.bandwidth = setup.head.pulse.bandwidth;
-  cube.source_level_db = setup.head.pulse.source_level_db;
-  cube.seed = common.seed;
-  cube.tolerance = run.tolerance;
-  cube.sonar = setup.head.name;
-  cube.insonify_version = INSONIFY_VERSION;
-  return cube;
-}
-
 ordered_json sonar_json(const HeadSetup& setup) {
   ordered_json doubtful = ordered_json::array();
   for (const SonarNumber& n : setup.doubtful)
@@ -68,10 +45,33 @@ ordered_json sonar_json(const HeadSetup& setup) {
 
 }  // namespace
 
+std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings) {
+  return fmt::format(
+      "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\n"
+      "environment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
+      INSONIFY_VERSION, toml_text(run.environment), toml_text(run.profile), settings,
+      environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
+}
+
+Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
+  Cube cube;
+  cube.pings = std::move(pings);
+  cube.sound_speed = setup.medium.sound_speed;
+  cube.absorption_db_per_m = setup.medium.absorption.a0 / nepers_per_db;
+  cube.centre_frequency = setup.head.pulse.centre_frequency;
+  cube.bandwidth = setup.head.pulse.bandwidth;
+  cube.source_level_db = setup.head.pulse.source_level_db;
+  cube.seed = common.seed;
+  cube.tolerance = run.tolerance;
+  cube.sonar = setup.head.name;
+  cube.insonify_version = INSONIFY_VERSION;
+  return cube;
+}
+
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
                const HeadSetup& setup, const Ping& ping, const std::string& settings, ordered_json& manifest,
                Progress& progress) {
-  write_cube(directory.file("cube.h5"), cube_of(ping, common, run, setup));
+  write_cube(directory.file("cube.h5"), cube_of({ping}, common, run, setup));
   write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
   const double absorption = setup.medium.absorption.a0 / nepers_per_db;

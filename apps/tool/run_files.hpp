@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -21,6 +22,12 @@ namespace insonify::tool {
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
                const HeadSetup& setup, const Ping& ping, const std::string& settings, nlohmann::ordered_json& manifest,
                Progress& progress);
+
+/// The text of a run.toml, with `settings` as from settings_as_toml.
+std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings);
+
+/// A cube of pings of one head.
+Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup);
 
 /// Levels of a ping as they are drawn; without `tvg`, as they were received.
 LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);

@@ -139,6 +139,14 @@ SceneOptions load_scene_settings(const std::string& path) {
   return options;
 }
 
+PingOptions load_mission_settings(const std::string& path) {
+  const TomlValue document = load_toml(path);
+  PingOptions options;
+  const std::vector<RunSetting> settings = mission_settings(options);
+  for (const char* section : {"scene", "ping"}) read_section(path, table_of(document, section), section, settings);
+  return options;
+}
+
 PingOptions load_ping_settings(const std::string& path) {
   const TomlValue document = load_toml(path);
   if (!document.find("insonify_version") || !document.find("ping"))

@@ -26,6 +26,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& options);
 std::vector<RunSetting> synthesis_settings(RunOptions& options);
 /// Rows of [ping].
 std::vector<RunSetting> ping_settings(PingOptions& options);
+/// Rows of the tables [scene] and [ping] of a mission.
+std::vector<RunSetting> mission_settings(PingOptions& options);
 /// The seed.
 RunSetting seed_setting(CommonOptions& options);
 /// All settings of a ping, in the order of run.toml.
@@ -41,6 +43,9 @@ std::string settings_as_toml(const std::vector<RunSetting>& settings);
 /// folder of run.toml, then from the folder above it; a path that is in none of them stays as it is. Throws
 /// Error(content) with path and line for an unknown key or a value that is not allowed, Error(file) without a file.
 PingOptions load_ping_settings(const std::string& path);
+
+/// Reads [scene] and [ping] of a mission, in the same way; what the mission says elsewhere is left as it is by default.
+PingOptions load_mission_settings(const std::string& path);
 
 /// Reads [scene] alone, in the same way.
 SceneOptions load_scene_settings(const std::string& path);

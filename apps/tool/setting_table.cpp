@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "scene_io/load_scene.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/run_settings.hpp"
@@ -103,6 +105,19 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "with", "--with", &o.with, "force a stage of the plan in, any number of times", stages},
       {"ping", "without", "--without", &o.without, "force a stage of the plan out, any number of times", stages},
   };
+}
+
+std::vector<RunSetting> mission_settings(PingOptions& o) {
+  // What the mission says in its own tables, and what is kept of a single ping alone.
+  const std::vector<std::string> others = {"path",     "pose",      "trajectory", "time",        "world",
+                                           "velocity", "turn_rate", "keep",       "contributors"};
+  std::vector<RunSetting> all;
+  for (auto& group : {scene_settings(o.scene), synthesis_settings(o.run), ping_settings(o)})
+    for (RunSetting setting : group) {
+      if (*setting.section == '\0') setting.section = "ping";
+      if (std::find(others.begin(), others.end(), setting.key) == others.end()) all.push_back(setting);
+    }
+  return all;
 }
 
 std::vector<RunSetting> all_settings(PingOptions& o) {

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "store/merge_cubes.hpp"
 #include "store/run_directory.hpp"
+#include "store/survey_run.hpp"
 #include "tool/image.hpp"
+#include "tool/merge_survey.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -20,11 +23,14 @@ struct MergeOptions {
   std::vector<std::string> runs;
   std::string output;
   bool force = false;
+  bool copy = false;
 };
 
 void add_options(OptionList list, MergeOptions& o) {
-  list.add("RUN", &o.runs, "run directories or cubes with the same fan and gate", {.required = true});
-  list.add("-o,--output", &o.output, "run directory to make", {.required = true});
+  list.add("RUN", &o.runs, "run directories or cubes with the same fan and gate; or the folder of one survey",
+           {.required = true});
+  list.add("-o,--output", &o.output, "run directory to make; a survey is merged in its own folder");
+  list.add("--copy", &o.copy, "of a survey: copy the blocks into the cubes, which otherwise refer to them");
   list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common, true);
 }
@@ -58,6 +64,12 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
 }
 
 void merge(const MergeOptions& o) {
+  if (o.runs.size() == 1 && is_survey_run(o.runs.front())) {
+    if (!o.output.empty()) fail(ErrorKind::argument, "--output: a survey is merged in its own folder; leave it out");
+    return merge_survey(o.runs.front(), o.copy, o.common);
+  }
+  if (o.output.empty()) fail(ErrorKind::argument, "--output is missing: the run directory to make");
+  if (o.copy) fail(ErrorKind::argument, "--copy: ", o.runs.front(), " is not the folder of a survey; leave it out");
   Progress progress(o.common, static_cast<int>(o.runs.size()) + 1);
   RunDirectory directory(o.output, o.force);
   std::vector<NamedCube> cubes;
@@ -85,8 +97,8 @@ void merge(const MergeOptions& o) {
 
 Verb merge_verb() {
   return make_verb<MergeOptions>(
-      "merge", "pings of several runs of one sonar in one run, by time",
-      {"insonify merge out-0 out-1 out-2 -o track",
+      "merge", "pings of several runs of one sonar in one run, by time; or the blocks of a survey",
+      {"insonify merge out-0 out-1 out-2 -o track", "insonify merge survey",
        "insonify merge run-* -o track && insonify image track --view waterfall -o waterfall.png"},
       add_options, merge);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Layer {
   ComplexGridF pressure;  ///< beams x bins [Pa]
 };
 
+/// Where a scanning head looked: the part of its pose that is its own turn.
+struct ScanPlace {
+  std::int64_t sweep = 0;  ///< number of the sweep, from 0
+  double angle = 0;        ///< about the head's z axis [rad], positive to port
+};
+
 /// The result of one transmission.
 struct Ping {
   std::int64_t number = 0;
@@ -28,8 +35,9 @@ struct Ping {
   bool expected_level = false;  ///< `pressure` is the root of an expected intensity (E65), without speckle and phase;
                                 ///< squares of the layers add up
   Grid<float> intensity{};  ///< mean of |pressure|^2 over the looks of a display, beams x bins [Pa^2] (E71); or empty
-  Grid<float> level_error_db{};  ///< sampling error, beams x bins [dB] (E66), NaN where not judged; or empty
-  Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
+  Grid<float> level_error_db{};     ///< sampling error, beams x bins [dB] (E66), NaN where not judged; or empty
+  Grid<std::uint8_t> unknown{};     ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
+  std::optional<ScanPlace> scan{};  ///< of a scanning head; its turn is part of world_from_head
 };
 
 /// Returns the pressure in single precision, as a ping stores it. Throws Error(content) naming `who` if a sample

@@ -1,13 +1,17 @@
 #include "scene_io/save_cloud.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
 
 static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers in memory order");
 
@@ -77,6 +81,55 @@ void save_soundings(const std::string& path, const Soundings& soundings) {
   const bool ply = format == CloudFormat::ply;
   const PackedRows rows = rows_of(soundings, ply, ply ? "scalar_" : "", "save_soundings");
   write_rows(path, ply ? ply_header(rows) : pcd_header(rows), rows);
+}
+
+void save_survey_returns(const std::string& path, const Soundings& soundings, const std::vector<double>& time,
+                         std::uint32_t head) {
+  constexpr const char* who = "save_survey_returns";
+  if (format_of(path, who) != CloudFormat::ply || time.size() != soundings.size())
+    fail(ErrorKind::argument, who, ": ", path, " must be a .ply, with a time for each of the ", soundings.size(),
+         " soundings");
+  PackedRows rows = rows_of(soundings, true, "scalar_", who);
+  const std::size_t stride = rows.stride();
+  rows.columns.push_back({"scalar_time", NumberType::float64});
+  rows.columns.push_back({"scalar_head", NumberType::uint32});
+  rows.write_row = [&time, head, stride, write_row = rows.write_row](std::size_t i, char* out) {
+    write_row(i, out);
+    out += stride;
+    put(out, time[i]);
+    put(out, head);
+  };
+  write_rows(path, ply_header(rows), rows);
+}
+
+void join_clouds(const std::string& path, const std::vector<std::string>& parts) {
+  if (parts.empty()) fail(ErrorKind::argument, "join_clouds: ", path, ": no parts, must be at least one");
+  // The columns are those of the first part, the number of rows is that of all.
+  PackedRows all;
+  std::vector<RowFile> files;
+  for (const std::string& part : parts) {
+    require_readable(part);
+    std::optional<RowFile> file = find_ply_rows(part);
+    if (!file || file->big_endian) fail(ErrorKind::content, part, ": is not a binary little-endian PLY of points");
+    if (files.empty())
+      for (const auto& column : file->columns) all.columns.push_back({column.name, column.type});
+    const auto same = [](const auto& a, const auto& b) { return a.name == b.name && a.type == b.type; };
+    if (!std::equal(file->columns.begin(), file->columns.end(), all.columns.begin(), all.columns.end(), same))
+      fail(ErrorKind::content, part, ": has other columns than ", parts.front());
+    all.rows += file->rows;
+    files.push_back(std::move(*file));
+  }
+  PendingFile pending(path);
+  errno = 0;
+  std::ofstream out(pending.temporary(), std::ios::binary);
+  out << ply_header(all);
+  constexpr std::size_t batch = 1 << 16;
+  for (const RowFile& file : files)
+    for (std::size_t first = 0; first < file.rows && out; first += batch) {
+      const RowTable rows = read_rows(file, first, std::min(batch, file.rows - first));
+      out.write(rows.bytes, static_cast<std::streamsize>(rows.rows * rows.stride));
+    }
+  pending.commit(out);
 }
 
 void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map) {

@@ -26,6 +26,8 @@ struct Cube {
 /// attributes schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad],
 /// min_range, max_range, bin_size [m]. Layers are written as /layers/NAME with the extent of /pressure; so are, if the
 /// pings have them, /intensity [Pa^2], /level_error_db (float32) and /unknown (uint8). The attribute expected_level marks expected levels.
+/// Pings of a scanning head add /scan_angle [rad] and /sweep (pings), /beam_time [s] (pings x beams) and /beam_pose
+/// (pings x beams x 4 x 4).
 /// Byte-identical for identical input (no timestamps). Written to a temporary name, then renamed. Throws
 /// Error(argument) if there are no pings or they differ in fan, gate, extent, layers, maps or expected_level;
 /// Error(file) if it cannot write.

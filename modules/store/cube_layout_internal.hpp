@@ -27,5 +27,10 @@ constexpr DatasetName elevation_name{"/elevation", "rad"};
 constexpr DatasetName pose_name{"/pose", "m"};
 constexpr DatasetName time_name{"/time", "s"};
 constexpr DatasetName ping_name{"/ping", ""};
+/// Of a scanning head alone: time and pose of every beam, and the head's own turn.
+constexpr DatasetName beam_time_name{"/beam_time", "s"};
+constexpr DatasetName beam_pose_name{"/beam_pose", "m"};
+constexpr DatasetName scan_angle_name{"/scan_angle", "rad"};
+constexpr DatasetName sweep_name{"/sweep", ""};
 
 }  // namespace insonify

@@ -169,6 +169,25 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
   return dataset;
 }
 
+Handle create_ordered_group(const Place& place, hid_t file, const char* name) {
+  const Handle properties(place.checked(H5Pcreate(H5P_GROUP_CREATE), name), H5Pclose);
+  place.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name);
+  place.checked(H5Pset_obj_track_times(properties, false), name);
+  return {place.checked(H5Gcreate2(file, name, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Gclose};
+}
+
+std::vector<std::string> names_in(const Place& place, hid_t file, const char* group) {
+  std::vector<std::string> names;
+  if (H5Lexists(file, group, H5P_DEFAULT) <= 0) return names;
+  const Handle opened(place.checked(H5Gopen2(file, group, H5P_DEFAULT), group), H5Gclose);
+  const auto note = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
+    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  place.checked(H5Literate(opened, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, note, &names), group);
+  return names;
+}
+
 Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
     fail(place.kind, place.path, ": dataset ", name.path, " is missing");

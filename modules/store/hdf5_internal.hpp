@@ -85,6 +85,12 @@ Handle open_file(const Place& place);
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {});
 
+/// Creates a group that keeps the order in which its members are written.
+Handle create_ordered_group(const Place& place, hid_t file, const char* name);
+
+/// Names in such a group in the order of writing; none if it is absent.
+std::vector<std::string> names_in(const Place& place, hid_t file, const char* group);
+
 /// HDF5 type of a number in the file (little-endian) or in memory.
 template <typename Number>
 hid_t type_of(bool in_file) {

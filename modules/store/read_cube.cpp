@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "core/error.hpp"
 #include "store/cube.hpp"
 #include "store/cube_layout_internal.hpp"
@@ -57,10 +59,24 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
   return ping;
 }
 
+// Refuses a merged dataset of which a part is missing: HDF5 would give fill values in its place.
+void require_sources(const Place& place, hid_t dataset, const std::string& name) {
+  const Handle properties(place.checked(H5Dget_create_plist(dataset), name), H5Pclose);
+  std::size_t parts = 0;
+  if (H5Pget_layout(properties) == H5D_VIRTUAL) place.checked(H5Pget_virtual_count(properties, &parts), name);
+  for (std::size_t part = 0; part < parts; ++part) {
+    std::string source(static_cast<std::size_t>(H5Pget_virtual_filename(properties, part, nullptr, 0)), '\0');
+    place.checked(H5Pget_virtual_filename(properties, part, source.data(), source.size() + 1), name);
+    if (!std::filesystem::exists(std::filesystem::path(place.path).parent_path() / source))
+      fail(place.kind, place.path, ": ", name, ": its part ", source, " is missing");
+  }
+}
+
 // Reads one image per ping, with values of `type`, into the member selected by `part`.
 template <typename Part>
 void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::vector<Ping>& pings,
                  Part part) {
+  require_sources(place, dataset, name);
   const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
@@ -78,19 +94,6 @@ void require_complex(const Place& place, hid_t dataset, const std::string& name)
     fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
 }
 
-// Names of the layers in the order of writing.
-std::vector<std::string> layer_names(const Place& place, hid_t file) {
-  std::vector<std::string> names;
-  if (H5Lexists(file, layers_group, H5P_DEFAULT) <= 0) return names;
-  const Handle group(place.checked(H5Gopen2(file, layers_group, H5P_DEFAULT), layers_group), H5Gclose);
-  const auto note = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
-    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
-    return 0;
-  };
-  place.checked(H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, note, &names), layers_group);
-  return names;
-}
-
 void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
   if (extent_of(place, dataset, name, 3) != extent)
     fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
@@ -98,7 +101,7 @@ void require_extent(const Place& place, hid_t dataset, const std::string& name, 
 
 void read_layers(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
-  for (const std::string& layer : layer_names(place, file)) {
+  for (const std::string& layer : names_in(place, file, layers_group)) {
     const std::string path = std::string(layers_group) + "/" + layer;
     const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
     require_extent(place, dataset, path, extent);
@@ -123,6 +126,13 @@ void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t typ
   read_images(place, dataset, name.path, type, pings, [map](Ping& ping) -> Map& { return ping.*map; });
 }
 
+void read_scan(const Place& place, hid_t file, std::vector<Ping>& pings) {
+  if (H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) <= 0) return;
+  const auto angle = read_all<double>(place, file, scan_angle_name, {pings.size()}, H5T_NATIVE_DOUBLE);
+  const auto sweep = read_all<std::int64_t>(place, file, sweep_name, {pings.size()}, H5T_NATIVE_INT64);
+  for (std::size_t p = 0; p < pings.size(); ++p) pings[p].scan = ScanPlace{sweep[p], angle[p]};
+}
+
 std::vector<Ping> read_pings(const Place& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
@@ -141,6 +151,7 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
       for (int column = 0; column < 4; ++column)
         pings[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
   }
+  read_scan(place, file, pings);
   read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings,
               [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
   read_layers(place, file, extent, pings);

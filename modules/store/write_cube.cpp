@@ -37,6 +37,9 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   require(ping.intensity, first.intensity, "intensity");
   require(ping.level_error_db, first.level_error_db, "level_error_db");
   require(ping.unknown, first.unknown, "unknown");
+  if (ping.scan.has_value() != first.scan.has_value())
+    fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
+         " is of a scanning head; write it to a cube of its own");
   if (ping.expected_level != first.expected_level)
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
          " is an expected level; write it to a cube of its own");
@@ -99,11 +102,7 @@ void write_images(const Place& place, hid_t file, const DatasetName& name, const
 void write_layers(const Place& place, hid_t file, const std::vector<Ping>& pings) {
   const std::vector<Layer>& layers = pings.front().layers;
   if (layers.empty()) return;
-  const Handle properties(place.checked(H5Pcreate(H5P_GROUP_CREATE), layers_group), H5Pclose);
-  place.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), layers_group);
-  place.checked(H5Pset_obj_track_times(properties, false), layers_group);
-  const Handle group(place.checked(H5Gcreate2(file, layers_group, H5P_DEFAULT, properties, H5P_DEFAULT), layers_group),
-                     H5Gclose);
+  const Handle group = create_ordered_group(place, file, layers_group);
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const std::string path = std::string(layers_group) + "/" + layers[l].name;
     write_images(place, file, {path.c_str(), pressure_name.unit}, pings,
@@ -130,18 +129,42 @@ void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeG
   write_numbers(place, file, elevation_name, {fan.beams()}, fan.elevation.data());
 }
 
+void append_pose(std::vector<double>& numbers, const Pose& pose) {
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
+}
+
 void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings) {
   std::vector<double> pose, time;
   std::vector<std::int64_t> number;
   for (const Ping& ping : pings) {
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column) pose.push_back(ping.world_from_head.matrix()(row, column));
+    append_pose(pose, ping.world_from_head);
     time.push_back(ping.time);
     number.push_back(ping.number);
   }
   write_numbers(place, file, pose_name, {pings.size(), 4, 4}, pose.data());
   write_numbers(place, file, time_name, {pings.size()}, time.data());
   write_numbers(place, file, ping_name, {pings.size()}, number.data());
+}
+
+// Of a scanning head: its own turn, and time and pose of every beam.
+void write_scan(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+  if (!pings.front().scan) return;
+  const std::size_t beams = pings.front().fan.beams();
+  std::vector<double> time, pose, angle;
+  std::vector<std::int64_t> sweep;
+  for (const Ping& ping : pings) {
+    angle.push_back(ping.scan->angle);
+    sweep.push_back(ping.scan->sweep);
+    for (std::size_t beam = 0; beam < beams; ++beam) {
+      time.push_back(ping.time);
+      append_pose(pose, ping.world_from_head);
+    }
+  }
+  write_numbers(place, file, scan_angle_name, {pings.size()}, angle.data());
+  write_numbers(place, file, sweep_name, {pings.size()}, sweep.data());
+  write_numbers(place, file, beam_time_name, {pings.size(), beams}, time.data());
+  write_numbers(place, file, beam_pose_name, {pings.size(), beams, 4, 4}, pose.data());
 }
 
 void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
@@ -173,6 +196,7 @@ void write_cube(const std::string& path, const Cube& cube) {
     write_root_attributes(place, file, cube);
     write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
     write_track(place, file, cube.pings);
+    write_scan(place, file, cube.pings);
     write_images(place, file, pressure_name, cube.pings,
                  [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
     write_layers(place, file, cube.pings);

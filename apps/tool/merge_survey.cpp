@@ -1,0 +1,108 @@
+#include "tool/merge_survey.hpp"
+
+#include <filesystem>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/pending_file.hpp"
+#include "core/sha256.hpp"
+#include "core/text.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "store/join_cubes.hpp"
+#include "store/survey_run.hpp"
+#include "tool/progress.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// A finished block.
+struct Finished {
+  const SurveyRunHead* head;
+  BlockFiles files;
+  BlockMark mark;
+};
+
+std::string pings_of(const SurveyRunHead& head, std::size_t block) {
+  const std::size_t first = block * head.pings_per_block, last = std::min(first + head.pings_per_block, head.pings) - 1;
+  return fmt::format("{}/blocks/{:06} (pings {} to {})", head.name, block, first, last);
+}
+
+/// All blocks in the order of heads and pings. Throws Error(content) naming those that are not done.
+std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun& run) {
+  std::vector<Finished> finished;
+  std::vector<std::string> missing;
+  for (const SurveyRunHead& head : run.heads)
+    for (std::size_t b = 0; b < head.blocks(); ++b) {
+      const BlockFiles files = block_files(folder, head.name, static_cast<std::int64_t>(b));
+      if (const auto mark = find_mark(files, run.mission_sha256))
+        finished.push_back({&head, files, *mark});
+      else
+        missing.push_back(pings_of(head, b));
+    }
+  const std::size_t named = std::min<std::size_t>(missing.size(), 5);
+  if (named > 0)
+    fail(ErrorKind::content, folder, ": ", missing.size(), " of ", missing.size() + finished.size(),
+         " blocks are not done: ", joined(std::vector(missing.begin(), missing.begin() + static_cast<long>(named))),
+         missing.size() > named ? ", ..." : "", "; run the survey (or its missing shards) again");
+  return finished;
+}
+
+}  // namespace
+
+void merge_survey(const std::string& folder, bool copy, const CommonOptions& common) {
+  const SurveyRun run = load_survey_run(folder);
+  const std::vector<Finished> finished = finished_blocks(folder, run);
+  Progress progress(common, 2 + static_cast<int>(run.heads.size()));
+  progress.step("checking " + folder);
+  parallel_for(finished.size(), common.threads,
+               [&](std::size_t b) { require_unchanged(finished[b].files, finished[b].mark); });
+
+  ordered_json heads = ordered_json::array(), failed = ordered_json::array();
+  std::vector<std::string> clouds;
+  for (const SurveyRunHead& head : run.heads) {
+    progress.step("joining " + head.name);
+    std::vector<std::string> cubes;
+    for (const Finished& block : finished) {
+      if (block.head != &head) continue;
+      for (const FailedPing& ping : block.mark.failed)
+        failed.push_back({{"head", head.name}, {"ping", ping.number}, {"reason", ping.reason}});
+      if (block.mark.cube_sha256.empty()) continue;
+      cubes.push_back(block.files.cube);
+      clouds.push_back(block.files.returns);
+    }
+    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
+    if (!cubes.empty()) join_cubes(cube, cubes, copy);
+    heads.push_back({{"name", head.name},
+                     {"pings", head.pings},
+                     {"cube", cubes.empty() ? ordered_json() : ordered_json(head.name + "/cube.h5")},
+                     {"cube_sha256", cubes.empty() ? ordered_json() : ordered_json(sha256_of_file(cube))}});
+  }
+  progress.step("joining returns");
+  const std::string returns = (fs::path(folder) / "returns.ply").string();
+  ordered_json manifest = {{"schema", 1},
+                           {"insonify_version", INSONIFY_VERSION},
+                           {"mission_sha256", run.mission_sha256},
+                           {"blocks", finished.size()},
+                           {"heads", heads}};
+  if (!clouds.empty()) {
+    join_clouds(returns, clouds);
+    manifest["returns_sha256"] = sha256_of_file(returns);
+  }
+  manifest["failed"] = failed;
+  write_file((fs::path(folder) / "manifest.json").string(), manifest.dump(2) + "\n");
+  print_result(common, manifest, [&] {
+    fmt::print("{}: {} blocks of {} joined\n", folder, finished.size(), joined(run.heads, ", ", &SurveyRunHead::name));
+  });
+  if (!failed.empty())
+    throw SomeFailed{fmt::format("{}: {} pings failed and are missing in the cubes; manifest.json lists them", folder,
+                                 failed.size())};
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,110 @@
+#include "tool/survey_blocks.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/pending_file.hpp"
+#include "returns/sounding_columns.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "store/cube.hpp"
+#include "tool/run_files.hpp"
+#include "tool/run_settings.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Appends the soundings of `from` that belong to ping `number`.
+void append(Soundings& to, const Soundings& from, std::uint32_t number) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from.ping[i] != number) continue;
+    to.position.push_back(from.position[i]);
+    each_column([i](const char*, auto& column, const auto& source) { column.push_back(source[i]); }, to, from);
+  }
+}
+
+/// Drops the layers if not all pings have the same ones: what a ping needs is decided for each.
+void drop_unlike_layers(std::vector<Ping>& pings) {
+  const auto same = [](const Layer& a, const Layer& b) { return a.name == b.name; };
+  const auto alike = [&](const Ping& ping) {
+    const auto &first = pings.front().layers, &layers = ping.layers;
+    return std::equal(layers.begin(), layers.end(), first.begin(), first.end(), same);
+  };
+  if (!std::all_of(pings.begin(), pings.end(), alike))
+    for (Ping& ping : pings) ping.layers.clear();
+}
+
+}  // namespace
+
+BlockFiles SurveyBlocks::files_of(const SurveyBlock& block) const {
+  return block_files(folder_, setup_.file.mission.heads[block.head].name, block.number);
+}
+
+bool SurveyBlocks::is_done(const SurveyBlock& block) const {
+  return find_mark(files_of(block), setup_.run.mission_sha256).has_value();
+}
+
+BlockReturns SurveyBlocks::resume(const SurveyBlock& block) const {
+  const BlockFiles files = files_of(block);
+  remove_leftovers(files);
+  BlockReturns returns(block.end - block.begin);
+  if (fs::exists(files.partial_cube) && fs::exists(files.partial_returns)) try {
+      Cube cube = read_cube(files.partial_cube);
+      const Soundings soundings = load_soundings(files.partial_returns);
+      for (Ping& ping : cube.pings) {
+        SurveyReturn& returned = returns.at(ping.number - setup_.pings[block.begin].number).emplace();
+        append(returned.soundings, soundings, static_cast<std::uint32_t>(ping.number));
+        returned.ping = std::move(ping);
+      }
+    } catch (const Error&) {  // cut short: made again
+      returns.assign(returns.size(), std::nullopt);
+    }
+  return returns;
+}
+
+void SurveyBlocks::keep(const SurveyBlock& block, BlockReturns& returns) const {
+  const BlockFiles files = files_of(block);
+  const SurveyHead& head = setup_.heads[block.head];
+  std::vector<Ping> pings;
+  std::vector<FailedPing> failed;
+  std::vector<double> time;
+  Soundings soundings;
+  bool whole = true;
+  for (std::optional<SurveyReturn>& returned : returns) {
+    whole &= returned.has_value();
+    if (!returned) continue;
+    if (!returned->failure.empty()) {
+      failed.push_back({returned->ping.number, returned->failure});
+      continue;
+    }
+    append(soundings, returned->soundings, static_cast<std::uint32_t>(returned->ping.number));
+    time.resize(soundings.size(), returned->ping.time);
+    pings.push_back(std::move(returned->ping));
+  }
+  if (!pings.empty()) {
+    drop_unlike_layers(pings);
+    write_cube(whole ? files.cube : files.partial_cube,
+               cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head));
+    save_survey_returns(whole ? files.returns : files.partial_returns, soundings, time,
+                        static_cast<std::uint32_t>(block.head));
+  }
+  if (whole) finish_block(files, setup_.run.mission_sha256, failed);
+}
+
+void write_survey_settings(const SurveySetup& setup, const std::string& folder) {
+  const auto write_once = [](const fs::path& path, const std::string& text) {
+    if (!fs::exists(path)) write_file(path.string(), text);
+  };
+  write_once(fs::path(folder) / "mission.toml", setup.file.text);
+  for (std::size_t h = 0; h < setup.heads.size(); ++h) {
+    PingOptions options = setup.heads[h].options;
+    const fs::path head = fs::path(folder) / setup.file.mission.heads[h].name;
+    if (fs::exists(head))
+      write_once(head / "run.toml",
+                 run_toml(options.run, setup.heads[h].setup.head, settings_as_toml(all_settings(options))));
+  }
+}
+
+}  // namespace insonify::tool

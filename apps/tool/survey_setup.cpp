@@ -1,0 +1,142 @@
+#include "tool/survey_setup.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/sha256.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "store/environment_file.hpp"
+#include "tool/run_settings.hpp"
+#include "tool/scene_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
+
+SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, std::size_t h) {
+  PingOptions options = load_mission_settings(file.path);
+  options.common = o.common;
+  options.common.seed = file.seed;
+  options.common.settings = file.sonars[h].settings;
+  options.scene.path = file.scene;
+  options.run.sonar = file.sonars[h].sonar;
+  options.run.range = file.sonars[h].range;
+  options.run.environment = file.environment;
+  options.run.profile = file.profile;
+  options.pose = "0,0,0,0,0,0";  // every ping has its own
+  return {options, set_up_ping(options)};
+}
+
+/// Throws Error(content) "file: head 'name', ping i at t s: ..." about a ping.
+template <typename... Parts>
+[[noreturn]] void refuse_ping(const SurveySetup& s, const SurveyPing& ping, const Parts&... parts) {
+  fail(ErrorKind::content, s.file.path, ": head '", s.file.mission.heads[ping.head].name, "', ping ", ping.number,
+       " at ", ping.time, " s: ", parts...);
+}
+
+void require_in_water(const SurveySetup& s) {
+  for (const SurveyPing& ping : s.pings) {
+    const Environment& environment = s.heads[ping.head].setup.head.environment;
+    const double z = place_of(s.file.mission, ping).world_from_head.translation().z();
+    if (environment.surface && z >= environment.surface->height)
+      refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", environment.surface->height, " m");
+    if (environment.bottom && z <= environment.bottom->height)
+      refuse_ping(s, ping, "is at z = ", z, " m, below the bottom at ", environment.bottom->height, " m");
+  }
+}
+
+/// Digest of a scene: of tiles that of the header, which holds a checksum over those of all tiles.
+std::string scene_digest(const std::string& path) {
+  if (!is_tiles(path)) return sha256_of_file(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string header(256, '\0');
+  if (!file.read(header.data(), static_cast<std::streamsize>(header.size())))
+    fail(ErrorKind::file, path, ": cannot be read");
+  return sha256_of(header);
+}
+
+/// Digest of the mission and of all files that its result depends on.
+std::string digest_of(const SurveySetup& s) {
+  Sha256 sha;
+  const auto add = [&](const std::string& part) { sha.add(std::to_string(part.size()) + ":" + part); };
+  for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, scene_digest(s.file.scene)}) add(part);
+  for (const std::string& path : {s.file.trajectory, s.heads.front().options.scene.materials_file})
+    if (!path.empty()) add(sha256_of_file(path));
+  for (const SurveyHead& head : s.heads)
+    add(environment_as_toml(head.setup.head.environment) + sonar_as_toml(head.setup.head.spec));
+  return sha.digest();
+}
+
+}  // namespace
+
+std::size_t pressure_bytes(const SonarHead& head) { return head.fan.beams() * head.gate.bins() * 8; }
+
+SurveySetup set_up_survey(const SurveyOptions& o) {
+  SurveySetup s;
+  s.file = load_mission(o.mission);
+  Mission& mission = s.file.mission;
+  std::vector<std::size_t> per_block;
+  for (std::size_t h = 0; h < mission.heads.size(); ++h) {
+    s.heads.push_back(set_up_survey_head(o, s.file, h));
+    const HeadSetup& head = s.heads.back().setup.head;
+    mission.heads[h].listening_time = 2 * head.head.gate.max_range / head.medium.sound_speed;
+    const std::size_t fitting = most_block_bytes / pressure_bytes(head.head);
+    per_block.push_back(o.pings_per_block > 0 ? static_cast<std::size_t>(o.pings_per_block)
+                                              : std::clamp<std::size_t>(fitting, 1, most_block_pings));
+  }
+  try {
+    s.pings = survey_pings(mission);
+  } catch (const Error& error) {
+    fail(ErrorKind::content, s.file.path, ": ", error.what());
+  }
+  require_in_water(s);
+  s.blocks = survey_blocks(s.pings, per_block);
+  for (std::size_t h = 0; h < mission.heads.size(); ++h) {
+    const auto count = std::count_if(s.pings.begin(), s.pings.end(), [h](const SurveyPing& p) { return p.head == h; });
+    if (count > 0) s.run.heads.push_back({mission.heads[h].name, static_cast<std::size_t>(count), per_block[h]});
+  }
+  s.run.mission_sha256 = digest_of(s);
+  return s;
+}
+
+SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress) {
+  const SurveyHead& first = setup.heads.front();
+  Bounds box;
+  if (is_tiles(setup.file.scene)) {
+    box = TiledScene(setup.file.scene).info().box;
+  } else {
+    loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
+    for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
+    if (!loaded_.mesh) prepared_.emplace(loaded_.scene, common.threads);
+    box = bounds(loaded_.scene);
+  }
+  for (const SurveyPing& ping : setup.pings) {
+    const Eigen::Vector3d at = place_of(setup.file.mission, ping).world_from_head.translation();
+    const double away = (at - at.cwiseMax(box.min).cwiseMin(box.max)).norm();
+    const double reach = setup.heads[ping.head].setup.head.head.gate.max_range;
+    if (away > reach)
+      refuse_ping(setup, ping, "is ", away, " m from the scene, beyond its max range of ", reach,
+                  " m; is the trajectory in another frame, or should this be a transit (active = false)?");
+  }
+}
+
+SimulatedPing SurveyScene::ping(const SurveySetup& setup, const SurveyPing& ping) const {
+  const SurveyHead& head = setup.heads[ping.head];
+  const PingPlace place = place_of(setup.file.mission, ping);
+  const SimulationOptions options = options_of(head.setup.simulation, ping, place);
+  const HeadSetup& h = head.setup.head;
+  if (prepared_) return simulate_ping(*prepared_, h.head, place.world_from_head, h.environment, options);
+
+  PingSetup here{place.world_from_head, h, options};
+  if (!loaded_.mesh) {
+    const PingScene part = load_ping_scene(head.options, here);
+    return simulate_ping(part.loaded.scene, h.head, place.world_from_head, h.environment, options);
+  }
+  LoadedScene fine = loaded_;
+  sample_for_ping(head.options, here, fine);
+  return simulate_ping(fine.scene, h.head, place.world_from_head, h.environment, options);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,52 @@
+#include "tool/survey_status.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "core/pending_file.hpp"
+
+namespace insonify::tool {
+namespace {
+
+std::string time_text(double seconds) {
+  const long s = std::lround(seconds);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{}:{:02} min", s / 60, s % 60);
+  return fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
+}
+
+}  // namespace
+
+SurveyStatus::SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done)
+    : progress_(progress), path_(std::move(path)), shard_(std::move(shard)), pings_(pings), done_before_(done) {}
+
+void SurveyStatus::ping_done(bool failed) {
+  const std::scoped_lock lock(guard_);
+  ++made_;
+  failed_ += failed;
+  const std::size_t done = done_before_ + made_;
+  seconds_ += watch_.lap();
+  const double left = seconds_ * static_cast<double>(pings_ - done) / static_cast<double>(made_);
+  progress_.show(static_cast<double>(done) / static_cast<double>(pings_),
+                 fmt::format("ping {} of {}, {} left", done, pings_, time_text(left)));
+  if (seconds_ - written_ >= 1) write_locked("running");
+}
+
+void SurveyStatus::write(const std::string& state) {
+  const std::scoped_lock lock(guard_);
+  write_locked(state);
+}
+
+void SurveyStatus::write_locked(const std::string& state) {
+  seconds_ += watch_.lap();
+  written_ = seconds_;
+  const std::size_t left = pings_ - done_before_ - made_;
+  nlohmann::ordered_json status = {{"schema", 1},           {"state", state},      {"shard", shard_},
+                                   {"process", ::getpid()}, {"pings", pings_},     {"done", done_before_ + made_},
+                                   {"failed", failed_},     {"seconds", written_}, {"seconds_left", nullptr}};
+  if (made_ > 0) status["seconds_left"] = written_ * static_cast<double>(left) / static_cast<double>(made_);
+  write_file(path_, status.dump(2) + "\n");
+}
+
+}  // namespace insonify::tool

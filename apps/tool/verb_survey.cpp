@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/survey_blocks.hpp"
+#include "tool/survey_status.hpp"
+#include "tool/verb.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+void add_options(OptionList list, SurveyOptions& o) {
+  list.add("MISSION", &o.mission, "TOML file: scene, trajectory, heads, legs (docs/survey.md)", {.required = true});
+  list.add("-o,--output", &o.output,
+           "folder of the survey: a new one, or one of this mission, whose finished blocks are kept");
+  list.add("--shard", &o.shard, "I/N: make every Nth block of pings, beginning with block I, from 0 to N-1");
+  list.add("--pings-per-block", &o.pings_per_block,
+           "stored together, so that as many are made again after a kill; 0: as many as fill 32 MiB, at most 64",
+           {.within = std::pair(0, 100000), .shown_as = "INT"});
+  list.add("--plan", &o.plan,
+           "only print how many pings, bytes and CPU hours; makes a few pings of each head to measure");
+  add_common(list, o.common, true);
+  list.add("-j,--threads", &o.common.threads,
+           "pings at once, at most 1024; 0: as many as cores (results do not depend on it)",
+           {.within = std::pair(0, 1024)});
+}
+
+/// --shard.
+struct Shard {
+  std::size_t index = 0, of = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const std::size_t slash = text.find('/');
+  const bool numbers = slash != text.npos && to_number(std::string_view(text).substr(0, slash), shard.index) &&
+                       to_number(std::string_view(text).substr(slash + 1), shard.of);
+  if (!numbers || shard.index >= shard.of)
+    fail(ErrorKind::argument, "--shard = '", text, "' is not I/N with I from 0 to N-1, e.g. --shard 0/8");
+  return shard;
+}
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Cost of the pings of one head, from a few of them, evenly spaced.
+ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::size_t h, Progress& progress) {
+  constexpr std::size_t tried = 5;
+  std::vector<SurveyPing> pings;
+  for (const SurveyPing& ping : s.pings)
+    if (ping.head == h) pings.push_back(ping);
+  const std::size_t samples = std::min(tried, pings.size());
+  double scatterers = 0, soundings = 0;
+  double cpu = 0;
+  for (std::size_t k = 0; k < samples; ++k) {
+    progress.check();
+    const double begin = cpu_seconds();
+    const SimulatedPing result = scene.ping(s, pings[(2 * k + 1) * pings.size() / (2 * samples)]);
+    cpu += cpu_seconds() - begin;
+    scatterers += static_cast<double>(result.scatterers.size());
+    soundings += static_cast<double>(result.soundings.size());
+  }
+  constexpr double row_bytes = 68;  // of returns.ply
+  const double n = static_cast<double>(pings.size()), part = samples > 0 ? n / static_cast<double>(samples) : 0;
+  return {{"name", s.file.mission.heads[h].name},
+          {"pings", pings.size()},
+          {"echoes", std::llround(scatterers * part)},
+          {"returns", std::llround(soundings * part)},
+          {"bytes", std::llround(n * static_cast<double>(pressure_bytes(s.heads[h].setup.head.head)) +
+                                 soundings * part * row_bytes)},
+          {"cpu_hours", cpu * part / 3600}};
+}
+
+void print_plan(const ordered_json& plan) {
+  fmt::print("{:<16} {:>9} {:>11} {:>11} {:>10} {:>10}\n", "head", "pings", "echoes", "returns", "MB", "CPU hours");
+  const auto print_row = [](const ordered_json& row) {
+    fmt::print("{:<16} {:>9} {:>11.3g} {:>11.3g} {:>10.4g} {:>10.3g}\n", row["name"].get<std::string>(),
+               row["pings"].get<std::size_t>(), row["echoes"].get<double>(), row["returns"].get<double>(),
+               row["bytes"].get<double>() / 1e6, row["cpu_hours"].get<double>());
+  };
+  for (const auto& head : plan["heads"]) print_row(head);
+  if (plan["heads"].size() > 1) print_row(plan["all"]);
+  fmt::print("{} blocks; about {:.3g} hours on {} cores\n", plan["blocks"].get<std::size_t>(),
+             plan["hours"].get<double>(), plan["cores"].get<int>());
+}
+
+void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, Progress& progress) {
+  ordered_json heads = ordered_json::array(), all = {{"name", "all"}};
+  for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, scene, h, progress));
+  for (const char* key : {"pings", "echoes", "returns", "bytes", "cpu_hours"}) {
+    double sum = 0;
+    for (const auto& head : heads) sum += head[key].get<double>();
+    all[key] = sum;
+  }
+  const int cores = thread_count(o.common.threads);
+  const ordered_json plan = {{"heads", heads},
+                             {"all", all},
+                             {"blocks", s.blocks.size()},
+                             {"cores", cores},
+                             {"hours", all["cpu_hours"].get<double>() / cores}};
+  print_result(o.common, plan, [&] { print_plan(plan); });
+}
+
+/// What is still to be made by a shard.
+struct Todo {
+  std::vector<SurveyBlock> blocks;
+  std::size_t pings = 0, done = 0;  ///< of the shard; of these, in finished blocks
+};
+
+Todo blocks_of(const SurveySetup& s, const SurveyBlocks& store, const Shard& shard) {
+  Todo todo;
+  for (std::size_t b = shard.index; b < s.blocks.size(); b += shard.of) {
+    const std::size_t pings = s.blocks[b].end - s.blocks[b].begin;
+    todo.pings += pings;
+    if (store.is_done(s.blocks[b]))
+      todo.done += pings;
+    else
+      todo.blocks.push_back(s.blocks[b]);
+  }
+  return todo;
+}
+
+/// The failed pings of the shard's blocks, as "head ping: reason".
+std::vector<std::string> failures_of(const SurveyOptions& o, const SurveySetup& s, const Shard& shard) {
+  std::vector<std::string> failures;
+  for (std::size_t b = shard.index; b < s.blocks.size(); b += shard.of) {
+    const std::string& name = s.file.mission.heads[s.blocks[b].head].name;
+    if (const auto mark = find_mark(block_files(o.output, name, s.blocks[b].number), s.run.mission_sha256))
+      for (const FailedPing& ping : mark->failed)
+        failures.push_back(fmt::format("{} ping {}: {}", name, ping.number, ping.reason));
+  }
+  return failures;
+}
+
+void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard, Progress& progress) {
+  open_survey_run(o.output, s.run);
+  write_survey_settings(s, o.output);
+  const SurveyBlocks store(s, o.output);
+  const Todo todo = blocks_of(s, store, shard);
+  const std::string name = shard.of == 1 ? "status.json" : fmt::format("status-{}-of-{}.json", shard.index, shard.of);
+  SurveyStatus status(progress, (std::filesystem::path(o.output) / name).string(), o.shard, todo.pings, todo.done);
+
+  bool whole = true;
+  if (!todo.blocks.empty()) {
+    progress.step("loading " + s.file.scene);
+    const SurveyScene scene(s, o.common, progress);
+    progress.step("pinging");
+    SurveyWork work;
+    work.simulate = [&](const SurveyPing& ping) { return return_of(scene.ping(s, ping), s.file.mission, ping); };
+    work.resume = [&](const SurveyBlock& block) { return store.resume(block); };
+    work.keep = [&](const SurveyBlock& block, BlockReturns& returns) { store.keep(block, returns); };
+    work.done = [&](const SurveyReturn& returned) { status.ping_done(!returned.failure.empty()); };
+    work.stop = is_interrupted;
+    whole = simulate_survey(s.pings, todo.blocks, o.common.threads, work);
+  }
+  const std::vector<std::string> failures = failures_of(o, s, shard);
+  status.write(whole ? "done" : "interrupted");
+  if (!whole)
+    throw Interrupted{fmt::format("{} of {} pings of {} are kept; the same command goes on from there",
+                                  todo.done + status.made(), todo.pings, o.output)};
+  const ordered_json result = {{"folder", o.output},
+                               {"pings", todo.pings},
+                               {"made", status.made()},
+                               {"failed", failures},
+                               {"seconds", status.seconds()}};
+  print_result(o.common, result, [&] {
+    fmt::print("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}\n", o.output, status.made(),
+               todo.pings, status.seconds(), o.output);
+  });
+  if (!failures.empty())
+    throw SomeFailed{fmt::format("{} of {} pings failed: {}", failures.size(), todo.pings, joined(failures, "; "))};
+}
+
+void survey(const SurveyOptions& o) {
+  const Shard shard = parse_shard(o.shard);
+  if (o.output.empty() != o.plan)
+    fail(ErrorKind::argument, "--output or --plan must be given, one of them: a folder for the survey, or a forecast");
+  Progress progress(o.common, 3);
+  const SurveySetup s = set_up_survey(o);
+  for (const SurveyHead& head : s.heads)
+    for (const std::string& note : head.setup.head.notes) progress.note(note);
+  if (!o.plan) return make_pings(o, s, shard, progress);
+  progress.step("loading " + s.file.scene);
+  const SurveyScene scene(s, o.common, progress);
+  progress.step("planning");
+  plan_survey(o, s, scene, progress);
+}
+
+}  // namespace
+
+Verb survey_verb() {
+  return make_verb<SurveyOptions>("survey", "all pings of a mission: a vehicle with sonars along a trajectory",
+                                  {"insonify survey mission.toml --plan", "insonify survey mission.toml -o run",
+                                   "insonify survey mission.toml -o run --shard 3/8", "insonify merge run"},
+                                  add_options, survey);
+}
+
+}  // namespace insonify::tool

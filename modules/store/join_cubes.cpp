@@ -1,0 +1,202 @@
+#include "store/join_cubes.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "store/cube_layout_internal.hpp"
+#include "store/hdf5_internal.hpp"
+
+namespace insonify {
+
+using namespace hdf5;
+
+namespace {
+
+/// Values per ping that are copied, all parts one after the other.
+struct Track {
+  DatasetName name;
+  bool whole_numbers;
+  Extent extent{};  ///< of all parts; empty: the first part has none
+  std::vector<char> bytes{};
+
+  hid_t type(bool in_file) const { return whole_numbers ? type_of<std::int64_t>(in_file) : type_of<double>(in_file); }
+};
+
+/// A part and the pings in it.
+struct Part {
+  std::string path;
+  hsize_t pings;
+};
+
+/// The cube that is put together.
+struct JoinedCube {
+  std::string sonar;
+  Extent extent;  ///< of /pressure
+  std::vector<Part> parts;
+  std::vector<std::string> images;
+  std::vector<Track> tracks = {{time_name, false},       {pose_name, false}, {ping_name, true},
+                               {scan_angle_name, false}, {sweep_name, true}, {beam_time_name, false},
+                               {beam_pose_name, false}};
+};
+
+std::vector<std::string> images_of(const Place& place, hid_t file) {
+  std::vector<std::string> images{pressure_name.path};
+  for (const std::string& layer : names_in(place, file, layers_group))
+    images.push_back(std::string(layers_group) + "/" + layer);
+  for (const DatasetName& map : {intensity_name, level_error_name, unknown_name})
+    if (H5Lexists(file, map.path, H5P_DEFAULT) > 0) images.emplace_back(map.path);
+  return images;
+}
+
+Extent whole_extent(const Place& place, hid_t dataset, const char* name) {
+  const Handle space(place.checked(H5Dget_space(dataset), name), H5Sclose);
+  Extent extent(static_cast<std::size_t>(place.checked(H5Sget_simple_extent_ndims(space), name)));
+  place.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
+  return extent;
+}
+
+void add_track(const Place& place, hid_t file, Track& track) {
+  if (H5Lexists(file, track.name.path, H5P_DEFAULT) <= 0) return;
+  const Handle dataset = open_dataset(place, file, track.name);
+  const Extent extent = whole_extent(place, dataset, track.name.path);
+  const std::size_t before = track.bytes.size();
+  track.bytes.resize(before + 8 * std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>()));
+  place.checked(H5Dread(dataset, track.type(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, track.bytes.data() + before),
+                track.name.path);
+  if (track.extent.empty())
+    track.extent = extent;
+  else
+    track.extent[0] += extent[0];
+}
+
+void add_part(JoinedCube& joined, const std::string& path) {
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  const Extent extent = extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3);
+  const std::string sonar = read_text(place, file, "sonar");
+  const std::vector<std::string> images = images_of(place, file);
+  if (joined.parts.empty()) {
+    joined.sonar = sonar, joined.extent = extent, joined.images = images;
+  } else {
+    if (sonar != joined.sonar || extent[1] != joined.extent[1] || extent[2] != joined.extent[2])
+      fail(ErrorKind::content, path, ": is of sonar ", sonar, " with ", extent[1], " beams and ", extent[2],
+           " bins, not ", joined.sonar, " with ", joined.extent[1], " and ", joined.extent[2], " as in ",
+           joined.parts.front().path);
+    joined.extent[0] += extent[0];
+    std::erase_if(joined.images, [&](const std::string& name) {
+      return std::find(images.begin(), images.end(), name) == images.end();
+    });
+  }
+  joined.parts.push_back({path, extent[0]});
+  for (Track& track : joined.tracks) add_track(place, file, track);
+}
+
+/// Copies an attribute of a number or text.
+herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) {
+  const Handle attribute(H5Aopen(from, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose),
+      space(H5Aget_space(attribute), H5Sclose);
+  const Handle copy(H5Acreate2(*static_cast<hid_t*>(to), name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  std::vector<char> value(std::max(H5Tget_size(type), sizeof(char*)));
+  const bool read = H5Aread(attribute, type, value.data()) >= 0;
+  const herr_t status = read ? H5Awrite(copy, type, value.data()) : -1;
+  if (read && H5Tis_variable_str(type) > 0) H5Dvlen_reclaim(type, space, H5P_DEFAULT, value.data());
+  return status;
+}
+
+void copy_axes(const Place& place, hid_t first, hid_t file) {
+  hid_t to = file;
+  place.checked(H5Aiterate2(first, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &to), "attributes");
+  for (const DatasetName& axis : {range_name, azimuth_name, elevation_name})
+    place.checked(H5Ocopy(first, axis.path, file, axis.path, H5P_DEFAULT, H5P_DEFAULT), axis.path);
+}
+
+void write_tracks(const Place& place, hid_t file, const JoinedCube& joined) {
+  for (const Track& track : joined.tracks) {
+    if (track.extent.empty()) continue;
+    const Handle dataset = create_dataset(place, file, track.name, track.type(true), track.extent);
+    place.checked(H5Dwrite(dataset, track.type(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, track.bytes.data()),
+                  track.name.path);
+  }
+}
+
+Handle rows(const Place& place, const Extent& extent, hsize_t first, hsize_t count) {
+  Handle space(place.checked(H5Screate_simple(3, extent.data(), nullptr), "selection"), H5Sclose);
+  const Extent start = {first, 0, 0}, size = {count, extent[1], extent[2]};
+  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
+  return space;
+}
+
+/// Makes `properties` refer to the parts. What is not there reads as NaN.
+void refer_to_parts(const Place& place, const JoinedCube& joined, const std::string& image, hid_t type,
+                    hid_t properties) {
+  const std::filesystem::path folder = std::filesystem::path(place.path).parent_path();
+  hsize_t first = 0;
+  for (const Part& part : joined.parts) {
+    const Extent there = {part.pings, joined.extent[1], joined.extent[2]};
+    const Handle here = rows(place, joined.extent, first, part.pings), source = rows(place, there, 0, part.pings);
+    const std::string name = std::filesystem::relative(part.path, folder.empty() ? "." : folder).string();
+    place.checked(H5Pset_virtual(properties, here, name.c_str(), image.c_str(), source), image);
+    first += part.pings;
+  }
+  const float missing[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};
+  place.checked(H5Pset_fill_value(properties, type, missing), image);
+}
+
+/// Copies an image of all parts, ping by ping.
+void copy_images(const Place& place, const JoinedCube& joined, const std::string& image, hid_t type, hid_t dataset) {
+  const Extent one = {1, joined.extent[1], joined.extent[2]};
+  const Handle memory = rows(place, one, 0, 1);
+  std::vector<char> bytes(one[1] * one[2] * H5Tget_size(type));
+  hsize_t row = 0;
+  for (const Part& part : joined.parts) {
+    const Place from{part.path, ErrorKind::content};
+    const Handle file = open_file(from);
+    const Handle source = open_dataset(from, file, {image.c_str(), ""});
+    const Extent extent = {part.pings, one[1], one[2]};
+    for (hsize_t p = 0; p < part.pings; ++p, ++row) {
+      from.checked(H5Dread(source, type, memory, rows(from, extent, p, 1), H5P_DEFAULT, bytes.data()), image);
+      place.checked(H5Dwrite(dataset, type, memory, rows(place, joined.extent, row, 1), H5P_DEFAULT, bytes.data()),
+                    image);
+    }
+  }
+}
+
+void write_image(const Place& place, const JoinedCube& joined, const std::string& image, hid_t first, hid_t file,
+                 bool copy) {
+  const Handle like = open_dataset(place, first, {image.c_str(), ""});
+  const Handle type(place.checked(H5Dget_type(like), image), H5Tclose);
+  const Handle properties(place.checked(copy ? H5Dget_create_plist(like) : H5Pcreate(H5P_DATASET_CREATE), image),
+                          H5Pclose);
+  place.checked(H5Pset_obj_track_times(properties, false), image);
+  if (!copy) refer_to_parts(place, joined, image, type, properties);
+  const Handle space(place.checked(H5Screate_simple(3, joined.extent.data(), nullptr), image), H5Sclose);
+  const Handle dataset(
+      place.checked(H5Dcreate2(file, image.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), image),
+      H5Dclose);
+  hid_t to = dataset;
+  place.checked(H5Aiterate2(like, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &to), image);
+  if (copy) copy_images(place, joined, image, type, dataset);
+}
+
+}  // namespace
+
+void join_cubes(const std::string& path, const std::vector<std::string>& parts, bool copy) {
+  if (parts.empty()) fail(ErrorKind::argument, "join_cubes: ", path, ": no parts, must be at least one");
+  const QuietErrors quiet;
+  JoinedCube joined;
+  for (const std::string& part : parts) add_part(joined, part);
+  const Handle first = open_file({parts.front(), ErrorKind::content});
+  write_hdf5(path, [&](const Place& place, hid_t file) {
+    copy_axes(place, first, file);
+    write_tracks(place, file, joined);
+    const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
+    if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
+      create_ordered_group(place, file, layers_group);
+    for (const std::string& image : joined.images) write_image(place, joined, image, first, file, copy);
+  });
+}
+
+}  // namespace insonify

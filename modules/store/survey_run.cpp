@@ -1,0 +1,157 @@
+#include "store/survey_run.hpp"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/pending_file.hpp"
+#include "core/sha256.hpp"
+#include "core/text.hpp"
+#include "store/sonar_keys_internal.hpp"
+#include "store/toml_tree_internal.hpp"
+
+namespace insonify {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int survey_schema = 1;
+
+std::string description_path(const std::string& folder) { return (fs::path(folder) / "survey.toml").string(); }
+
+/// Waits until a file, or the names in a folder, are on disk.
+void sync_to_disk(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool synced = file >= 0 && (::fsync(file) == 0 || errno == EINVAL);  // EINVAL: nothing to wait for
+  const int reason = errno;
+  if (file >= 0) ::close(file);
+  if (!synced) fail(ErrorKind::file, path, ": cannot be put on disk: ", std::generic_category().message(reason));
+}
+
+std::size_t count_in(const std::string& path, const TomlValue& table, const char* key) {
+  const double value = toml_number(path, table, key);
+  if (!(value >= 1)) fail_in_file(path, table.line, key, " = ", value, ", must be at least 1");
+  return static_cast<std::size_t>(value);
+}
+
+/// Refuses a folder that holds anything but what other shards of the survey, starting just now, may have put there.
+void require_new(const std::string& folder) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder))
+    fail(ErrorKind::file, folder, ": is a file, must be a folder of a survey, or a new one");
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        !name.starts_with(".survey.toml.") && name != "survey.toml")
+      fail(ErrorKind::file, folder, ": holds ", name, " but no survey.toml, so it is no survey; choose another folder");
+}
+
+std::string description_of(const SurveyRun& run) {
+  std::string text = "# A survey: blocks of pings in NAME/blocks, joined by `insonify merge`.\nschema = " +
+                     std::to_string(survey_schema) + "\nmission_sha256 = \"" + run.mission_sha256 + "\"\n";
+  for (const SurveyRunHead& head : run.heads)
+    text += "\n[[head]]\nname = " + toml_text_of(head.name) + "\npings = " + std::to_string(head.pings) +
+            "\npings_per_block = " + std::to_string(head.pings_per_block) + "\n";
+  return text;
+}
+
+}  // namespace
+
+bool is_survey_run(const std::string& folder) { return fs::exists(description_path(folder)); }
+
+void open_survey_run(const std::string& folder, const SurveyRun& run) {
+  std::error_code error;
+  if (!is_survey_run(folder)) {
+    require_new(folder);
+    fs::create_directories(folder, error);
+    if (error) fail(ErrorKind::file, folder, ": cannot be created: ", error.message());
+    write_file(description_path(folder), description_of(run));
+  }
+  const SurveyRun there = load_survey_run(folder);
+  if (there.mission_sha256 != run.mission_sha256 || there.heads != run.heads)
+    fail(ErrorKind::content, folder, ": holds a survey of another mission, or of this one with other inputs (SHA-256 ",
+         there.mission_sha256.substr(0, 12), ", not ", run.mission_sha256.substr(0, 12), "); choose another folder");
+  for (const SurveyRunHead& head : run.heads) {
+    fs::create_directories(block_files(folder, head.name, 0).folder, error);
+    if (error) fail(ErrorKind::file, folder, ": cannot be created: ", error.message());
+  }
+}
+
+SurveyRun load_survey_run(const std::string& folder) {
+  if (!is_survey_run(folder)) fail(ErrorKind::file, folder, ": is not the folder of a survey (no survey.toml in it)");
+  const std::string path = description_path(folder);
+  const TomlValue document = load_toml(path);
+  if (const double schema = toml_number(path, document, "schema"); schema != survey_schema)
+    fail_in_file(path, 1, "schema = ", schema, ", this version reads schema ", survey_schema);
+  SurveyRun run;
+  run.mission_sha256 = toml_text(path, document, "mission_sha256");
+  if (const TomlValue* heads = document.find("head"))
+    for (const TomlValue& head : heads->items)
+      run.heads.push_back(
+          {toml_text(path, head, "name"), count_in(path, head, "pings"), count_in(path, head, "pings_per_block")});
+  return run;
+}
+
+BlockFiles block_files(const std::string& run_folder, const std::string& head, std::int64_t block) {
+  const fs::path folder = fs::path(run_folder) / head / "blocks";
+  const std::string stem = (folder / printed("%06lld", static_cast<long long>(block))).string();
+  return {folder.string(), stem + ".h5", stem + ".ply", stem + ".done", stem + ".partial.h5", stem + ".partial.ply"};
+}
+
+void finish_block(const BlockFiles& files, const std::string& mission_sha256, const std::vector<FailedPing>& failed) {
+  std::string text = "mission_sha256 = \"" + mission_sha256 + "\"\n";
+  if (fs::exists(files.cube)) {
+    for (const std::string& path : {files.cube, files.returns}) sync_to_disk(path);
+    text += "cube_sha256 = \"" + sha256_of_file(files.cube) + "\"\nreturns_sha256 = \"" +
+            sha256_of_file(files.returns) + "\"\n";
+  }
+  for (const FailedPing& ping : failed)
+    text += "\n[[failed]]\nping = " + std::to_string(ping.number) + "\nreason = " + toml_text_of(ping.reason) + "\n";
+  sync_to_disk(files.folder);
+  write_file(files.mark, text);
+  sync_to_disk(files.mark);
+  sync_to_disk(files.folder);
+  remove_leftovers(files);
+}
+
+std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& mission_sha256) {
+  if (!fs::exists(files.mark)) return std::nullopt;
+  const TomlValue document = load_toml(files.mark);
+  BlockMark mark;
+  mark.mission_sha256 = toml_text(files.mark, document, "mission_sha256");
+  if (mark.mission_sha256 != mission_sha256)
+    fail(ErrorKind::content, files.mark, ": is of another mission (SHA-256 ", mark.mission_sha256.substr(0, 12),
+         ", not ", mission_sha256.substr(0, 12), "); remove it and its block");
+  if (document.find("cube_sha256")) {
+    mark.cube_sha256 = toml_text(files.mark, document, "cube_sha256");
+    mark.returns_sha256 = toml_text(files.mark, document, "returns_sha256");
+  }
+  if (const TomlValue* failed = document.find("failed"))
+    for (const TomlValue& ping : failed->items)
+      mark.failed.push_back(
+          {static_cast<std::int64_t>(toml_number(files.mark, ping, "ping")), toml_text(files.mark, ping, "reason")});
+  return mark;
+}
+
+void remove_leftovers(const BlockFiles& files) {
+  const std::string begin = "." + fs::path(files.mark).stem().string() + ".";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(files.folder, ignored))
+    if (entry.path().filename().string().starts_with(begin)) fs::remove(entry.path(), ignored);
+  for (const std::string& path : {files.partial_cube, files.partial_returns})
+    if (fs::exists(files.mark)) fs::remove(path, ignored);
+}
+
+void require_unchanged(const BlockFiles& files, const BlockMark& mark) {
+  for (const auto& [path, digest] :
+       {std::pair(files.cube, mark.cube_sha256), std::pair(files.returns, mark.returns_sha256)})
+    if (!digest.empty() && sha256_of_file(path) != digest)
+      fail(ErrorKind::content, path, ": was changed since it was made (its SHA-256 is not that of ", files.mark,
+           "); remove the mark and run the survey again");
+}
+
+}  // namespace insonify

@@ -1,0 +1,132 @@
+// Blocks of a survey on disk, and cubes made of them.
+#include "store/survey_run.hpp"
+
+#include "store/cube.hpp"
+#include "store/join_cubes.hpp"
+#include "support/test.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const SurveyRun run{"abc", {{"fls", 10, 4}}};
+
+BlockFiles finished_block() {
+  open_survey_run(own_path("run"), run);
+  const BlockFiles files = block_files(own_path("run"), "fls", 1);
+  own_file("run/fls/blocks/000001.h5", "cube");
+  own_file("run/fls/blocks/000001.ply", "returns");
+  own_file("run/fls/blocks/.000001.h5.tmp-17", "of a killed process");
+  own_file("run/fls/blocks/000001.partial.h5", "of an interrupted one");
+  finish_block(files, "abc", {{5, "said \"no\""}});
+  return files;
+}
+
+Cube cube_of(float value, std::size_t pings, std::vector<std::string> layers, bool scan) {
+  Cube cube;
+  cube.sonar = "test";
+  cube.sound_speed = 1500;
+  cube.seed = 5;
+  for (std::size_t p = 0; p < pings; ++p) {
+    Ping ping;
+    ping.number = static_cast<std::int64_t>(value) + static_cast<std::int64_t>(p);
+    ping.time = 0.5 * static_cast<double>(ping.number);
+    ping.world_from_head.translation().x() = ping.time;
+    ping.fan = make_fan(3, radians(40), radians(1), radians(20));
+    ping.gate = {1, 2, 0.1};
+    ping.pressure = ComplexGridF::Constant(3, 10, static_cast<float>(ping.number));
+    ping.unknown = Grid<std::uint8_t>::Constant(3, 10, 1);
+    for (const auto& layer : layers) ping.layers.push_back({layer, ping.pressure});
+    if (scan) ping.scan = ScanPlace{ping.number / 2, 0.25 * static_cast<double>(ping.number)};
+    cube.pings.push_back(ping);
+  }
+  return cube;
+}
+
+}  // namespace
+
+TEST(SurveyRun, is_a_folder_of_one_mission) {
+  open_survey_run(own_path("run"), run);
+  open_survey_run(own_path("run"), run);
+  EXPECT_EQ(load_survey_run(own_path("run")).heads, run.heads);
+  SurveyRun other = run;
+  other.mission_sha256 = "abd";
+  EXPECT_EQ(error_of([&] { open_survey_run(own_path("run"), other); }, ErrorKind::content),
+            own_path("run") +
+                ": holds a survey of another mission, or of this one with other inputs (SHA-256 abc, not abd);"
+                " choose another folder");
+  fs::create_directory(own_path("mine"));
+  own_file("mine/thesis.txt", "");
+  EXPECT_THAT(error_of([] { open_survey_run(own_path("mine"), run); }, ErrorKind::file),
+              HasSubstr("holds thesis.txt but no survey.toml, so it is no survey"));
+  EXPECT_THAT(error_of([] { load_survey_run(own_path("mine")); }, ErrorKind::file),
+              HasSubstr("not the folder of a survey"));
+}
+
+TEST(SurveyRun, marks_finished_blocks_with_their_digests_and_failures) {
+  const BlockFiles files = finished_block();
+  EXPECT_FALSE(find_mark(block_files(own_path("run"), "fls", 0), "abc"));
+  const auto mark = find_mark(files, "abc");
+  ASSERT_TRUE(mark);
+  ASSERT_EQ(mark->failed.size(), 1U);
+  EXPECT_EQ(mark->failed[0].number, 5);
+  EXPECT_EQ(mark->failed[0].reason, "said \"no\"");
+  require_unchanged(files, *mark);
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(files.folder)) names.insert(entry.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"000001.done", "000001.h5", "000001.ply"})) << "nothing is left over";
+}
+
+TEST(SurveyRun, sees_changed_files_and_marks_of_another_mission) {
+  const BlockFiles files = finished_block();
+  EXPECT_THAT(error_of([&] { find_mark(files, "xyz"); }, ErrorKind::content), HasSubstr("is of another mission"));
+  own_file("run/fls/blocks/000001.ply", "Returns");
+  EXPECT_THAT(error_of([&] { require_unchanged(files, *find_mark(files, "abc")); }, ErrorKind::content),
+              HasSubstr("000001.ply: was changed since it was made"));
+}
+
+TEST(JoinCubes, refers_to_the_parts_or_copies_them) {
+  for (const bool scan : {false, true}) {
+    fs::create_directories(own_path("parts"));
+    write_cube(own_path("parts/0.h5"), cube_of(0, 2, {"direct", "noise"}, scan));
+    write_cube(own_path("parts/1.h5"), cube_of(2, 3, {"direct", "noise"}, scan));
+    write_cube(own_path("once.h5"), cube_of(0, 5, {"direct", "noise"}, scan));
+    for (const bool copy : {false, true}) {
+      join_cubes(own_path("all.h5"), {own_path("parts/0.h5"), own_path("parts/1.h5")}, copy);
+      const Cube all = read_cube(own_path("all.h5"));
+      write_cube(own_path("again.h5"), all);
+      EXPECT_EQ(file_bytes(own_path("again.h5")), file_bytes(own_path("once.h5"))) << "all that a cube holds";
+    }
+    fs::remove_all(own_path("parts"));
+    EXPECT_EQ(read_cube(own_path("all.h5")).pings.size(), 5U) << "the copy stands alone";
+  }
+}
+
+TEST(JoinCubes, may_be_moved_with_its_parts_but_not_without) {
+  fs::create_directories(own_path("run/parts"));
+  write_cube(own_path("run/parts/0.h5"), cube_of(0, 2, {}, false));
+  join_cubes(own_path("run/all.h5"), {own_path("run/parts/0.h5")});
+  fs::rename(own_path("run"), own_path("moved"));
+  EXPECT_EQ(read_cube(own_path("moved/all.h5")).pings[1].pressure(0, 0), 1.0F);
+  fs::remove(own_path("moved/parts/0.h5"));
+  EXPECT_EQ(error_of([] { read_cube(own_path("moved/all.h5")); }, ErrorKind::content),
+            own_path("moved/all.h5") + ": /pressure: its part parts/0.h5 is missing");
+}
+
+TEST(JoinCubes, keeps_layers_that_all_have_and_refuses_other_sonars) {
+  write_cube(own_path("0.h5"), cube_of(0, 1, {"direct", "noise"}, false));
+  write_cube(own_path("1.h5"), cube_of(1, 1, {"direct"}, false));
+  Cube other = cube_of(1, 1, {}, false);
+  other.sonar = "other";
+  write_cube(own_path("2.h5"), other);
+  join_cubes(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")});
+  for (const Ping& ping : read_cube(own_path("all.h5")).pings) EXPECT_EQ(ping.layers.size(), 1U);
+  EXPECT_THAT(error_of(
+                  [] {
+                    join_cubes(own_path("x.h5"), {own_path("0.h5"), own_path("2.h5")});
+                  },
+                  ErrorKind::content),
+              HasSubstr("2.h5: is of sonar other with 3 beams and 10 bins, not test with 3 and 10 as in"));
+  EXPECT_THAT(error_of([] { join_cubes(own_path("x.h5"), {}); }), HasSubstr("no parts, must be at least one"));
+  EXPECT_FALSE(file_exists(own_path("x.h5")));
+}

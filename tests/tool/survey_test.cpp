@@ -1,0 +1,225 @@
+// Surveys: one result whatever the shards, threads, order and interruptions.
+#include <nlohmann/json.hpp>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/sha256.hpp"
+#include "store/cube.hpp"
+#include "support/test.hpp"
+#include "tool/tool_runner.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string mission = R"(schema = 1
+[survey]
+scene = "harbour.ply"
+seed = 7
+[trajectory]
+waypoints_m = [[0, 0, -3], [4, 0, -3], [4, 3, -3]]
+speed_m_s = 1
+[[head]]
+name = "fls"
+sonar = "p900-45"
+range = "1:6"
+set = ["sonar.beams=16"]
+angles_deg = [0, 20, 0]
+rate_hz = 2
+[[head]]
+name = "turning"
+sonar = "ping360"
+range = "1:6"
+offset_m = [0.5, 0, 0]
+[head.scan]
+start_deg = 0
+stop_deg = 360
+step_deg = 45
+dwell_s = 0.5
+[ping]
+noise = true
+scatterers_per_cell = 0
+)";
+
+class Survey : public ToolTest {
+ protected:
+  void SetUp() override {
+    have("harbour.ply", "make-scene harbour --points 6000");
+    write("m.toml", mission);
+  }
+  void survey(const std::string& run, const std::string& more = "") const {
+    succeed("survey m.toml -q --pings-per-block 3 -o " + run + " " + more);
+  }
+  /// Digests of what a survey gives after merging.
+  std::vector<std::string> merged(const std::string& run) const {
+    succeed("merge -q " + run);
+    std::vector<std::string> digests;
+    for (const char* file : {"/fls/cube.h5", "/turning/cube.h5", "/returns.ply", "/manifest.json", "/fls/run.toml"})
+      digests.push_back(sha256_of_file(path(run + file)));
+    return digests;
+  }
+  /// Digests of the survey made in one go.
+  std::vector<std::string> expected() const {
+    survey("whole", "-j1");
+    return merged("whole");
+  }
+  std::vector<std::string> names_in(const std::string& folder) const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path(folder))) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+/// Starts the program itself and ends it by `signal` once `enough()`; returns its exit code, or -1.
+int started_and_ended(const std::string& folder, int signal, const std::function<bool()>& enough) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(folder.c_str()) == 0)
+      execl(INSONIFY_TOOL, INSONIFY_TOOL, "survey", "m.toml", "-q", "-j2", "--pings-per-block", "3", "-o", "run",
+            static_cast<char*>(nullptr));
+    _exit(99);
+  }
+  while (!enough() && waitpid(child, nullptr, WNOHANG) == 0) usleep(2000);
+  kill(child, signal);
+  int status = -1;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+TEST_F(Survey, gives_the_same_bytes_for_any_shards_threads_and_order) {
+  const auto whole = expected();
+  survey("two", "-j2");
+  EXPECT_EQ(merged("two"), whole);
+  for (const int shard : {2, 0, 1}) survey("three", "-j1 --shard " + std::to_string(shard) + "/3");
+  EXPECT_EQ(merged("three"), whole);
+  for (const int shard : {6, 5, 4, 3, 2, 1, 0}) survey("seven", "-j2 --shard " + std::to_string(shard) + "/7");
+  EXPECT_EQ(merged("seven"), whole);
+}
+
+TEST_F(Survey, cubes_hold_time_pose_and_scan_of_every_ping) {
+  survey("run");
+  merged("run");
+  const Cube fls = read_cube(path("run/fls/cube.h5")), turning = read_cube(path("run/turning/cube.h5"));
+  ASSERT_EQ(fls.pings.size(), 13U);
+  EXPECT_EQ(fls.pings[5].time, 2.5);
+  EXPECT_EQ(fls.pings[5].number, 5);
+  EXPECT_EQ(fls.seed, 7U);
+  EXPECT_FALSE(fls.pings[5].scan);
+  ASSERT_EQ(turning.pings.size(), 13U);
+  const Ping& ping = turning.pings[3];
+  EXPECT_NEAR(ping.scan.value().angle, radians(135), 1e-12);
+  EXPECT_EQ(turning.pings[9].scan->sweep, 1);
+  EXPECT_TRUE(ping.world_from_head.isApprox(pose_from_yaw_pitch_roll({2, 0, -3}, radians(135), 0, 0), 1e-12));
+  EXPECT_GT(ping.pressure.abs().maxCoeff(), 0);
+  // A ping of the survey is the ping of its pose, and knows its noise by seed, head and number.
+  succeed("survey m.toml -q -o one --pings-per-block 100");
+  EXPECT_EQ(read_cube(path("one/fls/blocks/000000.h5")).pings[5].pressure(3, 4), fls.pings[5].pressure(3, 4));
+}
+
+TEST_F(Survey, returns_know_time_head_ping_and_beam) {
+  survey("run");
+  merged("run");
+  const std::string ply = read("run/returns.ply");
+  const std::string header = ply.substr(0, ply.find("end_header"));
+  for (const char* column :
+       {"double x", "uint scalar_ping", "uint scalar_beam", "double scalar_time", "uint scalar_head"})
+    EXPECT_THAT(header, HasSubstr(std::string("property ") + column + "\n"));
+  std::size_t rows = 0;
+  std::istringstream(header.substr(header.find("vertex ") + 7)) >> rows;
+  EXPECT_GT(rows, 100U);
+  EXPECT_EQ(ply.size(), header.size() + 11 + rows * (3 * 8 + 8 * 4 + 8 + 4));
+}
+
+TEST_F(Survey, killed_at_any_time_it_goes_on_and_leaves_nothing_over) {
+  const auto whole = expected();
+  const auto blocks = names_in("whole/fls/blocks");
+  const fs::path run = path("run/fls/blocks");
+  for (const std::string done : {"000000.h5", "000000.done", "000002.h5"})
+    started_and_ended(folder_.string(), SIGKILL, [&] { return fs::exists(run / done); });
+  ASSERT_TRUE(fs::exists(run / "000000.done"));
+  const auto made = fs::last_write_time(run / "000000.h5");
+  survey("run");
+  EXPECT_EQ(fs::last_write_time(run / "000000.h5"), made) << "a finished block is not made again";
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/fls/blocks"), blocks);
+}
+
+TEST_F(Survey, interrupted_it_keeps_every_finished_ping) {
+  const auto whole = expected();
+  const int code =
+      started_and_ended(folder_.string(), SIGINT, [&] { return fs::exists(path("run/fls/blocks/000000.done")); });
+  const auto status = nlohmann::json::parse(read("run/status.json"));
+  EXPECT_EQ(code, status["state"] == "done" ? 0 : 130);
+  const auto result = nlohmann::json::parse(succeed("survey m.toml --pings-per-block 3 -o run --json -q"));
+  EXPECT_EQ(result["made"].get<int>(), 26 - status["done"].get<int>()) << "no finished ping is made twice";
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/turning/blocks"), names_in("whole/turning/blocks"));
+  EXPECT_EQ(nlohmann::json::parse(read("run/status.json"))["state"], "done");
+}
+
+TEST_F(Survey, names_missing_and_changed_blocks) {
+  survey("run", "--shard 0/2");
+  expect_refused("merge run", 3, {"run: 5 of 10 blocks are not done: fls/blocks/000001 (pings 3 to 5)", "again"});
+  survey("run", "--shard 1/2");
+  std::ofstream(path("run/fls/blocks/000001.h5"), std::ios::app) << "x";
+  expect_refused("merge run", 3, {"run/fls/blocks/000001.h5: was changed since it was made"});
+}
+
+TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
+  // Between the second and third entry the vehicle is faster than a hundredth of the sound speed.
+  write("way.csv",
+        "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,0,0\n1,0.5,0,-3,0,0,0\n"
+        "1.2,4.5,0,-3,0,0,0\n2,5,0,-3,0,0,0\n");
+  write("m.toml", replaced(replaced(mission, "rate_hz = 2", "times_s = [0.5, 1.1, 1.5]"),
+                           "waypoints_m = [[0, 0, -3], [4, 0, -3], [4, 3, -3]]\nspeed_m_s = 1", "file = \"way.csv\""));
+  const ToolResult made = run("survey m.toml -o run -q");
+  EXPECT_EQ(made.exit_code, 5);
+  EXPECT_THAT(made.err, HasSubstr("1 of 7 pings failed: fls ping 1: "));
+  EXPECT_THAT(made.err, HasSubstr("motion.velocity = 20 m/s, must be below"));
+  const ToolResult joined = run("merge run -q");
+  EXPECT_EQ(joined.exit_code, 5);
+  EXPECT_EQ(read_cube(path("run/fls/cube.h5")).pings.size(), 2U);
+  EXPECT_EQ(nlohmann::json::parse(read("run/manifest.json"))["failed"][0]["ping"], 1);
+}
+
+TEST_F(Survey, plans_without_writing_anything) {
+  const auto plan = nlohmann::json::parse(succeed("survey m.toml --plan --json -q"));
+  EXPECT_EQ(plan["all"]["pings"], 26);
+  EXPECT_EQ(plan["heads"][1]["name"], "turning");
+  EXPECT_GT(plan["heads"][0]["echoes"].get<double>(), 1000);
+  EXPECT_GT(plan["all"]["cpu_hours"].get<double>(), 0);
+  survey("run");
+  merged("run");
+  double bytes = static_cast<double>(fs::file_size(path("run/returns.ply")));
+  for (const auto& entry : fs::recursive_directory_iterator(path("run")))
+    if (entry.path().extension() == ".h5" && entry.path().stem() != "cube")
+      bytes += static_cast<double>(entry.file_size());
+  EXPECT_LT(std::abs(std::log(plan["all"]["bytes"].get<double>() / bytes)), std::log(1.5)) << bytes;
+}
+
+TEST_F(Survey, refuses_what_cannot_be) {
+  const auto refuses = [&](const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
+    write("bad.toml", replaced(mission, from, to));
+    expect_refused("survey bad.toml -o bad", 3, parts);
+  };
+  refuses(
+      "rate_hz = 2", "rate_hz = 200",
+      {"bad.toml: survey_pings: head 'fls': pings 0 and 1", "0.005 s apart, must be at least 2 max_range / c = 0.008"});
+  write("sea.toml", "[surface]\nheight_m = -3.5\n");
+  refuses("seed = 7", "environment = \"sea.toml\"",
+          {"bad.toml: head 'fls', ping 0 at 0 s: is at z = -3 m, above the sea surface at -3.5 m"});
+  refuses("[4, 3, -3]]", "[400, 3, -3]]", {"head 'fls', ping", "m from the scene, beyond its max range of 6 m"});
+  refuses("noise = true", "nois = true", {"bad.toml:", "unknown key 'nois'; did you mean 'noise'?"});
+  refuses("noise = true", "pose = \"0,0,0,0,0,0\"", {"unknown key 'pose'"});
+  refuses("schema = 1", "schema = 2", {"bad.toml:1: schema = 2", "newer insonify"});
+  survey("run", "--shard 0/9");
+  write("m.toml", mission + "threshold_db = 12\n");
+  expect_refused("survey m.toml --pings-per-block 3 -o run", 3, {"run: holds a survey of another mission"});
+  expect_refused("survey m.toml -o x --shard 3/3", 2, {"--shard = '3/3' is not I/N"});
+  expect_refused("survey m.toml", 2, {"--output or --plan must be given"});
+  expect_refused("merge run -o x", 2, {"--output: a survey is merged in its own folder"});
+}
