@@ -33,8 +33,9 @@ struct ImageOptions {
   bool animate = false;
   bool force = false;
   bool raw = false;
-  double tvg = 40;  ///< [dB per decade of range]
-  int bits = 8;     ///< of view grey
+  double tvg = 40;             ///< [dB per decade of range]
+  int bits = 8;                ///< of view grey
+  std::string frame = "head";  ///< of view scan
   bool dark = false;
   // Of view scene:
   std::string scene;               ///< of a run, or empty: where run.toml says

@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "tool/image.hpp"
 #include "tool/run_files.hpp"
+#include "tool/scan_image.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/show_image.hpp"
 
@@ -121,6 +122,17 @@ Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number)
   return panels;
 }
 
+/// The sweep of the ping.
+void draw_scan(const ViewJob& job) {
+  const bool in_world = job.options.frame == "world";
+  PictureOptions picture = job.picture;
+  if (job.options.title.empty())
+    picture.title =
+        fmt::format("{}, sweep {}{}", job.run.cube.sonar, job.run.cube.pings[job.ping].scan.value_or(ScanPlace{}).sweep,
+                    in_world ? ", motion compensated" : "");
+  show_fan((in_world ? sweep_in_world : sweep_of_head)(job.run, job.options, job.ping), picture, job.path);
+}
+
 void draw_panels(const ViewJob& job) { show_panels(panels_of(job.run, job.options, job.ping), job.picture, job.path); }
 
 double next_five(double level_db) { return 5 * std::floor(level_db / 5) + 5; }
@@ -162,6 +174,7 @@ const std::vector<ViewSpec>& all_views() {
        BeamChoice::mean,
        BeamChoice::mean},
       {"panels", "fan, one beam, its pattern and facts", {"--annotate", "--animate"}, draw_panels, max_db_of_image},
+      {.name = "scan", .shows = "the sweep of a scanning head", .options = {"--frame"}, .draw = draw_scan},
       {.name = "scene",
        .shows = "the scene in 3-D with returns, or as the head sees it",
        .options = {"--scene", "--sonar", "--pose", "--range", "--camera", "--colour", "--normals"},

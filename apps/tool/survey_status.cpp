@@ -1,5 +1,8 @@
 #include "tool/survey_status.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -21,13 +24,14 @@ std::string time_text(double seconds) {
 SurveyStatus::SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done)
     : progress_(progress), path_(std::move(path)), shard_(std::move(shard)), pings_(pings), done_before_(done) {}
 
-void SurveyStatus::ping_done(bool failed) {
+void SurveyStatus::ping_done(const SurveyReturn* made) {
   const std::scoped_lock lock(guard_);
-  ++made_;
-  failed_ += failed;
+  ++(made ? made_ : done_before_);
+  failed_ += made && !made->failure.empty();
   const std::size_t done = done_before_ + made_;
   seconds_ += watch_.lap();
-  const double left = seconds_ * static_cast<double>(pings_ - done) / static_cast<double>(made_);
+  const double left =
+      seconds_ * static_cast<double>(pings_ - done) / static_cast<double>(std::max<std::size_t>(1, made_));
   progress_.show(static_cast<double>(done) / static_cast<double>(pings_),
                  fmt::format("ping {} of {}, {} left", done, pings_, time_text(left)));
   if (seconds_ - written_ >= 1) write_locked("running");

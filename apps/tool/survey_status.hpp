@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/stop_watch.hpp"
+#include "simulate/simulate_survey.hpp"
 #include "tool/progress.hpp"
 
 namespace insonify::tool {
@@ -14,7 +15,8 @@ class SurveyStatus {
   /// `path`: of the file; `pings`: to be made or kept by this shard, of which `done` are there already.
   SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done);
 
-  void ping_done(bool failed);
+  /// `made`: null for a ping that was there already.
+  void ping_done(const SurveyReturn* made);
   /// Writes the file: running, done, interrupted or failed.
   void write(const std::string& state);
 

@@ -43,6 +43,8 @@ void add_options(OptionList list, ImageOptions& o) {
            {.required = true});
   list.add("--view", &o.view, joined(views, "; "), {.words = names});
   list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
+  list.add("--frame", &o.frame, "of scan: head, as an operator sees it, or world: the vehicle's motion compensated",
+           {.words = {"head", "world"}});
   list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
   list.add("--ping", &o.ping, "which ping, from 0");
   list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
@@ -138,7 +140,8 @@ void require_options_of_view(const ImageOptions& o) {
   const std::pair<const char*, bool> given[] = {
       {"--annotate", o.annotate.has_value()}, {"--animate", o.animate},        {"--scene", !o.scene.empty()},
       {"--sonar", !o.sonar.empty()},          {"--pose", !o.pose.empty()},     {"--range", !o.range.empty()},
-      {"--camera", o.camera != "auto"},       {"--colour", !o.colour.empty()}, {"--normals", o.normals}};
+      {"--camera", o.camera != "auto"},       {"--colour", !o.colour.empty()}, {"--normals", o.normals},
+      {"--frame", o.frame != "head"}};
   const std::vector<std::string>& taken = view_of(o).options;
   for (const auto& [option, is_given] : given)
     if (is_given && std::find(taken.begin(), taken.end(), option) == taken.end())
@@ -174,6 +177,7 @@ Verb image_verb() {
       {"insonify image out -o fan.png --annotate", "insonify image out --view ascan --beam 128 -o beam.png",
        "insonify image track --animate -o frames", "insonify image track --view waterfall --beam max -o waterfall.png",
        "insonify image out --view scene -o scene.png",
+       "insonify image survey/ping360 --view scan --frame world -o sweep.png",
        "insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o visibility.png"},
       add_options, image);
 }

@@ -23,7 +23,8 @@ void add_options(OptionList list, SurveyOptions& o) {
   list.add("MISSION", &o.mission, "TOML file: scene, trajectory, heads, legs (docs/survey.md)", {.required = true});
   list.add("-o,--output", &o.output,
            "folder of the survey: a new one, or one of this mission, whose finished blocks are kept");
-  list.add("--shard", &o.shard, "I/N: make every Nth block of pings, beginning with block I, from 0 to N-1");
+  list.add("--shard", &o.shard,
+           "I/N: make every Nth block of pings, beginning with block I, from 0 to N-1; counted head after head");
   list.add("--pings-per-block", &o.pings_per_block,
            "stored together, so that as many are made again after a kill; 0: as many as fill 32 MiB, at most 64",
            {.within = std::pair(0, 100000), .shown_as = "INT"});
@@ -142,6 +143,13 @@ std::vector<std::string> failures_of(const SurveyOptions& o, const SurveySetup& 
 }
 
 void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard, Progress& progress) {
+  // A scene that does not fit is refused before there is a folder; of a survey that is done it is not read at all.
+  std::optional<SurveyScene> scene;
+  const auto load = [&] {
+    progress.step("loading " + s.file.scene);
+    scene.emplace(s, o.common, progress);
+  };
+  if (!is_survey_run(o.output)) load();
   open_survey_run(o.output, s.run);
   write_survey_settings(s, o.output);
   const SurveyBlocks store(s, o.output);
@@ -151,14 +159,13 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
 
   bool whole = true;
   if (!todo.blocks.empty()) {
-    progress.step("loading " + s.file.scene);
-    const SurveyScene scene(s, o.common, progress);
+    if (!scene) load();
     progress.step("pinging");
     SurveyWork work;
-    work.simulate = [&](const SurveyPing& ping) { return return_of(scene.ping(s, ping), s.file.mission, ping); };
+    work.simulate = [&](const SurveyPing& ping) { return return_of(scene->ping(s, ping), s.file.mission, ping); };
     work.resume = [&](const SurveyBlock& block) { return store.resume(block); };
     work.keep = [&](const SurveyBlock& block, BlockReturns& returns) { store.keep(block, returns); };
-    work.done = [&](const SurveyReturn& returned) { status.ping_done(!returned.failure.empty()); };
+    work.done = [&](const SurveyReturn* made) { status.ping_done(made); };
     work.stop = is_interrupted;
     whole = simulate_survey(s.pings, todo.blocks, o.common.threads, work);
   }

@@ -113,7 +113,7 @@ bool simulate_survey(const std::vector<SurveyPing>& pings, const std::vector<Sur
     }
     std::optional<SurveyReturn> made;
     if (open.is_left(blocks[b], p)) made = try_ping(work, pings[p]);
-    work.done(made ? *made : SurveyReturn());
+    work.done(made ? &*made : nullptr);
     open.add(blocks[b], p, std::move(made));
   });
   open.leave();

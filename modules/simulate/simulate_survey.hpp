@@ -28,7 +28,8 @@ SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const 
 /// How the pings of a survey are made and what becomes of them. `simulate` and `done` are called by several threads at once.
 struct SurveyWork {
   std::function<SurveyReturn(const SurveyPing& ping)> simulate;
-  std::function<void(const SurveyReturn& made_or_resumed)> done;  ///< after each ping
+  /// After each ping: null for one that was resumed, not made.
+  std::function<void(const SurveyReturn* made)> done;
   /// What an interrupted survey left of a block; an empty list for nothing.
   std::function<BlockReturns(const SurveyBlock& block)> resume;
   /// Gets each block once: whole, or as far as it is done when the survey stops.

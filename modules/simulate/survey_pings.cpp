@@ -143,8 +143,6 @@ std::vector<SurveyBlock> survey_blocks(const std::vector<SurveyPing>& pings,
       blocks.push_back({pings[p].head, same_head ? blocks.back().number + 1 : 0, p, p});
     blocks.back().end = p + 1;
   }
-  std::stable_sort(blocks.begin(), blocks.end(),
-                   [&](const auto& a, const auto& b) { return pings[a.begin].time < pings[b.begin].time; });
   return blocks;
 }
 

@@ -42,7 +42,7 @@ struct SurveyBlock {
 };
 
 /// Divides the pings of every head into blocks of `per_block[head]` pings (the last one may be shorter), in the order of
-/// their first pings' times.
+/// the pings.
 std::vector<SurveyBlock> survey_blocks(const std::vector<SurveyPing>& pings, const std::vector<std::size_t>& per_block);
 
 }  // namespace insonify

@@ -38,7 +38,7 @@ struct Survey {
       returned.ping.number = ping.number;
       return returned;
     };
-    work.done = [](const SurveyReturn&) {};
+    work.done = [](const SurveyReturn*) {};
     work.resume = [this](const SurveyBlock& block) { return left[block.number]; };
     work.keep = [this](const SurveyBlock& block, BlockReturns& returns) {
       auto& words = kept[block.number];

@@ -123,8 +123,8 @@ TEST(SurveyPings, are_divided_into_blocks_of_one_head_each) {
   const auto blocks = survey_blocks(survey_pings(m), {4, 100});
   std::vector<std::vector<std::size_t>> seen;
   for (const SurveyBlock& b : blocks) seen.push_back({b.head, static_cast<std::size_t>(b.number), b.begin, b.end});
-  EXPECT_THAT(seen, ElementsAre(ElementsAre(0, 0, 0, 4), ElementsAre(1, 0, 10, 14), ElementsAre(0, 1, 4, 8),
-                                ElementsAre(0, 2, 8, 10)));
+  EXPECT_THAT(seen, ElementsAre(ElementsAre(0, 0, 0, 4), ElementsAre(0, 1, 4, 8), ElementsAre(0, 2, 8, 10),
+                                ElementsAre(1, 0, 10, 14)));
 }
 
 TEST(SurveyPings, refuse_what_no_vehicle_can_do) {
