@@ -15,7 +15,8 @@ declare -A why=(
 )
 if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
-    [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer")
+    [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer"
+    [parallel]="shards of a survey")
 fi
 if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
 

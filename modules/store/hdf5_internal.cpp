@@ -40,6 +40,9 @@ T read_scalar(const Place& place, hid_t where, const char* name, hid_t memory_ty
 }  // namespace
 
 QuietErrors::QuietErrors() {
+  // A file that could not be written to its end stays open within HDF5, which would crash when the program ends.
+  static const herr_t no_exit_handler = H5dont_atexit();
+  static_cast<void>(no_exit_handler);
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

@@ -159,6 +159,36 @@ TEST_F(Survey, interrupted_it_keeps_every_finished_ping) {
   EXPECT_EQ(nlohmann::json::parse(read("run/status.json"))["state"], "done");
 }
 
+// The lines of docs/cluster.md, with a task that is killed.
+TEST_F(Survey, under_gnu_parallel_gives_the_same_bytes) {
+  if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
+  const auto whole = expected();
+  const std::string line = "cd " + folder_.string() +
+                           " && parallel --will-cite -j2 " INSONIFY_TOOL
+                           " survey m.toml -o run -j1 -q --pings-per-block 3 --shard {}/4 ::: 0 1 2 3";
+  EXPECT_NE(std::system(("cd " + folder_.string() +
+                         " && parallel --will-cite 'timeout -s KILL 0.5 " INSONIFY_TOOL
+                         " survey m.toml -o run -q --pings-per-block 3 --shard {}/4' ::: 0 1 2>/dev/null")
+                            .c_str()),
+            0);
+  EXPECT_EQ(std::system(line.c_str()), 0);
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
+}
+
+// A limit of the size of files refuses to write as a full disk does.
+TEST_F(Survey, on_a_full_disk_it_ends_and_goes_on_when_there_is_space) {
+  const auto whole = expected();
+  const int status = std::system(("cd " + folder_.string() +
+                                  " && trap '' XFSZ && ulimit -f 100 && " INSONIFY_TOOL
+                                  " survey m.toml -o run -q --pings-per-block 3 2>/dev/null")
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_THAT(names_in("run/fls/blocks"), testing::IsEmpty());
+  survey("run");
+  EXPECT_EQ(merged("run"), whole);
+}
+
 TEST_F(Survey, names_missing_and_changed_blocks) {
   survey("run", "--shard 0/2");
   expect_refused("merge run", 3, {"run: 5 of 10 blocks are not done: fls/blocks/000001 (pings 3 to 5)", "again"});
