@@ -1,6 +1,7 @@
 #include "tool/survey_blocks.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -49,6 +50,7 @@ bool SurveyBlocks::is_done(const SurveyBlock& block) const {
 BlockReturns SurveyBlocks::resume(const SurveyBlock& block) const {
   const BlockFiles files = files_of(block);
   remove_leftovers(files);
+  for (const std::string& unmarked : {files.cube, files.returns}) fs::remove(unmarked);
   BlockReturns returns(block.end - block.begin);
   if (fs::exists(files.partial_cube) && fs::exists(files.partial_returns)) try {
       Cube cube = read_cube(files.partial_cube);
@@ -58,7 +60,7 @@ BlockReturns SurveyBlocks::resume(const SurveyBlock& block) const {
         append(returned.soundings, soundings, static_cast<std::uint32_t>(ping.number));
         returned.ping = std::move(ping);
       }
-    } catch (const Error&) {  // cut short: made again
+    } catch (const std::exception&) {  // cut short or damaged: made again
       returns.assign(returns.size(), std::nullopt);
     }
   return returns;

@@ -129,13 +129,15 @@ SimulatedPing SurveyScene::ping(const SurveySetup& setup, const SurveyPing& ping
   const HeadSetup& h = head.setup.head;
   if (prepared_) return simulate_ping(*prepared_, h.head, place.world_from_head, h.environment, options);
 
-  PingSetup here{place.world_from_head, h, options};
+  PingOptions alone = head.options;
+  alone.common.threads = 1;
+  const PingSetup here{place.world_from_head, h, options};
   if (!loaded_.mesh) {
-    const PingScene part = load_ping_scene(head.options, here);
+    const PingScene part = load_ping_scene(alone, here);
     return simulate_ping(part.loaded.scene, h.head, place.world_from_head, h.environment, options);
   }
   LoadedScene fine = loaded_;
-  sample_for_ping(head.options, here, fine);
+  sample_for_ping(alone, here, fine);
   return simulate_ping(fine.scene, h.head, place.world_from_head, h.environment, options);
 }
 

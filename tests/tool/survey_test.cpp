@@ -59,6 +59,13 @@ class Survey : public ToolTest {
       digests.push_back(sha256_of_file(path(run + file)));
     return digests;
   }
+  /// Digests of the cubes of some heads.
+  std::vector<std::string> merged_cubes(const std::string& run, const std::vector<std::string>& heads) const {
+    succeed("merge -q " + run);
+    std::vector<std::string> digests;
+    for (const std::string& head : heads) digests.push_back(sha256_of_file(path(run + "/" + head + "/cube.h5")));
+    return digests;
+  }
   /// Digests of the survey made in one go.
   std::vector<std::string> expected() const {
     survey("whole", "-j1");
@@ -116,6 +123,42 @@ TEST_F(Survey, cubes_hold_time_pose_and_scan_of_every_ping) {
   // A ping of the survey is the ping of its pose, and knows its noise by seed, head and number.
   succeed("survey m.toml -q -o one --pings-per-block 100");
   EXPECT_EQ(read_cube(path("one/fls/blocks/000000.h5")).pings[5].pressure(3, 4), fls.pings[5].pressure(3, 4));
+}
+
+TEST_F(Survey, ping_is_that_of_insonify_ping_on_the_same_trajectory) {
+  write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,20,0\n4,3,1,-3,30,20,5\n");
+  write("m.toml", R"(schema = 1
+[survey]
+scene = "harbour.ply"
+seed = 3
+[trajectory]
+file = "way.csv"
+[[head]]
+sonar = "p900-45"
+range = "1:6"
+set = ["sonar.beams=16"]
+times_s = [1, 2.5]
+[ping]
+accuracy_db = 0.01
+)");
+  survey("run");
+  merged_cubes("run", {"p900-45"});
+  const Ping of_survey = read_cube(path("run/p900-45/cube.h5")).pings.at(1);
+  succeed(
+      "ping harbour.ply -q --no-picture --sonar p900-45 --range 1:6 --set sonar.beams=16 --accuracy-db 0.01 --seed 3"
+      " --trajectory way.csv --time 2.5 -o one");
+  const Ping alone = read_cube(path("one/cube.h5")).pings.at(0);
+  EXPECT_GT(alone.pressure.abs().maxCoeff(), 0);
+  EXPECT_TRUE((of_survey.pressure == alone.pressure).all());
+  EXPECT_TRUE(of_survey.world_from_head.isApprox(alone.world_from_head, 1e-15));
+}
+
+TEST_F(Survey, of_tiles_is_that_of_the_cloud) {
+  survey("cloud");
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  write("m.toml", replaced(mission, "harbour.ply", "harbour.tiles"));
+  survey("tiles", "-j2");
+  EXPECT_EQ(merged_cubes("tiles", {"fls", "turning"}), merged_cubes("cloud", {"fls", "turning"}));
 }
 
 TEST_F(Survey, returns_know_time_head_ping_and_beam) {
