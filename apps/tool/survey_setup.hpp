@@ -38,8 +38,8 @@ struct SurveySetup {
   SurveyRun run;
 };
 
-/// Reads the mission and what it names, but for the scene, of which only the digest is taken. Throws Error(content) with
-/// the file for a mission that cannot be: pings too close to one another, a head above the surface.
+/// Reads the mission and what it names, but for the scene, of which only the digest is taken. Throws Error(content)
+/// with the file for a mission that cannot be: pings too close to one another, a head above the surface.
 SurveySetup set_up_survey(const SurveyOptions& options);
 
 /// Bytes of a ping's pressure in the cube.

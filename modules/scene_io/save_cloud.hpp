@@ -24,14 +24,14 @@ void save_scene(const std::string& path, const SceneCloud& scene);
 /// Throws Error(argument) for another extension or columns of different lengths, Error(file) if it cannot write.
 void save_soundings(const std::string& path, const Soundings& soundings);
 
-/// Writes the soundings of one head of a survey as .ply: the columns of save_soundings, then scalar_time (double, when the
-/// ping was sent [s]) and scalar_head (its index in the mission). Throws as save_soundings.
+/// Writes the soundings of one head of a survey as .ply: the columns of save_soundings, then scalar_time (double, when
+/// the ping was sent [s]) and scalar_head (its index in the mission). Throws as save_soundings.
 void save_survey_returns(const std::string& path, const Soundings& soundings, const std::vector<double>& time,
                          std::uint32_t head);
 
 /// Makes one .ply of binary ones with the same columns, in the order given; holds a few MB of them at a time. Throws
-/// Error(argument) without parts, Error(file) for one that is missing or if it cannot write, Error(content) for one that
-/// is damaged or has other columns than the first.
+/// Error(argument) without parts, Error(file) for one that is missing or if it cannot write, Error(content) for one
+/// that is damaged or has other columns than the first.
 void join_clouds(const std::string& path, const std::vector<std::string>& parts);
 
 /// Writes the scene with its insonification as .pcd (fields x y z normal_x normal_y normal_z level_db grazing_deg range

@@ -18,8 +18,8 @@ struct HeadScan {
   ScanMode mode = ScanMode::continuous;
 };
 
-/// A sonar head on the vehicle and when it pings: at one of `interval`, `distance` and `times`, or, of a head that scans,
-/// each time as soon as it has listened long enough.
+/// A sonar head on the vehicle and when it pings: at one of `interval`, `distance` and `times`, or, of a head that
+/// scans, each time as soon as it has listened long enough.
 struct MissionHead {
   std::string name;
   Pose vehicle_from_head = Pose::Identity();  ///< at scan angle 0

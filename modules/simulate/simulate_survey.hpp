@@ -25,7 +25,8 @@ SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing&
 /// What is kept of a ping: its number is the one among the pings of its head, and of a scanning head it knows the scan.
 SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
 
-/// How the pings of a survey are made and what becomes of them. `simulate` and `done` are called by several threads at once.
+/// How the pings of a survey are made and what becomes of them. `simulate` and `done` are called by several threads at
+/// once.
 struct SurveyWork {
   std::function<SurveyReturn(const SurveyPing& ping)> simulate;
   /// After each ping: null for one that was resumed, not made.
@@ -37,9 +38,10 @@ struct SurveyWork {
   std::function<bool()> stop;  ///< true: no further ping is begun
 };
 
-/// Makes the pings of some blocks, `threads` (0: all cores) of them at once. Pings are begun in the order of the blocks;
-/// no more returns are held than those of the blocks begun and not finished. A ping that throws Error or runs out of
-/// memory has failed, which is its return; what the other functions throw ends the survey. True if no ping is left.
+/// Makes the pings of some blocks, `threads` (0: all cores) of them at once. Pings are begun in the order of the
+/// blocks; no more returns are held than those of the blocks begun and not finished. A ping that throws Error or runs
+/// out of memory has failed, which is its return; what the other functions throw ends the survey. True if no ping is
+/// left.
 bool simulate_survey(const std::vector<SurveyPing>& pings, const std::vector<SurveyBlock>& blocks, int threads,
                      const SurveyWork& work);
 

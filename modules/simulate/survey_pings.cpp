@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr double rounding = 1e-9;  // a ping that falls on the end of a leg but for rounding belongs to the next one
+constexpr double leg_rounding = 1e-9;  // a ping that falls on the end of a leg but for rounding belongs to the next one
 
 /// Times at which the vehicle has gone each multiple of `distance` since `from`, before `to`.
 std::vector<double> times_by_distance(const Trajectory& t, double from, double to, double distance) {
@@ -23,7 +23,7 @@ std::vector<double> times_by_distance(const Trajectory& t, double from, double t
     const double length = (there - at).norm();
     for (; next <= gone + length; next += distance) {
       const double then = time + (t.time[i] - time) * (next - gone) / length;
-      if (then >= to - rounding) return times;
+      if (then >= to - leg_rounding) return times;
       times.push_back(then);
     }
     gone += length, at = there, time = t.time[i];
@@ -39,7 +39,7 @@ std::vector<double> times_on_leg(const Mission& mission, const MissionHead& head
   if (distance > 0) return times_by_distance(mission.trajectory, leg.from, leg.to, distance);
   std::vector<double> times;
   if (interval > 0) {
-    for (double k = 0; leg.from + k * interval < leg.to - rounding; ++k) times.push_back(leg.from + k * interval);
+    for (double k = 0; leg.from + k * interval < leg.to - leg_rounding; ++k) times.push_back(leg.from + k * interval);
     return times;
   }
   const bool last = leg.to == mission.trajectory.time.back();
@@ -93,7 +93,7 @@ void add_pings(const Mission& mission, std::size_t h, const MissionLeg& leg, std
 
 void require_apart(const MissionHead& head, const std::vector<SurveyPing>& pings, std::size_t first) {
   for (std::size_t p = first + 1; p < pings.size(); ++p)
-    if (const double apart = pings[p].time - pings[p - 1].time; apart < head.listening_time * (1 - rounding))
+    if (const double apart = pings[p].time - pings[p - 1].time; apart < head.listening_time * (1 - leg_rounding))
       fail(ErrorKind::argument, "survey_pings: head '", head.name, "': pings ", pings[p - 1].number, " and ",
            pings[p].number, " at ", pings[p - 1].time, " and ", pings[p].time, " s are ", apart,
            " s apart, must be at least 2 max_range / c = ", head.listening_time, " s");

@@ -15,9 +15,9 @@ struct SurveyPing {
   double scan_angle = 0;    ///< of a scanning head [rad], positive to port; else 0
 };
 
-/// All pings of a mission, head after head in its order, those of a head in the order of time: a function of the mission
-/// alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for pings of a head
-/// closer than its listening time (naming both and the figure), or if there is no ping at all.
+/// All pings of a mission, head after head in its order, those of a head in the order of time: a function of the
+/// mission alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for
+/// pings of a head closer than its listening time (naming both and the figure), or if there is no ping at all.
 std::vector<SurveyPing> survey_pings(const Mission& mission);
 
 /// Where a head is when it pings, and how it moves then.
@@ -41,8 +41,8 @@ struct SurveyBlock {
   std::size_t begin = 0, end = 0;  ///< indices into survey_pings
 };
 
-/// Divides the pings of every head into blocks of `per_block[head]` pings (the last one may be shorter), in the order of
-/// the pings.
+/// Divides the pings of every head into blocks of `per_block[head]` pings (the last one may be shorter), in the order
+/// of the pings.
 std::vector<SurveyBlock> survey_blocks(const std::vector<SurveyPing>& pings, const std::vector<std::size_t>& per_block);
 
 }  // namespace insonify

@@ -10,7 +10,6 @@ namespace insonify {
 namespace {
 
 using Eigen::Vector3d;
-constexpr const char* who = "waypoint_trajectory";
 
 /// Positions along the way and its direction there.
 struct Way {
@@ -28,7 +27,7 @@ void add_turn(const Waypoints& w, std::size_t i, Way& way) {
   const double turn = std::acos(std::clamp(a.dot(b), -1.0, 1.0));
   if (turn < 1e-6) return;
   if (turn > pi - 1e-3)
-    fail(ErrorKind::argument, who, ": points[", i,
+    fail(ErrorKind::argument, "waypoint_trajectory: points[", i,
          "]: the way goes straight back; give a point beside it for the turn");
   const double room = std::min(in.norm(), out.norm()) / 2;
   const double cut = std::min(room, w.turn_radius * std::tan(turn / 2)), radius = cut / std::tan(turn / 2);
@@ -42,16 +41,17 @@ void add_turn(const Waypoints& w, std::size_t i, Way& way) {
 }
 
 void require_valid(const Waypoints& w) {
-  if (w.points.size() < 2) fail(ErrorKind::argument, who, ": ", w.points.size(), " points, must be at least two");
+  if (w.points.size() < 2)
+    fail(ErrorKind::argument, "waypoint_trajectory: ", w.points.size(), " points, must be at least two");
   for (std::size_t i = 0; i < w.points.size(); ++i) {
-    if (!w.points[i].allFinite()) fail(ErrorKind::argument, who, ": points[", i, "] must be finite");
+    if (!w.points[i].allFinite()) fail(ErrorKind::argument, "waypoint_trajectory: points[", i, "] must be finite");
     if (i > 0 && (w.points[i] - w.points[i - 1]).norm() < 1e-6)
-      fail(ErrorKind::argument, who, ": points[", i, "] is at the place of the one before it");
+      fail(ErrorKind::argument, "waypoint_trajectory: points[", i, "] is at the place of the one before it");
   }
   for (const auto& [value, name, unit] :
        {std::tuple(w.speed, "speed", "m/s"), std::tuple(w.turn_radius, "turn_radius", "m")})
     if (!(value > 0 && std::isfinite(value)))
-      fail(ErrorKind::argument, who, ": ", name, " = ", value, " ", unit, ", must be finite and > 0");
+      fail(ErrorKind::argument, "waypoint_trajectory: ", name, " = ", value, " ", unit, ", must be finite and > 0");
 }
 
 /// The first direction that is not upright.

@@ -23,7 +23,8 @@ SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 /// ascend strictly, angles are within -360 and 360 degrees, there are at least two entries.
 Trajectory load_trajectory(const std::string& path);
 
-/// The same from a file in the TUM format: lines of time, x, y, z, qx, qy, qz, qw, separated by blanks, without a header.
+/// The same from a file in the TUM format: lines of time, x, y, z, qx, qy, qz, qw, separated by blanks, without a
+/// header.
 Trajectory load_tum_trajectory(const std::string& path);
 
 /// Scatterers from another program: positions, cross-sections and complex amplitudes.

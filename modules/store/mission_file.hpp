@@ -34,9 +34,9 @@ struct MissionFile {
   std::vector<MissionSonar> sonars;  ///< of each head
 };
 
-/// Reads a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from the
-/// folder of the file, then from the one above. Unknown keys, wrong types, and whatever require_valid(mission) refuses are
-/// errors with file, line and rule. Throws Error(file) or Error(content).
+/// Reads a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from
+/// the folder of the file, then from the one above. Unknown keys, wrong types, and whatever require_valid(mission)
+/// refuses are errors with file, line and rule. Throws Error(file) or Error(content).
 MissionFile load_mission(const std::string& path);
 
 }  // namespace insonify

@@ -22,8 +22,8 @@ struct SurveyRun {
 
 bool is_survey_run(const std::string& folder);
 
-/// Makes the folder of a survey, or checks that it is of this mission already. Throws Error(content) if it is of another
-/// one, Error(file) if it is another folder that is not empty, or cannot be made.
+/// Makes the folder of a survey, or checks that it is of this mission already. Throws Error(content) if it is of
+/// another one, Error(file) if it is another folder that is not empty, or cannot be made.
 void open_survey_run(const std::string& folder, const SurveyRun& run);
 
 /// Throws Error(file) if `folder` is not of a survey, Error(content) if its survey.toml is damaged.
@@ -51,7 +51,8 @@ struct BlockMark {
 /// interrupted run left of the block. Throws Error(file).
 void finish_block(const BlockFiles& files, const std::string& mission_sha256, const std::vector<FailedPing>& failed);
 
-/// The mark of a block; nothing if it is not done. Throws Error(content) for a mark that is damaged or of another mission.
+/// The mark of a block; nothing if it is not done. Throws Error(content) for a mark that is damaged or of another
+/// mission.
 std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& mission_sha256);
 
 /// Removes unfinished files that a killed process left of the block.

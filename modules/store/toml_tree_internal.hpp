@@ -37,7 +37,8 @@ void require_known_keys(const std::string& path, const TomlValue& table, const s
 std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key);
 double toml_number(const std::string& path, const TomlValue& table, const std::string& key);
 
-/// A path named in `file`: as it is if it exists or is absolute, else beside the file or in the folder above, else as it is.
+/// A path named in `file`: as it is if it exists or is absolute, else beside the file or in the folder above, else as
+/// it is.
 std::string path_named_in(const std::string& file, const std::string& path);
 
 }  // namespace insonify

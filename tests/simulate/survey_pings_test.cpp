@@ -90,8 +90,8 @@ TEST(SurveyPings, of_a_scanning_head_turn_it_on_or_to_and_fro_or_once) {
 }
 
 TEST(SurveyPings, stand_where_the_mounting_is_and_move_with_its_lever_arm) {
-  // A vehicle at rest in (1, 2, 3) turns to port at 90 degrees in 2 s; the head is 2 m ahead, looks to starboard and has
-  // turned by 30 degrees to port.
+  // A vehicle at rest in (1, 2, 3) turns to port at 90 degrees in 2 s; the head is 2 m ahead, looks to starboard and
+  // has turned by 30 degrees to port.
   Mission m = straight();
   m.trajectory = {{0, 2},
                   {pose_from_yaw_pitch_roll({1, 2, 3}, 0, 0, 0), pose_from_yaw_pitch_roll({1, 2, 3}, pi / 2, 0, 0)}};

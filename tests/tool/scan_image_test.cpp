@@ -12,8 +12,8 @@ using namespace insonify::tool;
 
 namespace {
 
-/// A head that turns once in 16 s while it moves at `speed` along x, before a wall at x = 6 m: one loud bin where each beam
-/// meets the wall.
+/// A head that turns once in 16 s while it moves at `speed` along x, before a wall at x = 6 m: one loud bin where each
+/// beam meets the wall.
 ImageRun sweep_before_wall(double speed) {
   constexpr int beams = 200;
   Cube cube;
