@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     SimulationOptions options;
     options.ping = k;
     options.time = 0.5 * k;
+    options.outputs.scatterers = true;
     const Pose pose = pose_from_yaw_pitch_roll({1.5 * k, 2, -3}, radians(20), radians(15), 0);
     const SimulatedPing result = simulate_ping(prepared, head, pose, environment, options);
     add_ping(insonified, scene, result.scatterers, head, result.medium);

@@ -66,6 +66,7 @@ struct PingOptions {
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = 11.4;
+  double false_alarm_rate = 1e-3;
   std::string all_bins_above;              ///< dB re 1 uPa, or empty
   double memory_limit = 0;                 ///< [GiB] for a .tiles scene or a mesh; 0: see the help
   std::vector<std::string> with, without;  ///< stages of the plan forced in or out

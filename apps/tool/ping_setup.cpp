@@ -42,6 +42,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.outputs.looks_range = o.looks_range;
   s.outputs.looks_pings = o.looks_pings;
   s.outputs.elements = keeps(o, "elements");
+  s.outputs.scatterers = keeps(o, "insonification");
   s.outputs.mask = keeps(o, "mask");
   s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
   s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
@@ -50,6 +51,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   if (!o.turn_rate.empty())
     s.effects.motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
   s.detection.threshold_db = o.threshold_db;
+  s.detection.false_alarm_rate = o.false_alarm_rate;
   if (!o.all_bins_above.empty()) {
     s.detection.all_bins = true;
     s.detection.above_db = parse_number("--all-bins-above", o.all_bins_above);

@@ -96,6 +96,8 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "velocity", "--velocity", &o.velocity, "vx,vy,vz [m/s] of the head in the world"},
       {"ping", "turn_rate", "--turn-rate", &o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world"},
       {"ping", "threshold_db", "--threshold", &o.threshold_db, "[dB] of a detection above the noise floor"},
+      {"ping", "false_alarm_rate", "--false-alarm-rate", &o.false_alarm_rate,
+       "of a detection above speckle as strong as its surroundings (cell averaging); 1: surroundings do not count"},
       {"ping", "all_bins_above", "--all-bins-above", &o.all_bins_above,
        "[dB re 1 uPa] every bin above is a returned point"},
       {"ping", "memory_limit_gib", "--memory-limit", &o.memory_limit,

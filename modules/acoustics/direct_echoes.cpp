@@ -1,8 +1,11 @@
 #include "acoustics/direct_echoes.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/echo_loops_internal.hpp"
 #include "acoustics/scattering.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -12,7 +15,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t block = 4096;
+constexpr std::size_t block = 1024;  // echoes, whose numbers stay in the cache
 
 /// What every echo of one ping has in common.
 struct EchoBuilder {
@@ -27,17 +30,32 @@ struct EchoBuilder {
         sound_speed(medium.sound_speed),
         options(options_in) {}
 
-  /// Sets echo i: of a target with cross-section `sigma` [m^2] and amplitude `xi`.
-  void build(const Scatterers& s, std::size_t i, double sigma, std::complex<double> xi, Echoes& echoes) const {
-    const double r = s.range[i];
-    if (!(r > 0) || !std::isfinite(r))
-      fail(ErrorKind::argument, "direct_echoes: range[", i, "] = ", r, " m, must be > 0");
-    const double pattern = elevation_pattern(options, s.elevation[i]) * transmit_pattern(options, s.azimuth[i]);
-    const double phase = 2 * pi * reduced_cycles(cycles_per_m * r);
-    echoes.delay[i] = 2 * r / sound_speed;
-    echoes.u[i] = std::cos(s.elevation[i]) * std::sin(s.azimuth[i]);
-    echoes.v[i] = std::sin(s.elevation[i]);
-    echoes.amplitude[i] = xi * std::polar(source * std::sqrt(sigma) * pattern / (r * r), phase);  // (E7)
+  /// Sets echoes [begin, end) of targets with cross-sections `sigma` [m^2] and amplitudes xi, arrays of this block.
+  void build(const Scatterers& s, std::size_t begin, std::size_t end, const double* sigma, const double* xi_re,
+             const double* xi_im, Echoes& echoes) const {
+    std::array<double, block> gain;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double r = s.range[i];
+      if (!(r > 0) || !std::isfinite(r))
+        fail(ErrorKind::argument, "direct_echoes: range[", i, "] = ", r, " m, must be > 0");
+      gain[i - begin] = source * std::sqrt(sigma[i - begin]);  // (E7)
+    }
+    apply_patterns(s, begin, end - begin, gain.data());
+    kernels::direct_echoes(
+        {s.range.data() + begin, s.azimuth.data() + begin, s.elevation.data() + begin, gain.data(), xi_re, xi_im},
+        end - begin, cycles_per_m, sound_speed,
+        {echoes.delay.data() + begin, echoes.u.data() + begin, echoes.v.data() + begin,
+         reinterpret_cast<double*>(echoes.amplitude.data() + begin)});
+  }
+
+ private:
+  void apply_patterns(const Scatterers& s, std::size_t begin, std::size_t count, double* gain) const {
+    if (options.elevation_width > 0 && options.elevation_shape == ElevationShape::gaussian)
+      kernels::apply_lobe(s.elevation.data() + begin, count, options.elevation_centre, options.elevation_width, gain);
+    else
+      for (std::size_t k = 0; k < count; ++k) gain[k] *= elevation_pattern(options, s.elevation[begin + k]);
+    if (options.transmit_width > 0)
+      kernels::apply_lobe(s.azimuth.data() + begin, count, 0, options.transmit_width, gain);
   }
 };
 
@@ -50,15 +68,44 @@ Echoes room_for(std::size_t n) {
   return echoes;
 }
 
-}  // namespace
+/// Whether amplitudes are drawn, instead of all 1.
+bool draws(const EchoOptions& options) {
+  return options.amplitude != SurfaceAmplitude::coherent && options.amplitude != SurfaceAmplitude::mean_power;
+}
 
-std::complex<double> surface_amplitude(const EchoOptions& options, double coherent_fraction, std::uint64_t id) {
-  const bool mean_power = options.amplitude == SurfaceAmplitude::mean_power;
-  if (options.amplitude == SurfaceAmplitude::coherent || mean_power) return 1;
-  auto xi = random_complex_normal(options.seed, RandomStage::surface_amplitude, {id, 0, 0});  // (E9)
+/// Amplitude of a surface of which `xi` is the complex normal number.
+std::complex<double> amplitude_of(const EchoOptions& options, double coherent_fraction, std::complex<double> xi) {
   if (options.amplitude == SurfaceAmplitude::random_phase) xi /= std::abs(xi);
   if (coherent_fraction == 0) return xi;
   return std::sqrt(coherent_fraction) + std::sqrt(1 - coherent_fraction) * xi;  // (E53)
+}
+
+/// Amplitudes of scatterers [begin, end), each as surface_amplitude.
+void surface_amplitudes(const EchoOptions& options, std::span<const Material> materials, const Scatterers& s,
+                        std::size_t begin, std::size_t end, double* re, double* im) {
+  std::fill_n(re, end - begin, 1.0);
+  std::fill_n(im, end - begin, 0.0);
+  if (!draws(options)) return;
+  std::array<double, block> u, turn;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto drawn = random_uniform(options.seed, RandomStage::surface_amplitude, {s.id[i], 0, 0});
+    u[i - begin] = drawn[0], turn[i - begin] = drawn[1];
+  }
+  kernels::complex_normal(u.data(), turn.data(), end - begin, re, im);
+  for (std::size_t k = 0; k < end - begin; ++k) {
+    const double coherent_fraction = materials[s.material[begin + k]].coherent_fraction;
+    if (coherent_fraction == 0 && options.amplitude != SurfaceAmplitude::random_phase) continue;
+    const std::complex<double> xi = amplitude_of(options, coherent_fraction, {re[k], im[k]});
+    re[k] = xi.real(), im[k] = xi.imag();
+  }
+}
+
+}  // namespace
+
+std::complex<double> surface_amplitude(const EchoOptions& options, double coherent_fraction, std::uint64_t id) {
+  if (!draws(options)) return 1;
+  return amplitude_of(options, coherent_fraction,
+                      random_complex_normal(options.seed, RandomStage::surface_amplitude, {id, 0, 0}));  // (E9)
 }
 
 double elevation_pattern(const EchoOptions& options, double elevation) {
@@ -79,16 +126,17 @@ Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> mat
   Echoes echoes = room_for(scatterers.size());
   const EchoBuilder builder(pulse, medium, options);
   parallel_blocks(scatterers.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
+    std::array<double, block> sigma, xi_re, xi_im;
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t m = scatterers.material[i];
       if (m >= materials.size())
         fail(ErrorKind::argument, "direct_echoes: material[", i, "] = ", m, ", but there are ", materials.size());
       const double cosine = scatterers.cos_incidence[i];
-      const double sigma =
+      sigma[i - begin] =
           cross_section(materials[m], {cosine, cosine, scatterers.projected_area[i]}, pulse.centre_frequency);
-      builder.build(scatterers, i, sigma, surface_amplitude(options, materials[m].coherent_fraction, scatterers.id[i]),
-                    echoes);
     }
+    surface_amplitudes(options, materials, scatterers, begin, end, xi_re.data(), xi_im.data());
+    builder.build(scatterers, begin, end, sigma.data(), xi_re.data(), xi_im.data(), echoes);
   });
   return echoes;
 }
@@ -104,11 +152,14 @@ Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma
          " amplitudes");
   Echoes echoes = room_for(n);
   const EchoBuilder builder(pulse, medium, options);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i)
     if (!(sigma[i] >= 0 && std::isfinite(sigma[i])))
       fail(ErrorKind::argument, "target_echoes: sigma[", i, "] = ", sigma[i], " m^2, must be finite and >= 0");
-    builder.build(scatterers, i, sigma[i], xi[i], echoes);
-  }
+  parallel_blocks(n, block, options.threads, [&](std::size_t begin, std::size_t end) {
+    std::array<double, block> re, im;
+    for (std::size_t i = begin; i < end; ++i) re[i - begin] = xi[i].real(), im[i - begin] = xi[i].imag();
+    builder.build(scatterers, begin, end, sigma.data() + begin, re.data(), im.data(), echoes);
+  });
   return echoes;
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "beamforming/element_kernels_internal.hpp"
-#include "beamforming/target_clones_internal.hpp"
+#include "core/target_clones.hpp"
 
 namespace insonify::kernels {
 namespace {

@@ -4,19 +4,20 @@
 
 #include "beamforming/grid_echoes_internal.hpp"
 #include "beamforming/gridding_loops_internal.hpp"
+#include "beamforming/pulse_loops_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t batch = 256;            // echoes per call of the inner loop
-constexpr std::size_t flush_interval = 2048;  // echoes accumulated before partial sums are flushed
+constexpr std::size_t batch = 128;            // echoes per call of the inner loop
+constexpr std::size_t flush_interval = 2048;  // echoes added to a tile before partial sums are flushed
 
 template <typename Real>
 kernels::Pieces<Real> pieces(const PolynomialPieces<Real>& p) {
   return {p.coefficient.data(), p.degree, p.lanes};
 }
 
-/// Grids echoes that all have the planned pulse.
+/// Grids at most `batch` echoes that all have the planned pulse.
 template <typename Real>
 double grid_planned_pulses(const GriddingPlan<Real>& plan, const GriddingInput& input,
                            std::span<const std::uint32_t> list, std::size_t first_bin, GridTile<Real>& tile) {
@@ -27,28 +28,25 @@ double grid_planned_pulses(const GriddingPlan<Real>& plan, const GriddingInput& 
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width());
   const double first_row = static_cast<double>(first_bin) - static_cast<double>(plan.margin);
   double power = 0;
-  for (; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
-    const std::size_t count = std::min(batch, list.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      // Position of the echo between grid steps and between bins, and its amplitude after absorption.
-      const std::uint32_t i = list[k];
-      const double delay = input.echoes.delay[i];
-      const auto place = plan.place_of(input.echoes.u[i]);
-      const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
-      const double low_row = (delay - plan.half - plan.axis.start) / plan.axis.step, row_0 = std::ceil(low_row);
-      const double gain =
-          place.sign / input.unit * std::exp(-plan.medium.absorption.a0 * plan.medium.sound_speed * delay);
-      column[k] = static_cast<std::uint32_t>(column_0 + grid_pad);
-      column_offset[k] = static_cast<Real>(2 * (column_0 - low_column) - 1);
-      row[k] = static_cast<std::uint32_t>(row_0 - first_row);
-      row_offset[k] = static_cast<Real>(2 * (row_0 - low_row) - 1);
-      re[k] = static_cast<Real>(gain * input.echoes.amplitude[i].real());  // (E13)
-      im[k] = static_cast<Real>(gain * input.echoes.amplitude[i].imag());
-      power += std::norm(gain * input.echoes.amplitude[i]);
-    }
-    kernels::grid_pulses(targets, count, pieces(plan.rows), plan.choice.pulse_samples, pieces(plan.columns),
-                         tile.scratch.data(), tile.re.data(), tile.im.data(), plan.stride);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    // Position of the echo between grid steps and between bins, and its amplitude after absorption.
+    const std::uint32_t i = list[k];
+    const double delay = input.echoes.delay[i];
+    const auto place = plan.place_of(input.echoes.u[i]);
+    const double low_column = place.step - half_width, column_0 = std::ceil(low_column);
+    const double low_row = (delay - plan.half - plan.axis.start) / plan.axis.step, row_0 = std::ceil(low_row);
+    const double gain =
+        place.sign / input.unit * std::exp(-plan.medium.absorption.a0 * plan.medium.sound_speed * delay);
+    column[k] = static_cast<std::uint32_t>(column_0 + grid_pad);
+    column_offset[k] = static_cast<Real>(2 * (column_0 - low_column) - 1);
+    row[k] = static_cast<std::uint32_t>(row_0 - first_row);
+    row_offset[k] = static_cast<Real>(2 * (row_0 - low_row) - 1);
+    re[k] = static_cast<Real>(gain * input.echoes.amplitude[i].real());  // (E13)
+    im[k] = static_cast<Real>(gain * input.echoes.amplitude[i].imag());
+    power += std::norm(gain * input.echoes.amplitude[i]);
   }
+  kernels::grid_pulses(targets, list.size(), pieces(plan.rows), plan.choice.pulse_samples, pieces(plan.columns),
+                       tile.scratch.data(), tile.re.data(), tile.im.data(), plan.stride);
   return power * plan.pulse_energy;
 }
 
@@ -97,13 +95,64 @@ double grid_sweeps(const GriddingPlan<Real>& plan, const GriddingInput& input, s
   return power * plan.pulse_energy;
 }
 
-/// Grids echoes with different pulses, sample by sample.
+/// Grids at most `batch` echoes whose Gaussian pulses differ by absorption and Doppler shift.
 template <typename Real>
-double grid_sampled_pulses(const GriddingPlan<Real>& plan, const GriddingInput& input,
+double grid_gaussian_pulses(const GriddingPlan<Real>& plan, const GriddingInput& input,
+                            std::span<const std::uint32_t> list, std::size_t first_bin, GridTile<Real>& tile) {
+  // Amplitudes and places, gathered; their arrays lie side by side.
+  std::array<double, 11 * batch> numbers;
+  const auto array = [&](std::size_t k) { return numbers.data() + k * batch; };
+  double *delay = array(0), *u = array(1), *re = array(2), *im = array(3), *doppler = array(4);
+  double power = 0, latest = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::uint32_t i = list[k];
+    delay[k] = input.echoes.delay[i];
+    u[k] = input.echoes.u[i];
+    re[k] = input.echoes.amplitude[i].real() / input.unit;
+    im[k] = input.echoes.amplitude[i].imag() / input.unit;
+    doppler[k] = input.echoes.doppler_of(i);
+    latest = std::max(latest, delay[k]);
+  }
+  plan.shapes.of(latest);  // throws if absorption lets a pulse grow
+  const Absorption& absorption = plan.medium.absorption;
+  const kernels::GaussianGrid grid{plan.axis.start,
+                                   plan.axis.step,
+                                   plan.longest_half,
+                                   static_cast<double>(first_bin) - static_cast<double>(plan.margin),
+                                   plan.cycles_per_u,
+                                   static_cast<double>(plan.grid),
+                                   0.5 * static_cast<double>(plan.kernel.width()),
+                                   static_cast<double>(grid_pad),
+                                   plan.element_offset != 0,
+                                   plan.shapes.of(0).a,
+                                   0.5 * plan.medium.sound_speed,
+                                   absorption.a0,
+                                   absorption.a1,
+                                   absorption.a2};
+  std::array<std::uint32_t, batch> row, column;
+  std::array<Real, batch> column_offset;
+  const kernels::GaussianPlaces<Real> places{row.data(), column.data(), column_offset.data()};
+  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10)};
+  kernels::place_gaussians({delay, u, re, im, doppler}, list.size(), grid, state, places);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    power += (re[k] * re[k] + im[k] * im[k]) * std::exp(-4 * absorption.a0 * grid.range_per_delay * delay[k]);
+  }
+  tile.pulse_re.resize(batch * plan.longest_rows);
+  tile.pulse_im.resize(batch * plan.longest_rows);
+  kernels::sample_gaussians(state, list.size(), plan.longest_rows, tile.pulse_re.data(), tile.pulse_im.data());
+  kernels::grid_samples(places, list.size(), tile.pulse_re.data(), tile.pulse_im.data(), plan.longest_rows,
+                        pieces(plan.columns), tile.re.data(), tile.im.data(), plan.stride);
+  return power * plan.pulse_energy;
+}
+
+/// Grids sweeps of different shape, sample by sample.
+template <typename Real>
+double grid_sampled_sweeps(const GriddingPlan<Real>& plan, const GriddingInput& input,
                            std::span<const std::uint32_t> list, std::size_t first_bin, GridTile<Real>& tile) {
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width());
   const std::size_t last_bin = std::min(first_bin + plan.tile_bins, plan.axis.bins);
   double energy = 0;
+  std::vector<double> pulse_re, pulse_im;
   for (const std::uint32_t i : list) {
     const double delay = input.echoes.delay[i];
     const auto place = plan.place_of(input.echoes.u[i]);
@@ -111,18 +160,18 @@ double grid_sampled_pulses(const GriddingPlan<Real>& plan, const GriddingInput& 
     const EchoEnvelope envelope = plan.shapes.of(delay, input.echoes.doppler_of(i));
     const auto [first, last] = plan.axis.around(delay, input.reach.at(delay));
     const std::size_t from = std::max(first, first_bin), to = std::min(last, last_bin);
-    tile.pulse_re.clear();
-    tile.pulse_im.clear();
+    pulse_re.clear();
+    pulse_im.clear();
     for (std::size_t n = from; n < to; ++n) {
       const double t = plan.axis.start + static_cast<double>(n) * plan.axis.step - delay;
       const std::complex<double> g = place.sign / input.unit * input.echoes.amplitude[i] * envelope.at(t);  // (E13)
-      tile.pulse_re.push_back(g.real());
-      tile.pulse_im.push_back(g.imag());
+      pulse_re.push_back(g.real());
+      pulse_im.push_back(g.imag());
       energy += std::norm(g);
     }
     const std::size_t start =
         (from - first_bin + plan.margin) * plan.stride + static_cast<std::size_t>(column_0 + grid_pad);
-    kernels::grid_sampled_pulse(tile.pulse_re.data(), tile.pulse_im.data(), tile.pulse_re.size(),
+    kernels::grid_sampled_pulse(pulse_re.data(), pulse_im.data(), pulse_re.size(),
                                 static_cast<Real>(2 * (column_0 - low_column) - 1), pieces(plan.columns),
                                 tile.re.data() + start, tile.im.data() + start, plan.stride);
   }
@@ -146,6 +195,7 @@ void GridTile<Real>::flush_partial_sums() {
   for (std::size_t k = 0; k < plane_; ++k) flushed_im[k] += im[k];
   re.clear();
   im.clear();
+  since_flush = 0;
 }
 
 template <typename Real>
@@ -157,16 +207,16 @@ void GridTile<Real>::restore_flushed_sums() {
 template <typename Real>
 double grid_echoes(const GriddingPlan<Real>& plan, const GriddingInput& input, std::span<const std::uint32_t> list,
                    std::size_t first_bin, GridTile<Real>& tile) {
+  const auto grid = plan.longest_rows == 0 ? (input.planned ? &grid_sweeps<Real> : &grid_sampled_sweeps<Real>)
+                                           : (input.planned ? &grid_planned_pulses<Real> : &grid_gaussian_pulses<Real>);
   double energy = 0;
   while (!list.empty()) {
-    const auto some = list.first(std::min(flush_interval, list.size()));
-    energy += !input.planned ? grid_sampled_pulses(plan, input, some, first_bin, tile)
-              : plan.sweep   ? grid_sweeps(plan, input, some, first_bin, tile)
-                             : grid_planned_pulses(plan, input, some, first_bin, tile);
+    if (tile.since_flush == flush_interval) tile.flush_partial_sums();
+    const auto some = list.first(std::min({batch, list.size(), flush_interval - tile.since_flush}));
+    energy += grid(plan, input, some, first_bin, tile);
+    tile.since_flush += some.size();
     list = list.subspan(some.size());
-    if (!list.empty()) tile.flush_partial_sums();
   }
-  tile.restore_flushed_sums();
   return energy;
 }
 

@@ -17,14 +17,15 @@ struct GridTile {
   AlignedArray<Real, Real> re, im;
   AlignedArray<std::complex<Real>, Real> grid;
   std::vector<Real> scratch, flushed_re, flushed_im;  ///< flushed: sums of earlier echoes
-  std::vector<double> pulse_re, pulse_im;
+  std::vector<Real> pulse_re, pulse_im;               ///< samples of a batch of pulses
 
   explicit GridTile(const GriddingPlan<Real>& plan);
 
+  std::size_t since_flush = 0;  ///< echoes added since partial sums were flushed
   /// Adds the planes to the flushed sums and clears them, which bounds the number of terms accumulated in single
   /// precision.
   void flush_partial_sums();
-  /// Adds the flushed sums back to the planes.
+  /// Adds the flushed sums back to the planes: once, after the last echo.
   void restore_flushed_sums();
 
  private:
@@ -39,7 +40,7 @@ struct GriddingInput {
   double unit = 1;  ///< amplitudes are gridded in this unit [Pa]
 };
 
-/// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`; returns their energy in units
+/// Adds the listed echoes (E13), in order, to the tile that begins with bin `first_bin`; returns their energy in units
 /// of input.unit^2 [bins].
 template <typename Real>
 double grid_echoes(const GriddingPlan<Real>& plan, const GriddingInput& input, std::span<const std::uint32_t> list,

@@ -21,7 +21,8 @@
 namespace insonify {
 namespace {
 
-/// Returns the largest amplitude after absorption [Pa], the unit of gridding in single precision; 1 if all are 0.
+/// Returns the largest amplitude after absorption [Pa], rounded to a power of two, the unit of gridding in single
+/// precision; 1 if all are 0.
 double largest(const Echoes& echoes, const Medium& medium, int threads) {
   constexpr std::size_t block = 4096;
   std::vector<double> most((echoes.size() + block - 1) / block, 0);
@@ -32,7 +33,7 @@ double largest(const Echoes& echoes, const Medium& medium, int threads) {
           here, std::abs(echoes.amplitude[i]) * std::exp(-medium.absorption.a0 * medium.sound_speed * echoes.delay[i]));
   });
   const double all = most.empty() ? 0 : *std::max_element(most.begin(), most.end());
-  return all > std::numeric_limits<double>::min() ? all : 1;
+  return all > std::numeric_limits<double>::min() ? std::exp2(std::round(std::log2(all))) : 1;
 }
 
 /// Cost model of the two synthesis methods beyond that of a silent image, in nanoseconds of one core; only the ratio
@@ -183,6 +184,12 @@ bool GriddedSynthesis<Real>::direct_is_cheaper(const Echoes& echoes) const {
 }
 
 template <typename Real>
+bool GriddedSynthesis<Real>::direct_is_cheaper(std::size_t echoes) const {
+  return SynthesisCost(plan_.head, plan_.choice, plan_.tile_bins, plan_.common_shape)
+      .direct_is_cheaper(echoes, plan_.tiles());
+}
+
+template <typename Real>
 GriddedImage GriddedSynthesis<Real>::image(const Echoes& echoes) const {
   GriddingInput input = input_for(echoes);
   input.unit = largest(echoes, plan_.medium, threads_);
@@ -200,6 +207,7 @@ GriddedImage GriddedSynthesis<Real>::image(const Echoes& echoes) const {
     const FlushDenormals flush;
     GridTile<Real> tile(plan_);
     gridded[t] = grid_echoes(plan_, input, lists.of(t), first, tile);
+    tile.restore_flushed_sums();
     form_beams(tile, first, last, pressure);
     received[t] = bins.abs2().sum();
     bins *= input.unit;

@@ -1,4 +1,5 @@
 #pragma once
+#include "acoustics/echo_source.hpp"
 #include "beamforming/fft_along_rows_internal.hpp"
 #include "beamforming/grid_echoes_internal.hpp"
 #include "beamforming/gridding_plan_internal.hpp"
@@ -22,9 +23,14 @@ class GriddedSynthesis {
   GriddedSynthesis(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
                    double kernel_tolerance);
   GriddedImage image(const Echoes& echoes) const;
+  /// The same of echoes that are not stored: each thread forms the beams of one slab of bins after another, and visits
+  /// the chunks that reach into it, in order.
+  GriddedImage image(const EchoSource& source) const;
   const SynthesisChoice& choice() const { return plan_.choice; }
   /// Returns true if the cost model favours the direct sum over gridding for these echoes.
   bool direct_is_cheaper(const Echoes& echoes) const;
+  /// The same for so many echoes of a head at rest in all of the gate.
+  bool direct_is_cheaper(std::size_t echoes) const;
 
  private:
   using Complex = std::complex<Real>;

@@ -1,5 +1,5 @@
 #include "beamforming/gridding_loops_internal.hpp"
-#include "beamforming/target_clones_internal.hpp"
+#include "core/target_clones.hpp"
 
 namespace insonify::kernels {
 namespace {

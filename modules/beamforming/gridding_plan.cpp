@@ -57,9 +57,14 @@ void GriddingPlan<Real>::plan_time(double tolerance, double kernel_tolerance) {
   sweep_ends = sweep && half > head.pulse.duration - axis.step;
   choice.pulse_half_length = reach;
   choice.pulse_samples = static_cast<std::size_t>(std::floor(2 * half / axis.step + 1e-9)) + (sweep ? 0 : 1);
-  margin = common_shape && !sweep ? choice.pulse_samples - 1 : 0;
+  if (head.pulse.shape != PulseShape::linear_fm) {
+    // Echoes from beyond the axis, by less than four pulses, are the longest.
+    const PulseReach longest(head.pulse, medium.absorption, medium.sound_speed, false, cut);
+    longest_half = longest.at(axis.start + static_cast<double>(axis.bins) * axis.step + 4 * longest.half);
+    longest_rows = static_cast<std::size_t>(std::floor(2 * longest_half / axis.step + 1e-9)) + 1;
+    margin = longest_rows - 1;
+  }
   tile_rows = tile_bins + 2 * margin;
-  if (!common_shape) return;
   const EchoEnvelope envelope = echo_envelope(head.pulse, {}, 0);
   const double first = -half / axis.step, last_piece = -first - 1;
   // The ends of a sweep are discontinuous, which polynomials cannot follow: their pieces are constant, and grid_sweeps
@@ -69,6 +74,7 @@ void GriddingPlan<Real>::plan_time(double tolerance, double kernel_tolerance) {
   };
   for (std::size_t k = 0; k < choice.pulse_samples; ++k)
     pulse_energy += std::norm(envelope.at((static_cast<double>(k) + 0.5) * axis.step - half));
+  if (!common_shape) return;
   const double error = 0.1 * tolerance / (sweep ? std::sqrt(static_cast<double>(choice.pulse_samples)) : 1);
   rows = PolynomialPieces<Real>::fit([&](double x) { return value(x).real(); }, first, choice.pulse_samples, error);
   if (sweep)

@@ -35,6 +35,8 @@ struct GriddingPlan {
   PolynomialPieces<Real> columns, rows, rows_im;  ///< rows_im: of a sweep
   bool sweep = false, sweep_ends = false;         ///< linear FM pulses of common shape; the rows include their ends
   double half = 0;                                ///< half length of the planned part of a pulse [s]
+  double longest_half = 0;                        ///< of Gaussian pulses of any shape [s]
+  std::size_t longest_rows = 0;                   ///< rows of such a pulse
   double pulse_energy = 0;                        ///< energy of the planned pulse with unit peak [bins]
 
   std::vector<Complex> offset_phase;    ///< exp(i element_offset 2 pi j / grid)

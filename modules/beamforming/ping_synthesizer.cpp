@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "beamforming/gridded_synthesis_internal.hpp"
@@ -55,10 +57,21 @@ struct PingSynthesizer::Plan {
     else
       in_double = std::make_unique<GriddedSynthesis<double>>(head, medium, options, kernel_tolerance);
   }
-  bool sums_directly(const Echoes& echoes) const {
+  template <typename EchoesOrCount>
+  bool sums_directly(const EchoesOrCount& echoes) const {
     return in_single ? in_single->direct_is_cheaper(echoes) : in_double->direct_is_cheaper(echoes);
   }
-  GriddedImage gridded(const Echoes& echoes) const {
+  /// The gridded image, unless its error cannot be kept. Where the beams receive a smaller fraction of the gridded
+  /// energy than expected, the relative error may exceed the tolerance: again with a kernel of lower tolerance.
+  template <typename EchoesOrSource>
+  std::optional<ComplexGrid> accurate(const EchoesOrSource& echoes) const {
+    GriddedImage image = gridded(echoes);
+    if (image.share >= 0.5 * share) return std::move(image.pressure);
+    if (options.tolerance * image.share < min_kernel_tolerance) return std::nullopt;
+    return Plan(head, medium, options, image.share).gridded(echoes).pressure;
+  }
+  template <typename EchoesOrSource>
+  GriddedImage gridded(const EchoesOrSource& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
   }
   /// The direct sum with pulses cut at the tolerance, or later if the echoes cancel.
@@ -97,13 +110,15 @@ ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
   const Plan& plan = *plan_;
   require_synthesis(echoes, plan.head, plan.medium, plan.options, "PingSynthesizer");
   if (plan.sums_directly(echoes)) return plan.summed(echoes);
-  GriddedImage image = plan.gridded(echoes);
-  if (image.share >= 0.5 * plan.share) return std::move(image.pressure);
-  // The beams receive a smaller fraction of the gridded energy than expected, so the relative error may exceed the
-  // tolerance: repeat with a kernel of correspondingly lower tolerance.
-  if (plan.options.tolerance * image.share < min_kernel_tolerance)
-    return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
-  return Plan(plan.head, plan.medium, plan.options, image.share).gridded(echoes).pressure;
+  if (auto image = plan.accurate(echoes)) return std::move(*image);
+  return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
+}
+
+ComplexGrid PingSynthesizer::pressure_of(const EchoSource& source) const {
+  if (source.stored) return pressure(*source.stored);
+  if (!plan_->sums_directly(source.size()))
+    if (auto image = plan_->accurate(source)) return std::move(*image);
+  return pressure(all_echoes(source));
 }
 
 ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, const Medium& medium,

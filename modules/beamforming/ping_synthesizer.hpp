@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "acoustics/echoes.hpp"
+#include "acoustics/echo_source.hpp"
 #include "beamforming/sonar_head.hpp"
 #include "beamforming/synthesize.hpp"
 
@@ -46,6 +46,9 @@ class PingSynthesizer {
   /// of all beams) that the tolerance may be exceeded, it is computed again with a lower kernel tolerance. Throws Error
   /// for a NaN in an echo, with the echo's index.
   ComplexGrid pressure(const Echoes& echoes) const;
+  /// The same of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c. Chunks are made
+  /// again for each slab of bins that they reach into.
+  ComplexGrid pressure_of(const EchoSource& source) const;
 
   SynthesisChoice choice() const;
   /// Returns true if `pressure` sums these echoes directly; decided by a cost model, never by measured time.

@@ -18,6 +18,10 @@ void require_synthesis(const Echoes& echoes, const SonarHead& head, const Medium
   if (!fits(echoes.v) || !fits(echoes.doppler))
     fail(ErrorKind::argument, who, ": ", echoes.size(), " echoes have ", echoes.v.size(), " values of v and ",
          echoes.doppler.size(), " of doppler; must be none, or one of each per echo");
+  require_finite(echoes, who);
+}
+
+void require_finite(const Echoes& echoes, const char* who) {
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const double v = echoes.v.empty() ? 0 : echoes.v[i];
     if (!std::isfinite(v) || !std::isfinite(echoes.doppler_of(i)))

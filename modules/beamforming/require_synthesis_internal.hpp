@@ -10,6 +10,9 @@ namespace insonify {
 void require_synthesis(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                        const SynthesisOptions& options, const char* who);
 
+/// Throws Error with its index for an echo that is not finite.
+void require_finite(const Echoes& echoes, const char* who);
+
 /// Throws Error unless the head has one row of beams and no column, as the line-array synthesizers require.
 void require_one_row(const SonarHead& head, const char* who);
 

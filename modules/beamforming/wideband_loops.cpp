@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "beamforming/target_clones_internal.hpp"
 #include "beamforming/wideband_loops_internal.hpp"
+#include "core/target_clones.hpp"
 
 namespace insonify::kernels {
 namespace {

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <utility>
+#include <complex>
 
-#include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
-#include "returns/sounding_columns.hpp"
+#include "returns/strongest_contributors_internal.hpp"
 
 namespace insonify {
 namespace {
+
+constexpr const char* me = "detect_soundings";
+constexpr Eigen::Index guard_cells = 2;                 // resolution cells on either side that are not background
+constexpr Eigen::Index background_cells = 16;           // on either side
+constexpr double unit = 2 * micropascal * micropascal;  // |pressure|^2 at 0 dB re 1 uPa rms [Pa^2] (E6)
+constexpr double nothing = 1e-20 * unit;                // -200 dB
 
 /// A detected sample of one beam.
 struct Cell {
@@ -20,6 +24,8 @@ struct Cell {
   float level_db;
   float offset = 0;  ///< of the peak from the middle of the bin [bins]
 };
+
+float level_of(double intensity) { return static_cast<float>(db_from_power(std::max(intensity, nothing) / unit)); }
 
 /// A local maximum at the peak of the parabola through its level and those of its neighbours. (E72)
 Cell peak_between(float before, Cell at, float after) {
@@ -31,175 +37,127 @@ Cell peak_between(float before, Cell at, float after) {
   return at;
 }
 
-/// Returns the bins of beam b that are detections. (E19)
-std::vector<Cell> detect_in_beam(const Grid<float>& level, Eigen::Index b, const std::vector<float>& strongest,
-                                 const DetectionOptions& options) {
-  std::vector<Cell> cells;
-  const Eigen::Index bins = level.cols();
-  const auto threshold = static_cast<float>(options.noise_floor_db + options.threshold_db);
-  const auto margin = static_cast<float>(options.side_lobe_margin_db);
-  const auto above = static_cast<float>(options.above_db);
-  for (Eigen::Index n = 0; n < bins; ++n) {
-    const float here = level(b, n);
-    const bool found = options.all_bins
-                           ? here >= above && here > -200
-                           : here > threshold && here >= strongest[static_cast<std::size_t>(n)] - margin &&
-                                 (n == 0 || here > level(b, n - 1)) && (n + 1 == bins || here >= level(b, n + 1));
-    if (!found) continue;
-    cells.push_back({static_cast<std::uint32_t>(n), here});
-    if (!options.all_bins && n > 0 && n + 1 < bins)
-      cells.back() = peak_between(level(b, n - 1), cells.back(), level(b, n + 1));
-  }
-  return cells;
-}
-
-/// Half extent of the search for contributors around a beam: in direction cosine, and in elevation [rad].
-struct AngularExtent {
-  double u = 0, elevation = std::numeric_limits<double>::infinity();
-};
-
-/// Echoes sorted by range bin and within a bin by direction cosine, to find the contributors of a sample.
-class ContributorTable {
+/// Finds the detections of one beam after another.
+class Detector {
  public:
-  ContributorTable(const Echoes& echoes, const Scatterers& scatterers, const RangeGate& gate)
-      : echoes_(echoes), scatterers_(scatterers), begin_(gate.bins() + 1, 0) {
-    std::vector<std::uint32_t> bin(echoes.size());
-    const auto bins = static_cast<double>(gate.bins());
-    for (std::size_t i = 0; i < echoes.size(); ++i) {
-      // The first and the last bin include echoes up to one bin outside the gate.
-      const double n = std::floor((scatterers.range[i] - gate.min_range) / gate.bin_size);
-      bin[i] = n >= -1 && n <= bins ? static_cast<std::uint32_t>(std::clamp(n, 0.0, bins - 1)) : outside;
-      if (bin[i] != outside) ++begin_[bin[i] + 1];
-    }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    order_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t i = 0; i < echoes.size(); ++i)
-      if (bin[i] != outside) order_[next[bin[i]]++] = static_cast<std::uint32_t>(i);
-    for (std::size_t n = 0; n + 1 < begin_.size(); ++n)
-      std::sort(order_.begin() + begin_[n], order_.begin() + begin_[n + 1], [&](std::uint32_t a, std::uint32_t b) {
-        return echoes.u[a] < echoes.u[b] || (echoes.u[a] == echoes.u[b] && a < b);
-      });
+  Detector(const Ping& ping, const DetectionOptions& options)
+      : ping_(ping),
+        options_(options),
+        cell_(
+            static_cast<Eigen::Index>(std::max(1.0, std::ceil(options.range_resolution / ping.gate.bin_size - 1e-9)))),
+        threshold_(std::max(nothing, unit * power_from_db(options.noise_floor_db + options.threshold_db))),
+        strongest_(ping.gate.bins(), 0) {
+    for (int cells = 0; cells <= 2 * background_cells; ++cells)
+      factor_.push_back(cells > 0 ? background_factor(options.false_alarm_rate, cells) / cells : 0);
+    if (!options.all_bins) find_strongest();
   }
 
-  /// Returns the strongest echo in bins bin-1 .. bin+1 within `extent` of direction cosine u and elevation, or `none`.
-  std::uint32_t strongest(std::uint32_t bin, double u, double elevation, AngularExtent extent) const {
-    std::uint32_t best = none;
-    double best_power = 0;
-    const std::size_t first = bin > 0 ? bin - 1 : 0, last = std::min<std::size_t>(bin + 2, begin_.size() - 1);
-    for (std::size_t n = first; n < last; ++n) {
-      const auto end = order_.begin() + begin_[n + 1];
-      auto at = std::lower_bound(order_.begin() + begin_[n], end, u - extent.u,
-                                 [&](std::uint32_t i, double value) { return echoes_.u[i] < value; });
-      for (; at != end && echoes_.u[*at] <= u + extent.u; ++at) {
-        if (!(std::abs(scatterers_.elevation[*at] - elevation) <= extent.elevation)) continue;
-        const double power = std::norm(echoes_.amplitude[*at]);
-        if (power > best_power) best_power = power, best = *at;
+  std::vector<Cell> detect(Eigen::Index b) const {
+    std::vector<Cell> cells;
+    const Eigen::ArrayXd row = ping_.pressure.row(b).cast<std::complex<double>>().abs2();
+    for (Eigen::Index n = 0; n < row.size(); ++n) {
+      const double here = row[n];
+      if (options_.all_bins) {
+        const float level = level_of(here);
+        if (here > nothing && level >= static_cast<float>(options_.above_db)) cells.push_back({bin_of(n), level});
+        continue;
       }
+      if (!(here > threshold_ && here >= strongest_[static_cast<std::size_t>(n)])) continue;
+      if (!is_maximum(row, n) || !exceeds_background(row, n)) continue;
+      cells.push_back({bin_of(n), level_of(here)});
+      if (n > 0 && n + 1 < row.size())
+        cells.back() = peak_between(level_of(row[n - 1]), cells.back(), level_of(row[n + 1]));
     }
-    return best;
+    return cells;
   }
-
-  static constexpr std::uint32_t none = 0xffffffff;
 
  private:
-  static constexpr std::uint32_t outside = 0xffffffff;
-  const Echoes& echoes_;
-  const Scatterers& scatterers_;
-  std::vector<std::uint32_t> begin_, order_;
-};
+  static std::uint32_t bin_of(Eigen::Index n) { return static_cast<std::uint32_t>(n); }
 
-/// Search region of a beam: first its own share of the fan, so that neighbouring beams do not report the same
-/// scatterer, then its whole -3 dB width. A fan of one row does not resolve elevation.
-struct BeamRegion {
-  double u = 0, elevation = 0;
-  AngularExtent share, width;
-};
-
-/// Limits half widths to half the distance between neighbours.
-void limit_to_midpoints(std::vector<std::pair<double, double*>> widths) {
-  std::sort(widths.begin(), widths.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (std::size_t k = 1; k < widths.size(); ++k) {
-    const double gap = (widths[k].first - widths[k - 1].first) / 2;
-    *widths[k - 1].second = std::min(*widths[k - 1].second, gap);
-    *widths[k].second = std::min(*widths[k].second, gap);
+  /// Of each bin the intensity below which a sample is a side lobe of the strongest beam there. (E19)
+  void find_strongest() {
+    const double margin = power_from_db(-options_.side_lobe_margin_db);
+    parallel_blocks(strongest_.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
+      const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+      Eigen::Map<Eigen::Array<double, 1, Eigen::Dynamic>> most(strongest_.data() + begin, count);
+      for (Eigen::Index b = 0; b < ping_.pressure.rows(); ++b)
+        most = most.max(ping_.pressure.row(b).segment(first, count).cast<std::complex<double>>().abs2());
+      most *= margin;
+    });
   }
-}
-
-std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
-  std::vector<BeamRegion> regions(fan.beams());
-  const std::vector<FanRow> rows = fan_rows(fan);
-  const double row_width = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
-  const bool within_elevation = rows.size() > 1 || fan.row_width > 0;
-  std::vector<double> row_share(rows.size(), row_width / 2);
-  std::vector<std::pair<double, double*>> row_widths;
-  for (std::size_t r = 0; r < rows.size(); ++r) row_widths.emplace_back(rows[r].elevation, &row_share[r]);
-  limit_to_midpoints(row_widths);
-
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::vector<std::pair<double, double*>> beam_widths;
-    for (const std::size_t b : rows[r].beams) {
-      BeamRegion& region = regions[b];
-      region.u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
-      region.elevation = fan.elevation[b];
-      region.share.u = region.width.u = std::sin(std::min(fan.beam_width / 2, pi / 2));
-      if (within_elevation) region.share.elevation = row_share[r], region.width.elevation = row_width / 2;
-      beam_widths.emplace_back(region.u, &region.share.u);
+  bool is_maximum(const Eigen::ArrayXd& row, Eigen::Index n) const {
+    for (Eigen::Index k = 1; k <= std::max<Eigen::Index>(1, cell_ - 1); ++k) {
+      if (n >= k && !(row[n] > row[n - k])) return false;
+      if (n + k < row.size() && !(row[n] >= row[n + k])) return false;
     }
-    limit_to_midpoints(beam_widths);
+    return true;
   }
-  return regions;
-}
+  /// Compares with the mean of the cells around, one sample of each, so that they are independent. (E78)
+  bool exceeds_background(const Eigen::ArrayXd& row, Eigen::Index n) const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (Eigen::Index k = guard_cells + 1; k <= guard_cells + background_cells; ++k)
+      for (const Eigen::Index at : {n - k * cell_, n + k * cell_}) {
+        if (at < 0 || at >= row.size()) continue;
+        sum += row[at];
+        ++count;
+      }
+    return row[n] > factor_[count] * sum;
+  }
 
-void append(Soundings& all, const Soundings& part) {
-  const auto join = [](const char*, auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  join("position", all.position, part.position);
-  each_column(join, all, part);
-}
+  const Ping& ping_;
+  const DetectionOptions& options_;
+  Eigen::Index cell_;  // length of a resolution cell [bins]
+  double threshold_;   // [Pa^2]
+  std::vector<double> strongest_;
+  std::vector<double> factor_;  // above the sum of so many cells
+};
 
 /// Appends the sounding of one detection, in the direction of its strongest contributor.
-void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const Scatterers& scatterers,
-                  std::uint32_t contributor) {
+void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const StrongestContributor& from) {
   const double range = ping.gate.centre(cell.bin) + static_cast<double>(cell.offset) * ping.gate.bin_size;
-  const Direction direction{scatterers.azimuth[contributor], scatterers.elevation[contributor]};
-  s.position.push_back(ping.world_from_head * (range * unit_vector(direction)));
+  s.position.push_back(ping.world_from_head * (range * unit_vector(from.direction)));
   s.level_db.push_back(cell.level_db);
   s.range.push_back(static_cast<float>(range));
   s.azimuth.push_back(static_cast<float>(ping.fan.azimuth[beam]));
-  s.elevation.push_back(static_cast<float>(direction.elevation));
+  s.elevation.push_back(static_cast<float>(from.direction.elevation));
   s.ping.push_back(static_cast<std::uint32_t>(ping.number));
   s.beam.push_back(static_cast<std::uint32_t>(beam));
   s.bin.push_back(cell.bin);
-  s.material.push_back(scatterers.material[contributor]);
+  s.material.push_back(from.material);
 }
 
 }  // namespace
 
+double background_factor(double false_alarm_rate, int cells) {
+  return cells * std::expm1(-std::log(false_alarm_rate) / cells);  // (E78)
+}
+
+Soundings detect_soundings(const Ping& ping, const EchoSource& source, const DetectionOptions& options) {
+  require(options.false_alarm_rate > 0 && options.false_alarm_rate <= 1, me, "false_alarm_rate",
+          options.false_alarm_rate, "", "above 0 and at most 1");
+  require(options.range_resolution >= 0, me, "range_resolution", options.range_resolution, "m", ">= 0");
+  const Detector detector(ping, options);
+  std::vector<std::vector<Cell>> of_beam(ping.fan.beams());
+  parallel_for(of_beam.size(), options.threads,
+               [&](std::size_t b) { of_beam[b] = detector.detect(static_cast<Eigen::Index>(b)); });
+
+  std::vector<Pixel> pixels;
+  for (std::size_t b = 0; b < of_beam.size(); ++b)
+    for (const Cell cell : of_beam[b]) pixels.push_back({static_cast<std::uint32_t>(b), cell.bin});
+  const auto from = strongest_contributors(pixels, source, ping.fan, ping.gate, options.threads);
+  Soundings all;
+  auto contributor = from.begin();
+  for (std::size_t b = 0; b < of_beam.size(); ++b)
+    for (const Cell cell : of_beam[b])
+      if (const StrongestContributor& strongest = *contributor++; strongest.power > 0)
+        add_sounding(all, ping, b, cell, strongest);
+  return all;
+}
+
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
                            const DetectionOptions& options) {
-  if (scatterers.size() != echoes.size())
-    fail(ErrorKind::argument, "detect_soundings: ", scatterers.size(), " scatterers, but ", echoes.size(), " echoes");
-  const std::size_t beams = ping.fan.beams();
-  const Grid<float> level = level_db(ping);
-  std::vector<float> strongest(ping.gate.bins(), -200);
-  for (Eigen::Index n = 0; n < level.cols(); ++n) strongest[static_cast<std::size_t>(n)] = level.col(n).maxCoeff();
-
-  // Beams are processed independently; their soundings are appended in beam order.
-  const ContributorTable contributors(echoes, scatterers, ping.gate);
-  const std::vector<BeamRegion> regions = beam_regions(ping.fan);
-  std::vector<Soundings> of_beam(beams);
-  parallel_for(beams, options.threads, [&](std::size_t b) {
-    for (const Cell cell : detect_in_beam(level, static_cast<Eigen::Index>(b), strongest, options)) {
-      const BeamRegion& region = regions[b];
-      std::uint32_t contributor = contributors.strongest(cell.bin, region.u, region.elevation, region.share);
-      if (contributor == ContributorTable::none)
-        contributor = contributors.strongest(cell.bin, region.u, region.elevation, region.width);
-      if (contributor != ContributorTable::none) add_sounding(of_beam[b], ping, b, cell, scatterers, contributor);
-    }
-  });
-  Soundings all;
-  for (const Soundings& part : of_beam) append(all, part);
-  return all;
+  return detect_soundings(ping, stored_source(scatterers, echoes, me), options);
 }
 
 }  // namespace insonify

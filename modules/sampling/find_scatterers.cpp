@@ -1,11 +1,15 @@
 #include "sampling/find_scatterers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "sampling/cast_rays_internal.hpp"
 #include "sampling/choose_projection_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
@@ -14,6 +18,7 @@
 #include "sampling/split_surfels_internal.hpp"
 #include "sampling/surfel_visibility_internal.hpp"
 #include "sampling/tilt_by_relief_internal.hpp"
+#include "sampling/visible_surfels.hpp"
 
 // Finds the visible patches of a scene (E16, E17):
 //   1. gate: transform surfels to head axes, keep those whose disc overlaps the sector and is within the far range
@@ -92,16 +97,28 @@ std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfel
   return visible;
 }
 
-// Samples the visible part of the gated surfels.
-Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
+SamplingReport report_of(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
   const SamplingOptions& options = view.options;
-  Sampling result;
-  SamplingReport& report = result.report;
+  SamplingReport report;
   report.surfels = scene.size();
   report.in_gate = count_where(surfels.size(), options.threads, [&](std::size_t s) { return surfels[s].in_gate; });
   report.back_facing = count_where(surfels.size(), options.threads,
                                    [&](std::size_t s) { return surfels[s].in_gate && !surfels[s].facing; });
   report.sparse_beams = count_sparse_beams(surfels, view.fan, view.gate, options.threads);
+  return report;
+}
+
+SplitOptions split_options(const View& view) {
+  const SamplingOptions& o = view.options;
+  const double cell = o.range_resolution > 0 ? o.range_resolution : 2 * view.gate.bin_size;
+  return {o.scatterers_per_cell, cell, view.fan.beam_width, o.seed, o.threads, view.fan.row_width};
+}
+
+// Samples the visible part of the gated surfels.
+Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
+  const SamplingOptions& options = view.options;
+  Sampling result{{}, report_of(scene, surfels, view)};
+  SamplingReport& report = result.report;
   if (options.kind == SamplingKind::rays) {
     const auto shares = beam_shares(view.fan, view.sector);
     report.projection =
@@ -113,12 +130,10 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
     report.visible = cast.hit_surfels;
   } else {
     const auto visible = select_visible(surfels, options, report);
-    const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * view.gate.bin_size;
-    SplitSurfels split = split_surfels(
-        scene, view.head, visible,
-        {options.scatterers_per_cell, cell, view.fan.beam_width, options.seed, options.threads, view.fan.row_width});
-    result.scatterers = std::move(split.scatterers);
-    report.capped = split.capped;
+    const SplitOptions split = split_options(view);
+    const PartCounts parts = count_parts(scene, view.head, visible, split);
+    result.scatterers = split_surfels(scene, view.head, visible, parts.first, split);
+    report.capped = parts.capped;
   }
   report.scatterers = result.scatterers.size();
   return result;
@@ -135,6 +150,35 @@ void require_valid(const Pose& world_from_head, const BeamFan& fan, const RangeG
 void tilt(const SceneCloud& scene, const View& view, double outer_scale, Sampling& sampling) {
   if (const auto relief = relief_of(scene, {view.options.seed, outer_scale}))
     tilt_by_relief(scene, view.world_from_head, *relief, view.options.threads, sampling.scatterers);
+}
+
+double outer_scale(const PreparedScene& prepared, const SamplingOptions& options) {
+  return options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.whole().mean_spacing;
+}
+
+// Sorts surfels by bands of 64 bins and inside a band by u, then by index: neighbours add to the same part of an image.
+void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<std::uint32_t>& surfels,
+                   VisibleSurfels& sorted) {
+  struct Placed {
+    std::uint32_t band, surfel;
+    PatchPlace at;
+  };
+  std::vector<Placed> placed(surfels.size());
+  parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
+      const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
+      const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, 4e9);
+      placed[s] = {static_cast<std::uint32_t>(band), surfels[s], {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)}};
+    }
+  });
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return std::tuple(a.band, a.at.u, a.surfel) < std::tuple(b.band, b.at.u, b.surfel);
+  });
+  for (const Placed& p : placed) {
+    sorted.surfel.push_back(p.surfel);
+    sorted.place.push_back(p.at);
+  }
 }
 
 }  // namespace
@@ -162,9 +206,53 @@ Sampling find_scatterers(const PreparedScene& prepared, const Pose& world_from_h
   const View view(scene, world_from_head, fan, gate, options);
   Sampling sampling =
       sample(scene, gate_surfels(prepared, view.head, view.sector, gate, options.footprint, options.threads), view);
-  tilt(scene, view, options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.whole().mean_spacing,
-       sampling);
+  tilt(scene, view, outer_scale(prepared, options), sampling);
   return sampling;
+}
+
+VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                            const RangeGate& gate, const SamplingOptions& options) {
+  const SceneCloud& scene = prepared.scene();
+  require_valid(world_from_head, fan, gate, options);
+  const View view(scene, world_from_head, fan, gate, options);
+  const auto gated = gate_surfels(prepared, view.head, view.sector, gate, options.footprint, options.threads);
+  VisibleSurfels result;
+  result.report = report_of(scene, gated, view);
+  const SplitOptions split = split_options(view);
+  sort_by_place(scene, view, select_visible(gated, options, result.report), result);
+  PartCounts parts = count_parts(scene, view.head, result.surfel, split);
+  result.first = std::move(parts.first);
+  result.report.capped = parts.capped;
+  result.report.scatterers = result.first.back();
+  result.options = options;
+  result.options.range_resolution = split.range_resolution;
+  result.options.relief_outer_scale = outer_scale(prepared, options);
+  result.beam_width = fan.beam_width;
+  result.row_width = fan.row_width;
+  result.relief = relief_of(scene, {options.seed, result.options.relief_outer_scale});
+  return result;
+}
+
+Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
+                      std::span<const std::uint32_t> which, int threads) {
+  std::vector<std::uint32_t> surfels;
+  std::vector<std::size_t> first{0};
+  for (const std::uint32_t k : which) {
+    surfels.push_back(visible.surfel[k]);
+    first.push_back(first.back() + visible.first[k + 1] - visible.first[k]);
+  }
+  const SamplingOptions& o = visible.options;
+  Scatterers parts = split_surfels(
+      scene, HeadFrame(scene, world_from_head), surfels, first,
+      {o.scatterers_per_cell, o.range_resolution, visible.beam_width, o.seed, threads, visible.row_width});
+  if (visible.relief) tilt_by_relief(scene, world_from_head, *visible.relief, threads, parts);
+  return parts;
+}
+
+Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible) {
+  std::vector<std::uint32_t> all(visible.surfel.size());
+  std::iota(all.begin(), all.end(), 0);
+  return make_parts(scene, world_from_head, visible, all, visible.options.threads);
 }
 
 }  // namespace insonify

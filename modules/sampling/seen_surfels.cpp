@@ -68,10 +68,10 @@ std::vector<Visibility> find_visibility(const PreparedScene& prepared, const Pos
 Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
                         const std::vector<std::uint32_t>& surfels, const SamplingOptions& options) {
   const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
-  return split_surfels(
-             scene, HeadFrame(scene, world_from_head), surfels,
-             {options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width})
-      .scatterers;
+  const HeadFrame head(scene, world_from_head);
+  const SplitOptions split{
+      options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width};
+  return split_surfels(scene, head, surfels, count_parts(scene, head, surfels, split).first, split);
 }
 
 Scatterers split_listed(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,

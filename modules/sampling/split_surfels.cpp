@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sampling/split_loops_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
 
 namespace insonify {
@@ -16,10 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Steps of the R2 sequence (Roberts 2018): 1 / g and 1 / g^2 with g^3 = g + 1, the plastic number.
-constexpr double step_radius = 0.75487766624669276;  // step_angle = 0.56984029099805327
 constexpr std::uint32_t max_parts = 4096;
 constexpr double min_range = 1e-6;  // lower bound of range and horizontal distance [m]
+constexpr std::size_t block = 512;
 constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
@@ -27,63 +27,16 @@ double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double
   return std::min(1.0, oriented ? std::max(0.0, cosine) : std::abs(cosine));
 }
 
-// atan(t) to double precision for |t| <= 1/16: Taylor series up to t^13.
-constexpr double small_tangent = 1.0 / 16;
-double atan_of_small(double t) {
-  const double q = t * t;
-  return t + t * q * (-1.0 / 3 + q * (1.0 / 5 + q * (-1.0 / 7 + q * (1.0 / 9 + q * (-1.0 / 11 + q * (1.0 / 13))))));
-}
-
-// Directions of points near a centre without a trigonometric function per point, from the tangents of the angle
-// differences; accurate to 1e-15 rad.
-class DirectionsNear {
- public:
-  DirectionsNear(const Vector3d& centre, double range)
-      : azimuth(std::atan2(centre.y(), centre.x())), elevation(std::asin(std::clamp(centre.z() / range, -1.0, 1.0))) {
-    const double across = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
-    if (!(across > min_range)) return;  // straight up or down: differences in azimuth are not small
-    ahead_ = {centre.x() / across, centre.y() / across};
-    level_ = {across / range, centre.z() / range};
+// Turns of the parts of every surfel: exp(2 pi i k step_angle), k < max_parts.
+struct Turns {
+  std::vector<double> re, im;
+  Turns() {
+    constexpr double step_angle = 0.56984029099805327;  // of the R2 sequence (Roberts 2018): 1 / g^2, g^3 = g + 1
+    for (std::uint32_t k = 0; k < max_parts; ++k) {
+      const std::complex<double> turn = std::polar(1.0, 2 * pi * reduced_cycles(k * step_angle));
+      re.push_back(turn.real()), im.push_back(turn.imag());
+    }
   }
-
-  Direction of(const Vector3d& p, double range) const {
-    const double along = ahead_.x() * p.x() + ahead_.y() * p.y(), left = ahead_.x() * p.y() - ahead_.y() * p.x();
-    const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
-    const double forth = level_.x() * across + level_.y() * p.z(), up = level_.x() * p.z() - level_.y() * across;
-    if (!(std::abs(left) < small_tangent * along && std::abs(up) < small_tangent * forth))
-      return {std::atan2(p.y(), p.x()), std::asin(std::clamp(p.z() / range, -1.0, 1.0))};
-    const double a = azimuth + atan_of_small(left / along);
-    return {std::abs(a) <= pi ? a : a - std::copysign(2 * pi, a), elevation + atan_of_small(up / forth)};
-  }
-
-  const double azimuth, elevation;  // direction of the centre
-
- private:
-  Eigen::Vector2d ahead_{0, 0};  // horizontal unit vector towards the centre; 0: no small-angle formula
-  Eigen::Vector2d level_{1, 0};  // cosine and sine of the centre's elevation
-};
-
-// Generates the offsets of the parts of one surfel in its tangent plane.
-class PartSequence {
- public:
-  PartSequence(double area, std::uint64_t seed, std::uint32_t id) : disc_radius_(std::sqrt(area / pi)) {
-    const auto shift = random_uniform(seed, RandomStage::surfel_split, {id, 0, 0});
-    shift_ = shift[0];
-    turn_ = std::polar(1.0, 2 * pi * shift[1]);
-  }
-  // Returns the offset of part k = 1, 2, ..., uniformly distributed over the disc.
-  std::complex<double> next() {
-    ++k_;
-    turn_ *= turn_step_;
-    const double u = shift_ + k_ * step_radius;
-    return disc_radius_ * std::sqrt(u - std::floor(u)) * turn_;
-  }
-
- private:
-  double disc_radius_, shift_ = 0, k_ = 0;
-  std::complex<double> turn_;
-  static constexpr std::complex<double> turn_step_{-0.90525385836302985,
-                                                   -0.42487110035732889};  // exp(2 pi i step_angle)
 };
 
 // Number of parts before limits are applied (E17).
@@ -95,6 +48,8 @@ double parts_wanted(double area, double range, double cos_incidence, const Split
 std::uint32_t bounded(double parts) {
   return parts < max_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : max_parts;
 }
+
+constexpr double step_radius = 0.75487766624669276;  // of the R2 sequence, as in place_parts
 
 struct Splitter {
   const SceneCloud& scene;
@@ -112,30 +67,70 @@ struct Splitter {
     const Vector3d world_normal = scene.normal[surfel].cast<double>().normalized();
     const Vector3d normal = head.direction(world_normal), centre = head.position(scene.point[surfel]);
     const double area = scene.area[surfel], share = area / static_cast<double>(parts);
-    const auto put = [&](std::size_t k, const Vector3d& position, double range, const Direction& direction) {
-      const double cosine = cos_incidence_of(normal, position, range, scene.normals_oriented);
-      out.range[first + k] = range;
-      out.azimuth[first + k] = direction.azimuth;
-      out.elevation[first + k] = direction.elevation;
-      out.cos_incidence[first + k] = static_cast<float>(cosine);
-      out.projected_area[first + k] = static_cast<float>(share * cosine);
+    const double range = std::max(centre.norm(), min_range);
+    const double cosine = cos_incidence_of(normal, centre, range, scene.normals_oriented);
+    const Direction direction = direction_of(centre, range);
+    out.range[first] = range;
+    out.azimuth[first] = direction.azimuth;
+    out.elevation[first] = direction.elevation;
+    out.cos_incidence[first] = static_cast<float>(cosine);
+    out.projected_area[first] = static_cast<float>(share * cosine);
+    for (std::size_t k = 0; k < parts; ++k) {
       out.material[first + k] = scene.material[surfel];
       out.id[first + k] = std::uint64_t{scene.id[surfel]} << 32 | k;
       out.surfel[first + k] = surfel;
-    };
-    const double range = std::max(centre.norm(), min_range);
-    const DirectionsNear directions(centre, range);
-    put(0, centre, range, {directions.azimuth, directions.elevation});
-    if (parts == 1) return;
+    }
+    if (parts > 1) place(out, first, parts, surfel, {world_normal, normal, centre, direction, range, share});
+  }
 
-    const Vector3d tangent = world_normal.unitOrthogonal();
-    const Vector3d t1 = head.direction(tangent), t2 = head.direction(world_normal.cross(tangent));
-    PartSequence sequence(area, options.seed, scene.id[surfel]);
-    for (std::size_t k = 1; k < parts; ++k) {
-      const std::complex<double> offset = sequence.next();
-      const Vector3d position = centre + (offset.real() * t1 + offset.imag() * t2);
-      const double range_of_part = std::max(position.norm(), min_range);
-      put(k, position, range_of_part, directions.of(position, range_of_part));
+ private:
+  struct Centre {
+    Vector3d world_normal, normal, position;
+    Direction direction;
+    double range, share;
+  };
+  static Direction direction_of(const Vector3d& p, double range) {
+    return {std::atan2(p.y(), p.x()), std::asin(std::clamp(p.z() / range, -1.0, 1.0))};
+  }
+
+  /// Places the parts beside the centre, of a low-discrepancy sequence over the disc (E17).
+  void place(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel, const Centre& c) const {
+    static const Turns turns;
+    const Vector3d tangent = c.world_normal.unitOrthogonal();
+    kernels::PartFrame frame{};
+    const auto copy = [](const Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); };
+    copy(c.position, frame.centre);
+    copy(head.direction(tangent), frame.t1);
+    copy(head.direction(c.world_normal.cross(tangent)), frame.t2);
+    copy(c.normal, frame.normal);
+    const auto drawn = random_uniform(options.seed, RandomStage::surfel_split, {scene.id[surfel], 0, 0});
+    const std::complex<double> turn = std::polar(1.0, 2 * pi * drawn[1]);
+    frame.radius = std::sqrt(scene.area[surfel] / pi);
+    frame.shift = drawn[0], frame.turn_re = turn.real(), frame.turn_im = turn.imag();
+    frame.azimuth = c.direction.azimuth, frame.elevation = c.direction.elevation;
+    frame.oriented = scene.normals_oriented;
+    const double across = std::hypot(c.position.x(), c.position.y());
+    frame.ahead[0] = c.position.x() / across, frame.ahead[1] = c.position.y() / across;
+    frame.level[0] = across / c.range, frame.level[1] = c.position.z() / c.range;
+
+    const std::size_t at = first + 1;
+    const bool near = kernels::place_parts(frame, turns.re.data(), turns.im.data(), parts - 1, c.share,
+                                           {out.range.data() + at, out.azimuth.data() + at, out.elevation.data() + at,
+                                            out.cos_incidence.data() + at, out.projected_area.data() + at});
+    if (!(near && across > min_range)) turn_far(out, at, frame, parts - 1, turns);
+  }
+
+  /// Directions of parts that are not at a small angle to the centre.
+  static void turn_far(Scatterers& out, std::size_t at, const kernels::PartFrame& f, std::size_t count,
+                       const Turns& turns) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double u = f.shift + static_cast<double>(i + 1) * step_radius;
+      const std::complex<double> offset = f.radius * std::sqrt(u - std::floor(u)) * std::complex(f.turn_re, f.turn_im) *
+                                          std::complex(turns.re[i + 1], turns.im[i + 1]);
+      const Vector3d p = Vector3d(f.centre) + offset.real() * Vector3d(f.t1) + offset.imag() * Vector3d(f.t2);
+      const Direction direction = direction_of(p, out.range[at + i]);
+      out.azimuth[at + i] = direction.azimuth;
+      out.elevation[at + i] = direction.elevation;
     }
   }
 };
@@ -184,36 +179,40 @@ std::uint32_t parts_of(double area, double range, double cos_incidence, const Sp
   return bounded(parts_wanted(area, range, cos_incidence, options));
 }
 
-SplitSurfels split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
-                           const SplitOptions& options) {
+PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
+                       const SplitOptions& options) {
   const Splitter splitter{scene, head, options};
-  constexpr std::size_t block = 512;
-  std::vector<std::size_t> first(surfels.size() + 1, 0);
+  PartCounts counts{std::vector<std::size_t>(surfels.size() + 1, 0)};
   std::atomic<std::size_t> capped{0};
   parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
     std::size_t capped_here = 0;
     for (std::size_t s = begin; s < end; ++s) {
       const double wanted = splitter.wanted(surfels[s]);
-      first[s + 1] = bounded(wanted);
+      counts.first[s + 1] = bounded(wanted);
       capped_here += wanted > max_parts;
     }
     capped += capped_here;
   });
-  for (std::size_t s = 0; s < surfels.size(); ++s) first[s + 1] += first[s];
-  if (first.back() > max_scatterers)
-    fail(ErrorKind::argument, "split_surfels: ", surfels.size(), " surfels make ", first.back(), " scatterers (",
-         first.back() * bytes_per_scatterer >> 30,
+  counts.capped = capped;
+  for (std::size_t s = 0; s < surfels.size(); ++s) counts.first[s + 1] += counts.first[s];
+  if (counts.first.back() > max_scatterers)
+    fail(ErrorKind::argument, "split_surfels: ", surfels.size(), " surfels make ", counts.first.back(), " scatterers (",
+         counts.first.back() * bytes_per_scatterer >> 30,
          " GiB), must be at most 2^28; lower scatterers_per_cell = ", options.scatterers_per_cell,
          ", or thin the scene");
+  return counts;
+}
 
-  SplitSurfels result;
-  result.capped = capped;
-  resize(result.scatterers, first.back(), options.threads);
+Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
+                         std::span<const std::size_t> first, const SplitOptions& options) {
+  Scatterers scatterers;
+  const Splitter splitter{scene, head, options};
+  resize(scatterers, first.back() - first.front(), options.threads);
   parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
-      splitter.write(result.scatterers, first[s], first[s + 1] - first[s], surfels[s]);
+      splitter.write(scatterers, first[s] - first[0], first[s + 1] - first[s], surfels[s]);
   });
-  return result;
+  return scatterers;
 }
 
 }  // namespace insonify

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sampling/gate_surfels_internal.hpp"
@@ -30,15 +31,19 @@ double cell_area(double range, double cos_incidence, const SplitOptions& options
 /// range x the narrower of both widths.
 std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options);
 
-/// Returns the scatterers of the given surfels (indices in the scene), in order. Part 0 is at the surfel's centre; part
-/// k is point k of a low-discrepancy sequence over a disc of the surfel's area in its tangent plane, shifted and
-/// rotated by random numbers of (seed, surfel id): at the same position in the scene for every pose. Throws Error for
-/// more than 2^28 scatterers.
-struct SplitSurfels {
-  Scatterers scatterers;
+/// The number of the first part of each surfel, and at the end that of all parts.
+struct PartCounts {
+  std::vector<std::size_t> first;
   std::size_t capped = 0;  ///< surfels that would need more than 4096 parts
 };
-SplitSurfels split_surfels(const SceneCloud& scene, const HeadFrame& head, const std::vector<std::uint32_t>& surfels,
-                           const SplitOptions& options);
+/// Counts the parts of the given surfels (indices in the scene). Throws Error for more than 2^28.
+PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
+                       const SplitOptions& options);
+
+/// Returns the scatterers of the given surfels, `first` as counted for them, in order. Part 0 is at the surfel's centre;
+/// part k is point k of a low-discrepancy sequence over a disc of the surfel's area in its tangent plane, shifted and
+/// rotated by random numbers of (seed, surfel id): at the same position in the scene for every pose.
+Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
+                         std::span<const std::size_t> first, const SplitOptions& options);
 
 }  // namespace insonify

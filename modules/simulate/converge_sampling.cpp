@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "beamforming/synthesize_intensity.hpp"
+#include "sampling/visible_surfels.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 
 namespace insonify {
@@ -46,7 +47,10 @@ void refine(SamplingOptions& sampling, double step) {
 }
 
 Sampling sample_once(const PreparedScene& prepared, const View& view) {
-  return find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+  if (view.sampling.kind == SamplingKind::rays)
+    return find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+  const VisibleSurfels visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+  return {make_parts(prepared.scene(), view.world_from_head, visible), visible.report};
 }
 
 Sampling converge_sampling(const PreparedScene& prepared, ResolvedPing& ping, ConvergenceReport& report) {

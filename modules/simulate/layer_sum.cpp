@@ -2,6 +2,7 @@
 #include <numbers>
 #include <utility>
 
+#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"
 #include "simulate/layer_sum_internal.hpp"
@@ -22,6 +23,13 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
   elements_ = std::move(series);
 }
 
+void LayerSum::add(const std::string& name, const EchoSource& source) {
+  if (source.stored) return add(name, *source.stored);
+  const SimulationOptions& o = ping_.options;
+  add_pressure(name, source.size(),
+               PingSynthesizer(ping_.head, ping_.sent.medium, {o.synthesis.tolerance, o.threads}).pressure_of(source));
+}
+
 void LayerSum::add_noise() {
   const SonarHead& head = ping_.head;
   const SimulationOptions& o = ping_.options;
@@ -32,15 +40,15 @@ void LayerSum::add_noise() {
                    : synthesize_noise(head, ping_.sent.medium, ping_.element_noise_db, {o.seed, o.ping, o.threads}));
 }
 
-void LayerSum::add_pressure(const std::string& name, std::size_t echoes, const ComplexGrid& pressure) {
+void LayerSum::add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure) {
+  report_.push_back({name, echoes});
+  if (ping_.options.outputs.layers) layers_.push_back({name, stored_pressure(pressure, "simulate_ping")});
   if (sum_.size() == 0)
-    sum_ = pressure;
+    sum_ = std::move(pressure);
   else if (incoherent_)
     sum_ = (sum_.abs2() + pressure.abs2()).sqrt().cast<std::complex<double>>();
   else
     sum_ += pressure;
-  report_.push_back({name, echoes});
-  if (ping_.options.outputs.layers) layers_.push_back({name, stored_pressure(pressure, "simulate_ping")});
 }
 
 void LayerSum::finish(SimulatedPing& result) {

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/echo_source.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 
@@ -15,6 +16,8 @@ class LayerSum {
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
+  /// The same of a source, whose echoes need not be stored for method gridded and a head with one row of beams.
+  void add(const std::string& name, const EchoSource& source);
   /// Adds the noise of all elements; for SynthesisMethod::incoherent, its expected intensity.
   void add_noise();
 
@@ -23,7 +26,7 @@ class LayerSum {
   void finish(SimulatedPing& result);
 
  private:
-  void add_pressure(const std::string& name, std::size_t echoes, const ComplexGrid& pressure);
+  void add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure);
 
   const ResolvedPing& ping_;
   bool incoherent_;

@@ -56,18 +56,6 @@ std::vector<std::string> sparse_notes(const SamplingReport& report, std::size_t 
 
 }  // namespace
 
-RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
-  RefractionReport report;
-  if (!ping.environment.profile) return report;
-  const SoundSpeedProfile& profile = *ping.environment.profile;
-  const double head_depth = ping.environment.water.depth;
-  const Pose& pose = ping.view.world_from_head;
-  report.bound = refraction_bound(profile, head_depth, pose, scatterers);
-  report.bent = ping.options.effects.refraction == Choice::always;
-  if (report.bent) report.silenced = bend_paths(profile, head_depth, pose, scatterers, ping.options.threads);
-  return report;
-}
-
 std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping) {
   const Environment& e = ping.environment;
   const auto& [pose, fan, gate, sampling] = ping.view;
@@ -88,8 +76,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   result.medium = ping.sent.medium;
   result.noise_floor_db = ping.detection.noise_floor_db;
   result.sampling = parts.sampling.report;
-  result.scatterers = std::move(parts.sampling.scatterers);
-  const Scatterers& patches = result.scatterers;
+  const Scatterers& patches = parts.sampling.scatterers;
 
   result.ping.level_error_db = std::move(result.convergence.level_error_db);
   if (wanted.mask) mark_holes(prepared, ping, result);
@@ -104,6 +91,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   for (std::string& note : sparse_notes(result.sampling, ping.view.fan.beams()))
     result.notes.push_back(std::move(note));
   for (std::string& note : convergence_notes(result.convergence)) result.notes.push_back(std::move(note));
+  if (wanted.scatterers) result.scatterers = std::move(parts.sampling.scatterers);
 }
 
 }  // namespace insonify

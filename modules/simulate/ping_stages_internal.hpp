@@ -1,15 +1,32 @@
 #pragma once
 #include <vector>
 
+#include "acoustics/echo_source.hpp"
 #include "acoustics/multipath_echoes.hpp"
+#include "sampling/visible_surfels.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 
 /// The stages of simulate_ping that are more than one call.
 namespace insonify {
 
-/// Bends the rays to the scatterers if the options, settled, say so. Without a profile nothing is done.
-RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers);
+/// Patches of surface and their direct echoes: stored if a later stage asks for all of them, else counted and made when
+/// they are used.
+struct PingParts {
+  bool stored = false;
+  VisibleSurfels visible{};  ///< if not stored
+  Sampling sampling{};       ///< the report; patches if stored
+  Echoes direct{};           ///< if stored
+  Multipath bounced{};
+};
+
+/// Samples the view, where rays are bent if the options, settled, say so; reports refraction and convergence in
+/// `result`.
+PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result);
+
+/// Returns the direct echoes of all patches, moved if the options say so. Refers to all arguments, of which it changes
+/// parts.direct.
+EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {
@@ -17,13 +34,6 @@ struct Reverberation {
   Echoes echoes;
 };
 std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping);
-
-/// What a ping was made of, for its outputs.
-struct PingParts {
-  Sampling sampling;
-  const Echoes& direct;
-  const Multipath& bounced;
-};
 
 /// Moves the sampling into `result`, whose ping is complete, and adds medium, noise floor and notes; and what the
 /// options ask for: level error and mask of holes, contributors (E63), paths of sound.

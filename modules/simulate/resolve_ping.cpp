@@ -71,8 +71,9 @@ InsonifiedRegion region_of(const ResolvedPing& ping) {
   return region;
 }
 
-DetectionOptions detection_of(const SimulationOptions& o, double beam_noise_db) {
+DetectionOptions detection_of(const SimulationOptions& o, double range_resolution, double beam_noise_db) {
   DetectionOptions detection = o.detection;
+  if (detection.range_resolution == 0) detection.range_resolution = range_resolution;
   detection.threads = o.threads;
   if (std::isinf(detection.noise_floor_db)) detection.noise_floor_db = beam_noise_db;
   return detection;
@@ -101,7 +102,7 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
   ping.region = region_of(ping);
   ping.element_noise_db = element_noise_level_db(environment, head.pulse);
   ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
-  ping.detection = detection_of(options, ping.beam_noise_db);
+  ping.detection = detection_of(options, ping.view.sampling.range_resolution, ping.beam_noise_db);
   return ping;
 }
 

@@ -19,7 +19,7 @@ struct ResolvedPing {
                                 ///< is left as needed counts as in here, and as out elsewhere
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
   double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
-  DetectionOptions detection;   ///< with that noise floor, if the options leave it open
+  DetectionOptions detection;   ///< with that noise floor and the pulse's resolution, if the options leave them open
 };
 
 /// Whether sound can come by way of a surface or bottom.

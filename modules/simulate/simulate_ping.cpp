@@ -5,7 +5,6 @@
 #include "acoustics/multipath_echoes.hpp"
 #include "core/stop_watch.hpp"
 #include "simulate/average_looks_internal.hpp"
-#include "simulate/converge_sampling_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
@@ -27,24 +26,20 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   const EffectSettings& effects = settled.effects;
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
-  Sampling sampling = sample_view(prepared, ping, result.convergence);
-  Scatterers& patches = sampling.scatterers;
-  result.refraction = refract(ping, patches);
+  PingParts parts = sample_parts(prepared, ping, result);
+  const Scatterers& patches = parts.sampling.scatterers;
   result.seconds.sampling = watch.lap();
 
-  // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase.
-  Echoes echoes = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, sent.echo_options);
-  if (effects.moving == Choice::always)
-    move_echoes(effects.motion, world_from_head, patches, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
+  // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
+  const EchoSource direct = direct_source(scene, ping, parts);
   result.seconds.acoustics = watch.lap();
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   LayerSum layers(ping);
-  layers.add("direct", echoes);
-  Multipath bounced;
+  layers.add("direct", direct);
   const bool bounces = effects.multipath == Choice::always;
-  if (bounces) bounced = multipath_echoes(scene, patches, environment, ping.view, sent);
-  if (bounces) layers.add("multipath", bounced.echoes);
+  if (bounces) parts.bounced = multipath_echoes(scene, patches, environment, ping.view, sent);
+  if (bounces) layers.add("multipath", parts.bounced.echoes);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (effects.noise) layers.add_noise();
   layers.finish(result);
@@ -52,11 +47,11 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.
-  result.soundings = detect_soundings(result.ping, patches, echoes, ping.detection);
+  result.soundings = detect_soundings(result.ping, direct, ping.detection);
   result.seconds.detection = watch.lap();
 
   // What the options ask for besides, and how the ping came about.
-  attach_outputs(prepared, ping, {std::move(sampling), echoes, bounced}, result);
+  attach_outputs(prepared, ping, std::move(parts), result);
   return result;
 }
 

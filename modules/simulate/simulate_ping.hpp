@@ -56,7 +56,7 @@ struct HoleReport {
 /// A ping, what it was made of, and how.
 struct SimulatedPing {
   Ping ping;
-  Scatterers scatterers;
+  Scatterers scatterers;  ///< if they were asked for
   Soundings soundings;
   SamplingReport sampling;
   Medium medium;

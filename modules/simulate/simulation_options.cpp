@@ -60,6 +60,9 @@ void require_valid(const DetectionOptions& d, const char* who) {
                 "finite, or -inf: all noise in the band");
   check.require(!std::isnan(d.threshold_db), "threshold_db", d.threshold_db, "a number");
   check.require(!std::isnan(d.side_lobe_margin_db), "side_lobe_margin_db", d.side_lobe_margin_db, "a number");
+  check.require(d.false_alarm_rate > 0 && d.false_alarm_rate <= 1, "false_alarm_rate", d.false_alarm_rate,
+                "above 0 and at most 1");
+  check.require(d.range_resolution >= 0, "range_resolution", d.range_resolution, ">= 0 m");
   check.require(!std::isnan(d.above_db), "above_db", d.above_db, "a number");
 }
 

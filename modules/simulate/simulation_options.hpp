@@ -54,12 +54,13 @@ struct EffectSettings {
   Choice moving = Choice::as_needed;      ///< whether `motion` counts
 };
 
-/// What the result holds beside ping, scatterers and soundings.
+/// What the result holds beside ping and soundings.
 struct OutputSettings {
-  bool elements = false;  ///< pressure at every element of a line array, before beams (E61), without noise
-  bool layers = false;    ///< each kind of echo as a layer of its own
-  bool mask = false;      ///< cells where the scan has holes
-  int paths = 0;          ///< so many paths of sound of each kind
+  bool elements = false;    ///< pressure at every element of a line array, before beams (E61), without noise
+  bool layers = false;      ///< each kind of echo as a layer of its own
+  bool scatterers = false;  ///< all patches of surface
+  bool mask = false;        ///< cells where the scan has holes
+  int paths = 0;            ///< so many paths of sound of each kind
   /// Intensity that a display shows beside the single-look pressure (E71): averaged over so many range bins, which are
   /// independent looks only if they are longer than the pulse, and over so many pulses. The pulses' speckle is independent,
   /// and so are noise and relief: as of a head that moves by half its aperture from pulse to pulse, or of a bottom that

@@ -104,7 +104,7 @@ TEST(ExtremeGeometry, n12_scene_without_points_is_silent) {
   EXPECT_EQ(p.soundings.size(), 0U);
   EXPECT_EQ(level_db(p.ping).maxCoeff(), -200);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays})
-    EXPECT_EQ(ping_of(SceneCloud{}, {.sampling = {.kind = kind}}).scatterers.size(), 0U);
+    EXPECT_EQ(ping_of(SceneCloud{}, {.sampling = {.kind = kind}}).sampling.scatterers, 0U);
 }
 
 // SL 220 dB, 10 m, 0.2994626 dB/m, target strength -20 dB: 220 - 2 (20 + 2.994626) - 20 dB.
@@ -124,7 +124,9 @@ TEST(ExtremeGeometry, n14_one_beam_and_one_ray_meet_the_wall_before_them) {
   SonarSpec s = small_sonar();
   s.beams = 1;
   s.field_of_view = 0;  // one beam looks straight ahead, whatever the field of view
-  const SimulatedPing p = ping_of(plate(5, 12, 60), {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 1}}, s);
+  const SimulatedPing p =
+      ping_of(plate(5, 12, 60),
+              {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 1}, .outputs = {.scatterers = true}}, s);
   EXPECT_TRUE(all_finite(p));
   ASSERT_EQ(p.scatterers.size(), 1U);
   const double x = p.scatterers.range[0] * std::cos(p.scatterers.azimuth[0]) * std::cos(p.scatterers.elevation[0]);
@@ -173,7 +175,9 @@ TEST(ExtremeGeometry, n31_straight_up_and_down_have_no_azimuth_and_a_level) {
   for (const double elevation : {-pi / 2, pi / 2}) {
     s.elevation = elevation;
     const Eigen::Vector3d zenith(0, 0, elevation > 0 ? 1 : -1);
-    const SimulatedPing p = ping_of(one_surfel(5 * zenith, -zenith), coherent, s);
+    SimulationOptions options = coherent;
+    options.outputs.scatterers = true;
+    const SimulatedPing p = ping_of(one_surfel(5 * zenith, -zenith), options, s);
     EXPECT_TRUE(all_finite(p));
     ASSERT_EQ(p.scatterers.size(), 1U);
     EXPECT_EQ(p.scatterers.azimuth[0], 0);

@@ -46,7 +46,7 @@ TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_
     const SimulatedPing p =
         ping_of(scene, {.amplitude = SurfaceAmplitude::coherent, .sampling = {.scatterers_per_cell = 0}}, s);
     EXPECT_TRUE(all_finite(p));
-    ASSERT_EQ(p.scatterers.size(), 1U) << r << " m";
+    ASSERT_EQ(p.sampling.scatterers, 1U) << r << " m";
     ASSERT_EQ(p.soundings.size(), 1U) << r << " m";
     EXPECT_NEAR(p.soundings.range[0], r, 0.011);
     // Just outside: the end of its pulse is still received; farther away nothing is.
@@ -55,7 +55,7 @@ TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_
     EXPECT_GT(tail, 0) << r << " m";
     EXPECT_LT(tail, 0.5 * image(p).abs().maxCoeff()) << r << " m";
     scene.point[0].x() = static_cast<float>(r < 2 ? r - 0.15 : r + 0.15);
-    EXPECT_EQ(ping_of(scene, {}, s).scatterers.size(), 0U) << r << " m";
+    EXPECT_EQ(ping_of(scene, {}, s).sampling.scatterers, 0U) << r << " m";
   }
 }
 

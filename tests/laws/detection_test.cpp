@@ -92,10 +92,28 @@ TEST(DetectionLaws, false_alarms_come_at_the_rate_of_their_threshold) {
     DetectionOptions peaks;
     peaks.noise_floor_db = noise_floor_db();
     peaks.threshold_db = threshold_db(rate);
+    peaks.false_alarm_rate = 1;
     EXPECT_NEAR(false_alarms(4, peaks), expected, error + rate * expected) << rate;
   }
   // 1.28 expected at 10^-6: six or more have a chance of 0.2 %.
-  EXPECT_LE(false_alarms(4, {.noise_floor_db = noise_floor_db()}), 5);
+  EXPECT_LE(false_alarms(4, {.noise_floor_db = noise_floor_db(), .false_alarm_rate = 1}), 5);
+}
+
+// Cell averaging over n = 32 cells: x above a sum of n such cells / n times the factor, and above both neighbours, has
+// probability p(1) - p(2) + p(3) / 3 with p(k) = (1 + k factor / n)^-n, of which p(1) is the rate of a single sample.
+TEST(DetectionLaws, false_alarms_above_the_background_come_at_their_rate_for_any_level_of_it) {
+  const double samples = 4.0 * beams * bins;
+  for (const double rate : {1e-1, 1e-2, 1e-3, 1e-4}) {
+    const double factor = background_factor(rate, 32) / 32;
+    const auto p = [&](int k) { return std::pow(1 + k * factor, -32); };
+    EXPECT_NEAR(p(1) / rate, 1, 1e-12);
+    const double expected = (p(1) - p(2) + p(3) / 3) * samples;
+    for (const double floor_db : {-100.0, 0.0}) {
+      const double found = false_alarms(
+          4, {.noise_floor_db = floor_db, .threshold_db = 0, .side_lobe_margin_db = 1000, .false_alarm_rate = rate});
+      EXPECT_NEAR(found, expected, 3 * std::sqrt(expected) + 0.002 * expected) << rate;
+    }
+  }
 }
 
 // A target of Rayleigh amplitude: Pd = Pfa^(1 / (1 + SNR)). 0.5 at 10^-4 takes 10.89 dB, 0.9 takes 19.37 dB.
@@ -123,9 +141,11 @@ TEST(DetectionLaws, rayleigh_target_is_found_with_pfa_to_the_one_over_one_plus_s
     const std::vector<Material> materials{{"target", 1.0}};
     const Echoes echoes = direct_echoes(s, materials, head.pulse, clear_water(), {.seed = 9});
     const Ping ping = noise_ping(head, synthesize_gridded(echoes, head, clear_water()), 77);
-    const Soundings found = detect_soundings(
-        ping, silent().scatterers, silent().echoes,
-        {.noise_floor_db = noise_floor_db(), .threshold_db = threshold_db(rate), .side_lobe_margin_db = 1000});
+    const Soundings found = detect_soundings(ping, silent().scatterers, silent().echoes,
+                                             {.noise_floor_db = noise_floor_db(),
+                                              .threshold_db = threshold_db(rate),
+                                              .side_lobe_margin_db = 1000,
+                                              .false_alarm_rate = 1});
     double hits = 0;
     for (const std::uint32_t bin : found.bin) hits += bin % 10 == 5;
     const auto targets = static_cast<double>(s.size());

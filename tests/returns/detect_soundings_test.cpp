@@ -189,3 +189,29 @@ TEST(DetectSoundings, bound_the_peak_beside_a_null) {
   EXPECT_NEAR(s.range[0], 3.10, 1e-5);
   EXPECT_NEAR(s.level_db[0], 103.01, 0.01);
 }
+
+// A pulse on a smooth background of 20 dB: found where it stands out by the factor, whatever its own flanks and those of
+// a neighbour two cells away.
+TEST(DetectSoundings, stand_out_of_their_surroundings) {
+  const double factor_db = db_from_power(background_factor(1e-3, 32));
+  for (const double above : {-0.1, 0.1}) {
+    Scene scene;
+    const auto smooth = static_cast<float>(std::sqrt(2) * 1e-6 * amplitude_from_db(60));
+    scene.ping.pressure.setConstant(smooth);
+    const double level = 60 + factor_db + above;
+    scene.ping.pressure(2, 25) = static_cast<float>(std::sqrt(2) * 1e-6 * amplitude_from_db(level));
+    scene.ping.pressure(2, 23) = scene.ping.pressure(2, 27) = 0.99F * scene.ping.pressure(2, 25);
+    const Soundings s = scene.detect({.noise_floor_db = 0, .false_alarm_rate = 1e-3});
+    EXPECT_EQ(std::count(s.bin.begin(), s.bin.end(), 25U), above > 0) << above;
+  }
+  EXPECT_THROW(Scene().detect({.false_alarm_rate = 0}), Error);
+}
+
+// Two maxima three bins apart: two soundings in cells of up to three bins, one in a cell of four.
+TEST(DetectSoundings, are_one_per_resolution_cell) {
+  Scene scene;
+  scene.mark(2, 28, 99);
+  scene.add(3.35, 0, 0, 4);
+  EXPECT_EQ(scene.detect({.noise_floor_db = 40, .range_resolution = 0.3}).size(), 3U);
+  EXPECT_EQ(scene.detect({.noise_floor_db = 40, .range_resolution = 0.4}).size(), 2U);
+}

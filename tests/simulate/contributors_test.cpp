@@ -99,7 +99,8 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
 TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
-  const SimulatedPing p = simulate_ping(scene, head, pose, {}, {.outputs = {.contributors = 1}});
+  const SimulatedPing p =
+      simulate_ping(scene, head, pose, {}, {.outputs = {.contributors = 1}, .detection = {.false_alarm_rate = 1}});
   ASSERT_GT(p.soundings.size(), 100U);
   std::size_t near = 0;
   for (std::size_t i = 0; i < p.soundings.size(); ++i) {
@@ -116,7 +117,8 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
 // The map of a ping agrees with what sampling saw, and covers what contributors name.
 TEST(SimulatedContributors, are_insonified) {
   const SceneCloud scene = two_materials();
-  const SimulatedPing p = simulate_ping(scene, head, over_plane, {}, {.outputs = {.contributors = 1}});
+  const SimulatedPing p =
+      simulate_ping(scene, head, over_plane, {}, {.outputs = {.scatterers = true, .contributors = 1}});
   Insonification map;
   add_ping(map, scene, p.scatterers, head, p.medium, {.min_response_db = -300});
   std::size_t hits = 0;

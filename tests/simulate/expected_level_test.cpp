@@ -54,6 +54,7 @@ struct Spread {
   explicit Spread(SimulationOptions options) {
     constexpr int seeds = 20;
     options.synthesis.method = SynthesisMethod::incoherent;
+    options.outputs.scatterers = true;
     Grid<double> sum, squares, prediction;
     Grid<bool> judged = Grid<bool>::Constant(head.fan.beams(), head.gate.bins(), true);
     sum = squares = prediction = Grid<double>::Zero(judged.rows(), judged.cols());
@@ -159,7 +160,7 @@ TEST(LevelError, asked_for_is_kept_in_99_of_100_cells) {
     EXPECT_GT(report.judged, 1000u);
     EXPECT_GE(report.share_below, 0.99);
     EXPECT_LT(report.reached_db, 0.7);
-    EXPECT_EQ(p.scatterers.size(), report.scatterers);
+    EXPECT_EQ(p.sampling.scatterers, report.scatterers);
     ASSERT_EQ(p.ping.level_error_db.size(), p.ping.pressure.size());
     EXPECT_EQ(static_cast<std::size_t>((!p.ping.level_error_db.isNaN()).count()), report.judged);
     const auto below = (p.ping.level_error_db < 0.7f).count();

@@ -35,6 +35,8 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
        "outputs.elements = true, must be false with method incoherent"},
       {{.detection = {.noise_floor_db = infinity}}, "detection.noise_floor_db = inf, must be finite, or -inf"},
       {{.detection = {.threshold_db = not_a_number}}, "detection.threshold_db = nan, must be a number"},
+      {{.detection = {.false_alarm_rate = 0}}, "detection.false_alarm_rate = 0, must be above 0 and at most 1"},
+      {{.detection = {.range_resolution = -1}}, "detection.range_resolution = -1, must be >= 0 m"},
       {{.detection = {.side_lobe_margin_db = not_a_number}}, "detection.side_lobe_margin_db = nan, must be a number"},
       {{.detection = {.above_db = not_a_number}}, "detection.above_db = nan, must be a number"},
       {{.accuracy_db = 0}, "accuracy_db = 0, must be above 0 and at most 20 dB"},

@@ -280,7 +280,7 @@ TEST(PlanPing, estimates_what_a_ping_will_hold) {
   const Situation s = situation(4);
   const PingPlan plan = plan_of(s);
   const SimulatedPing p = simulate_ping(s.scene, s.head, s.pose, s.environment, s.options);
-  EXPECT_NEAR(plan.scatterers / static_cast<double>(p.scatterers.size()), 1, 0.3);
+  EXPECT_NEAR(plan.scatterers / static_cast<double>(p.sampling.scatterers), 1, 0.3);
   EXPECT_GT(plan.seconds, 0);
   EXPECT_GT(plan.mib, 0);
 }

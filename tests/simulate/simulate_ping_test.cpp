@@ -37,9 +37,9 @@ ComplexGrid levelled(const SimulatedPing& p) {
 }  // namespace
 
 TEST(SimulatePing, hears_the_harbour) {
-  const SimulatedPing p = ping_harbour({});
+  const SimulatedPing p = ping_harbour({.detection = {.false_alarm_rate = 1}});
   EXPECT_GT(p.sampling.visible, 1000U);
-  EXPECT_GT(p.scatterers.size(), p.sampling.visible);
+  EXPECT_GT(p.sampling.scatterers, p.sampling.visible);
   EXPECT_GT(p.soundings.size(), 1000U);
   EXPECT_TRUE(p.ping.pressure.isFinite().all());
   EXPECT_GT(p.ping.pressure.abs().maxCoeff(), 0);
@@ -66,7 +66,7 @@ TEST(SimulatePing, changes_speckle_but_not_the_level_with_the_seed) {
 // World and head moved together by whole metres: the same relative geometry to the last bit of double.
 TEST(SimulatePing, does_not_change_when_world_and_head_move_together) {
   const SimulatedPing here = ping_harbour({}), far = ping_harbour({}, {1e6, -2e6, 300});
-  EXPECT_EQ(here.scatterers.size(), far.scatterers.size());
+  EXPECT_EQ(here.sampling.scatterers, far.sampling.scatterers);
   EXPECT_LT(compare_images(image(far), image(here)).relative_l2, 1e-9);
 }
 
@@ -81,7 +81,8 @@ TEST(SimulatePing, gridded_and_direct_agree_on_a_scene) {
 TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {30, 30}});
   const Water water;
-  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), {water});
+  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), {water},
+                                        {.detection = {.false_alarm_rate = 1}});
   ASSERT_GT(p.soundings.size(), 500U);
   std::vector<double> off;
   for (const auto& x : p.soundings.position) off.push_back(std::abs(x.z()));
@@ -108,7 +109,7 @@ TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
   const Water water;
   const SimulatedPing p =
       simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water});
-  EXPECT_EQ(p.scatterers.size(), 0U);
+  EXPECT_EQ(p.sampling.scatterers, 0U);
   EXPECT_EQ(p.ping.pressure.abs().maxCoeff(), 0);
   EXPECT_EQ(p.soundings.size(), 0U);
 }

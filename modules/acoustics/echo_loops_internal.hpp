@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
+// each. They do not include Eigen, so wide registers are safe.
+namespace insonify::kernels {
+
+/// Complex normal numbers of mean power 1 (E9; Box-Muller) from numbers uniform in (0, 1): what polar(sqrt(-log(u)), 2 pi
+/// turn) gives to 1e-15.
+void complex_normal(const double* u, const double* turn, std::size_t count, double* re, double* im);
+
+/// Multiplies gains by Gaussian lobes 2^(-2 (off / width)^2) of angles off an axis, whole turns apart alike (E14, E57).
+void apply_lobe(const double* angle, std::size_t count, double axis, double width, double* gain);
+
+/// Where echoes are written; amplitudes are real and imaginary parts interleaved.
+struct EchoPlaces {
+  double *delay, *u, *v, *amplitude;
+};
+
+/// Direct echoes of patches at range, azimuth and elevation (E7): delay 2 r / c, direction cosines, and amplitude xi
+/// gain / r^2 with the phase of `cycles_per_m` r.
+struct EchoPatches {
+  const double *range, *azimuth, *elevation, *gain, *xi_re, *xi_im;
+};
+void direct_echoes(const EchoPatches& patches, std::size_t count, double cycles_per_m, double sound_speed,
+                   EchoPlaces echoes);
+
+}  // namespace insonify::kernels

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "acoustics/echo_source.hpp"
+#include "returns/ping.hpp"
+
+namespace insonify {
+
+/// A sample of one beam.
+struct Pixel {
+  std::uint32_t beam, bin;
+};
+
+/// The strongest echo that contributes to a sample, and where it came from.
+struct StrongestContributor {
+  double power = 0;        ///< [Pa^2]; 0: there is none
+  bool own_share = false;  ///< stands in the beam's own share of the fan
+  Direction direction{};
+  std::uint16_t material = 0;
+};
+
+/// Returns the strongest contributor of each pixel within one bin length: searched in the beam's own share of the fan, so
+/// that neighbouring beams do not report the same scatterer, else in its -3 dB width (in azimuth, and in elevation for a
+/// fan of several rows or a planar array). Only parts near the pixels are visited. The result does not depend on
+/// `threads`.
+///
+/// pixels   ordered by beam, and within a beam by bin
+std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoSource& source,
+                                                         const BeamFan& fan, const RangeGate& gate, int threads);
+
+}  // namespace insonify

@@ -1,0 +1,93 @@
+#include <numeric>
+#include <utility>
+
+#include "simulate/converge_sampling_internal.hpp"
+#include "simulate/ping_stages_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t chunk_parts = 2048;  // with their echoes they fit into the cache of a core
+
+/// Whether some stage asks for all patches, or for their echoes in an order that is not theirs.
+bool needs_all_patches(const ResolvedPing& ping) {
+  const SimulationOptions& o = ping.options;
+  const auto in = [](Choice choice) { return choice == Choice::always; };
+  return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
+         o.synthesis.method != SynthesisMethod::gridded || o.sampling.kind == SamplingKind::rays ||
+         o.sampling.level_error_db > 0 || in(o.effects.multipath) || in(o.effects.moving) || ping.environment.profile ||
+         ping.head.column || fan_rows(ping.head.fan).size() > 1;
+}
+
+/// Bends the rays to the patches if the options, settled, say so. Without a profile nothing is done.
+RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
+  RefractionReport report;
+  if (!ping.environment.profile) return report;
+  const SoundSpeedProfile& profile = *ping.environment.profile;
+  const double head_depth = ping.environment.water.depth;
+  const Pose& pose = ping.view.world_from_head;
+  report.bound = refraction_bound(profile, head_depth, pose, scatterers);
+  report.bent = ping.options.effects.refraction == Choice::always;
+  if (report.bent) report.silenced = bend_paths(profile, head_depth, pose, scatterers, ping.options.threads);
+  return report;
+}
+
+/// Chunks of neighbouring surfels, and the first surfel of each.
+std::vector<std::uint32_t> divide(const VisibleSurfels& visible, std::vector<EchoSource::Chunk>& chunks) {
+  std::vector<std::uint32_t> begin{0};
+  for (std::uint32_t k = 0; k < visible.surfel.size(); ++k) {
+    const PatchPlace& p = visible.place[k];
+    if (begin.back() == k) chunks.push_back({0, p.range - p.reach, p.range + p.reach});
+    EchoSource::Chunk& chunk = chunks.back();
+    chunk.size += visible.first[k + 1] - visible.first[k];
+    chunk.min_range = std::min(chunk.min_range, p.range - p.reach);
+    chunk.max_range = std::max(chunk.max_range, p.range + p.reach);
+    if (chunk.size >= chunk_parts || k + 1 == visible.surfel.size()) begin.push_back(k + 1);
+  }
+  return begin;
+}
+
+}  // namespace
+
+PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
+  const View& view = ping.view;
+  PingParts parts;
+  parts.stored = needs_all_patches(ping);
+  if (parts.stored) {
+    parts.sampling = sample_view(prepared, ping, result.convergence);
+    result.refraction = refract(ping, parts.sampling.scatterers);
+  } else {
+    parts.visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+    parts.sampling.report = parts.visible.report;
+  }
+  return parts;
+}
+
+EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts) {
+  const Transmission& sent = ping.sent;
+  if (parts.stored) {
+    const Scatterers& patches = parts.sampling.scatterers;
+    const EffectSettings& effects = ping.options.effects;
+    parts.direct = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, sent.echo_options);
+    if (effects.moving == Choice::always)
+      move_echoes(effects.motion, ping.view.world_from_head, patches, sent.pulse.centre_frequency,
+                  sent.medium.sound_speed, parts.direct);
+    return stored_source(patches, parts.direct, "simulate_ping");
+  }
+  EchoSource source;
+  EchoOptions on_one_thread = sent.echo_options;
+  on_one_thread.threads = 1;
+  const std::vector<std::uint32_t> begin = divide(parts.visible, source.chunks);
+  source.visit = [&scene, &ping, &sent, &visible = parts.visible, begin, on_one_thread](
+                     std::size_t chunk, const EchoSource::Filter& wanted, const EchoSource::Visitor& visit) {
+    std::vector<std::uint32_t> which;
+    for (std::uint32_t k = begin[chunk]; k < begin[chunk + 1]; ++k)
+      if (!wanted || wanted(visible.place[k])) which.push_back(k);
+    if (which.empty()) return;
+    const Scatterers patches = make_parts(scene, ping.view.world_from_head, visible, which, 1);
+    visit(patches, direct_echoes(patches, scene.materials, sent.pulse, sent.medium, on_one_thread));
+  };
+  return source;
+}
+
+}  // namespace insonify
