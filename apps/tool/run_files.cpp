@@ -1,6 +1,7 @@
 #include "tool/run_files.hpp"
 
 #include <algorithm>
+#include <future>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -71,7 +72,10 @@ Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOpti
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
                const HeadSetup& setup, const Ping& ping, const std::string& settings, ordered_json& manifest,
                Progress& progress) {
-  write_cube(directory.file("cube.h5"), cube_of({ping}, common, run, setup));
+  // The cube is written while the picture is drawn.
+  const Cube cube = cube_of({ping}, common, run, setup);
+  std::future<void> written =
+      std::async(std::launch::async, [&, path = directory.file("cube.h5")] { write_cube(path, cube); });
   write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
   const double absorption = setup.medium.absorption.a0 / nepers_per_db;
@@ -84,6 +88,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
       manifest["notes"].push_back(std::string("no fan.png: ") + error.what());
     }
 
+  written.get();
   if (ping.expected_level) manifest["pressure"] = expected_level_text;
   manifest["sonar"] = sonar_json(setup);
   const Water& water = setup.environment.water;

@@ -87,14 +87,13 @@ void surface_amplitudes(const EchoOptions& options, std::span<const Material> ma
   std::fill_n(im, end - begin, 0.0);
   if (!draws(options)) return;
   std::array<double, block> u, turn;
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto drawn = random_uniform(options.seed, RandomStage::surface_amplitude, {s.id[i], 0, 0});
-    u[i - begin] = drawn[0], turn[i - begin] = drawn[1];
-  }
+  random_uniform_pairs(options.seed, RandomStage::surface_amplitude, s.id.data() + begin, end - begin, u.data(),
+                       turn.data());
   kernels::complex_normal(u.data(), turn.data(), end - begin, re, im);
+  const bool plain = std::all_of(materials.begin(), materials.end(), [](auto& m) { return m.coherent_fraction == 0; });
+  if (plain && options.amplitude != SurfaceAmplitude::random_phase) return;
   for (std::size_t k = 0; k < end - begin; ++k) {
     const double coherent_fraction = materials[s.material[begin + k]].coherent_fraction;
-    if (coherent_fraction == 0 && options.amplitude != SurfaceAmplitude::random_phase) continue;
     const std::complex<double> xi = amplitude_of(options, coherent_fraction, {re[k], im[k]});
     re[k] = xi.real(), im[k] = xi.imag();
   }

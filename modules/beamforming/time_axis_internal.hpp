@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "acoustics/pulse.hpp"
+#include "core/vector_functions.hpp"
 #include "sampling/range_gate.hpp"
 
 namespace insonify {
@@ -18,7 +19,7 @@ struct TimeAxis {
 
   /// Returns the samples [first, last) within `half` seconds of `delay`, clipped to the axis; empty if outside.
   std::pair<std::size_t, std::size_t> around(double delay, double half) const {
-    const double low = std::ceil((delay - half - start) / step), high = std::floor((delay + half - start) / step);
+    const double low = vec::ceil((delay - half - start) / step), high = vec::floor((delay + half - start) / step);
     const auto n = static_cast<double>(bins);
     if (high < 0 || low >= n) return {0, 0};
     return {static_cast<std::size_t>(std::max(low, 0.0)), static_cast<std::size_t>(std::min(high, n - 1)) + 1};

@@ -8,9 +8,20 @@
 
 namespace insonify {
 
+namespace {
+
+r123::Philox4x64::key_type key_of(std::uint64_t seed, RandomStage stage) {
+  return {{seed, static_cast<std::uint64_t>(stage)}};
+}
+
+// The midpoint of one of 2^52 equal intervals: never 0, never 1.
+double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52; }
+
+}  // namespace
+
 std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, RandomStage stage, RandomCounter counter) {
   const r123::Philox4x64 philox;
-  const r123::Philox4x64::key_type key = {{seed, static_cast<std::uint64_t>(stage)}};
+  const r123::Philox4x64::key_type key = key_of(seed, stage);
   const r123::Philox4x64::ctr_type at = {{counter.first, counter.second, counter.third, 0}};
   const auto bits = philox(at, key);
   return {bits[0], bits[1], bits[2], bits[3]};
@@ -19,9 +30,19 @@ std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, RandomStage stage, 
 std::array<double, 4> random_uniform(std::uint64_t seed, RandomStage stage, RandomCounter counter) {
   const auto bits = random_bits(seed, stage, counter);
   std::array<double, 4> u{};
-  // The midpoint of one of 2^52 equal intervals: never 0, never 1.
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] = (static_cast<double>(bits[i] >> 12) + 0.5) * 0x1p-52;
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = uniform(bits[i]);
   return u;
+}
+
+void random_uniform_pairs(std::uint64_t seed, RandomStage stage, const std::uint64_t* first, std::size_t count,
+                          double* u, double* v) {
+  const r123::Philox4x64 philox;
+  const r123::Philox4x64::key_type key = key_of(seed, stage);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bits = philox({{first[i], 0, 0, 0}}, key);
+    u[i] = uniform(bits[0]);
+    v[i] = uniform(bits[1]);
+  }
 }
 
 std::complex<double> random_complex_normal(std::uint64_t seed, RandomStage stage, RandomCounter counter) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <complex>
+#include <cstddef>
 #include <cstdint>
 
 namespace insonify {
@@ -32,6 +33,10 @@ std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, RandomStage stage, 
 
 /// Returns four independent numbers, uniform in the open interval (0, 1), with 52 random bits each.
 std::array<double, 4> random_uniform(std::uint64_t seed, RandomStage stage, RandomCounter counter);
+
+/// Sets u[i] and v[i] to the first two of random_uniform for counter {first[i], 0, 0}, i < count.
+void random_uniform_pairs(std::uint64_t seed, RandomStage stage, const std::uint64_t* first, std::size_t count,
+                          double* u, double* v);
 
 /// Returns a circular complex normal number with E|z|^2 = 1: Rayleigh amplitude, uniform phase (E9; Box-Muller).
 std::complex<double> random_complex_normal(std::uint64_t seed, RandomStage stage, RandomCounter counter);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "core/vector_functions.hpp"
 
 namespace insonify {
 
@@ -17,9 +19,11 @@ ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
 }
 
 Grid<float> level_db(const Ping& ping, double floor_db) {
+  const double unit = 2 * micropascal * micropascal, floor_power = std::max(1e-300, unit * power_from_db(floor_db));
   return ping.pressure.unaryExpr([&](const std::complex<float>& p) {
-    const double level = pressure_level_db(std::abs(std::complex<double>(p)));  // (E6)
-    return static_cast<float>(std::max(level, floor_db));
+    const double power = std::norm(std::complex<double>(p));
+    if (!(power > floor_power)) return static_cast<float>(floor_db);
+    return static_cast<float>(10 / std::numbers::ln10 * vec::log(power / unit));  // (E6)
   });
 }
 

@@ -41,11 +41,11 @@ Grid<float> apply_tvg(Grid<float> level_db, const RangeGate& gate, const Tvg& tv
   if (!std::isfinite(tvg.spreading) || !std::isfinite(tvg.absorption_db_per_m))
     fail(ErrorKind::argument, "apply_tvg: spreading = ", tvg.spreading,
          " dB per decade, absorption_db_per_m = ", tvg.absorption_db_per_m, " dB/m, must be finite");
-  for (Eigen::Index n = 0; n < level_db.cols(); ++n) {
-    const auto gain = static_cast<float>(gain_db(tvg, gate.centre(static_cast<std::size_t>(n))));
-    for (Eigen::Index b = 0; b < level_db.rows(); ++b)
-      if (level_db(b, n) > static_cast<float>(floor_db)) level_db(b, n) += gain;
-  }
+  Eigen::Array<float, 1, Eigen::Dynamic> gain(level_db.cols());
+  for (Eigen::Index n = 0; n < gain.size(); ++n)
+    gain[n] = static_cast<float>(gain_db(tvg, gate.centre(static_cast<std::size_t>(n))));
+  for (Eigen::Index b = 0; b < level_db.rows(); ++b)
+    level_db.row(b) = (level_db.row(b) > static_cast<float>(floor_db)).select(level_db.row(b) + gain, level_db.row(b));
   return level_db;
 }
 

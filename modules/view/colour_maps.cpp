@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/error.hpp"
 #include "view/axes_internal.hpp"
@@ -85,13 +86,23 @@ double automatic_max_db(const Grid<float>& level_db, double window_db) {
     if (std::isfinite(level)) lowest = std::min(lowest, level);
   if (!std::isfinite(lowest)) return 0;
 
-  std::vector<float> above;
-  for (const float level : level_db.reshaped())
-    if (std::isfinite(level) && level > lowest) above.push_back(level);
-  if (above.empty()) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
-  const auto quantile = above.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(above.size() - 1));
-  std::nth_element(above.begin(), quantile, above.end());
-  return 5.0 * std::ceil(static_cast<double>(*quantile) / 5.0);
+  // Levels above the lowest, counted in steps of 5 dB up to and with their upper end: the step of the quantile.
+  std::map<double, std::size_t> count;
+  std::size_t above = 0;
+  double step = -std::numeric_limits<double>::infinity();
+  std::size_t* in_step = nullptr;
+  for (Eigen::Index k = 0; k < level_db.size(); ++k) {
+    const double level = level_db.data()[k];
+    if (!std::isfinite(level) || level <= static_cast<double>(lowest)) continue;
+    if (!(level > step - 5 && level <= step)) step = 5.0 * std::ceil(level / 5.0), in_step = &count[step];
+    ++*in_step, ++above;
+  }
+  if (above == 0) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
+  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(above - 1));
+  std::size_t below = 0;
+  for (const auto& [upper, levels] : count)
+    if ((below += levels) > rank) return upper;
+  return step;
 }
 
 std::vector<std::string> colour_map_names() {

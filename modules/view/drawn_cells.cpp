@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "core/vector_functions.hpp"
 #include "view/drawn_cells_internal.hpp"
 
 namespace insonify {
@@ -22,7 +24,7 @@ float mean_power_db(const Block& level_db) {
   for (Eigen::Index row = 0; row < level_db.rows(); ++row)
     for (Eigen::Index column = 0; column < level_db.cols(); ++column) {
       const double level = level_db(row, column);
-      if (level == level) power += power_from_db(level);
+      power += level == level ? vec::exp(level * (std::numbers::ln10 / 10)) : 0;
     }
   return static_cast<float>(db_from_power(power / static_cast<double>(level_db.size())));
 }

@@ -45,3 +45,14 @@ TEST(Random, uniform_is_inside_the_open_interval) {
       EXPECT_LT(u, 1);
     }
 }
+
+TEST(Random, pairs_are_the_first_two_of_each_counter) {
+  const std::uint64_t first[] = {0, 7, std::uint64_t{5} << 32 | 3};
+  double u[3], v[3];
+  random_uniform_pairs(11, RandomStage::surface_amplitude, first, 3, u, v);
+  for (int i = 0; i < 3; ++i) {
+    const auto one = random_uniform(11, RandomStage::surface_amplitude, {first[i], 0, 0});
+    EXPECT_EQ(u[i], one[0]);
+    EXPECT_EQ(v[i], one[1]);
+  }
+}
