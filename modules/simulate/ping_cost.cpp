@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "simulate/ping_cost_internal.hpp"
+#include "simulate/ping_stages_internal.hpp"
 
 namespace insonify {
 namespace {
 
 // Nanoseconds: per surfel of the scene, per surfel in view, per scatterer, per sample of the image.
-constexpr double per_surfel = 550, per_surfel_in_view = 900, per_scatterer = 600, per_sample = 105;
+constexpr double per_surfel = 550, per_surfel_in_view = 900, per_scatterer = 200, per_sample = 105;
 constexpr double per_bent_ray = 300, per_moved_echo = 150, per_leg = 3000;
 
 /// What the cost of synthesis follows from, of one row of beams.
@@ -85,7 +86,10 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
     cost.seconds += seconds_of_bent_rays(facts);
   if (options.effects.moving == Choice::always && !options.effects.motion.none())
     cost.seconds += seconds_of_moved_echoes(facts);
-  cost.bytes = 0x1p21 + 90 * surfels + 105 * echoes + 32 * samples;
+  // What is stored of all patches stays; else what sampling takes is given back before the image is made.
+  cost.bytes = 0x1p21 + (needs_all_patches(facts.ping, options)
+                             ? 90 * surfels + 105 * echoes + 32 * samples
+                             : std::max(90 * surfels, 14 * surfels + 24 * samples) + 60 * facts.sample.surfels);
   if (options.synthesis.method == SynthesisMethod::element_exact) cost.bytes += 80 * load.elements * load.bins;
   return cost;
 }

@@ -9,16 +9,6 @@ namespace {
 
 constexpr std::size_t chunk_parts = 2048;  // with their echoes they fit into the cache of a core
 
-/// Whether some stage asks for all patches, or for their echoes in an order that is not theirs.
-bool needs_all_patches(const ResolvedPing& ping) {
-  const SimulationOptions& o = ping.options;
-  const auto in = [](Choice choice) { return choice == Choice::always; };
-  return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
-         o.synthesis.method != SynthesisMethod::gridded || o.sampling.kind == SamplingKind::rays ||
-         o.sampling.level_error_db > 0 || in(o.effects.multipath) || in(o.effects.moving) || ping.environment.profile ||
-         ping.head.column || fan_rows(ping.head.fan).size() > 1;
-}
-
 /// Bends the rays to the patches if the options, settled, say so. Without a profile nothing is done.
 RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
   RefractionReport report;
@@ -49,10 +39,18 @@ std::vector<std::uint32_t> divide(const VisibleSurfels& visible, std::vector<Ech
 
 }  // namespace
 
+bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
+  const auto in = [](Choice choice) { return choice == Choice::always; };
+  return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
+         o.synthesis.method != SynthesisMethod::gridded || o.sampling.kind == SamplingKind::rays ||
+         o.sampling.level_error_db > 0 || in(o.effects.multipath) || in(o.effects.moving) || ping.environment.profile ||
+         ping.head.column || fan_rows(ping.head.fan).size() > 1;
+}
+
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
   const View& view = ping.view;
   PingParts parts;
-  parts.stored = needs_all_patches(ping);
+  parts.stored = needs_all_patches(ping, ping.options);
   if (parts.stored) {
     parts.sampling = sample_view(prepared, ping, result.convergence);
     result.refraction = refract(ping, parts.sampling.scatterers);

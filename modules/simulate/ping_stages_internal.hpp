@@ -20,6 +20,9 @@ struct PingParts {
   Multipath bounced{};
 };
 
+/// Whether, with these options, some stage asks for all patches or for a synthesis that takes all echoes at once.
+bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& options);
+
 /// Samples the view, where rays are bent if the options, settled, say so; reports refraction and convergence in
 /// `result`.
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result);

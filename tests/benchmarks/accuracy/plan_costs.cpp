@@ -54,7 +54,7 @@ PlanCost measure_cost(const PlanCase& c) {
           plan.mib,
           peak_memory_mib() - before,
           plan.scatterers,
-          static_cast<double>(ping.scatterers.size())};
+          static_cast<double>(ping.sampling.scatterers)};
 }
 
 }  // namespace insonify
