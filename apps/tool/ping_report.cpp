@@ -125,7 +125,7 @@ std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& 
                                     const std::vector<Eigen::Vector3d>& places) {
   std::vector<std::string> notes = ping.notes;
   const Environment& environment = setup.head.environment;
-  if (ping.scatterers.size() == 0) notes.push_back(silence_note(places));
+  if (ping.sampling.scatterers == 0) notes.push_back(silence_note(places));
   for (const LayerReport& layer : ping.layers)
     if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
   if (environment.profile) notes.push_back(refraction_note(ping.refraction, setup.head.head.gate));

@@ -67,7 +67,7 @@ ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::s
     const double begin = cpu_seconds();
     const SimulatedPing result = scene.ping(s, pings[(2 * k + 1) * pings.size() / (2 * samples)]);
     cpu += cpu_seconds() - begin;
-    scatterers += static_cast<double>(result.scatterers.size());
+    scatterers += static_cast<double>(result.sampling.scatterers);
     soundings += static_cast<double>(result.soundings.size());
   }
   constexpr double row_bytes = 68;  // of returns.ply

@@ -58,6 +58,8 @@ TEST_F(PingRun, writes_everything_and_says_what_it_did) {
   for (const char* stage : {"load", "sampling", "acoustics", "synthesis", "output"})
     EXPECT_GT(manifest["seconds"][stage].get<double>(), 0) << stage;
   EXPECT_GT(manifest["sampling"]["scatterers"].get<int>(), 1000);
+  for (const auto& note : manifest["notes"])
+    EXPECT_EQ(note.get<std::string>().find("the ping is silent"), std::string::npos) << note;
   EXPECT_GT(manifest["peak_memory_mib"].get<double>(), 1);
   EXPECT_EQ(manifest["seed"], 1);
   // Every line of run.toml's [sonar] makes a sonar file again.
