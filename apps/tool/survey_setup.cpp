@@ -64,6 +64,8 @@ std::string digest_of(const SurveySetup& s) {
   for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, scene_digest(s.file.scene)}) add(part);
   for (const std::string& path : {s.file.trajectory, s.heads.front().options.scene.materials_file})
     if (!path.empty()) add(sha256_of_file(path));
+  for (const MissionHead& head : s.file.mission.heads)  // the mounting may be that of the sonar file
+    add(std::string(reinterpret_cast<const char*>(head.vehicle_from_head.data()), 16 * sizeof(double)));
   for (const SurveyHead& head : s.heads)
     add(environment_as_toml(head.setup.head.environment) + sonar_as_toml(head.setup.head.spec));
   return sha.digest();

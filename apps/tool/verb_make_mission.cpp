@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/units.hpp"
+#include "store/sonar_file.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
@@ -36,7 +37,7 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("--radius", &o.radius, "of the orbit [m]", {.positive = true});
   list.add("--speed", &o.speed, "[m/s]", {.positive = true});
   list.add("--rate", &o.rate, "pings per second; of a tunnel as many as the range allows", {.positive = true});
-  list.add("--down", &o.down_deg, "tilt of the head [deg]");
+  list.add("--down", &o.down_deg, "tilt of the head [deg]; not of one whose sonar file says how it is mounted");
   list.add("--force", &o.force, "replace an existing file");
   add_common(list, o.common, false);
 }
@@ -51,7 +52,8 @@ std::string points_as_toml(const std::vector<Eigen::Vector3d>& points) {
 struct MissionShape {
   std::vector<Eigen::Vector3d> points;
   double turn_radius = 1;
-  std::string head;  ///< further keys of [[head]]
+  std::string angles;  ///< key of [[head]]
+  std::string head;    ///< further keys
   std::string legs;
 };
 
@@ -71,7 +73,8 @@ MissionShape lawnmower(const MakeMissionOptions& o, const Eigen::Vector3d& centr
     shape.legs += fmt::format("\n[[leg]]\nname = \"line-{}\"\nfrom_s = {:.4f}\n", k + 1, from);
     if (k + 1 < lines) shape.legs += fmt::format("to_s = {:.4f}\n", from + size[0] / o.speed);
   }
-  shape.head = fmt::format("angles_deg = [0, {:g}, 0]\nrate_hz = {:g}\n", o.down_deg, o.rate);
+  shape.angles = fmt::format("angles_deg = [0, {:g}, 0]\n", o.down_deg);
+  shape.head = fmt::format("rate_hz = {:g}\n", o.rate);
   return shape;
 }
 
@@ -87,7 +90,8 @@ MissionShape orbit(const MakeMissionOptions& o, const Eigen::Vector3d& centre) {
     shape.points.push_back(centre + outside * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
   }
   shape.points.push_back(shape.points.front());
-  shape.head = fmt::format("angles_deg = [90, {:g}, 0]\nrate_hz = {:g}\n", o.down_deg, o.rate);
+  shape.angles = fmt::format("angles_deg = [90, {:g}, 0]\n", o.down_deg);
+  shape.head = fmt::format("rate_hz = {:g}\n", o.rate);
   return shape;
 }
 
@@ -96,8 +100,20 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
   const Eigen::Vector3d half(size[0] / 2, 0, 0);
   return {{centre - half, centre + half},
           1,
-          "angles_deg = [0, 90, 0]\n\n[head.scan]\nstart_deg = 0\nstop_deg = 360\nstep_deg = 1.8\n",
+          "angles_deg = [0, 90, 0]\n",
+          "\n[head.scan]\nstart_deg = 0\nstop_deg = 360\nstep_deg = 1.8\n",
           ""};
+}
+
+/// [[head]], or one for each side if the sonar is mounted to look to port.
+std::string heads_as_toml(const MakeMissionOptions& o, const std::string& sonar, const MissionShape& shape) {
+  const Eigen::Vector3d mounting = find_sonar(sonar).mounting;
+  const auto head = [&](const char* name, const std::string& angles) {
+    return fmt::format("\n[[head]]\nname = \"{}\"\nsonar = {}\n{}{}{}", name, toml_text(sonar),
+                       o.range.empty() ? "" : "range = " + toml_text(o.range) + "\n", angles, shape.head);
+  };
+  if (mounting.x() != 0) return head("port", "") + head("starboard", "side = \"starboard\"\n");
+  return head("sonar", mounting.isZero() ? shape.angles : "");
 }
 
 void make_mission(const MakeMissionOptions& o) {
@@ -111,11 +127,9 @@ void make_mission(const MakeMissionOptions& o) {
   const std::string sonar = !o.sonar.empty() ? o.sonar : o.name == "tunnel" ? "ping360" : "gemini-720im";
   write_file(o.output,
              fmt::format("# {}; docs/survey.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = 1\n\n"
-                         "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n\n[[head]]\n"
-                         "name = \"sonar\"\nsonar = {}\n{}{}{}",
+                         "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}",
                          o.name, toml_text(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
-                         toml_text(sonar), o.range.empty() ? "" : "range = " + toml_text(o.range) + "\n", shape.head,
-                         shape.legs));
+                         heads_as_toml(o, sonar, shape), shape.legs));
   fmt::print("{}: make it with: insonify survey {} -o run\n", o.output, o.output);
 }
 

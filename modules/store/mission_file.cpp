@@ -10,6 +10,7 @@
 #include "simulate/waypoint_trajectory.hpp"
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
+#include "store/sonar_file.hpp"
 #include "store/toml_tree_internal.hpp"
 
 namespace insonify {
@@ -185,6 +186,7 @@ void read_trajectory(const std::string& path, const TomlValue& table, MissionFil
   at_line(path, table.line, [&] { require_valid(trajectory, "mission"); });
 }
 
+constexpr Named<bool> side_words[] = {{"port", false}, {"starboard", true}};
 constexpr Named<ScanMode> scan_words[] = {
     {"continuous", ScanMode::continuous}, {"sector", ScanMode::sector}, {"single", ScanMode::single}};
 
@@ -192,7 +194,9 @@ constexpr Named<ScanMode> scan_words[] = {
 struct HeadTable {
   MissionHead head;
   MissionSonar sonar;
-  Vector3d offset = Vector3d::Zero(), angles = Vector3d::Zero();
+  Vector3d offset = Vector3d::Zero();
+  std::optional<Vector3d> angles{};
+  bool starboard = false;
   double rate = 0, dwell = 0;
 };
 
@@ -210,6 +214,7 @@ const std::vector<Key<HeadTable>> head_keys = {
     {"set", [](const Entry& e, HeadTable& h) { h.sonar.settings = e.list(&Entry::text_of); }},
     {"offset_m", [](const Entry& e, HeadTable& h) { h.offset = e.vector(); }},
     {"angles_deg", [](const Entry& e, HeadTable& h) { h.angles = e.vector() * radians(1); }},
+    {"side", [](const Entry& e, HeadTable& h) { h.starboard = e.word(side_words); }},
     {"rate_hz", [](const Entry& e, HeadTable& h) { h.rate = e.positive(); }},
     {"every_m", [](const Entry& e, HeadTable& h) { h.head.distance = e.positive(); }},
     {"times_s", [](const Entry& e, HeadTable& h) { h.head.times = e.list(&Entry::number_of); }},
@@ -226,7 +231,9 @@ void read_head(const std::string& path, const TomlValue& table, MissionFile& m) 
   if (h.rate > 0 && h.dwell > 0)
     fail_in_file(path, table.line, "rate_hz and dwell_s say the same thing; leave one out");
   if (h.rate > 0 || h.dwell > 0) h.head.interval = h.rate > 0 ? 1 / h.rate : h.dwell;
-  h.head.vehicle_from_head = pose_from_yaw_pitch_roll(h.offset, h.angles[0], h.angles[1], h.angles[2]);
+  if (!h.angles) at_line(path, table.line, [&] { h.angles = find_sonar(h.sonar.sonar).mounting; });
+  const Vector3d angles = h.starboard ? h.angles->cwiseProduct(Vector3d(-1, 1, -1)) : *h.angles;
+  h.head.vehicle_from_head = pose_from_yaw_pitch_roll(h.offset, angles[0], angles[1], angles[2]);
   m.mission.heads.push_back(h.head);
   m.sonars.push_back(h.sonar);
   at_line(path, table.line, [&] { require_valid_head(m.mission, m.mission.heads.size() - 1, "mission"); });

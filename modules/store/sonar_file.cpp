@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/units.hpp"
 #include "store/nearest_word.hpp"
 #include "store/sonar_keys_internal.hpp"
 #include "store/toml_tree_internal.hpp"
@@ -13,6 +14,7 @@ namespace insonify {
 namespace {
 
 constexpr int sonar_schema = 1;
+constexpr const char* mounting_key = "mounting_deg";  // of the file, not of the spec: no property of the sonar itself
 
 bool is_status(const std::string& status) {
   const std::vector<std::string> known = {"sourced", "recalled", "derived", "assumed", "unknown", "user"};
@@ -34,7 +36,14 @@ SonarValue value_of(const std::string& path, const std::string& key, const TomlV
   fail_in_file(path, value.line, key, " must be a number, text or list, or a table {value, status, source}");
 }
 
-// Reads a key, plain or with its source, into the spec and the list of numbers.
+Eigen::Vector3d mounting_of(const SonarValue& value) {
+  const auto* angles = std::get_if<std::vector<double>>(&value);
+  if (!angles || angles->size() != 3)
+    fail(ErrorKind::argument, mounting_key, " = ", toml_text_of(value), ", must be three numbers: yaw, pitch, roll");
+  return radians(1) * Eigen::Vector3d::Map(angles->data());
+}
+
+// Reads a key, plain or with its source, into the file and the list of numbers.
 void read_key(SonarFile& file, const std::string& key, const TomlValue& entry) {
   SonarNumber number{key, "", "user", ""};
   const TomlValue* value = &entry;
@@ -50,7 +59,10 @@ void read_key(SonarFile& file, const std::string& key, const TomlValue& entry) {
   }
   const SonarValue parsed = value_of(file.path, key, *value);
   try {
-    set_sonar_key(file.spec, key, parsed);
+    if (key == mounting_key)
+      file.mounting = mounting_of(parsed);
+    else
+      set_sonar_key(file.spec, key, parsed);
   } catch (const Error& error) {
     fail_in_file(file.path, value->line, error.what());
   }
@@ -128,7 +140,7 @@ SonarFile load_sonar_file(const std::string& path) {
   const TomlValue& table = section && section->kind == TomlValue::Kind::table ? *section : document;
 
   std::vector<std::string> known = sonar_key_names();
-  known.insert(known.end(), {"schema", "name", "description"});
+  known.insert(known.end(), {"schema", "name", "description", mounting_key});
   require_known_keys(path, table, known);
   if (const double schema = toml_number(path, table, "schema"); schema != sonar_schema)
     fail_in_file(path, table.find("schema")->line, "schema = ", schema, ", this version reads schema ", sonar_schema);
@@ -145,6 +157,7 @@ SonarFile load_sonar_file(const std::string& path) {
     else
       note_default(file, key);
   }
+  if (const TomlValue* mounting = table.find(mounting_key)) read_key(file, mounting_key, *mounting);
   require_valid_in_file(file, table);
   return file;
 }

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "beamforming/sonar_spec.hpp"
 
 namespace insonify {
@@ -19,13 +21,14 @@ struct SonarFile {
   std::string description;
   std::string path;
   std::vector<SonarNumber> numbers;
+  Eigen::Vector3d mounting = Eigen::Vector3d::Zero();  ///< on a vehicle: yaw to port, pitch nose down, roll [rad]
 };
 
 /// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table {value,
 /// status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B = 1500 m/s /
 /// 2 dr) is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg: with
-/// azimuths_deg one elevation per beam, without it a row of beams at each elevation. `numbers` also lists a derived
-/// bandwidth and the defaults of omitted keys. Unknown or missing keys, wrong types and invalid values are errors with
+/// azimuths_deg one elevation per beam, without it a row of beams at each elevation. mounting_deg is the attitude that
+/// a mission gives the head. `numbers` also lists a derived bandwidth and the defaults of omitted keys. Unknown or missing keys, wrong types and invalid values are errors with
 /// file, line and remedy. Throws Error(file) or Error(content).
 SonarFile load_sonar_file(const std::string& path);
 

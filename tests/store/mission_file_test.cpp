@@ -82,6 +82,24 @@ TEST(MissionFile, reads_survey_trajectory_heads_and_legs) {
   EXPECT_EQ(m.mission.legs[1].distance, 0.5);
 }
 
+TEST(MissionFile, mounts_heads_as_their_sonars_are_and_mirrors_those_to_starboard) {
+  const auto axes = [](const std::string& sonar, const std::string& more) -> Eigen::Matrix3d {
+    const std::string text = replaced(whole, "\"gemini-720im\"", "\"" + sonar + "\"\n" + more);
+    return load_mission(own_file("m.toml", replaced(text, "angles_deg = [0, 15, 0]\n", "")))
+        .mission.heads[0]
+        .vehicle_from_head.linear();
+  };
+  Eigen::Matrix3d down;
+  down << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // forward is down, up is ahead: the fan lies across the way
+  EXPECT_TRUE(axes("em2040", "").isApprox(down, 1e-12));
+  EXPECT_TRUE(axes("gemini-720im", "").isIdentity(1e-12));
+  const Eigen::Vector3d port = axes("starfish-450", "").col(0);
+  EXPECT_TRUE(port.isApprox(Eigen::Vector3d(0, std::sqrt(0.75), -0.5), 1e-12)) << "30 degrees down";
+  const Eigen::Vector3d starboard = axes("starfish-450", "side = \"starboard\"").col(0);
+  EXPECT_TRUE(starboard.isApprox(Eigen::Vector3d(0, -std::sqrt(0.75), -0.5), 1e-12));
+  EXPECT_THAT(refusal("rate_hz = 4", "side = \"left\""), HasSubstr("side = 'left', must be one of port, starboard"));
+}
+
 TEST(MissionFile, reads_trajectories_of_other_programs) {
   own_file("way.csv", way);
   const Pose pose = with_trajectory("file = \"way.csv\"\ntime_offset_s = -2").mission.trajectory.pose[0];

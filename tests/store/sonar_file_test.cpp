@@ -69,6 +69,16 @@ TEST(SonarFile, reads_the_optional_keys) {
   EXPECT_EQ(s.bin_size, 0.01);
 }
 
+TEST(SonarFile, reads_how_a_mission_mounts_the_head) {
+  EXPECT_TRUE(load(plain).mounting.isZero());
+  const SonarFile down =
+      load(plain + "mounting_deg = { value = [0, 90, 0], status = \"derived\", source = \"down\" }\n");
+  EXPECT_EQ(down.mounting.y(), radians(90));
+  EXPECT_EQ(down.numbers.back().value, "[0.0, 90.0, 0.0]");
+  refuses(plain + "mounting_deg = [0, 90]\n",
+          "12: mounting_deg = [0.0, 90.0], must be three numbers: yaw, pitch, roll");
+}
+
 TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
   const SonarFile file = load(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
   std::map<std::string, SonarNumber> numbers;

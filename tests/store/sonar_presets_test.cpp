@@ -57,6 +57,16 @@ TEST(Presets, are_found_by_name_and_sorted) {
                            "waterlinked-3d15",
                            "waterlinked-3d15-hf",
                            "echoscope",
+                           "edgetech-4125",
+                           "edgetech-4125-hf",
+                           "klein-3000",
+                           "klein-3000-lf",
+                           "omniscan-450",
+                           "starfish-450",
+                           "starfish-990",
+                           "es200-7c",
+                           "ping2",
+                           "seaking-profiler",
                            "thesis-table2"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }

@@ -105,6 +105,10 @@ TEST_F(Missions, that_are_made_can_be_surveyed_and_swept) {
   succeed("make-mission lawnmower -o lines.toml --size 6,4 --spacing 2 --rate 1 --sonar p900-45" + cheap);
   succeed("make-mission orbit -o orbit.toml --radius 3 --rate 1 --sonar p900-45" + cheap);
   succeed("make-mission tunnel -o tunnel.toml --size 2,0 --centre 0,0,-5" + cheap);
+  succeed("make-mission lawnmower -o sides.toml --size 6,4 --rate 1 --sonar starfish-450" + cheap);
+  const std::vector<MissionHead> sides = load_mission(path("sides.toml")).mission.heads;
+  ASSERT_EQ(sides.size(), 2U) << "one to port, one to starboard";
+  EXPECT_NEAR(sides[0].vehicle_from_head(1, 0), -sides[1].vehicle_from_head(1, 0), 1e-12);
   const Mission lines = load_mission(path("lines.toml")).mission, orbit = load_mission(path("orbit.toml")).mission;
   ASSERT_EQ(lines.legs.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
