@@ -36,6 +36,9 @@ struct ImageOptions {
   double tvg = 40;             ///< [dB per decade of range]
   int bits = 8;                ///< of view grey
   std::string frame = "head";  ///< of view scan
+  // Of view waterfall:
+  std::string starboard;         ///< run to the right of this one
+  std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range
   bool dark = false;
   // Of view scene:
   std::string scene;               ///< of a run, or empty: where run.toml says
@@ -124,6 +127,9 @@ std::string views_with(const std::string& option);
 /// --beam: a number, the word of the view, or empty: the view's default, of one beam the middle one. Throws
 /// Error(argument).
 ChosenBeam choose_beam(const ImageOptions& options, std::size_t beams);
+
+/// The chosen beam in words, with its bearing.
+std::string chosen_beam_text(const ViewJob& job);
 
 /// The title of the picture of a ping where the user gives none.
 std::string default_title(const ImageRun& run, const ImageOptions& options, std::size_t ping);

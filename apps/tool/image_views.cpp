@@ -11,6 +11,7 @@
 #include "tool/image.hpp"
 #include "tool/run_files.hpp"
 #include "tool/scan_image.hpp"
+#include "tool/side_scan.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/show_image.hpp"
 
@@ -47,34 +48,6 @@ std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
   if (chosen.choice == BeamChoice::mean) return "mean of all beams";
   const double bearing = -degrees(fan.azimuth[chosen.beam]);
   return fmt::format("beam {} at {:+.1f}°", chosen.beam, std::abs(bearing) < 0.05 ? 0.0 : bearing);
-}
-
-void draw_waterfall(const ViewJob& job) {
-  const ImageRun& run = job.run;
-  const ImageOptions& o = job.options;
-  const std::vector<Ping>& pings = run.cube.pings;
-  if (pings.size() < 2)
-    fail(ErrorKind::content, run.path, ": holds one ping, a waterfall needs several; join runs with insonify merge");
-  const BeamFan& fan = pings.front().fan;
-  const ChosenBeam chosen = choose_beam(o, fan.beams());
-  PingHistory history;
-  history.gate = pings.front().gate;
-  history.level_db.resize(static_cast<Eigen::Index>(pings.size()), static_cast<Eigen::Index>(history.gate.bins()));
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    history.number.push_back(pings[p].number);
-    history.time.push_back(pings[p].time);
-    const LevelImage levels = levels_of(run, o, p);
-    const auto row = static_cast<Eigen::Index>(p);
-    if (chosen.choice == BeamChoice::one)
-      history.level_db.row(row) = levels.level_db.row(static_cast<Eigen::Index>(chosen.beam));
-    else
-      history.level_db.row(row) = levels.level_db.colwise().maxCoeff();
-    history.unit = levels.unit;
-  }
-  PictureOptions picture = job.picture;
-  if (o.title.empty())
-    picture.title = fmt::format("{}, {} pings, {}", run.cube.sonar, pings.size(), beam_text(chosen, fan));
-  show_waterfall(history, picture, job.path);
 }
 
 /// Spectrum of the chosen beams, and the spectrum of the pulse scaled to the same power.
@@ -161,6 +134,7 @@ const std::vector<ViewSpec>& all_views() {
       {"rect", "beams against range", {"--annotate", "--animate"}, draw_rect, max_db_of_image},
       {.name = "waterfall",
        .shows = "range against pings",
+       .options = {"--starboard", "--altitude", "--bottom"},
        .draw = draw_waterfall,
        .beam_word = "max",
        .beam_choice = BeamChoice::strongest},
@@ -182,6 +156,11 @@ const std::vector<ViewSpec>& all_views() {
       {.name = "grey", .shows = "the bare samples as 8- or 16-bit .png or .pgm", .draw = draw_grey},
   };
   return views;
+}
+
+std::string chosen_beam_text(const ViewJob& job) {
+  const BeamFan& fan = fan_of(job);
+  return beam_text(choose_beam(job.options, fan.beams()), fan);
 }
 
 const ViewSpec& view_of(const ImageOptions& o) {

@@ -45,6 +45,10 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
   list.add("--frame", &o.frame, "of scan: head, as an operator sees it, or world: the vehicle's motion compensated",
            {.words = {"head", "world"}});
+  list.add("--starboard", &o.starboard, "of waterfall: the run of the starboard head, RUN being the port one");
+  list.add("--altitude", &o.altitude, "[m] of waterfall: ground range on a flat bottom so far below the head");
+  list.add("--bottom", &o.bottom, "[m] of waterfall: the same, with the bottom at this z and the head at its pose",
+           {.excludes = "--altitude"});
   list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
   list.add("--ping", &o.ping, "which ping, from 0");
   list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
@@ -137,11 +141,19 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
 
 /// Refuses options that the view does not take.
 void require_options_of_view(const ImageOptions& o) {
-  const std::pair<const char*, bool> given[] = {
-      {"--annotate", o.annotate.has_value()}, {"--animate", o.animate},        {"--scene", !o.scene.empty()},
-      {"--sonar", !o.sonar.empty()},          {"--pose", !o.pose.empty()},     {"--range", !o.range.empty()},
-      {"--camera", o.camera != "auto"},       {"--colour", !o.colour.empty()}, {"--normals", o.normals},
-      {"--frame", o.frame != "head"}};
+  const std::pair<const char*, bool> given[] = {{"--annotate", o.annotate.has_value()},
+                                                {"--animate", o.animate},
+                                                {"--scene", !o.scene.empty()},
+                                                {"--sonar", !o.sonar.empty()},
+                                                {"--pose", !o.pose.empty()},
+                                                {"--range", !o.range.empty()},
+                                                {"--camera", o.camera != "auto"},
+                                                {"--colour", !o.colour.empty()},
+                                                {"--normals", o.normals},
+                                                {"--frame", o.frame != "head"},
+                                                {"--starboard", !o.starboard.empty()},
+                                                {"--altitude", !o.altitude.empty()},
+                                                {"--bottom", !o.bottom.empty()}};
   const std::vector<std::string>& taken = view_of(o).options;
   for (const auto& [option, is_given] : given)
     if (is_given && std::find(taken.begin(), taken.end(), option) == taken.end())
@@ -177,6 +189,7 @@ Verb image_verb() {
       {"insonify image out -o fan.png --annotate", "insonify image out --view ascan --beam 128 -o beam.png",
        "insonify image track --animate -o frames", "insonify image track --view waterfall --beam max -o waterfall.png",
        "insonify image out --view scene -o scene.png",
+       "insonify image survey/port --starboard survey/starboard --view waterfall --altitude 5 -o side-scan.png",
        "insonify image survey/ping360 --view scan --frame world -o sweep.png",
        "insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o visibility.png"},
       add_options, image);

@@ -9,7 +9,9 @@ namespace insonify {
 namespace {
 
 void require_history(const PingHistory& history, const PictureOptions& options) {
-  require_valid(history.gate, "show_waterfall");
+  RangeGate far_side = history.gate;  // of two sides, and on the ground, the near end is no range
+  far_side.min_range = far_side.max_range / 2;
+  require_valid(far_side, "show_waterfall");
   const auto pings = static_cast<std::size_t>(history.level_db.rows());
   const auto bins = static_cast<std::size_t>(history.level_db.cols());
   if (pings < 2) fail(ErrorKind::argument, "show_waterfall", ": ", pings, " pings, must be at least 2");
@@ -35,6 +37,14 @@ AxisTicks ping_ticks(const PingHistory& history, double most) {
   return ticks;
 }
 
+// Round ranges; those to port count from the middle, too.
+AxisTicks range_ticks(double low, double high, double most) {
+  AxisTicks ticks = round_ticks(low, high, most);
+  for (std::size_t t = 0; t < ticks.at.size(); ++t)
+    if (ticks.at[t] < 0) ticks.labels[t] = ticks.labels[t].substr(ticks.labels[t].find_first_of("0123456789"));
+  return ticks;
+}
+
 std::string ping_title(const PingHistory& history) {
   const double seconds = history.time.back() - history.time.front();
   std::string title = "Ping, newest on top";
@@ -50,8 +60,8 @@ void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOpt
   const auto pings = static_cast<double>(history.level_db.rows());
   const double min_range = history.gate.min_range;
   const double max_range = min_range + static_cast<double>(history.level_db.cols()) * history.gate.bin_size;
-  const CellAxis across{min_range, max_range, "Range [m]", [&](double pixels) {
-                          return round_ticks(min_range, max_range, std::min(12.0, pixels / (4.5 * font)));
+  const CellAxis across{min_range, max_range, history.range_title, [&](double pixels) {
+                          return range_ticks(min_range, max_range, std::min(12.0, pixels / (4.5 * font)));
                         }};
   const CellAxis up{0, pings, ping_title(history),
                     [&](double pixels) { return ping_ticks(history, std::min(12.0, pixels / (2.5 * font))); }};
