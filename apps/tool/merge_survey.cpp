@@ -11,10 +11,12 @@
 #include "core/pending_file.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "scene_io/returns_mosaic.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/join_cubes.hpp"
 #include "store/survey_run.hpp"
 #include "tool/progress.hpp"
+#include "view/save_vtk.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -54,9 +56,20 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   return finished;
 }
 
+/// Writes the mosaic of the returns beside them.
+void save_mosaic(const std::string& returns, double cell) {
+  const ReturnsMosaic mosaic = mosaic_of_returns(returns, cell);
+  const HorizontalMap map{
+      mosaic.x, mosaic.y, mosaic.cell, {{"level_db", mosaic.level_db}, {"returns", mosaic.returns}}};
+  const std::string stem = fs::path(returns).replace_filename("mosaic").string();
+  constexpr double window_db = 45;
+  save_map_image(stem + ".vti", map);
+  save_map_picture(stem, map, window_db);
+}
+
 }  // namespace
 
-void merge_survey(const std::string& folder, bool copy, const CommonOptions& common) {
+void merge_survey(const std::string& folder, bool copy, double mosaic, const CommonOptions& common) {
   const SurveyRun run = load_survey_run(folder);
   const std::vector<Finished> finished = finished_blocks(folder, run);
   Progress progress(common, 2 + static_cast<int>(run.heads.size()));
@@ -93,6 +106,7 @@ void merge_survey(const std::string& folder, bool copy, const CommonOptions& com
                            {"heads", heads}};
   if (!clouds.empty()) {
     join_clouds(returns, clouds);
+    if (mosaic > 0) save_mosaic(returns, mosaic);
     manifest["returns_sha256"] = sha256_of_file(returns);
   }
   manifest["failed"] = failed;

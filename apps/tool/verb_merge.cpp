@@ -24,6 +24,7 @@ struct MergeOptions {
   std::string output;
   bool force = false;
   bool copy = false;
+  double mosaic = 0;
 };
 
 void add_options(OptionList list, MergeOptions& o) {
@@ -31,6 +32,8 @@ void add_options(OptionList list, MergeOptions& o) {
            {.required = true});
   list.add("-o,--output", &o.output, "run directory to make; a survey is merged in its own folder");
   list.add("--copy", &o.copy, "of a survey: copy the blocks into the cubes, which otherwise refer to them");
+  list.add("--mosaic", &o.mosaic, "of a survey: mean level of the returns on a grid of such cells [m]: .vti and .png",
+           {.positive = true});
   list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common, true);
 }
@@ -66,10 +69,12 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
 void merge(const MergeOptions& o) {
   if (o.runs.size() == 1 && is_survey_run(o.runs.front())) {
     if (!o.output.empty()) fail(ErrorKind::argument, "--output: a survey is merged in its own folder; leave it out");
-    return merge_survey(o.runs.front(), o.copy, o.common);
+    return merge_survey(o.runs.front(), o.copy, o.mosaic, o.common);
   }
   if (o.output.empty()) fail(ErrorKind::argument, "--output is missing: the run directory to make");
-  if (o.copy) fail(ErrorKind::argument, "--copy: ", o.runs.front(), " is not the folder of a survey; leave it out");
+  if (o.copy || o.mosaic > 0)
+    fail(ErrorKind::argument, o.copy ? "--copy: " : "--mosaic: ", o.runs.front(),
+         " is not the folder of a survey; leave it out");
   Progress progress(o.common, static_cast<int>(o.runs.size()) + 1);
   RunDirectory directory(o.output, o.force);
   std::vector<NamedCube> cubes;
@@ -98,7 +103,7 @@ void merge(const MergeOptions& o) {
 Verb merge_verb() {
   return make_verb<MergeOptions>(
       "merge", "pings of several runs of one sonar in one run, by time; or the blocks of a survey",
-      {"insonify merge out-0 out-1 out-2 -o track", "insonify merge survey",
+      {"insonify merge out-0 out-1 out-2 -o track", "insonify merge survey", "insonify merge survey --mosaic 0.1",
        "insonify merge run-* -o track && insonify image track --view waterfall -o waterfall.png"},
       add_options, merge);
 }

@@ -30,6 +30,21 @@ std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& f
 void save_sample_image(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                        const std::vector<SampleField>& fields);
 
+/// A horizontal map: columns along x, rows along y.
+struct HorizontalMap {
+  double x = 0, y = 0, cell = 0;    ///< corner of cell (0, 0), and size of the cells [m]
+  std::vector<SampleField> fields;  ///< columns x rows each
+};
+
+/// Writes all fields as cells of a VTK image (.vti) at their place in the world, z = 0. Written to a temporary name,
+/// then renamed. Throws Error(argument) unless there is a field and all are of one size, Error(file) if it cannot write.
+void save_map_image(const std::string& path, const HorizontalMap& map);
+
+/// Writes the first field as a grey picture, `stem`.png, y up, with the world file `stem`.pgw that says where it is: 0
+/// is NaN, 1 to 255 are the values from `window` below the highest to it. Errors as save_map_image; Error(content) if
+/// no value is finite.
+void save_map_picture(const std::string& stem, const HorizontalMap& map, double window);
+
 /// A file of a time series.
 struct SeriesEntry {
   double time = 0;  ///< [s]

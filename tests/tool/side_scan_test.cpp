@@ -3,6 +3,9 @@
 #include "tool/side_scan.hpp"
 
 #include "core/units.hpp"
+#include "scene_io/load_scene.hpp"
+#include "scene_io/returns_mosaic.hpp"
+#include "scene_io/save_cloud.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -107,7 +110,7 @@ PingHistory ramp() {
 
 TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_height) {
   succeed("survey line.toml -q -o run");
-  succeed("merge -q run");
+  succeed("merge -q run --mosaic 0.5");
   const ImageRun port = read_image_run(path("run/port"), "");
   ImageOptions options;
   options.view = "waterfall";
@@ -147,6 +150,19 @@ TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_he
   succeed("image run/port --starboard run/starboard --view waterfall --altitude 5 -o ground.png --size 900x500");
   succeed("image run/port --starboard run/starboard --view waterfall -o slant.png --size 900x500");
   EXPECT_TRUE(file_exists(path("ground.png")) && file_exists(path("slant.png")));
+
+  // The mosaic has the returns of all heads, and a hole where the shadow is.
+  const ReturnsMosaic mosaic = mosaic_of_returns(path("run/returns.ply"), 0.5);
+  EXPECT_EQ(mosaic.returns.sum(), static_cast<float>(load_soundings(path("run/returns.ply")).size()));
+  const auto column = static_cast<Eigen::Index>(-mosaic.x / 0.5);
+  const auto row = [&](double y) { return static_cast<Eigen::Index>((y - mosaic.y) / 0.5); };
+  EXPECT_TRUE(std::isnan(mosaic.level_db(column, row(10.25))));
+  EXPECT_TRUE(std::isfinite(mosaic.level_db(column, row(12.25))));
+  EXPECT_TRUE(std::isfinite(mosaic.level_db(column, row(-10.25))));
+  EXPECT_EQ(static_cast<unsigned char>(read("run/mosaic.png")[19]), mosaic.returns.rows()) << "width of the picture";
+  EXPECT_TRUE(file_exists(path("run/mosaic.vti")));
+  EXPECT_THAT(read("run/mosaic.pgw"), testing::StartsWith("0.5\n0\n0\n-0.5\n"));
+
   expect_refused("image run/port --altitude 5 -o x.png", 2, {"--altitude goes with --view waterfall, not fan"});
   expect_refused("image run/port --view waterfall --bottom 1 -o x.png", 2,
                  {"--bottom = 1 m puts the head of ping 0 -1 m above the bottom, must be > 0"});
@@ -177,4 +193,24 @@ TEST(SideScanHistory, has_port_to_the_left_and_silence_before_the_first_range) {
   EXPECT_EQ(both.level_db(1, 21), -200);
   EXPECT_EQ(both.level_db(1, 24), 100);
   EXPECT_EQ(both.level_db(1, 43), 119);
+}
+
+TEST(MosaicOfReturns, has_the_mean_intensity_of_each_cell_with_spreading_given_back) {
+  Soundings returns;
+  returns.position = {{0.1, 0.1, -5}, {0.4, 0.3, -5}, {1.1, -0.9, -5}};
+  returns.level_db = {100, 70, 90};
+  returns.range = {1, 100, 10};
+  returns.azimuth = returns.elevation = {0, 0, 0};
+  returns.ping = returns.beam = returns.bin = returns.material = {0, 0, 0};
+  const std::string file = own_folder() + "/returns.ply";
+  save_soundings(file, returns);
+  const ReturnsMosaic mosaic = mosaic_of_returns(file, 0.5);
+  ASSERT_EQ(mosaic.level_db.rows(), 3);
+  ASSERT_EQ(mosaic.level_db.cols(), 3);
+  EXPECT_EQ(mosaic.y, -1);
+  EXPECT_NEAR(mosaic.level_db(0, 2), 10 * std::log10((1e10 + 1e13) / 2), 1e-3) << "100 and 70 + 60 dB";
+  EXPECT_EQ(mosaic.returns(0, 2), 2);
+  EXPECT_NEAR(mosaic.level_db(2, 0), 120, 1e-3);
+  EXPECT_TRUE(std::isnan(mosaic.level_db(1, 1)));
+  EXPECT_THAT(error_of([&] { mosaic_of_returns(file, 1e-6); }), HasSubstr("cells, must be at most 2^26"));
 }
