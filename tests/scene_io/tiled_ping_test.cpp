@@ -19,7 +19,8 @@ TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
 
 /// Pings the whole scene and the part loaded from a .tiles file, and expects identical bits.
 void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environment& environment,
-                      const SimulationOptions& options, double most_of_the_scene) {
+                      SimulationOptions options, double most_of_the_scene) {
+  options.outputs.scatterers = true;
   const std::string path = own_path("part.tiles");
   save_tiles(path, whole, small_tiles());
   const TiledScene tiled(path);
