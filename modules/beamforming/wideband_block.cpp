@@ -4,17 +4,23 @@
 
 #include "beamforming/gridding_loops_internal.hpp"
 #include "beamforming/wideband_block_internal.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t batch = 256;  // echoes handed to the kernel at once
+using kernels::lines_at_once;
 
 kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
 
-/// What an echo weighs in a field.
-double weight_of(const WidebandBlock& block, bool excess, double curvature) {
-  return excess ? curvature / block.curvature - 1 : 1;
+kernels::TimeFactor factor_of(const BendSeries& bend, std::size_t term) {
+  return {bend.along.data() + term * bend.powers * 2 * bend.stride, bend.powers, bend.stride};
+}
+
+/// A time within the block, from -1 to 1.
+float place_in(const BendSeries& bend, double time) {
+  return static_cast<float>(std::clamp((time - bend.middle) / bend.half, -1.0, 1.0));
 }
 
 }  // namespace
@@ -23,78 +29,71 @@ WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
     : to_harmonics(plan.grid, 1, FFTW_FORWARD),
       to_directions(plan.grid, wideband_tile, wideband_tile_row, FFTW_BACKWARD),
       to_frequencies(plan.fine, 1, FFTW_FORWARD),
-      to_bins(plan.cycle, 1, FFTW_BACKWARD),
-      to_samples(plan.fine, 1, FFTW_BACKWARD) {}
+      to_bins(plan.cycle, 1, FFTW_BACKWARD) {}
 
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
     : plan_(plan),
       transforms_(transforms),
-      array_(plan),
       re_((plan.fine + wideband_tile) * plan.grid_stride),
       im_((plan.fine + wideband_tile) * plan.grid_stride),
       tile_(std::max(plan.grid, plan.grid_stride) * wideband_tile_row),
       spectrum_(plan.rows() * plan.fine_row),
-      bins_(plan.rows() * ((plan.cycle + 15) / 8 * 8)),
+      elements_(plan.chunks.size() * plan.elements() * 2 * lines_at_once),
       scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
-      excess_(plan.cycle),
+      sums_(plan.u_beam.size() * 2 * wideband_tile),
+      start_(2 * plan.elements()),
+      step_(2 * plan.elements() * lines_at_once),
+      line_(lines_at_once),
       touched_(plan.fine / wideband_tile + 2),
       bins_row_((plan.cycle + 15) / 8 * 8) {}
 
-void WidebandRoom::image(const SeenEchoes& seen, const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure) {
-  const bool two = block.effort.fields == 2;
-  if (two && !excess_spectrum_) {
-    excess_spectrum_ = std::make_unique<WidebandSpectrum>(plan_.rows() * plan_.fine_row);
-    excess_bins_ = std::make_unique<WidebandSpectrum>(plan_.rows() * bins_row_);
-  }
-  if (plan_.parts.count() > 1 && !samples_) samples_ = std::make_unique<WidebandSpectrum>(plan_.grid * plan_.fine_row);
-  if (plan_.parts.count() > 1 && two && !excess_samples_)
-    excess_samples_ = std::make_unique<WidebandSpectrum>(plan_.grid * plan_.fine_row);
-  grid_echoes(seen, block, false);
-  to_frequencies(spectrum_);
-  if (two) {
-    grid_echoes(seen, block, true);
-    to_frequencies(*excess_spectrum_);
-  }
-  array_.apply(block.part, block.curvature, block.effort, spectrum_, two ? excess_spectrum_.get() : nullptr);
-  if (plan_.parts.count() > 1) return add_part(block, pressure);
-  to_bins(spectrum_, bins_);
-  if (two) {
-    to_bins(*excess_spectrum_, *excess_bins_);
-    add_excess(block);
-  }
-  to_beams(block, ends, pressure);
+WidebandBlock::WidebandBlock(const WidebandPlan& plan, double first_in, double last_in)
+    : first(first_in), last(last_in) {
+  const auto guard = static_cast<double>(plan.guard), bins = static_cast<double>(plan.axis.bins);
+  received = bend_of_echoes(plan, plan.time_of(first) - plan.reach, plan.time_of(last) + plan.reach);
+  undone = bend_of_beams(plan, plan.time_of(std::max(first - guard, 0.0)), plan.time_of(std::min(last + guard, bins)));
 }
 
-void WidebandRoom::grid_echoes(const SeenEchoes& seen, const WidebandBlock& block, bool excess) {
+void WidebandRoom::add_image(const Echoes& echoes, List list, const WidebandBlock& block, ComplexGrid& pressure) {
+  const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed;
+  start_time_ = plan_.time_of(block.first - static_cast<double>(plan_.guard));
+  unit_ = 0;
+  for (const std::uint32_t i : list)
+    unit_ = std::max(unit_, std::abs(echoes.amplitude[i]) * std::exp(-loss * std::max(0.0, echoes.delay[i])));
+  if (unit_ == 0) unit_ = 1;
+  grid_echoes(echoes, list);
+  std::fill(elements_.begin(), elements_.end(), 0.0F);
+  for (std::size_t q = 0; q < block.received.terms; ++q) add_echo_term(block.received, q);
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    elements_[k] *= plan_.element_weight[k / (2 * lines_at_once) * lines_at_once + k % lines_at_once];
+  add_beams(block, pressure);
+}
+
+void WidebandRoom::grid_echoes(const Echoes& echoes, List list) {
   re_.clear();
   im_.clear();
   std::fill(touched_.begin(), touched_.end(), false);
-  if (plan_.one_shape && seen.echoes.doppler.empty())
-    grid_alike(seen, block, excess);
+  if (plan_.one_shape && echoes.doppler.empty())
+    grid_alike(echoes, list);
   else
-    grid_singly(seen, block, excess);
+    grid_singly(echoes, list);
 }
 
-void WidebandRoom::grid_alike(const SeenEchoes& seen, const WidebandBlock& block, bool excess) {
+void WidebandRoom::grid_alike(const Echoes& echoes, List list) {
   const WidebandPlan& plan = plan_;
-  const Echoes& echoes = seen.echoes;
   std::array<std::uint32_t, batch> row, column;
   std::array<float, batch> row_offset, column_offset, re, im;
   const kernels::GridTargets<float> targets{row.data(),           column.data(), row_offset.data(),
                                             column_offset.data(), re.data(),     im.data()};
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  const double start = plan.start_of(block.number);
-  for (auto list = block.list; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
+  for (; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
     const std::size_t count = std::min(batch, list.size());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = list[k];
       const double delay = echoes.delay[i];
-      const double low_column =
-          plan.column_of(echoes.u[i], plan.moving_curvature(block.curvature, seen.curvature[i])) - half_width;
-      const double column_0 = std::ceil(low_column);
-      const double low_row = (delay - plan.half - start) / plan.fine_step, row_0 = std::ceil(low_row);
-      const double weight = weight_of(block, excess, seen.curvature[i]);
-      const double gain = weight * std::exp(-plan.medium.absorption.a0 * c * seen.path[i]) / block.unit;
+      const double low_column = plan.column_of(echoes.u[i]) - half_width, column_0 = std::ceil(low_column);
+      const double low_row = (delay - plan.half - start_time_) / plan.fine_step, row_0 = std::ceil(low_row);
+      const double gain = std::exp(-plan.medium.absorption.a0 * c * delay) / unit_;
       column[k] = static_cast<std::uint32_t>(column_0);
       column_offset[k] = static_cast<float>(2 * (column_0 - low_column) - 1);
       row[k] = static_cast<std::uint32_t>(row_0);
@@ -108,27 +107,23 @@ void WidebandRoom::grid_alike(const SeenEchoes& seen, const WidebandBlock& block
   }
 }
 
-void WidebandRoom::grid_singly(const SeenEchoes& seen, const WidebandBlock& block, bool excess) {
+void WidebandRoom::grid_singly(const Echoes& echoes, List list) {
   const WidebandPlan& plan = plan_;
-  const Echoes& echoes = seen.echoes;
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  const double start = plan.start_of(block.number);
   const PulseReach reach(plan.head.pulse, plan.medium.absorption, c, !echoes.doppler.empty(), plan.cut);
-  for (const std::uint32_t i : block.list) {
+  for (const std::uint32_t i : list) {
     const double delay = echoes.delay[i];
-    const double low_column =
-        plan.column_of(echoes.u[i], plan.moving_curvature(block.curvature, seen.curvature[i])) - half_width;
-    const double column_0 = std::ceil(low_column), half = reach.at(seen.path[i]);
-    const double weight = weight_of(block, excess, seen.curvature[i]);
-    const EchoEnvelope envelope = plan.shapes.of(seen.path[i], echoes.doppler_of(i));
-    const double first = std::max(0.0, std::ceil((delay - half - start) / plan.fine_step));
+    const double low_column = plan.column_of(echoes.u[i]) - half_width, column_0 = std::ceil(low_column);
+    const double half = reach.at(delay);
+    const EchoEnvelope envelope = plan.shapes.of(delay, echoes.doppler_of(i));
+    const double first = std::max(0.0, std::ceil((delay - half - start_time_) / plan.fine_step));
     const double last =
-        std::min(std::floor((delay + half - start) / plan.fine_step), static_cast<double>(plan.fine) - 1);
+        std::min(std::floor((delay + half - start_time_) / plan.fine_step), static_cast<double>(plan.fine) - 1);
     pulse_re_.clear();
     pulse_im_.clear();
     for (double n = first; n <= last; ++n) {
       const std::complex<double> g =
-          weight / block.unit * echoes.amplitude[i] * envelope.at(start + n * plan.fine_step - delay);
+          1 / unit_ * echoes.amplitude[i] * envelope.at(start_time_ + n * plan.fine_step - delay);
       pulse_re_.push_back(g.real());
       pulse_im_.push_back(g.imag());
       touched_[static_cast<std::size_t>(n) / wideband_tile] = true;
@@ -140,104 +135,140 @@ void WidebandRoom::grid_singly(const SeenEchoes& seen, const WidebandBlock& bloc
   }
 }
 
-void WidebandRoom::to_frequencies(WidebandSpectrum& spectrum) {
+template <typename Visit>
+void WidebandRoom::each_chunk(const BendSeries& bend, std::size_t term, Visit&& visit) {
   const WidebandPlan& plan = plan_;
+  const std::size_t elements = plan.elements();
+  const double* delay = bend.delay.data() + term * elements;
+  // exp(2 pi i F delay), F = f_c - line / seconds: from chunk to chunk by a factor, away from the carrier.
+  std::vector<std::complex<double>> carrier(elements), turn(elements), now;
+  for (std::size_t m = 0; m < elements; ++m) {
+    const double cycles = plan.head.pulse.centre_frequency * delay[m], each = -delay[m] / plan.seconds();
+    carrier[m] = std::polar(1.0, 2 * pi * (cycles - std::floor(cycles)));
+    turn[m] = std::polar(1.0, 2 * pi * each * static_cast<double>(lines_at_once));
+    const std::complex<double> one = std::polar(1.0, 2 * pi * each);
+    std::complex<double> power = 1;
+    for (std::size_t l = 0; l < lines_at_once; ++l, power *= one) {
+      step_[2 * m * lines_at_once + l] = static_cast<float>(power.real());
+      step_[(2 * m + 1) * lines_at_once + l] = static_cast<float>(power.imag());
+    }
+  }
+  const auto one_chunk = [&](std::size_t i) {
+    const std::size_t first = plan.chunks[i] * lines_at_once;
+    for (std::size_t l = 0; l < lines_at_once; ++l)
+      line_[l] = static_cast<float>(plan.line_of(first + l) / (plan.seconds() * plan.half_band));
+    for (std::size_t m = 0; m < elements; ++m) {
+      start_[2 * m] = static_cast<float>(now[m].real());
+      start_[2 * m + 1] = static_cast<float>(now[m].imag());
+    }
+    const float* rest = bend.rest.empty() ? nullptr : bend.rest.data() + term * elements * 2 * plan.band_nodes;
+    visit(kernels::ElementTaps{elements, plan.taps, plan.tap_row.data() + i * elements,
+                               plan.tap_weight.data() + i * elements * plan.taps * lines_at_once},
+          kernels::ElementTurns{start_.data(), step_.data(), rest, plan.band_nodes, line_.data()}, first,
+          elements_.data() + i * elements * 2 * lines_at_once);
+  };
+  now = carrier;
+  std::size_t i = 0;
+  for (; i < plan.chunks.size() && 2 * plan.chunks[i] * lines_at_once < plan.fine; ++i) {
+    one_chunk(i);
+    for (std::size_t m = 0; m < elements; ++m) now[m] *= turn[m];
+  }
+  now = carrier;
+  for (std::size_t back = plan.chunks.size(); back-- > i;) {
+    for (std::size_t m = 0; m < elements; ++m) now[m] *= std::conj(turn[m]);
+    one_chunk(back);
+  }
+}
+
+void WidebandRoom::add_echo_term(const BendSeries& bend, std::size_t term) {
+  const WidebandPlan& plan = plan_;
+  const kernels::TimeFactor factor = factor_of(bend, term);
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
     const std::size_t count = std::min(wideband_tile, plan.fine - n0);
     if (!touched_[n0 / wideband_tile]) {
       for (std::size_t r = 0; r < plan.rows(); ++r)
-        std::fill_n(spectrum.data() + r * plan.fine_row + n0, count, Complex(0));
+        std::fill_n(spectrum_.data() + r * plan.fine_row + n0, count, Complex(0));
       continue;
     }
     for (std::size_t n = 0; n < count; ++n) {
       Complex* line = tile_.data() + n * plan.grid_stride;
-      kernels::merge_planes(re_.data() + (n0 + n) * plan.grid_stride, im_.data() + (n0 + n) * plan.grid_stride,
-                            plan.grid, reinterpret_cast<float*>(line));
+      const double time = start_time_ + static_cast<double>(n0 + n) * plan.fine_step;
+      kernels::weigh_row(factor, place_in(bend, time), re_.data() + (n0 + n) * plan.grid_stride,
+                         im_.data() + (n0 + n) * plan.grid_stride, plan.grid, reinterpret_cast<float*>(line));
       transforms_.to_harmonics.run(line);
     }
-    // One row per harmonic now.
+    // One row per harmonic now; directions are counted from the middle of the period.
     for (std::size_t r = 0; r < plan.rows(); ++r) {
       const Complex* from = tile_.data() + (r + plan.grid - plan.most) % plan.grid;
-      Complex* to = spectrum.data() + r * plan.fine_row + n0;
-      for (std::size_t n = 0; n < count; ++n) to[n] = from[n * plan.grid_stride];
+      Complex* to = spectrum_.data() + r * plan.fine_row + n0;
+      const float sign = (r + plan.most) % 2 == 0 ? 1.0F : -1.0F;
+      for (std::size_t n = 0; n < count; ++n) to[n] = sign * from[n * plan.grid_stride];
     }
   }
-  for (std::size_t r = 0; r < plan.rows(); ++r) transforms_.to_frequencies.run(spectrum.data() + r * plan.fine_row);
+  for (std::size_t r = 0; r < plan.rows(); ++r) transforms_.to_frequencies.run(spectrum_.data() + r * plan.fine_row);
+  each_chunk(bend, term, [&](const auto& taps, const auto& turns, std::size_t line, float* x) {
+    kernels::gather_elements(taps, turns, reinterpret_cast<const float*>(spectrum_.data() + line), plan.fine_row, x);
+  });
 }
 
-void WidebandRoom::to_bins(WidebandSpectrum& spectrum, WidebandSpectrum& bins) {
+void WidebandRoom::form_beam_term(const BendSeries& bend, std::size_t term, Complex* bins) {
   const WidebandPlan& plan = plan_;
   const std::size_t top = plan.top_line();
+  spectrum_.clear();
+  each_chunk(bend, term, [&](const auto& taps, const auto& turns, std::size_t line, const float* x) {
+    kernels::scatter_elements(taps, turns, x, reinterpret_cast<float*>(spectrum_.data() + line), plan.fine_row);
+  });
   for (std::size_t r = 0; r < plan.rows(); ++r) {
-    const Complex* line = spectrum.data() + r * plan.fine_row;
-    Complex* bin = bins.data() + r * bins_row_;
+    const Complex* line = spectrum_.data() + r * plan.fine_row;
+    Complex* bin = bins + r * bins_row_;
     // Frequencies beyond what bins can tell fold, as they do in any sampled image.
     std::fill_n(bin, plan.cycle, Complex(0));
     for (std::size_t l = 0, k = 0; l <= top; ++l, k = k + 1 == plan.cycle ? 0 : k + 1) bin[k] += line[l];
     for (std::size_t l = 1, k = plan.cycle - 1; l <= top; ++l, k = k == 0 ? plan.cycle - 1 : k - 1)
       bin[k] += line[plan.fine - l];
+    kernels::scale_row(reinterpret_cast<const float*>(bin), plan.row_factor[r], 2 * plan.cycle,
+                       reinterpret_cast<float*>(bin));
     transforms_.to_bins.run(bin);
   }
 }
 
-void WidebandRoom::add_excess(const WidebandBlock& block) {
-  const double start = plan_.start_of(block.number), c = plan_.medium.sound_speed;
-  for (std::size_t n = 0; n < plan_.cycle; ++n) {
-    const double delay = start + static_cast<double>(n) * plan_.axis.step;
-    const double excess = delay > 0 ? 2 / (c * delay * block.curvature) - 1 : 0;
-    excess_[n] = static_cast<float>(std::min(excess, 1.0));
-  }
-  for (std::size_t r = 0; r < plan_.rows(); ++r) {
-    Complex* bin = bins_.data() + r * bins_row_;
-    const Complex* more = excess_bins_->data() + r * bins_row_;
-    for (std::size_t n = 0; n < plan_.cycle; ++n) bin[n] += excess_[n] * more[n];
-  }
-}
-
-void WidebandRoom::steer(double curvature) {
-  beam_weight_.clear();
-  beam_row_.clear();
-  const std::size_t width = plan_.kernel.width();
-  for (const double u : beam_cosines(plan_.head.fan)) {
-    const double column = plan_.column_of(u, curvature);
-    const double first = std::ceil(column - 0.5 * static_cast<double>(width));
-    for (std::size_t k = 0; k < width; ++k) {
-      beam_weight_.push_back(static_cast<float>(plan_.kernel.at(first + static_cast<double>(k) - column)));
-      beam_row_.push_back(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(k));
-    }
-  }
-}
-
-void WidebandRoom::to_beams(const WidebandBlock& block, std::size_t ends, ComplexGrid& pressure) {
+void WidebandRoom::add_beams(const WidebandBlock& block, ComplexGrid& pressure) {
   const WidebandPlan& plan = plan_;
-  steer(block.curvature);
-  const std::size_t width = plan.kernel.width(), skipped = 2 * plan.guard;
-  const float* rows = reinterpret_cast<const float*>(tile_.data());
+  const BendSeries& bend = block.undone;
+  const std::size_t width = plan.kernel.width();
+  while (bins_.size() < bend.terms) bins_.push_back(std::make_unique<Spectrum>(plan.rows() * bins_row_));
+  for (std::size_t q = 0; q < bend.terms; ++q) form_beam_term(bend, q, bins_[q]->data());
+  const auto begin = static_cast<std::ptrdiff_t>(block.first) - static_cast<std::ptrdiff_t>(plan.guard);
+  const auto end = std::min(static_cast<std::ptrdiff_t>(block.last) + static_cast<std::ptrdiff_t>(plan.guard),
+                            static_cast<std::ptrdiff_t>(plan.axis.bins));
+  std::array<float, wideband_tile> time;
   for (std::size_t n0 = 0; n0 < plan.cycle; n0 += wideband_tile) {
-    const std::size_t first = block.number * plan.block + n0, count = std::min(wideband_tile, plan.cycle - n0);
-    if (first + count <= skipped || first >= plan.axis.bins + skipped) continue;
-    std::fill_n(tile_.data() + (plan.most + 1) * wideband_tile_row, (plan.grid - plan.rows()) * wideband_tile_row,
-                Complex(0));
-    for (std::size_t r = 0; r < plan.rows(); ++r)
-      std::copy_n(bins_.data() + r * bins_row_ + n0, count,
-                  tile_.data() + (r + plan.grid - plan.most) % plan.grid * wideband_tile_row);
-    transforms_.to_directions.run(tile_.data());
-    // Bins of this tile that belong to the axis, and those of them that neighbours have written.
-    const std::size_t from = std::max(skipped, first) - first,
-                      to = std::min(first + count, plan.axis.bins + skipped) - first;
-    const std::size_t own = std::clamp(ends, n0 + from, n0 + to) - n0;
-    const std::size_t shared = std::max(own, std::clamp(plan.cycle - ends, n0 + from, n0 + to) - n0);
-    for (Eigen::Index b = 0; b < pressure.rows(); ++b) {
-      double* sum = reinterpret_cast<double*>(&pressure(b, 0)) + 2 * static_cast<std::ptrdiff_t>(first - skipped);
-      const auto part = [&](std::size_t begin, std::size_t end, bool add) {
-        if (begin < end)
-          kernels::interpolate_scaled(beam_weight_.data() + b * width, beam_row_.data() + b * width, width,
-                                      rows + 2 * begin, 2 * wideband_tile_row, 2 * (end - begin), block.unit, add,
-                                      sum + 2 * begin);
-      };
-      part(from, own, true);
-      part(own, shared, false);
-      part(shared, to, true);
+    const std::ptrdiff_t first = begin + static_cast<std::ptrdiff_t>(n0);
+    const std::ptrdiff_t from = std::max<std::ptrdiff_t>(first, 0),
+                         to = std::min<std::ptrdiff_t>(first + static_cast<std::ptrdiff_t>(wideband_tile), end);
+    if (from >= to) continue;
+    const std::size_t count = std::min(wideband_tile, plan.cycle - n0);
+    for (std::size_t n = 0; n < wideband_tile; ++n)
+      time[n] = place_in(bend, plan.time_of(static_cast<double>(first) + static_cast<double>(n)));
+    std::fill(sums_.begin(), sums_.end(), 0.0F);
+    for (std::size_t q = 0; q < bend.terms; ++q) {
+      std::fill_n(tile_.data() + (plan.most + 1) * wideband_tile_row, (plan.grid - plan.rows()) * wideband_tile_row,
+                  Complex(0));
+      for (std::size_t r = 0; r < plan.rows(); ++r)
+        std::copy_n(bins_[q]->data() + r * bins_row_ + n0, count,
+                    tile_.data() + (r + plan.grid - plan.most) % plan.grid * wideband_tile_row);
+      transforms_.to_directions.run(tile_.data());
+      const kernels::TimeFactor factor = factor_of(bend, q);
+      for (std::size_t b = 0; b < plan.u_beam.size(); ++b)
+        kernels::add_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width,
+                          reinterpret_cast<const float*>(tile_.data()), wideband_tile_row,
+                          {factor.power + b, factor.powers, factor.stride}, time.data(), wideband_tile,
+                          sums_.data() + 2 * b * wideband_tile);
+    }
+    for (std::size_t b = 0; b < plan.u_beam.size(); ++b) {
+      double* sum = reinterpret_cast<double*>(&pressure(static_cast<Eigen::Index>(b), from));
+      const float* part = sums_.data() + 2 * (b * wideband_tile + static_cast<std::size_t>(from - first));
+      for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * static_cast<double>(part[n]);
     }
   }
 }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <mutex>
 #include <utility>
 #include <vector>
 
 #include "beamforming/element_series.hpp"
 #include "beamforming/flush_denormals_internal.hpp"
-#include "beamforming/wideband_lists_internal.hpp"
+#include "beamforming/wideband_block_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -38,24 +39,28 @@ class Rooms {
   std::vector<std::unique_ptr<WidebandRoom>> free_;
 };
 
-/// Bins of the axis that a block's cycle covers but for `ends` bins of it: first and one after the last.
-std::pair<std::size_t, std::size_t> bins_of(const WidebandPlan& plan, std::size_t number, std::size_t ends) {
-  const std::size_t before = 2 * plan.guard, last = plan.axis.bins + before;
-  const std::size_t from = std::clamp(number * plan.block + ends, before, last) - before;
-  return {from, std::max(from, std::clamp(number * plan.block + plan.cycle - ends, before, last) - before)};
-}
-
-/// A plan and its transforms, and the range from which on it is used [m].
+/// A plan and its transforms, for blocks of one length.
 struct Level {
   WidebandPlan tables;
   WidebandTransforms transforms;
-  double nearest;
+  std::vector<std::size_t> blocks;  ///< by number
+  mutable Rooms rooms;
 
-  Level(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest, std::size_t parts,
-        double used_from)
-      : tables(head, medium, options, widest, parts, used_from),
-        transforms(tables),
-        nearest(std::max(tables.nearest(), parts == 1 ? 0 : used_from)) {}
+  Level(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest, std::size_t bins)
+      : tables(head, medium, options, widest, bins), transforms(tables) {}
+};
+
+/// First and one after the last bin of a block, its level, and what is made of it when echoes first need it.
+struct Span {
+  double first, last;
+  std::size_t level;
+  mutable std::once_flag made = {};
+  mutable std::unique_ptr<WidebandBlock> block = nullptr;
+
+  const WidebandBlock& of(const WidebandPlan& plan) const {
+    std::call_once(made, [&] { block = std::make_unique<WidebandBlock>(plan, first, last); });
+    return *block;
+  }
 };
 
 Echoes some_of(const Echoes& echoes, const std::vector<std::size_t>& which) {
@@ -72,17 +77,16 @@ Echoes some_of(const Echoes& echoes, const std::vector<std::size_t>& which) {
 }  // namespace
 
 struct WidebandSynthesizer::Plan {
-  std::vector<std::unique_ptr<Level>> levels;  ///< of the whole array, and of ever shorter parts
+  std::vector<std::unique_ptr<Level>> levels;  ///< of ever longer blocks
+  std::deque<Span> blocks;                     ///< in order of time, without gaps
+  double guard;                                ///< bins that a block reaches beyond its ends
+  double nearest;                              ///< range from which on blocks are used [m]
   int threads;
 
   Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
-  const WidebandPlan& whole() const { return levels[0]->tables; }
+  const WidebandPlan& tables() const { return levels[0]->tables; }
   ComplexGrid pressure(const Echoes& echoes) const;
-  /// The image of the whole array.
-  ComplexGrid far_image(const Echoes& echoes) const;
-  /// Adds that of the array's parts, one after another.
-  void add_parts(const Echoes& echoes, const Level& level, ComplexGrid& pressure) const;
-  /// Adds echoes nearer than any level reaches, element by element.
+  /// Adds echoes nearer than blocks reach, element by element.
   void add_nearest(const Echoes& echoes, ComplexGrid& pressure) const;
 };
 
@@ -103,7 +107,7 @@ WidebandSynthesizer& WidebandSynthesizer::operator=(WidebandSynthesizer&&) noexc
 
 ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
   const Plan& plan = *plan_;
-  const WidebandPlan& tables = plan.whole();
+  const WidebandPlan& tables = plan.tables();
   require_synthesis(echoes, tables.head, tables.medium, {tables.tolerance, plan.threads}, "WidebandSynthesizer");
   double widest = 0;
   for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
@@ -116,84 +120,66 @@ WidebandSynthesizer::Plan::Plan(const SonarHead& head, const Medium& medium, con
                                 double widest)
     : threads(options.threads) {
   const double length = head.array.spacing * static_cast<double>(head.array.elements() - 1);
-  double used_from = 1e9;
-  // Parts of four elements at least, and no more of them than the gate's begin asks for.
-  for (std::size_t parts = 1; parts == 1 || 4 * parts <= head.array.elements(); parts *= 2) {
-    if (used_from < std::max(0.6 * length, head.gate.min_range - 0.5 * length)) break;
-    levels.push_back(
-        std::make_unique<Level>(head, medium, options, widest, parts, std::max(0.6 * length, 0.25 * used_from)));
-    used_from = levels.back()->nearest;
+  const auto bins = static_cast<double>(head.gate.bins());
+  nearest = std::max(0.95 * length, 1e-3 * head.gate.bin_size);
+  // Longer blocks spend less on their ends, but their wavefronts differ more.
+  const std::size_t ends = wideband_guard(head, medium, options.tolerance, widest);
+  guard = static_cast<double>(ends);
+  for (double first = std::max(-guard, std::floor((nearest - head.gate.min_range) / head.gate.bin_size - 1));
+       first < bins + guard;) {
+    const double range = std::max(nearest, head.gate.min_range + first * head.gate.bin_size);
+    const double allowed = range / head.gate.bin_size, wanted = bins + guard - first;
+    std::size_t level = 0;
+    while (level < 2 && static_cast<double>(2 * ends << level) < wanted &&
+           static_cast<double>(2 * ends << (level + 1)) <= allowed)
+      ++level;
+    while (levels.size() <= level)
+      levels.push_back(std::make_unique<Level>(head, medium, options, widest, 2 * ends << levels.size()));
+    const double last = first + static_cast<double>(levels[level]->tables.block);
+    levels[level]->blocks.push_back(blocks.size());
+    blocks.emplace_back(first, last, level);
+    first = last;
   }
 }
 
 ComplexGrid WidebandSynthesizer::Plan::pressure(const Echoes& echoes) const {
-  std::vector<std::vector<std::size_t>> of_level(levels.size() + 1);
+  // Echoes by block; none is of use beyond the last one.
+  const TimeAxis& axis = tables().axis;
+  std::vector<std::vector<std::uint32_t>> of_block(blocks.size());
+  std::vector<std::size_t> near;
+  std::vector<std::uint32_t> block_of;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    block_of.resize(static_cast<std::size_t>(blocks[b].last - blocks[0].first), static_cast<std::uint32_t>(b));
   for (std::size_t i = 0; i < echoes.size(); ++i) {
-    const double range = 0.5 * whole().medium.sound_speed * echoes.delay[i];
-    std::size_t level = 0;
-    while (level < levels.size() && range < levels[level]->nearest) ++level;
-    of_level[level].push_back(i);
+    const double bin = (echoes.delay[i] - axis.start) / axis.step - blocks[0].first;
+    if (bin < 0 && bin + blocks[0].first >= -guard)
+      near.push_back(i);
+    else if (bin >= 0 && bin < static_cast<double>(block_of.size()))
+      of_block[block_of[static_cast<std::size_t>(bin)]].push_back(static_cast<std::uint32_t>(i));
   }
-  ComplexGrid pressure = far_image(of_level[0].size() == echoes.size() ? echoes : some_of(echoes, of_level[0]));
-  for (std::size_t level = 1; level < levels.size(); ++level)
-    if (!of_level[level].empty()) add_parts(some_of(echoes, of_level[level]), *levels[level], pressure);
-  if (!of_level.back().empty()) add_nearest(some_of(echoes, of_level.back()), pressure);
-  return pressure;
-}
-
-ComplexGrid WidebandSynthesizer::Plan::far_image(const Echoes& echoes) const {
-  const WidebandPlan& tables = whole();
-  const SeenEchoes seen = seen_by(echoes, tables, 0);
-  const WidebandLists lists(seen, tables, 0);
-  ComplexGrid pressure(tables.head.fan.beams(), tables.axis.bins);
-  const std::size_t blocks = tables.blocks();
-  Rooms rooms;
-  // Every other block overwrites; those between add to what they share with both neighbours.
-  for (const std::size_t parity : {0U, 1U})
-    parallel_for(blocks / 2 + 1, threads, [&](std::size_t t) {
-      const std::size_t number = 2 * t + parity;
-      std::size_t ends = parity == 0 ? 0 : 2 * tables.guard;
-      if (parity == 1 && number >= blocks) return;
-      if (number >= blocks || lists.empty(number)) {
-        const auto [from, to] = bins_of(tables, number, ends);
-        pressure.middleCols(from, to - from).setZero();
-        return;
-      }
-      const FlushDenormals flush;
-      auto room = rooms.take(tables, levels[0]->transforms);
-      for (const WidebandBlock& part : lists.of(number)) {
-        room->image(seen, part, ends, pressure);
-        ends = tables.cycle / 2;  // all is there now: what follows adds
-      }
-      rooms.give(std::move(room));
-    });
-  return pressure;
-}
-
-void WidebandSynthesizer::Plan::add_parts(const Echoes& echoes, const Level& level, ComplexGrid& pressure) const {
-  const WidebandPlan& tables = level.tables;
-  Rooms rooms;
-  for (std::size_t part = 0; part < tables.parts.count(); ++part) {
-    const SeenEchoes seen = seen_by(echoes, tables, part);
-    const WidebandLists lists(seen, tables, part);
-    // Neighbouring blocks share bins.
+  ComplexGrid pressure(tables().head.fan.beams(), axis.bins);
+  pressure.setZero();
+  // Neighbouring blocks share bins.
+  for (const auto& level : levels) {
     for (const std::size_t parity : {0U, 1U})
-      parallel_for(tables.blocks() / 2 + 1, threads, [&](std::size_t t) {
-        const std::size_t number = 2 * t + parity;
-        if (number >= tables.blocks() || lists.empty(number)) return;
+      parallel_for(level->blocks.size(), threads, [&](std::size_t k) {
+        const std::size_t b = level->blocks[k];
+        if (b % 2 != parity || of_block[b].empty()) return;
         const FlushDenormals flush;
-        auto room = rooms.take(tables, level.transforms);
-        for (const WidebandBlock& block : lists.of(number)) room->image(seen, block, 0, pressure);
-        rooms.give(std::move(room));
+        auto room = level->rooms.take(level->tables, level->transforms);
+        room->add_image(echoes, of_block[b], blocks[b].of(level->tables), pressure);
+        level->rooms.give(std::move(room));
       });
   }
+  if (!near.empty()) add_nearest(some_of(echoes, near), pressure);
+  return pressure;
 }
 
 void WidebandSynthesizer::Plan::add_nearest(const Echoes& echoes, ComplexGrid& pressure) const {
-  const WidebandPlan& tables = whole();
+  const WidebandPlan& tables = this->tables();
   const PulseReach reach(tables.head.pulse, tables.medium.absorption, tables.medium.sound_speed, true, tables.cut);
   const double last = *std::max_element(echoes.delay.begin(), echoes.delay.end()),
-               beyond = tables.parts.aperture + 0.5 * tables.medium.sound_speed * reach.at(last);
+               beyond = tables.aperture + 0.5 * tables.medium.sound_speed * reach.at(last);
   SonarHead head = tables.head;
   head.gate.max_range = std::min(head.gate.max_range, 0.5 * tables.medium.sound_speed * last + beyond);
   if (head.gate.max_range <= head.gate.min_range) return;
