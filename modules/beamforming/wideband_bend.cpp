@@ -83,20 +83,22 @@ class BendValue {
     const double step = plan_.period / static_cast<double>(plan_.grid);
     const Complex a = Complex(0, step * wave * bend.by_u), b = Complex(0, step * step * wave * bend.by_u2);
     const Complex* moment = plan_.moment.data() + (m * nodes_of_band + node) * WidebandPlan::moments;
-    Complex before = 1, now = a, sum = 1;
+    Complex before = 1, now = a, sum = 1, slope = 0;
     for (std::size_t j = 1; j < WidebandPlan::moments; ++j) {
       sum += now * moment[j];
+      slope += static_cast<double>(j) * before * moment[j];
       const Complex next = a * now + static_cast<double>(j) * b * before;
       before = now;
       now = next;
     }
     // A Gaussian pulse whose samples are turned by a phase that grows with time: its spectrum is moved. Then what is of
     // second order in time, and in both.
-    const double speed = 0.5 * plan_.medium.sound_speed, width = plan_.spectral_width2, turn = speed * wave * bend.by_r,
-                 late = width * plan_.node_frequency[node] / pi;
-    const Complex second = 0.5 * speed * speed * wave * bend.by_r2 * Complex(0, width / (2 * pi * pi) + late * late) +
-                           speed * step * wave * bend.by_ur * late * moment[1];
-    return std::exp(-turn * (late - width * turn / (4 * pi * pi)) - second) * sum;
+    const double speed = 0.5 * plan_.medium.sound_speed, width = plan_.spectral_width2, turn = speed * wave * bend.by_r;
+    const double late = width * (plan_.node_frequency[node] / pi - turn / (4 * pi * pi)),
+                 later = late - width * turn / (4 * pi * pi);
+    const Complex second = 0.5 * speed * speed * wave * bend.by_r2 * Complex(0, width / (2 * pi * pi) + later * later) +
+                           speed * step * wave * bend.by_ur * later * slope / sum;
+    return std::exp(-turn * late - second) * sum;
   }
   double frequency_of(std::size_t node) const { return plan_.head.pulse.centre_frequency - plan_.node_frequency[node]; }
 
