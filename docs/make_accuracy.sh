@@ -160,6 +160,17 @@ mean.
 |---|---|---|---|---|
 TEXT
 rows "$work/run/sampling.csv" 'NR > 1' 'print "| " c("sampling"), c("parameter") + 0, sprintf("%.0f", c("scatterers_per_beam")), c("error"), c("error_db") " dB |"'
+cat <<TEXT
+
+## True delays
+
+Method \`true-delays\` (E68) against element-exact at 1e-7, made by \`true_delays_accuracy\`: relative L2 error of 24 beams for 100 echoes within ten
+degrees of the direction, over 60 bins to either side of the range; processor time of the image on one thread for 200 000 echoes over half the range, median of three,
+next to that of the narrow-band image at 1e-3. The promise holds against element-exact, whose image is that of delays of every element to
+echo and focus: a line array of point elements, Gaussian pulses, echoes at rest or moving, tolerances from 1e-5. Sweeps are held to 1e-2 only.
+
+TEXT
+"$(dirname "$tool")/true_delays_accuracy"
 } >"$work/accuracy.md"
 mv "$work/accuracy.md" docs/accuracy.md
 echo "docs/accuracy.md written"

@@ -120,11 +120,11 @@ Places places_of(const WidebandPlan& plan, bool echoes, double first_time, doubl
   places.widest = std::max(places.widest, 1e-3);
   // As many as follow phases that change by this much.
   const double near = std::max(0.5 * c * first_time, std::max(least, 1e-3)), far = std::max(0.5 * c * last_time, near);
-  const double turn =
-      pi * (plan.head.pulse.centre_frequency + 0.4 * plan.half_band) / c * 0.25 * plan.aperture * plan.aperture / near;
-  const double over_u = 0.5 * turn * places.widest * places.widest, over_r = 0.5 * turn * (1 - near / far);
-  const auto nodes = [](double phase) { return static_cast<std::size_t>(std::ceil(1.4 * phase)); };
-  const std::size_t count_u = 10 + 2 * nodes(over_u), count_r = 3 + nodes(over_r);
+  const BendPhase phase(plan.head, plan.medium, near, far);
+  const auto digits = static_cast<std::size_t>(std::ceil(-std::log10(plan.tolerance)));
+  const auto nodes = [](double turn) { return static_cast<std::size_t>(std::ceil(1.4 * turn)); };
+  const std::size_t count_u = 14 + 2 * nodes(0.5 * phase.all * places.widest * places.widest),
+                    count_r = digits + 1 + nodes(phase.over_range);
   for (std::size_t j = 0; j < count_u; ++j) places.u.push_back(places.widest * chebyshev_node(j, count_u));
   for (std::size_t j = 0; j < count_r; ++j)
     places.r.push_back(std::max(0.5 * c * (places.middle + places.half * chebyshev_node(j, count_r)), least));
@@ -166,7 +166,7 @@ BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first_time, dou
   const BendValue value(plan, echoes);
 
   // Some elements and all nodes of frequency, weighted by shading and spectrum.
-  const std::size_t count_y = std::min(elements, 6 + count_u / 2);
+  const std::size_t count_y = std::min(elements, 14 + count_u / 2);
   std::vector<std::size_t> some;
   for (std::size_t j = 0; j < count_y; ++j)
     some.push_back(std::min(elements - 1, static_cast<std::size_t>(0.5 * (1 + chebyshev_node(j, count_y)) *

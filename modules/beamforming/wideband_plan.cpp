@@ -48,6 +48,17 @@ double longest_reach(const SonarHead& head, const Medium& medium, double toleran
 
 }  // namespace
 
+BendPhase::BendPhase(const SonarHead& head, const Medium& medium, double near, double far) {
+  const double length = length_of(head.array);
+  all = pi * (head.pulse.centre_frequency + 0.6 * head.pulse.bandwidth) / medium.sound_speed * 0.25 * length * length /
+        near;
+  over_range = 0.5 * all * (1 - near / far);
+}
+
+double wideband_nearest(const SonarHead& head, const Medium& medium, double tolerance) {
+  return 3 * length_of(head.array) + 0.5 * medium.sound_speed * longest_reach(head, medium, tolerance);
+}
+
 std::size_t wideband_guard(const SonarHead& head, const Medium& medium, double tolerance, double widest) {
   const TimeAxis axis(head.gate, medium.sound_speed);
   const double across = 0.5 * length_of(head.array) / medium.sound_speed * 2.1 * widest;

@@ -88,6 +88,17 @@ struct WidebandPlan {
   std::vector<double> node_, node_weight_;  ///< for integrals of the kernel over positive x
 };
 
+/// Phase of the bend at the ends of the array from broadside, at the highest frequency, and how much of it comes and
+/// goes between two ranges, to either side [rad].
+struct BendPhase {
+  double all, over_range;
+
+  BendPhase(const SonarHead& head, const Medium& medium, double near, double far);
+};
+
+/// Range of echoes from which on blocks keep the tolerance [m]: pulses that begin at three lengths of the array.
+double wideband_nearest(const SonarHead& head, const Medium& medium, double tolerance);
+
 /// Bins to either side of a block that its echoes reach: the array's delays, and the pulse.
 std::size_t wideband_guard(const SonarHead& head, const Medium& medium, double tolerance, double widest);
 

@@ -18,6 +18,8 @@ namespace {
 
 constexpr double finest = 1e-5, coarsest = 0.1;
 constexpr double kept = 0.7;  // of the tolerance, for what bounds leave out
+constexpr double most_phase =
+    5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
 
 /// Rooms that no thread works in.
 class Rooms {
@@ -119,19 +121,23 @@ ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
 WidebandSynthesizer::Plan::Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
                                 double widest)
     : threads(options.threads) {
-  const double length = head.array.spacing * static_cast<double>(head.array.elements() - 1);
   const auto bins = static_cast<double>(head.gate.bins());
-  nearest = std::max(0.95 * length, 1e-3 * head.gate.bin_size);
-  // Longer blocks spend less on their ends, but their wavefronts differ more.
   const std::size_t ends = wideband_guard(head, medium, options.tolerance, widest);
   guard = static_cast<double>(ends);
-  for (double first = std::max(-guard, std::floor((nearest - head.gate.min_range) / head.gate.bin_size - 1));
-       first < bins + guard;) {
+  const auto fits = [&](double range, std::size_t level) {
+    const double far = range + static_cast<double>(2 * ends << level) * head.gate.bin_size;
+    return BendPhase(head, medium, range, far).over_range <= most_phase;
+  };
+  nearest = std::max(wideband_nearest(head, medium, options.tolerance), 1e-3 * head.gate.bin_size);
+  while (!fits(nearest, 0)) nearest *= 1.02;
+  // Longer blocks spend less on their ends, but their wavefronts differ more.
+  double first = std::max(-guard, std::floor((nearest - head.gate.min_range) / head.gate.bin_size - 1));
+  do {
     const double range = std::max(nearest, head.gate.min_range + first * head.gate.bin_size);
     const double allowed = range / head.gate.bin_size, wanted = bins + guard - first;
     std::size_t level = 0;
     while (level < 2 && static_cast<double>(2 * ends << level) < wanted &&
-           static_cast<double>(2 * ends << (level + 1)) <= allowed)
+           static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1))
       ++level;
     while (levels.size() <= level)
       levels.push_back(std::make_unique<Level>(head, medium, options, widest, 2 * ends << levels.size()));
@@ -139,7 +145,7 @@ WidebandSynthesizer::Plan::Plan(const SonarHead& head, const Medium& medium, con
     levels[level]->blocks.push_back(blocks.size());
     blocks.emplace_back(first, last, level);
     first = last;
-  }
+  } while (first < bins + guard);
 }
 
 ComplexGrid WidebandSynthesizer::Plan::pressure(const Echoes& echoes) const {

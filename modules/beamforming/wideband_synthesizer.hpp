@@ -18,9 +18,9 @@ namespace insonify {
 ///      direction and time make harmonics and frequencies of it, between which the elements are interpolated.
 ///   3. Beams are formed from the elements by the same steps in reverse, with their own sum.
 ///
-/// Cost: 2 to 4 times that of PingSynthesizer for some 60 echoes a bin, up to 7 times for sparse echoes at 8 lengths of
-/// the array. Plans and sums are made at the first ping that needs them. Echoes nearer than the array is long are
-/// summed element by element, which is slow.
+/// Cost relative to PingSynthesizer: docs/accuracy.md. Plans and sums are made at the first ping that needs them.
+/// Echoes whose pulses begin nearer than three lengths of the array are summed element by element, which is slow; so
+/// are those where wavefronts bend too fast for the shortest block.
 /// Error: relative to the level of a block. Sweeps have no sharp band: held by a test at 1e-2.
 ///
 /// Made once per head, medium and tolerance; `pressure` is const and may be called from several threads.
