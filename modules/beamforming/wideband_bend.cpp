@@ -160,12 +160,9 @@ struct Elimination {
   }
 };
 
-BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first_time, double last_time) {
-  const Places places = places_of(plan, echoes, first_time, last_time);
+/// Values at all places, a row each, of some elements and all nodes of frequency, weighted by shading and spectrum.
+RowMatrix sampled_bend(const WidebandPlan& plan, const Places& places, const BendValue& value) {
   const std::size_t count_u = places.u.size(), count_r = places.r.size(), elements = plan.elements();
-  const BendValue value(plan, echoes);
-
-  // Some elements and all nodes of frequency, weighted by shading and spectrum.
   const std::size_t count_y = std::min(elements, 14 + count_u / 2);
   std::vector<std::size_t> some;
   for (std::size_t j = 0; j < count_y; ++j)
@@ -185,7 +182,14 @@ BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first_time, dou
                                 std::pow(1 - off * off, 0.25);
           sampled(j * count_r + k, i * nodes_of_band + f) = weight * value(places.r[k], places.u[j], some[i], f);
         }
-  const Elimination found(sampled, share * plan.tolerance);
+  return sampled;
+}
+
+BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first_time, double last_time) {
+  const Places places = places_of(plan, echoes, first_time, last_time);
+  const std::size_t count_u = places.u.size(), count_r = places.r.size(), elements = plan.elements();
+  const BendValue value(plan, echoes);
+  const Elimination found(sampled_bend(plan, places, value), share * plan.tolerance);
 
   BendSeries series;
   series.terms = found.chosen.size();

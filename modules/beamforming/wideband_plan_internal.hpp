@@ -96,7 +96,8 @@ struct BendPhase {
   BendPhase(const SonarHead& head, const Medium& medium, double near, double far);
 };
 
-/// Range of echoes from which on blocks keep the tolerance [m]: pulses that begin at three lengths of the array.
+/// Range of echoes from which on blocks keep the tolerance [m]: pulses that begin at three lengths of the
+/// array, or more of narrow bands.
 double wideband_nearest(const SonarHead& head, const Medium& medium, double tolerance);
 
 /// Bins to either side of a block that its echoes reach: the array's delays, and the pulse.

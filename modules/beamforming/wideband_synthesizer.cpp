@@ -131,7 +131,7 @@ WidebandSynthesizer::Plan::Plan(const SonarHead& head, const Medium& medium, con
   nearest = std::max(wideband_nearest(head, medium, options.tolerance), 1e-3 * head.gate.bin_size);
   while (!fits(nearest, 0)) nearest *= 1.02;
   // Longer blocks spend less on their ends, but their wavefronts differ more.
-  double first = std::max(-guard, std::floor((nearest - head.gate.min_range) / head.gate.bin_size - 1));
+  double first = std::max(-guard, std::ceil((nearest - head.gate.min_range) / head.gate.bin_size));
   do {
     const double range = std::max(nearest, head.gate.min_range + first * head.gate.bin_size);
     const double allowed = range / head.gate.bin_size, wanted = bins + guard - first;

@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(heads, WidebandPromise,
                                          Case{"aris_3000", 3000e3, 250e3, 128, 28, 0.4, 0.45},
                                          Case{"p900_45", 900e3, 29.5e3, 64, 45, 0.5, 0.8},
                                          Case{"as_near_as_the_array_is_long", 400e3, 100e3, 40, 90, 0.075, 0.2},
-                                         Case{"all_of_it_near", 400e3, 100e3, 40, 90, 0.075, 0.1}),
+                                         Case{"all_of_it_near", 400e3, 100e3, 40, 90, 0.075, 0.1},
+                                         Case{"hardly_a_band", 600e3, 1.5e3, 64, 90, 0.5, 5}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 // Pulses of moving echoes, and of losses that tilt and widen them, are each gridded as they are.
