@@ -168,6 +168,7 @@ Method \`true-delays\` (E68) against element-exact at 1e-7, made by \`true_delay
 degrees of the direction, over 60 bins to either side of the range; processor time of the image on one thread for 200 000 echoes over half the range, median of three,
 next to that of the narrow-band image at 1e-3. The promise holds against element-exact, whose image is that of delays of every element to
 echo and focus: a line array of point elements, Gaussian pulses, echoes at rest or moving, tolerances from 1e-5. Sweeps are held to 1e-2 only.
+Fewer echoes leave more of the cost in transforms: at 1e-3, 20 000 of them take 4 to 8 times the narrow-band image with oculus-m750d.
 
 TEXT
 "$(dirname "$tool")/true_delays_accuracy"
