@@ -65,6 +65,8 @@ sonar = "em2040"
 range = "1:12"
 set = ["sonar.beams=21", "sonar.field_of_view_deg=105", "sonar.beam_width_deg=3", "sonar.elevation_width_deg=3", "sonar.range_resolution_m=0.1"]
 every_m = 1
+[ping]
+false_alarm_rate = 1
 )";
 
 /// Mean power of the pings at each range.
