@@ -13,7 +13,9 @@ struct LasFile {
       false;       ///< an 'area' of uint16 in units of 1 cm2, after two bytes without a meaning, and an 'id' of uint32
   int points = 0;  ///< announced beyond those there are
 
-  std::size_t stride() const { return std::array{20u, 28u, 26u, 34u, 57u, 63u, 30u}[format] + (extra ? 8u : 0u); }
+  std::size_t stride() const {
+    return std::array{20u, 28u, 26u, 34u, 57u, 63u, 30u, 36u, 38u, 59u, 67u}[format] + (extra ? 8u : 0u);
+  }
 
   std::string extra_record() const {
     if (!extra) return "";
@@ -84,15 +86,15 @@ LoadedScene loaded(const LasFile& las) { return load_scene(own_file("cloud.las",
 }  // namespace
 
 TEST(Las, has_the_places_and_classes_of_all_point_formats) {
-  for (int format = 0; format <= 6; ++format) {
-    const LoadedScene scene = loaded({.minor = format == 6 ? 4 : format > 3 ? 3 : 2, .format = format});
+  for (int format = 0; format <= 10; ++format) {
+    const LoadedScene scene = loaded({.minor = format >= 6 ? 4 : format > 3 ? 3 : 2, .format = format});
     ASSERT_EQ(scene.scene.size(), 64u) << format;
     for (std::size_t i = 0; i < 64; ++i) {
       EXPECT_LT((world(scene.scene, i) - places()[i]).norm(), 1e-3) << format;
       EXPECT_EQ(scene.scene.material[i], i % 2 ? 2 : 0) << format;
     }
     EXPECT_EQ(scene.report.format, "LAS 1." +
-                                       std::to_string(format == 6  ? 4
+                                       std::to_string(format >= 6  ? 4
                                                       : format > 3 ? 3
                                                                    : 2) +
                                        ", point format " + std::to_string(format));
