@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy (.clang-tidy) over modules/ and apps/, with the compile commands of build/dev, which must be configured.
+# clang-tidy (.clang-tidy) over modules/ and apps/, each source by itself and without precompiled headers (build/tidy).
 #
 #   tests/tidy.sh                   everything: 5 to 10 s of CPU a source
 #   tests/tidy.sh --changed [BASE]  sources that differ from BASE, and for each header that does one source that includes
@@ -7,8 +7,6 @@
 #   tests/tidy.sh FILE...           these sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
-commands=build/dev/compile_commands.json
-[[ -f $commands ]] || { echo "tests/tidy.sh: no $commands; run: cmake --preset dev" >&2; exit 2; }
 tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || {
   echo "tests/tidy.sh: no clang-tidy; run: apps/install_packages.sh --tidy" >&2
   exit 2
@@ -31,8 +29,6 @@ case ${1:-} in
 esac
 ((${#sources[@]})) || { echo "tests/tidy.sh: nothing has changed"; exit 0; }
 
-# clang reads no header that g++ precompiled: without them, and without the launcher of the compiler.
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-sed -E 's/-Winvalid-pch//g; s/-include [^ "]*cmake_pch\.hxx//g; s/"command": "[^ ]*ccache /"command": "/' "$commands" >"$work/compile_commands.json"
-printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" "$tidy" -p "$work" --quiet 2> >(grep -vE "warnings? generated|^Suppressed|^Use -" >&2)
+cmake --preset dev -B build/tidy -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null 2>&1 ||
+  { echo "tests/tidy.sh: cmake --preset dev fails" >&2; exit 2; }
+printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" "$tidy" -p build/tidy --quiet 2> >(grep -vE "warnings? generated|^Suppressed|^Use -" >&2)

@@ -17,7 +17,7 @@ namespace {
 /// corrected). It requires all rays of a column to have one azimuth, which never holds for a captured scene.
 ComplexGrid plain_loop(const Echoes& echoes, const Case& which, const SonarHead& head) {
   const std::size_t bins = head.gate.bins();
-  const double wavelength = speed_of_sound / head.pulse.centre_frequency;
+  const double lambda = speed_of_sound / head.pulse.centre_frequency;
   ComplexGrid columns = ComplexGrid::Zero(which.beams, bins), beams = columns;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const EchoEnvelope pulse = echo_envelope(head.pulse, medium().absorption, 0.5 * speed_of_sound * echoes.delay[i]);
@@ -28,7 +28,7 @@ ComplexGrid plain_loop(const Echoes& echoes, const Case& which, const SonarHead&
   for (std::size_t b = 0; b < which.beams; ++b)
     for (std::size_t column = 0; column < which.beams; ++column) {
       const double u = echoes.u[column * which.rays];
-      const double weight = array_response(head.array, wavelength, u, std::sin(head.fan.azimuth[b]));
+      const double weight = array_response(head.array, lambda, u, std::sin(head.fan.azimuth[b]));
       for (std::size_t n = 0; n < bins; ++n) beams(b, n) += weight * columns(column, n);
     }
   return beams;

@@ -108,7 +108,7 @@ std::vector<Fact> facts_of(const Cube& cube, std::size_t number) {
           {"Bins", fmt::format("{} of {:.3g} mm", ping.gate.bins(), 1000 * ping.gate.bin_size)},
           {"Sound speed", fmt::format("{:.1f} m/s", cube.sound_speed)},
           {"Absorption", fmt::format("{:.3g} dB/km", 1000 * cube.absorption_db_per_m)},
-          {"Loudest sample", loudest > -200 ? fmt::format("{:.1f} dB re 1 µPa", loudest) : "silence"},
+          {"Loudest sample", loudest > silence_db ? fmt::format("{:.1f} dB re 1 µPa", loudest) : "silence"},
           {"Tolerance", fmt::format("{:g}", cube.tolerance)},
           {"Seed", fmt::format("{}", cube.seed)}};
 }

@@ -9,8 +9,6 @@
 namespace insonify::tool {
 namespace {
 
-constexpr float silence_db = -200;
-
 /// Indices of the pings of the sweep that `ping` is of.
 std::vector<std::size_t> pings_of_sweep(const ImageRun& run, std::size_t ping) {
   const std::vector<Ping>& pings = run.cube.pings;
@@ -91,7 +89,7 @@ LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& o, std::size_
   LevelImage& image = raster.image;
   image.gate.max_range += std::ceil(gone / image.gate.bin_size) * image.gate.bin_size;
   image.level_db.setConstant(static_cast<Eigen::Index>(bearings), static_cast<Eigen::Index>(image.gate.bins()),
-                             silence_db);
+                             static_cast<float>(silence_db));
   image.fan.azimuth.clear();
   for (std::size_t b = 0; b < bearings; ++b)
     image.fan.azimuth.push_back(-pi + (static_cast<double>(b) + 0.5) * raster.width);

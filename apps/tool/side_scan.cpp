@@ -10,14 +10,13 @@
 namespace insonify::tool {
 namespace {
 
-constexpr float silence_db = -200;
-
 /// A history of the pings of `other` with silent samples from `min_range` to `max_range`.
 PingHistory silent_history(const PingHistory& other, double min_range, double max_range) {
   PingHistory history = other;
   history.gate.min_range = min_range;
   history.gate.max_range = max_range;
-  history.level_db.setConstant(other.level_db.rows(), static_cast<Eigen::Index>(history.gate.bins()), silence_db);
+  history.level_db.setConstant(other.level_db.rows(), static_cast<Eigen::Index>(history.gate.bins()),
+                               static_cast<float>(silence_db));
   return history;
 }
 

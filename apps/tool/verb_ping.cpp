@@ -28,7 +28,7 @@ void print_summary(const std::string& output, const ordered_json& manifest) {
              manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
 }
 
-void add_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
+void add_ping_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
 
 void ping(const PingCommand& command) {
   PingOptions o = settled_options(command);
@@ -76,7 +76,7 @@ void ping(const PingCommand& command) {
   if (simulation.outputs.mask) manifest["holes"] = holes_json(result.holes);
   manifest["layers"] = layers_json(result.layers);
   if (!simulation.effects.motion.none()) manifest["motion"] = motion_json(simulation.effects.motion);
-  manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
+  manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);
   manifest["seconds"] = {{"load", load_seconds},
                          {"sampling", result.seconds.sampling},
@@ -103,7 +103,7 @@ Verb ping_verb() {
        "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --noise --set wind.speed_m_s=8 "
        "--profile ctd.csv -o gale",
        "insonify ping --run out/run.toml -o again"},
-      add_options, ping);
+      add_ping_verb_options, ping);
 }
 
 }  // namespace insonify::tool

@@ -11,7 +11,7 @@
 namespace insonify::tool {
 namespace {
 
-void add_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
+void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
 
 void plan(const PingCommand& command) {
   const PingOptions o = settled_options(command);
@@ -33,7 +33,7 @@ Verb plan_verb() {
       "plan", "what a ping would compute and leave out, and what leaving it out costs",
       {"insonify plan reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9",
        "insonify plan harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set surface.height_m=0 --json"},
-      add_options, plan);
+      add_plan_verb_options, plan);
 }
 
 }  // namespace insonify::tool

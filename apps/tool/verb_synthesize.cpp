@@ -70,7 +70,7 @@ void synthesize(const SynthesizeOptions& o) {
     progress.note(note);
     manifest["notes"].push_back(note);
   }
-  manifest["peak_level_db"] = std::max(-200.0, pressure_level_db(pressure.abs().maxCoeff()));
+  manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(pressure.abs().maxCoeff()));
   write_run(directory, common, o.run, setup, ping, settings_of(o), manifest, progress);
   manifest["seconds"] = {{"synthesis", seconds}};
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");

@@ -10,13 +10,13 @@ namespace insonify {
 namespace {
 
 /// One leg of a trajectory, and how far along it a time is.
-struct Leg {
+struct TrajectoryLeg {
   const Pose& from;
   const Pose& to;
   double duration, part;
 };
 
-Leg leg_at(const Trajectory& t, double time, const char* who) {
+TrajectoryLeg leg_at(const Trajectory& t, double time, const char* who) {
   require_valid(t, who);
   if (!(time >= t.time.front() && time <= t.time.back()))
     fail(ErrorKind::argument, who, ": time = ", time, " s, must be within the trajectory's ", t.time.front(), " and ",
@@ -91,7 +91,7 @@ void require_valid(const Trajectory& t, const char* who) {
 }
 
 Pose pose_at(const Trajectory& trajectory, double time) {
-  const Leg leg = leg_at(trajectory, time, "pose_at");
+  const TrajectoryLeg leg = leg_at(trajectory, time, "pose_at");
   const Eigen::Quaterniond from(leg.from.linear()), to(leg.to.linear());
   Pose pose = Pose::Identity();
   pose.translation() = leg.from.translation() + leg.part * (leg.to.translation() - leg.from.translation());
@@ -100,7 +100,7 @@ Pose pose_at(const Trajectory& trajectory, double time) {
 }
 
 Motion motion_at(const Trajectory& trajectory, double time) {
-  const Leg leg = leg_at(trajectory, time, "motion_at");
+  const TrajectoryLeg leg = leg_at(trajectory, time, "motion_at");
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(leg.to.linear() * leg.from.linear().transpose()));
   return {(leg.to.translation() - leg.from.translation()) / leg.duration, turn.axis() * (turn.angle() / leg.duration)};
 }

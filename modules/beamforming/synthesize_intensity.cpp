@@ -17,7 +17,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t echoes_at_once = 256;
+constexpr std::size_t intensities_at_once = 256;
 
 /// Input of the synthesis of a line-array image.
 struct LineInput {
@@ -75,8 +75,8 @@ Grid<double> sum_directly(const LineInput& image, int power, int threads) {
   const EchoShapes shapes(head.pulse, medium);
   const TimeAxis axis(head.gate, medium.sound_speed);
   Grid<double> sum = Grid<double>::Zero(head.fan.beams(), axis.bins);
-  for (std::size_t first = 0; first < echoes.size(); first += echoes_at_once) {
-    const std::size_t count = std::min(echoes_at_once, echoes.size() - first);
+  for (std::size_t first = 0; first < echoes.size(); first += intensities_at_once) {
+    const std::size_t count = std::min(intensities_at_once, echoes.size() - first);
     std::vector<PulsePower> pulses(count);
     parallel_for(count, threads, [&](std::size_t k) {
       const double delay = echoes.delay[first + k];

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t batch = 256;  // echoes handed to the kernel at once
+constexpr std::size_t kernel_batch = 256;  // echoes handed to the kernel at once
 using kernels::lines_at_once;
 
 kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
@@ -81,13 +81,13 @@ void WidebandRoom::grid_echoes(const Echoes& echoes, List list) {
 
 void WidebandRoom::grid_alike(const Echoes& echoes, List list) {
   const WidebandPlan& plan = plan_;
-  std::array<std::uint32_t, batch> row, column;
-  std::array<float, batch> row_offset, column_offset, re, im;
+  std::array<std::uint32_t, kernel_batch> row, column;
+  std::array<float, kernel_batch> row_offset, column_offset, re, im;
   const kernels::GridTargets<float> targets{row.data(),           column.data(), row_offset.data(),
                                             column_offset.data(), re.data(),     im.data()};
   const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  for (; !list.empty(); list = list.subspan(std::min(batch, list.size()))) {
-    const std::size_t count = std::min(batch, list.size());
+  for (; !list.empty(); list = list.subspan(std::min(kernel_batch, list.size()))) {
+    const std::size_t count = std::min(kernel_batch, list.size());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = list[k];
       const double delay = echoes.delay[i];

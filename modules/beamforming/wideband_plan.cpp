@@ -13,7 +13,7 @@ namespace {
 using kernels::lines_at_once;
 
 /// The smallest power of 2, or small odd number times one, from `least` on: FFTW's fastest lengths.
-std::size_t fast_length(std::size_t least) {
+std::size_t fast_grid_length(std::size_t least) {
   std::size_t best = std::bit_ceil(std::max<std::size_t>(least, 16));
   for (const std::size_t odd : {3, 5, 9, 15})
     best = std::min(best, odd * std::bit_ceil(std::max<std::size_t>((least + odd - 1) / odd, 8)));
@@ -93,10 +93,11 @@ WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, co
 
 void WidebandPlan::plan_time(std::size_t block_bins) {
   guard = wideband_guard(head, medium, tolerance, widest);
-  cycle = fast_length(block_bins + 2 * guard);
+  cycle = fast_grid_length(block_bins + 2 * guard);
   block = cycle - 2 * guard;
   half_band = band_of(head.pulse, tolerance);
-  fine = fast_length(static_cast<std::size_t>(std::ceil(2 * half_band * static_cast<double>(cycle) * axis.step)) + 2);
+  fine =
+      fast_grid_length(static_cast<std::size_t>(std::ceil(2 * half_band * static_cast<double>(cycle) * axis.step)) + 2);
   fine_step = static_cast<double>(cycle) * axis.step / static_cast<double>(fine);
   fine_row = fine + 8;
   reach = longest_reach(head, medium, tolerance);
@@ -116,7 +117,7 @@ void WidebandPlan::plan_directions() {
   const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
   const auto half_width = 0.5 * static_cast<double>(kernel.width());
   most = static_cast<std::size_t>(std::ceil(wavelengths * period + half_width)) + 1;
-  grid = fast_length(std::max<std::size_t>(
+  grid = fast_grid_length(std::max<std::size_t>(
       64, static_cast<std::size_t>(std::ceil(oversampling_for(tolerance) * static_cast<double>(rows())))));
   grid_stride = grid + 16;
   columns = pieces_of(kernel);

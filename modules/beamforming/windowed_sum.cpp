@@ -12,8 +12,8 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t beams_at_once = 8;       // beams per thread that share the cached phasors
-constexpr std::size_t max_numbers = 0x400000;  // phasors, or samples, in memory
+constexpr std::size_t beams_at_once = 8;             // beams per thread that share the cached phasors
+constexpr std::size_t numbers_in_memory = 0x400000;  // phasors, or samples, in memory
 
 /// Writes cosine and sine of (first + p) step for p < pairs, `stride` apart, by rotation; evaluated anew every 16
 /// steps.
@@ -139,7 +139,7 @@ std::size_t WindowedSum::echoes_at_once() const {
   const PulseReach reach(head_.pulse, medium_.absorption, medium_.sound_speed, true, cut_);
   const double samples = std::min(2 * reach.half / axis_.step + 1, static_cast<double>(axis_.bins));
   const auto numbers = std::max(terms_.size(), 2 * static_cast<std::size_t>(samples));
-  return std::max<std::size_t>(max_numbers / numbers / block, 1) * block;
+  return std::max<std::size_t>(numbers_in_memory / numbers / block, 1) * block;
 }
 
 }  // namespace insonify

@@ -9,6 +9,6 @@ Grid<float> mean_over_bins(const Grid<double>& intensity, int bins);
 
 /// Returns the level that a display shows of every sample, beams x bins [dB re 1 uPa rms]: that of Ping::intensity, or
 /// level_db of a ping without looks; at least `floor_db`.
-Grid<float> shown_level_db(const Ping& ping, double floor_db = -200);
+Grid<float> shown_level_db(const Ping& ping, double floor_db = silence_db);
 
 }  // namespace insonify

@@ -44,13 +44,16 @@ struct Ping {
 /// exceeds 3.4e38 Pa or is not a number.
 ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who);
 
+/// The level that stands for no sound [dB re 1 uPa rms].
+inline constexpr double silence_db = -200;
+
 /// Returns the level of every sample, beams x bins [dB re 1 uPa rms] (E6); samples below `floor_db` (and zeros) give
 /// floor_db.
-Grid<float> level_db(const Ping& ping, double floor_db = -200);
+Grid<float> level_db(const Ping& ping, double floor_db = silence_db);
 
 /// Returns level_db compensated for spreading and absorption (time-varied gain, E20): + 40 log10(r) + 2 alpha r, re 1
 /// m. For display; the ping itself stays linear.
-Grid<float> range_compensated_level_db(const Ping& ping, double absorption_db_per_m, double floor_db = -200);
+Grid<float> range_compensated_level_db(const Ping& ping, double absorption_db_per_m, double floor_db = silence_db);
 
 /// Returns the level of the mean intensity [dB re 1 uPa] over all beams and bins within [min_range, max_range] [m];
 /// -inf if there are none.

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "core/grid.hpp"
+#include "returns/ping.hpp"
 #include "sampling/range_gate.hpp"
 
 namespace insonify {
@@ -19,7 +20,7 @@ double gain_db(const Tvg& tvg, double range);
 /// Returns levels with a TVG applied, beams x bins; levels at or below `floor_db` are unchanged. With spreading 40
 /// equal to range_compensated_level_db. The ping itself stays linear. Throws Error(argument) if the number of bins is
 /// not that of the gate, or the TVG is not finite.
-Grid<float> apply_tvg(Grid<float> level_db, const RangeGate& gate, const Tvg& tvg, double floor_db = -200);
+Grid<float> apply_tvg(Grid<float> level_db, const RangeGate& gate, const Tvg& tvg, double floor_db = silence_db);
 
 /// Range of levels of a display, from black to white.
 struct GreyWindow {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t block = 8192;
+constexpr std::size_t directions_at_once = 8192;
 constexpr float cells_per_footprint = 2;                   // along one side of a typical bounding box
 constexpr float most_cells_per_surfel = 64;                // upper limit of the average
 constexpr float slack_factor = 1.001f, box_slack = 4e-6f;  // boxes slightly wider than footprints, for rounding
@@ -81,9 +81,9 @@ DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::s
   bound_faces(queries, threads);
   size_cells(surfels, queries, footprint);
 
-  std::vector<std::vector<Box>> boxes((surfels.size() + block - 1) / block);
-  parallel_blocks(surfels.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Box>& part = boxes[begin / block];
+  std::vector<std::vector<Box>> boxes((surfels.size() + directions_at_once - 1) / directions_at_once);
+  parallel_blocks(surfels.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Box>& part = boxes[begin / directions_at_once];
     part.reserve(end - begin);
     for (std::size_t s = begin; s < end; ++s) add_boxes(surfels[s], static_cast<std::uint32_t>(s), footprint, part);
   });
@@ -94,9 +94,10 @@ DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::s
 
 // Bounds the queries on each face.
 void DirectionRaster::bound_faces(std::span<const CubePoint> queries, int threads) {
-  std::vector<std::array<Face, 6>> parts((queries.size() + block - 1) / block);
-  parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    for (const CubePoint& q : queries.subspan(begin, end - begin)) parts[begin / block][q.face].include(q.x, q.y);
+  std::vector<std::array<Face, 6>> parts((queries.size() + directions_at_once - 1) / directions_at_once);
+  parallel_blocks(queries.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
+    for (const CubePoint& q : queries.subspan(begin, end - begin))
+      parts[begin / directions_at_once][q.face].include(q.x, q.y);
   });
   for (const auto& part : parts)
     for (std::size_t f = 0; f < faces_.size(); ++f)
@@ -203,18 +204,19 @@ void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threa
     return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
   };
   std::vector<std::uint32_t> tile(queries.size());
-  std::vector<std::vector<std::size_t>> next((queries.size() + block - 1) / block,
+  std::vector<std::vector<std::size_t>> next((queries.size() + directions_at_once - 1) / directions_at_once,
                                              std::vector<std::size_t>(tiles_.size(), 0));
-  parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(queries.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       tile[q] = static_cast<std::uint32_t>(tile_of(queries[q]));
-      ++next[begin / block][tile[q]];
+      ++next[begin / directions_at_once][tile[q]];
     }
   });
   first_query_ = starts_of(next, tiles_.size());
   queries_.resize(queries.size());
-  parallel_blocks(queries.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) queries_[next[begin / block][tile[q]]++] = static_cast<std::uint32_t>(q);
+  parallel_blocks(queries.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q)
+      queries_[next[begin / directions_at_once][tile[q]]++] = static_cast<std::uint32_t>(q);
   });
 }
 

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t max_parts = 4096;
 constexpr double min_range = 1e-6;  // lower bound of range and horizontal distance [m]
-constexpr std::size_t block = 512;
+constexpr std::size_t surfels_at_once = 512;
 constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
@@ -184,7 +184,7 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
   const Splitter splitter{scene, head, options};
   PartCounts counts{std::vector<std::size_t>(surfels.size() + 1, 0)};
   std::atomic<std::size_t> capped{0};
-  parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(surfels.size(), surfels_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     std::size_t capped_here = 0;
     for (std::size_t s = begin; s < end; ++s) {
       const double wanted = splitter.wanted(surfels[s]);
@@ -208,7 +208,7 @@ Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::sp
   Scatterers scatterers;
   const Splitter splitter{scene, head, options};
   resize(scatterers, first.back() - first.front(), options.threads);
-  parallel_blocks(surfels.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(surfels.size(), surfels_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
       splitter.write(scatterers, first[s] - first[0], first[s + 1] - first[s], surfels[s]);
   });

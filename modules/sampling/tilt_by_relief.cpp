@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t scatterers_at_once = 1024;
 constexpr double edge_on = 1e-9;  // surfaces with a smaller cosine of incidence are edge-on and invisible
 
 struct Tilter {
@@ -39,7 +39,7 @@ struct Tilter {
 void tilt_by_relief(const SceneCloud& scene, const Pose& world_from_head, const ReliefField& relief, int threads,
                     Scatterers& scatterers) {
   const Tilter tilter{scene, world_from_head, relief};
-  parallel_blocks(scatterers.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(scatterers.size(), scatterers_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (scene.materials[scatterers.material[i]].relief_slope > 0) tilter.tilt(scatterers, i);
   });

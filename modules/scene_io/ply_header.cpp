@@ -52,7 +52,7 @@ void read_header_line(PlyHeader& header, const std::string& line) {
   }
 }
 
-PlyHeader read_header(const std::string& path) {
+PlyHeader read_ply_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   PlyHeader header;
   header.path = path;
@@ -108,7 +108,7 @@ const PlyElement& PlyHeader::vertex() const {
 }
 
 PlyHeader probe_ply(const std::string& path) {
-  PlyHeader header = read_header(path);
+  PlyHeader header = read_ply_header(path);
   if (header.encoding.empty())
     fail(ErrorKind::content, path, ": the PLY header has no 'format' line; export the file again");
   if (header.vertex().has_list())

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
 
 /// Evenly spaced values along one axis of a grid.
 struct GridAxis {
@@ -46,16 +46,16 @@ std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vecto
   if (points.size() < 3) return {};
   const GridAxis x = grid_axis(points, 0), y = grid_axis(points, 1);
   if (x.nodes < 2 || y.nodes < 2 || x.nodes > 16 * points.size() / y.nodes) return {};
-  std::vector<std::uint32_t> at(x.nodes * y.nodes, none);
+  std::vector<std::uint32_t> at(x.nodes * y.nodes, no_node);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::uint32_t& node = at[y.node(points[i].y()) * x.nodes + x.node(points[i].x())];
-    if (node != none) return {};
+    if (node != no_node) return {};
     node = i;
   }
 
   std::vector<std::array<std::uint32_t, 3>> triangles;
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (a != none && b != none && c != none) triangles.push_back({a, b, c});
+    if (a != no_node && b != no_node && c != no_node) triangles.push_back({a, b, c});
   };
   for (std::size_t row = 0; row + 1 < y.nodes; ++row)
     for (std::size_t column = 0; column + 1 < x.nodes; ++column) {
@@ -63,8 +63,8 @@ std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vecto
       const std::uint32_t *low = &at[row * x.nodes + column], *high = low + x.nodes;
       const std::uint32_t a = low[0], b = low[1], c = high[1], d = high[0];
       const auto length = [&](std::uint32_t i, std::uint32_t j) { return (points[i] - points[j]).squaredNorm(); };
-      const bool whole = a != none && b != none && c != none && d != none;
-      if (a == none || c == none || (whole && length(b, d) < length(a, c))) {
+      const bool whole = a != no_node && b != no_node && c != no_node && d != no_node;
+      if (a == no_node || c == no_node || (whole && length(b, d) < length(a, c))) {
         add(a, b, d);
         add(b, c, d);
       } else {

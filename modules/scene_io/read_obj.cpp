@@ -10,7 +10,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::int64_t none = -1;
+constexpr std::int64_t no_index = -1;
 
 struct Obj {
   std::string path;
@@ -44,7 +44,7 @@ std::array<std::int64_t, 2> read_corner(const Obj& obj, std::string_view word, s
   if (!to_number(word.substr(0, first), position) || (has_normal && !to_number(word.substr(second + 1), normal)))
     fail(ErrorKind::content, obj.path, ":", line, ": expected a corner such as 7 or 7/1/7, found '", shown(word),
          "'; correct the line, or export the file again if it is cut off");
-  return {resolve(position, obj.positions.size() / 3), has_normal ? resolve(normal, obj.normals.size() / 3) : none};
+  return {resolve(position, obj.positions.size() / 3), has_normal ? resolve(normal, obj.normals.size() / 3) : no_index};
 }
 
 Obj parse(const std::string& path, const std::string& text) {
@@ -72,13 +72,13 @@ struct ObjCorners {
 
   std::int64_t vertex_of(const Obj& obj, const std::array<std::int64_t, 2>& corner) {
     const std::size_t normals = obj.normals.size() / 3;
-    const std::int64_t n = corner[1] >= 0 && corner[1] < static_cast<std::int64_t>(normals) ? corner[1] : none;
-    if (corner[0] < 0 || corner[0] >= static_cast<std::int64_t>(obj.positions.size() / 3)) return none;
+    const std::int64_t n = corner[1] >= 0 && corner[1] < static_cast<std::int64_t>(normals) ? corner[1] : no_index;
+    if (corner[0] < 0 || corner[0] >= static_cast<std::int64_t>(obj.positions.size() / 3)) return no_index;
     const std::uint64_t key = static_cast<std::uint64_t>(corner[0]) << 32 | static_cast<std::uint32_t>(n);
     const auto [entry, is_new] = known.try_emplace(key, static_cast<std::int64_t>(rows.size() / 6));
     if (is_new) {
       for (int axis = 0; axis < 3; ++axis) rows.push_back(obj.positions[3 * corner[0] + axis]);
-      for (int axis = 0; axis < 3; ++axis) rows.push_back(n == none ? 0.0 : obj.normals[3 * n + axis]);
+      for (int axis = 0; axis < 3; ++axis) rows.push_back(n == no_index ? 0.0 : obj.normals[3 * n + axis]);
     }
     return entry->second;
   }

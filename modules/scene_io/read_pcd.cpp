@@ -95,7 +95,7 @@ void check_header(const Header& header) {
     bad_header(header, "DATA " + header.data, "DATA ascii, binary or binary_compressed");
 }
 
-Header read_header(const std::string& path) {
+Header read_pcd_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   Header header;
   header.path = path;
@@ -199,7 +199,7 @@ std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
 }  // namespace
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
-  const Header header = read_header(path);
+  const Header header = read_pcd_header(path);
   check_data(header);
   RawCloud raw;
   raw.path = path;
@@ -212,7 +212,7 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
 }
 
 std::optional<RowFile> find_pcd_rows(const std::string& path) {
-  const Header header = read_header(path);
+  const Header header = read_pcd_header(path);
   if (header.data != "binary") return std::nullopt;
   check_data(header);
   RowFile file{path,       "PCD binary", {},          header.points,       header.stride(),

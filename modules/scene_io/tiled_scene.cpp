@@ -20,7 +20,7 @@ constexpr double origin_step = 256;  // [m]
 Vector3d vector_of(const double (&xyz)[3]) { return {xyz[0], xyz[1], xyz[2]}; }
 
 /// Reads the header and checks it against the file.
-TileHeader read_header(const BinaryFile& file) {
+TileHeader read_tile_header(const BinaryFile& file) {
   const std::string& path = file.path();
   TileHeader header{};
   const std::uint64_t held = file.size();
@@ -118,7 +118,7 @@ struct TiledScene::State {
   std::vector<TileEntry> tiles;
 
   explicit State(const std::string& path) : file(path, BinaryFile::Mode::read) {
-    const TileHeader header = read_header(file);
+    const TileHeader header = read_tile_header(file);
     info = info_of(header, path);
     wide = (header.flags & flag_wide) != 0;
     const auto damaged = [&](const char* what) {

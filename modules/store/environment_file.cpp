@@ -16,21 +16,22 @@ namespace insonify {
 namespace {
 
 /// A numeric key of the file, with setter and getter; the getter returns nothing if the part is absent.
-struct NumberKey {
+struct EnvironmentNumber {
   const char* section;
   const char* key;
   std::function<void(Environment&, double)> set;
   std::function<std::optional<double>(const Environment&)> get;
 };
 
-NumberKey water_key(const char* key, double Water::*field) {
+EnvironmentNumber water_key(const char* key, double Water::*field) {
   return {"water", key, [field](Environment& e, double x) { e.water.*field = x; },
           [field](const Environment& e) { return e.water.*field; }};
 }
 
 /// A number of an optional part of the environment; setting it makes the part present.
 template <typename Part, typename Field>
-NumberKey part_key(const char* section, const char* key, std::optional<Part> Environment::*part, Field Part::*field) {
+EnvironmentNumber part_key(const char* section, const char* key, std::optional<Part> Environment::*part,
+                           Field Part::*field) {
   return {section, key,
           [=](Environment& e, double x) {
             if (!(e.*part)) e.*part = Part{};
@@ -42,14 +43,14 @@ NumberKey part_key(const char* section, const char* key, std::optional<Part> Env
           }};
 }
 
-NumberKey plain_key(const char* section, const char* key, std::optional<double> Environment::*field) {
+EnvironmentNumber plain_key(const char* section, const char* key, std::optional<double> Environment::*field) {
   return {section, key, [field](Environment& e, double x) { e.*field = x; },
           [field](const Environment& e) { return e.*field; }};
 }
 
 /// The Lambert coefficient is stored in files as 10 log10.
-NumberKey bottom_mu_key() {
-  NumberKey mu = part_key("bottom", "lambert_mu_db", &Environment::bottom, &FlatBottom::lambert_mu);
+EnvironmentNumber bottom_mu_key() {
+  EnvironmentNumber mu = part_key("bottom", "lambert_mu_db", &Environment::bottom, &FlatBottom::lambert_mu);
   mu.set = [set = mu.set](Environment& e, double x) { set(e, power_from_db(x)); };
   mu.get = [get = mu.get](const Environment& e) {
     const auto value = get(e);
@@ -58,9 +59,9 @@ NumberKey bottom_mu_key() {
   return mu;
 }
 
-const std::vector<NumberKey>& number_keys() {
+const std::vector<EnvironmentNumber>& environment_numbers() {
   using E = Environment;
-  static const std::vector<NumberKey> keys = {
+  static const std::vector<EnvironmentNumber> keys = {
       water_key("temperature_c", &Water::temperature_c),
       water_key("salinity_psu", &Water::salinity_psu),
       water_key("depth_m", &Water::depth),
@@ -119,7 +120,7 @@ void require_known(const std::string& name) {
 }
 
 void set_number(Environment& e, const std::string& section, const std::string& key, double value) {
-  for (const NumberKey& candidate : number_keys())
+  for (const EnvironmentNumber& candidate : environment_numbers())
     if (section == candidate.section && key == candidate.key) candidate.set(e, value);
 }
 
@@ -219,7 +220,7 @@ void set_environment_value(Environment& e, const std::string& section, const std
 
 std::string environment_as_toml(const Environment& e) {
   std::string text, section;
-  for (const NumberKey& key : number_keys()) {
+  for (const EnvironmentNumber& key : environment_numbers()) {
     const auto value = key.get(e);
     if (!value) continue;
     if (section != key.section) text += (text.empty() ? "[" : "\n[") + (section = key.section) + "]\n";
@@ -236,7 +237,7 @@ std::string environment_as_toml(const Environment& e) {
 
 std::vector<std::string> environment_key_names() {
   std::vector<std::string> names;
-  for (const NumberKey& key : number_keys()) {
+  for (const EnvironmentNumber& key : environment_numbers()) {
     names.push_back(std::string(key.section) + "." + key.key);
     if (names.back() == "water.latitude_deg")
       names.insert(names.end(), {"water.sound_speed_formula", "water.absorption_formula"});

@@ -22,10 +22,9 @@ bool is_status(const std::string& status) {
 }
 
 SonarValue value_of(const std::string& path, const std::string& key, const TomlValue& value) {
-  using Kind = TomlValue::Kind;
   if (value.is_number()) return value.number;
-  if (value.kind == Kind::text) return value.text;
-  if (value.kind == Kind::array) {
+  if (value.kind == TomlValue::Kind::text) return value.text;
+  if (value.kind == TomlValue::Kind::array) {
     std::vector<double> list;
     for (const TomlValue& item : value.items) {
       if (!item.is_number()) fail_in_file(path, item.line, key, " must be a list of numbers");

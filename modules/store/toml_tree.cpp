@@ -13,7 +13,6 @@ namespace {
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
 TomlValue copied(const toml::node& node) {
-  using Kind = TomlValue::Kind;
   TomlValue value;
   value.line = line_of(node);
   if (const toml::table* table = node.as_table()) {
@@ -22,22 +21,22 @@ TomlValue copied(const toml::node& node) {
       value.items.push_back(copied(child));
     }
   } else if (const toml::array* array = node.as_array()) {
-    value.kind = Kind::array;
+    value.kind = TomlValue::Kind::array;
     for (const toml::node& child : *array) value.items.push_back(copied(child));
   } else if (const auto* text = node.as_string()) {
-    value.kind = Kind::text;
+    value.kind = TomlValue::Kind::text;
     value.text = text->get();
   } else if (const auto* number = node.as_floating_point()) {
-    value.kind = Kind::number;
+    value.kind = TomlValue::Kind::number;
     value.number = number->get();
   } else if (const auto* integer = node.as_integer()) {
-    value.kind = Kind::integer;
+    value.kind = TomlValue::Kind::integer;
     value.number = static_cast<double>(integer->get());
   } else if (const auto* boolean = node.as_boolean()) {
-    value.kind = Kind::boolean;
+    value.kind = TomlValue::Kind::boolean;
     value.number = boolean->get() ? 1 : 0;
   } else {
-    value.kind = Kind::date;
+    value.kind = TomlValue::Kind::date;
   }
   return value;
 }

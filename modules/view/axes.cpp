@@ -8,7 +8,7 @@ namespace insonify {
 namespace {
 
 // In font sizes: length of a tick, distance from the frame to its label and from the label to the title.
-constexpr double tick = 0.4, to_label = 0.6, to_title = 0.25;
+constexpr double picture_tick = 0.4, to_label = 0.6, to_title = 0.25;
 
 double line_height(int font_size) { return text_size("0", font_size).height; }
 
@@ -127,7 +127,7 @@ void add_axis_across(Axes& axes, const AxisTicks& ticks, const std::string& titl
   const double line = line_height(font_size), labels_top = frame.bottom - to_label * font_size;
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     const double x = axes.at(ticks.at[i], 0).x;
-    axes.ticks.push_back({{x, frame.bottom - tick * font_size}, {x, frame.bottom}});
+    axes.ticks.push_back({{x, frame.bottom - picture_tick * font_size}, {x, frame.bottom}});
     axes.grid.push_back({{x, frame.bottom}, {x, frame.top}});
     axes.texts.push_back({ticks.labels[i], {x, labels_top - line / 2}, font_size});
   }
@@ -142,7 +142,7 @@ void add_axis_upwards(Axes& axes, const AxisTicks& ticks, const std::string& tit
   const double line = line_height(font_size), labels_right = frame.left - to_label * font_size;
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     const double y = axes.at(0, ticks.at[i]).y, width = text_size(ticks.labels[i], font_size).width;
-    axes.ticks.push_back({{frame.left - tick * font_size, y}, {frame.left, y}});
+    axes.ticks.push_back({{frame.left - picture_tick * font_size, y}, {frame.left, y}});
     axes.grid.push_back({{frame.left, y}, {frame.right, y}});
     axes.texts.push_back({ticks.labels[i], {labels_right - width / 2, y}, font_size});
   }

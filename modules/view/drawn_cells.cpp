@@ -12,8 +12,8 @@
 namespace insonify {
 namespace {
 
-constexpr int min_pixels = 240,
-              max_pixels = 8192;  // smaller pictures have no room for labels; larger ones exceed GL's frame buffers
+constexpr int least_pixels = 240,
+              most_pixels = 8192;  // smaller pictures have no room for labels; larger ones exceed GL's frame buffers
 constexpr std::size_t max_rows = 8192;  // of a patch: GL guarantees no larger textures
 constexpr double same_bearing = 1e-9;   // [rad]
 
@@ -128,9 +128,9 @@ double cell_reach(const BeamFan& fan, const std::vector<double>& ascending_beari
 
 void require_picture_size(const PictureOptions& options, const char* who) {
   for (const int pixels : {options.width, options.height})
-    if (pixels < min_pixels || pixels > max_pixels)
+    if (pixels < least_pixels || pixels > most_pixels)
       fail(ErrorKind::argument, who, ": options.width x height = ", options.width, " x ", options.height,
-           " pixels, must be ", min_pixels, " to ", max_pixels, " either way");
+           " pixels, must be ", least_pixels, " to ", most_pixels, " either way");
 }
 
 void require_drawable(const LevelImage& image, const PictureOptions& options, const char* who) {

@@ -65,7 +65,6 @@ Path leader(Point2 from, const Box& box, double radius) {
   return {{from.x + (to.x - from.x) * radius / length, from.y + (to.y - from.y) * radius / length}, to};
 }
 
-constexpr const char* who = "strongest_maxima";
 constexpr double least_distance = 0.05;  // between marks, as a fraction of the outer range
 
 struct Maximum {
@@ -153,8 +152,8 @@ void draw_marks(Canvas& canvas, const std::vector<Mark>& marks, MarkRoom room) {
 }
 
 std::vector<Mark> strongest_maxima(const LevelImage& image, std::size_t count, double within_db) {
-  require_drawable(image, {}, who);
-  require(within_db > 0, who, "within_db", within_db, "dB", "> 0");
+  require_drawable(image, {}, "strongest_maxima");
+  require(within_db > 0, "strongest_maxima", "within_db", within_db, "dB", "> 0");
   const BeamCells cells = order_beams(image);
   const double apart = least_distance * image.gate.max_range;
   std::vector<Mark> marks;

@@ -123,15 +123,14 @@ void save_row(const std::string& path, const BeamFan& fan, const RangeGate& gate
   write_xml(*writer, grid, path, "save_fan_grid");
 }
 
-constexpr const char* who = "save_lines";
-
 void require_valid(const LineSet& lines) {
   for (std::size_t i = 0; i < lines.points.size(); ++i)
     if (lines.points[i].size() < 2)
-      fail(ErrorKind::argument, who, ": line ", i, " has ", lines.points[i].size(), " points, must have at least 2");
+      fail(ErrorKind::argument, "save_lines", ": line ", i, " has ", lines.points[i].size(),
+           " points, must have at least 2");
   for (const LineSet::Field& field : lines.fields)
     if (field.values.size() != lines.points.size())
-      fail(ErrorKind::argument, who, ": field '", field.name, "' has ", field.values.size(),
+      fail(ErrorKind::argument, "save_lines", ": field '", field.name, "' has ", field.values.size(),
            " values, must have one per line (", lines.points.size(), ")");
 }
 
@@ -233,7 +232,7 @@ void save_lines(const std::string& path, const LineSet& lines) {
     data->GetCellData()->AddArray(cell_array(field.name, field.values.data(), field.values.size()));
   if (!lines.fields.empty()) data->GetCellData()->SetActiveScalars(lines.fields.front().name.c_str());
   vtkNew<vtkXMLPolyDataWriter> writer;
-  write_xml(*writer, data, path, who);
+  write_xml(*writer, data, path, "save_lines");
 }
 
 }  // namespace insonify

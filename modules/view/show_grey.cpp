@@ -16,7 +16,7 @@
 namespace insonify {
 namespace {
 
-constexpr const char* who = "show_grey";
+constexpr const char* show_grey_name = "show_grey";
 
 // The beams from port to starboard.
 std::vector<Eigen::Index> columns_of(const BeamFan& fan) {
@@ -41,7 +41,7 @@ void write_png(const Grid<Grey>& grey, const std::vector<Eigen::Index>& columns,
 
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
-  write_png(writer, path, messages, who);
+  write_png(writer, path, messages, show_grey_name);
 }
 
 // Rows from the farthest bin down; sixteen bits with the high byte first.
@@ -61,15 +61,15 @@ void write_pgm(const Grid<Grey>& grey, const std::vector<Eigen::Index>& columns,
 template <typename Grey>
 void write_grey(const Grid<Grey>& grey, const BeamFan& fan, const std::string& path) {
   if (grey.size() == 0 || static_cast<std::size_t>(grey.rows()) != fan.beams())
-    fail(ErrorKind::argument, who, ": picture of ", grey.rows(), " beams x ", grey.cols(), " bins for a fan of ",
-         fan.beams(), " beams, must have as many and one bin at least");
+    fail(ErrorKind::argument, show_grey_name, ": picture of ", grey.rows(), " beams x ", grey.cols(),
+         " bins for a fan of ", fan.beams(), " beams, must have as many and one bin at least");
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (ending == ".png")
     write_png(grey, columns_of(fan), path);
   else if (ending == ".pgm")
     write_pgm(grey, columns_of(fan), path);
   else
-    fail(ErrorKind::argument, who, ": ", path, " must end with .png or .pgm");
+    fail(ErrorKind::argument, show_grey_name, ": ", path, " must end with .png or .pgm");
 }
 
 }  // namespace

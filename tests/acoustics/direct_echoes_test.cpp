@@ -1,12 +1,12 @@
 #include "acoustics/direct_echoes.hpp"
 
 #include "acoustics/scattering.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace {
 
-const Pulse pulse{900e3, 29.5e3, 220};
-const Medium medium{1500, {0.0345, 0, 0}};
+const Medium absorbing_medium{1500, {0.0345, 0, 0}};
 
 Scatterers one_scatterer(double range, double azimuth = 0, double elevation = 0, std::uint64_t id = 1) {
   Scatterers s;
@@ -23,7 +23,7 @@ Scatterers one_scatterer(double range, double azimuth = 0, double elevation = 0,
 
 std::complex<double> echo_of(const Scatterers& s, const EchoOptions& options) {
   const std::vector<Material> materials{{"m", 0.1}};
-  return direct_echoes(s, materials, pulse, medium, options).amplitude[0];
+  return direct_echoes(s, materials, pulse_900k, absorbing_medium, options).amplitude[0];
 }
 
 const EchoOptions coherent{.amplitude = SurfaceAmplitude::coherent};
@@ -39,7 +39,7 @@ TEST(LambertCrossSection, has_one_cosine_per_projected_area) {
 
 TEST(DirectEchoes, gives_the_sonar_equation_before_absorption) {
   const double sigma = 0.1 * 0.5 * 0.01;
-  const double expected = pulse.source_level_db - 40 * std::log10(7.0) + db_from_power(sigma);
+  const double expected = pulse_900k.source_level_db - 40 * std::log10(7.0) + db_from_power(sigma);
   EXPECT_NEAR(pressure_level_db(std::abs(echo_of(one_scatterer(7), coherent))), expected, 1e-6);
 }
 
@@ -51,7 +51,7 @@ TEST(DirectEchoes, loses_40_log_of_the_range_ratio) {
 
 // A quarter wavelength of range is half a cycle of two-way phase: the sign changes.
 TEST(DirectEchoes, keeps_the_two_way_phase) {
-  const double wavelength = medium.sound_speed / pulse.centre_frequency;
+  const double wavelength = absorbing_medium.sound_speed / pulse_900k.centre_frequency;
   const auto a = echo_of(one_scatterer(600 * wavelength), coherent);
   const auto b = echo_of(one_scatterer(600.25 * wavelength), coherent);
   EXPECT_NEAR(std::arg(a), 0, 1e-9);
@@ -64,7 +64,7 @@ TEST(DirectEchoes, keeps_the_two_way_phase) {
 
 TEST(DirectEchoes, gives_delay_and_direction_cosine) {
   const std::vector<Material> materials{{"m", 0.1}};
-  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse, medium, coherent);
+  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse_900k, absorbing_medium, coherent);
   EXPECT_DOUBLE_EQ(e.delay[0], 0.01);
   EXPECT_DOUBLE_EQ(e.u[0], std::cos(-0.2) * std::sin(0.3));
 }
@@ -91,7 +91,7 @@ TEST(DirectEchoes, applies_the_transmit_pattern_in_azimuth) {
 
 TEST(DirectEchoes, gives_the_direction_cosine_upwards) {
   const std::vector<Material> materials{{"m", 0.1}};
-  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse, medium, coherent);
+  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse_900k, absorbing_medium, coherent);
   EXPECT_DOUBLE_EQ(e.v[0], std::sin(-0.2));
 }
 
@@ -112,7 +112,8 @@ TEST(DirectEchoes, coherent_fraction_mixes_1_and_the_random_amplitude_at_mean_po
   const auto xi = [](double fraction, SurfaceAmplitude law) {
     const std::vector<Material> materials{{"m", 0.1, fraction, 0}};
     EchoOptions options{.amplitude = law};
-    const auto echo = direct_echoes(one_scatterer(7, 0, 0, 5), materials, pulse, medium, options).amplitude[0];
+    const auto echo =
+        direct_echoes(one_scatterer(7, 0, 0, 5), materials, pulse_900k, absorbing_medium, options).amplitude[0];
     return echo / echo_of(one_scatterer(7), coherent);
   };
   for (const SurfaceAmplitude law : {SurfaceAmplitude::complex_normal, SurfaceAmplitude::random_phase}) {
@@ -129,16 +130,16 @@ TEST(DirectEchoes, coherent_fraction_must_be_a_fraction) {
     const std::vector<Material> materials{{"mud", 0.1, fraction, 0}};
     expect_error(ErrorKind::argument,
                  {"direct_echoes: coherent_fraction of material 'mud' = ", ", must be within 0 and 1"},
-                 [&] { direct_echoes(one_scatterer(7), materials, pulse, medium, coherent); });
+                 [&] { direct_echoes(one_scatterer(7), materials, pulse_900k, absorbing_medium, coherent); });
   }
 }
 
 TEST(DirectEchoes, gives_each_scatterer_the_mu_of_its_own_material) {
   const std::vector<Material> materials{{"loud", 0.1}, {"soft", 0.025}};
   Scatterers s = one_scatterer(7);
-  const auto loud = direct_echoes(s, materials, pulse, medium, coherent).amplitude[0];
+  const auto loud = direct_echoes(s, materials, pulse_900k, absorbing_medium, coherent).amplitude[0];
   s.material = {1};
-  const auto soft = direct_echoes(s, materials, pulse, medium, coherent).amplitude[0];
+  const auto soft = direct_echoes(s, materials, pulse_900k, absorbing_medium, coherent).amplitude[0];
   EXPECT_NEAR(std::abs(loud) / std::abs(soft), 2, 1e-12);
 }
 
@@ -159,8 +160,8 @@ TEST(DirectEchoes, names_the_scatterer_it_refuses) {
 TEST(TargetEchoes, uses_the_given_cross_section_and_amplitude) {
   const std::vector<double> sigma{0.01};
   const std::vector<std::complex<double>> xi{{0, 2}};
-  const auto a = target_echoes(one_scatterer(7), sigma, xi, pulse, medium).amplitude[0];
-  const double expected = pulse.source_level_db - 40 * std::log10(7.0) - 20 + 20 * std::log10(2.0);
+  const auto a = target_echoes(one_scatterer(7), sigma, xi, pulse_900k, absorbing_medium).amplitude[0];
+  const double expected = pulse_900k.source_level_db - 40 * std::log10(7.0) - 20 + 20 * std::log10(2.0);
   EXPECT_NEAR(pressure_level_db(std::abs(a)), expected, 1e-9);
-  EXPECT_THROW(target_echoes(one_scatterer(7), {}, xi, pulse, medium), Error);
+  EXPECT_THROW(target_echoes(one_scatterer(7), {}, xi, pulse_900k, absorbing_medium), Error);
 }

@@ -1,12 +1,12 @@
 #include "acoustics/noise.hpp"
 #include "acoustics/pulse.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 using Complex = std::complex<double>;
 
 namespace {
 
-constexpr double c = 1500;
 const std::vector<ReplicaWindow> windows = {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming};
 
 Pulse sweep(double time_bandwidth, ReplicaWindow window, double bandwidth = 40e3) {
@@ -99,13 +99,13 @@ TEST(LinearFm, side_lobes_are_those_of_the_window) {
 TEST(LinearFm, width_at_half_intensity_is_that_of_the_window) {
   const double expected[] = {0.8859, 1.4406, 1.3031};
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    EXPECT_NEAR(range_resolution(sweep(5000, windows[w]), c) / (c / 2 / 40e3), expected[w], 3e-4);
-    EXPECT_NEAR(range_resolution(sweep(100, windows[w]), c) / (c / 2 / 40e3), expected[w], 0.01 * expected[w]);
+    EXPECT_NEAR(range_resolution(sweep(5000, windows[w]), c0) / (c0 / 2 / 40e3), expected[w], 3e-4);
+    EXPECT_NEAR(range_resolution(sweep(100, windows[w]), c0) / (c0 / 2 / 40e3), expected[w], 0.01 * expected[w]);
     const Pulse pulse = sweep(100, windows[w]);
-    EXPECT_NEAR(std::norm(echo_envelope(pulse, {}, 0).at(range_resolution(pulse, c) / c)), 0.5, 1e-9);
+    EXPECT_NEAR(std::norm(echo_envelope(pulse, {}, 0).at(range_resolution(pulse, c0) / c0)), 0.5, 1e-9);
   }
-  EXPECT_DOUBLE_EQ(nominal_range_resolution(sweep(100, windows[0]), c), c / 80e3);
-  EXPECT_DOUBLE_EQ(nominal_range_resolution({900e3, 29.5e3, 220}, c), c / 59e3);
+  EXPECT_DOUBLE_EQ(nominal_range_resolution(sweep(100, windows[0]), c0), c0 / 80e3);
+  EXPECT_DOUBLE_EQ(nominal_range_resolution({900e3, 29.5e3, 220}, c0), c0 / 59e3);
 }
 
 TEST(LinearFm, half_length_bounds_the_envelope) {
@@ -137,7 +137,7 @@ TEST(LinearFm, closed_form_with_frequency_dependent_absorption_is_the_correlatio
           return std::sqrt(k2 / k) * std::exp(-2 * a.a0 * range + i * k2 * b * b / (4 * pi) - k2 * b * t -
                                               i * pi * k2 * t * t - 2.0 * pi * i * doppler * t);
         };
-        const EchoEnvelope e = EchoShapes(pulse, {c, a}).of(2 * range / c, doppler);
+        const EchoEnvelope e = EchoShapes(pulse, {c0, a}).of(2 * range / c0, doppler);
         double worst = 0, peak = 0;
         for (const double t : some_times(pulse)) {
           worst = std::max(worst, std::abs(e.at(t) - correlation(pulse, received, t)));
@@ -183,7 +183,7 @@ TEST(LinearFm, doppler_moves_the_peak) {
   const Pulse pulse = sweep(200, ReplicaWindow::uniform);
   const double k = pulse.bandwidth / pulse.duration;
   for (const double doppler : {400.0, -2500.0}) {
-    const EchoEnvelope e = EchoShapes(pulse, {c, {}}).of(0.1, doppler);
+    const EchoEnvelope e = EchoShapes(pulse, {c0, {}}).of(0.1, doppler);
     double best = 0, peak = 0;
     for (double t = -0.2 * pulse.duration; t < 0.2 * pulse.duration; t += 0.001 / pulse.bandwidth)
       if (std::abs(e.at(t)) > peak) peak = std::abs(e.at(t)), best = t;
@@ -196,7 +196,7 @@ TEST(LinearFm, doppler_moves_the_peak) {
 TEST(LinearFm, doppler_of_a_gaussian_moves_its_spectrum) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const Absorption a{0.02, 1e-7, 1e-13};
-  const EchoEnvelope still = echo_envelope(pulse, a, 75), moving = EchoShapes(pulse, {c, a}).of(0.1, 1300);
+  const EchoEnvelope still = echo_envelope(pulse, a, 75), moving = EchoShapes(pulse, {c0, a}).of(0.1, 1300);
   const auto spectrum = [](const EchoEnvelope& e, double f) {
     Complex sum = 0;
     for (double t = -1e-4; t <= 1e-4; t += 1e-7) sum += e.at(t) * std::polar(1.0, 2 * pi * f * t);
@@ -211,8 +211,8 @@ TEST(EchoShapes, leave_a_gaussian_unchanged) {
   const Pulse pulse{900e3, 29.5e3, 220};
   const double delay = 0.0837;
   for (const Absorption a : {Absorption{0.02, 0, 0}, {0.02, 1e-7, 0}, {0.02, 1e-7, 1e-13}}) {
-    const double range = 0.5 * c * delay;
-    const EchoEnvelope plain = echo_envelope(pulse, a, range), shape = EchoShapes(pulse, {c, a}).of(delay);
+    const double range = 0.5 * c0 * delay;
+    const EchoEnvelope plain = echo_envelope(pulse, a, range), shape = EchoShapes(pulse, {c0, a}).of(delay);
     const double sent = 2 * std::numbers::ln2 / (pulse.bandwidth * pulse.bandwidth);
     EXPECT_EQ(plain.a, sent + 2 * a.a2 * range);
     EXPECT_EQ(plain.gain, std::sqrt(sent / plain.a) * std::exp(plain.b * plain.b / (4 * plain.a) - 2 * a.a0 * range));

@@ -1,13 +1,13 @@
 #include "acoustics/motion.hpp"
 
 #include "acoustics/direct_echoes.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace {
 
-constexpr double c = 1500, frequency = 900e3;
-const Pulse pulse{frequency, 29.5e3, 220};
-const Medium medium{c, {0, 0, 0}};
+constexpr double frequency = 900e3;
+const Medium lossless_medium{c0, {0, 0, 0}};
 
 Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
   Scatterers s;
@@ -28,14 +28,14 @@ Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
 Echoes echoes_of(const Scatterers& s) {
   const std::vector<double> sigma(s.size(), 1);
   const std::vector<std::complex<double>> xi(s.size(), 1);
-  Echoes echoes = target_echoes(s, sigma, xi, pulse, medium);
+  Echoes echoes = target_echoes(s, sigma, xi, pulse_900k, lossless_medium);
   echoes.v.assign(s.size(), 0);
   return echoes;
 }
 
 Echoes moved(const Motion& motion, const Scatterers& s, const Pose& pose = Pose::Identity()) {
   Echoes echoes = echoes_of(s);
-  move_echoes(motion, pose, s, frequency, c, echoes);
+  move_echoes(motion, pose, s, frequency, c0, echoes);
   return echoes;
 }
 
@@ -58,20 +58,20 @@ TEST(MoveEchoes, leaves_echoes_of_a_head_at_rest_as_they_are) {
   EXPECT_TRUE(after.doppler.empty());
 }
 
-// The head approaches during propagation: c t = r + (r - v t), so t = 2 r / (c + v).
+// The head approaches during propagation: c0 t = r + (r - v t), so t = 2 r / (c0 + v).
 TEST(MoveEchoes, accounts_for_an_approaching_head) {
   for (const double v : {2.0, -2.0, 14.0}) {
     const Echoes e = moved({{v, 0, 0}, {0, 0, 0}}, ahead);
-    const double r0 = 30, r1 = 30 * (c - v) / (c + v);
-    EXPECT_NEAR(e.delay[0], 2 * r0 / (c + v), 1e-17);
-    EXPECT_NEAR(e.doppler[0] / (frequency * 2 * v / (c - v)), 1, 1e-14);
+    const double r0 = 30, r1 = 30 * (c0 - v) / (c0 + v);
+    EXPECT_NEAR(e.delay[0], 2 * r0 / (c0 + v), 1e-17);
+    EXPECT_NEAR(e.doppler[0] / (frequency * 2 * v / (c0 - v)), 1, 1e-14);
     const auto before = echoes_of(ahead).amplitude[0];
     EXPECT_NEAR(std::abs(e.amplitude[0] / before), r0 / r1, 1e-14);
-    EXPECT_NEAR(std::abs(std::polar(1.0, 2 * pi * frequency / c * (r1 - r0)) - e.amplitude[0] / before * (r1 / r0)), 0,
+    EXPECT_NEAR(std::abs(std::polar(1.0, 2 * pi * frequency / c0 * (r1 - r0)) - e.amplitude[0] / before * (r1 / r0)), 0,
                 1e-9);
     EXPECT_EQ(e.u[0], 0);
   }
-  EXPECT_NEAR(moved({{2, 0, 0}, {0, 0, 0}}, ahead).doppler[0], 2400, 4);  // 2 v f / c
+  EXPECT_NEAR(moved({{2, 0, 0}, {0, 0, 0}}, ahead).doppler[0], 2400, 4);  // 2 v f / c0
 }
 
 TEST(MoveEchoes, tends_to_rest_as_motion_vanishes) {
@@ -79,11 +79,11 @@ TEST(MoveEchoes, tends_to_rest_as_motion_vanishes) {
   for (const double v : {1e-3, 1e-6, 1e-9}) {
     const Echoes e = moved({{v, -v, 0.5 * v}, {0, v, v}}, spread);
     for (std::size_t i = 0; i < spread.size(); ++i) {
-      EXPECT_NEAR(e.delay[i], rest.delay[i], 3 * v / c * rest.delay[i] + 1e-17);
+      EXPECT_NEAR(e.delay[i], rest.delay[i], 3 * v / c0 * rest.delay[i] + 1e-17);
       EXPECT_NEAR(e.u[i], rest.u[i], 2 * v);
       EXPECT_NEAR(std::abs(e.amplitude[i] / rest.amplitude[i] - 1.0), 0,
-                  2 * pi * frequency * 3 * v / c * rest.delay[i] + 1e-12);
-      EXPECT_NEAR(e.doppler[i], 0, frequency * 4 * v / c);
+                  2 * pi * frequency * 3 * v / c0 * rest.delay[i] + 1e-12);
+      EXPECT_NEAR(e.doppler[i], 0, frequency * 4 * v / c0);
     }
   }
 }
@@ -94,7 +94,7 @@ TEST(MoveEchoes, solves_the_two_way_equation_wherever_the_head_goes) {
   for (std::size_t i = 0; i < spread.size(); ++i) {
     const Eigen::Vector3d d = spread.range[i] * unit_vector({spread.azimuth[i], spread.elevation[i]});
     const double back = (d - motion.velocity * e.delay[i]).norm();
-    EXPECT_NEAR(c * e.delay[i], d.norm() + back, 1e-12);
+    EXPECT_NEAR(c0 * e.delay[i], d.norm() + back, 1e-12);
     EXPECT_NEAR(e.u[i], (d - motion.velocity * e.delay[i]).y() / back, 1e-15);
     EXPECT_NEAR(e.v[i], (d - motion.velocity * e.delay[i]).z() / back, 1e-15);
   }
@@ -128,7 +128,7 @@ TEST(MoveEchoes, turns_directions_only_when_the_head_turns_only) {
 TEST(MoveEchoes, fills_directions_upwards_only_where_they_are_needed) {
   Echoes echoes = echoes_of(spread);
   echoes.v.clear();
-  move_echoes({{1, 0, 0}, {0, 0, 0}}, Pose::Identity(), spread, frequency, c, echoes);
+  move_echoes({{1, 0, 0}, {0, 0, 0}}, Pose::Identity(), spread, frequency, c0, echoes);
   EXPECT_TRUE(echoes.v.empty());
 }
 
@@ -149,7 +149,7 @@ TEST(MoveEchoes, does_not_change_when_world_and_motion_turn_together) {
 TEST(MoveEchoes, refuses_large_and_bad_values) {
   Echoes e = echoes_of(spread);
   const auto call = [&](const Motion& m, double f = frequency) {
-    return error_of([&] { move_echoes(m, Pose::Identity(), spread, f, c, e); });
+    return error_of([&] { move_echoes(m, Pose::Identity(), spread, f, c0, e); });
   };
   EXPECT_EQ(call({{15, 0, 0}, {0, 0, 0}}),
             "move_echoes: motion.velocity = 15 m/s, must be below a hundredth of the sound speed, 15 m/s");

@@ -2,20 +2,19 @@
 
 #include "acoustics/reflection.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 using Eigen::Vector3d;
 
 namespace {
 
-const Pulse pulse{900e3, 29.5e3, 220};
-
 /// A head at depth 2 m, level, under a flat surface at 0 and above a bottom at -10 m.
 struct Setting {
   SceneCloud scene;
   Environment environment;
   View view{Pose::Identity(), make_fan(91, radians(90), radians(1), radians(90)), {0.5, 60, 0.01}, {}};
-  Transmission sent{pulse, {1500, {0.2994626 * nepers_per_db, 0, 0}}, {.amplitude = SurfaceAmplitude::coherent}};
+  Transmission sent{pulse_900k, {1500, {0.2994626 * nepers_per_db, 0, 0}}, {.amplitude = SurfaceAmplitude::coherent}};
 
   Setting() {
     environment.surface = SeaSurface{};
@@ -75,7 +74,7 @@ TEST(MultipathEchoes, gives_the_textbook_images) {
   EXPECT_EQ(m.one_bounce, 4u);
   EXPECT_EQ(m.two_bounces, 4u);
   EXPECT_EQ(m.blocked, 0u);
-  const Echoes direct = direct_echoes(s.direct(), s.scene.materials, pulse, s.sent.medium, s.sent.echo_options);
+  const Echoes direct = direct_echoes(s.direct(), s.scene.materials, pulse_900k, s.sent.medium, s.sent.echo_options);
   const double direct_db = level_after_absorption(direct.amplitude[0], r_direct);
 
   const double bounce = std::abs(bottom_reflection(*s.environment.bottom, std::asin(15 / r_bottom)));
@@ -98,10 +97,10 @@ TEST(MultipathEchoes, gives_the_textbook_images) {
 // Every echo in full, phase and sign included.
 TEST(MultipathEchoes, follows_its_formula_in_size_and_phase) {
   const Multipath m = one_target().compute();
-  const double k = 2 * pi * pulse.centre_frequency / 1500;
+  const double k = 2 * pi * pulse_900k.centre_frequency / 1500;
   const std::complex<double> r_b = bottom_reflection(FlatBottom{-10}, std::asin(15 / r_bottom));
   const auto path = [&](double out, double back, std::complex<double> reflections) {
-    return source_pressure(pulse) * std::sqrt(mu * (20 / out) * (20 / back) * static_cast<double>(float(area))) *
+    return source_pressure(pulse_900k) * std::sqrt(mu * (20 / out) * (20 / back) * static_cast<double>(float(area))) *
            reflections * std::polar(1.0, k * (out + back)) / (out * back);
   };
   const auto expect = [&](double out, double back, std::complex<double> wanted) {
@@ -145,7 +144,7 @@ TEST(MultipathEchoes, by_the_surface_alone_is_the_direct_echo_of_the_mirrored_sc
   }
   const Scatterers images =
       find_scatterers(mirrored, s.view.world_from_head, s.view.fan, s.view.gate, s.view.sampling).scatterers;
-  const Echoes expected = direct_echoes(images, mirrored.materials, pulse, s.sent.medium, s.sent.echo_options);
+  const Echoes expected = direct_echoes(images, mirrored.materials, pulse_900k, s.sent.medium, s.sent.echo_options);
   ASSERT_GT(expected.size(), 40u);
   const Multipath computed = s.compute();
   EXPECT_EQ(computed.two_bounces, expected.size());

@@ -3,23 +3,23 @@
 #include "acoustics/reverberation_cells_internal.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace {
 
-const Pulse pulse{900e3, 29.5e3, 220};
-const Medium medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
-const double wavelength = 1500 / 900e3, beam_width = radians(1);
-const double array_length = 0.885893 * wavelength / beam_width;  // of a uniform line with that -3 dB width
-const double pulse_energy = 0.469719 / 29.5e3;                   // integral of the squared envelope [s]
-const double slice = 0.5 * 1500 * pulse_energy;                  // range that sounds at once [m]
+const Medium water_medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
+const double beam_width = radians(1);
+const double array_length = 0.885893 * wavelength_900k / beam_width;  // of a uniform line with that -3 dB width
+const double pulse_energy = 0.469719 / 29.5e3;                        // integral of the squared envelope [s]
+const double slice = 0.5 * 1500 * pulse_energy;                       // range that sounds at once [m]
 
 BeamFan fan_of(double field_deg) {
   return make_fan(static_cast<std::size_t>(field_deg), radians(field_deg), beam_width, radians(20));
 }
 
 Transmission transmission(std::uint64_t seed = 1, double elevation_width = 0) {
-  return {pulse, medium, {.elevation_width = elevation_width, .seed = seed}};
+  return {pulse_900k, water_medium, {.elevation_width = elevation_width, .seed = seed}};
 }
 
 Environment environment() {
@@ -34,15 +34,15 @@ Pose at(double x, double y, double z, double yaw_deg = 0, double pitch_deg = 0, 
   return pose_from_yaw_pitch_roll({x, y, z}, radians(yaw_deg), radians(pitch_deg), radians(roll_deg));
 }
 
-/// What the beam of a uniform line steered ahead receives from `range`: the plain sum, the whole pulse.
+/// What the beam of a uniform line steered ahead receives from `range`: the plain sum, the whole pulse_900k.
 std::complex<double> beam_ahead(const Echoes& e, double range) {
   std::complex<double> sum = 0;
   for (std::size_t i = 0; i < e.size(); ++i) {
     const double t = 2 * range / 1500 - e.delay[i];
-    if (std::abs(t) > 1.5 / pulse.bandwidth) continue;
-    const double x = pi * array_length / wavelength * e.u[i];
+    if (std::abs(t) > 1.5 / pulse_900k.bandwidth) continue;
+    const double x = pi * array_length / wavelength_900k * e.u[i];
     const double pattern = std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
-    sum += e.amplitude[i] * pattern * echo_envelope(pulse, medium.absorption, 750 * e.delay[i]).at(t);
+    sum += e.amplitude[i] * pattern * echo_envelope(pulse_900k, water_medium.absorption, 750 * e.delay[i]).at(t);
   }
   return sum;
 }
@@ -59,7 +59,7 @@ struct Looks {
   double contrast() const { return square * count / (power * power); }  // 2: exponential intensity, Rayleigh amplitude
 };
 
-/// Collects `looks` independent pings at ranges within half a metre of `range`, 4 cm apart, more than the pulse length.
+/// Collects `looks` independent pings at ranges within half a metre of `range`, 4 cm apart, more than the pulse_900k length.
 template <typename Hear>
 Looks listen(Hear&& receive, double range, int pings) {
   Looks looks;
@@ -85,7 +85,7 @@ TEST(VolumeEchoes, has_the_level_of_the_sonar_equation) {
   };
   const Looks looks = listen(receive, range, 150);
   const double over_elevation = 0.5 * width * std::sqrt(pi / std::numbers::ln2);
-  const double volume = wavelength / array_length * over_elevation * range * range * slice;
+  const double volume = wavelength_900k / array_length * over_elevation * range * range * slice;
   const double expected = 220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 70 + db_from_power(volume);
   EXPECT_NEAR(looks.level_db(), expected, 0.3);  // 3150 looks: sd 0.08 dB
   EXPECT_NEAR(looks.contrast(), 2, 0.2);
@@ -162,7 +162,7 @@ TEST(ElevationLaw, draws_equal_parts) {
 TEST(BottomEchoes, has_the_level_of_the_closed_form) {
   const double h = 3, recorded[][2] = {{5, 129.28}, {10, 110.47}, {20, 89.28}};
   for (const auto& [range, level] : recorded) {
-    const double area = wavelength / array_length * range * range / std::sqrt(range * range - h * h) * slice;
+    const double area = wavelength_900k / array_length * range * range / std::sqrt(range * range - h * h) * slice;
     const double closed =
         220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 27 + 20 * std::log10(h / range) + db_from_power(area);
     EXPECT_NEAR(closed, level, 0.03);  // recorded for 1489.8 m/s, here 1500
@@ -193,7 +193,7 @@ TEST(BottomEchoes, is_what_a_plane_of_surfels_gives) {
   sent.echo_options.amplitude = SurfaceAmplitude::coherent;
   const SamplingOptions sampling{.scatterers_per_cell = 0, .elevation_half_extent = pi / 2, .occlusion = false};
   const Scatterers s = find_scatterers(plane, pose, fan_of(60), gate, sampling).scatterers;
-  const Echoes surfels = direct_echoes(s, plane.materials, pulse, medium, sent.echo_options);
+  const Echoes surfels = direct_echoes(s, plane.materials, pulse_900k, water_medium, sent.echo_options);
   const auto moments = [](const Echoes& x, double from, double to) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -218,7 +218,7 @@ TEST(BottomEchoes, counts_the_whole_disc_under_the_head) {
   for (std::size_t i = 0; i < e.size(); ++i) {
     const double r = 750 * e.delay[i], sine = 3 / r;
     if (r < 3.05)
-      area += std::norm(e.amplitude[i] * r * r / source_pressure(pulse)) / (power_from_db(-27) * sine * sine);
+      area += std::norm(e.amplitude[i] * r * r / source_pressure(pulse_900k)) / (power_from_db(-27) * sine * sine);
   }
   EXPECT_NEAR(area / (pi * (3.05 * 3.05 - 9)), 1, 0.1);  // about 13 000 exponential intensities of unequal size
 }
@@ -229,7 +229,7 @@ TEST(SurfaceEchoes, has_the_level_of_its_strength) {
     return surface_echoes(environment(), at(0, 0, -d), fan_of(40), gate, transmission(), {.ping = ping});
   };
   const Looks looks = listen(receive, range, 80);
-  const double area = wavelength / array_length * range * range / std::sqrt(range * range - d * d) * slice;
+  const double area = wavelength_900k / array_length * range * range / std::sqrt(range * range - d * d) * slice;
   const double closed = 220 - 40 * std::log10(range) - 2 * 0.2994626 * range - 30 + db_from_power(area);
   EXPECT_NEAR(looks.level_db(), closed, 0.4);
   const Echoes e = receive({9, 11, 0.01}, 0);

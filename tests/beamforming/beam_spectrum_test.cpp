@@ -5,7 +5,7 @@
 
 namespace {
 
-constexpr double bandwidth = 187.5e3, step_time = 0.44 / bandwidth;
+constexpr double chirp_band = 187.5e3, step_time = 0.44 / chirp_band;
 
 ComplexGridF noise(Eigen::Index beams, Eigen::Index samples) {
   ComplexGridF series(beams, samples);
@@ -39,7 +39,7 @@ ComplexGridF tone(double f, Eigen::Index samples) {
 double folded_gaussian(double f) {
   double sum = 0;
   for (int fold = -4; fold <= 4; ++fold) {
-    const double x = (f + fold / step_time) / bandwidth;
+    const double x = (f + fold / step_time) / chirp_band;
     sum += std::exp(-4 * std::numbers::ln2 * x * x);
   }
   return sum;
@@ -83,7 +83,7 @@ TEST(BeamSpectrum, has_a_line_at_its_own_frequency) {
 // (E8): half the power at fc +- B/2. A segment long compared with the pulse broadens it by less than 1 %.
 TEST(BeamSpectrum, of_a_gaussian_pulse_is_as_wide_as_its_bandwidth) {
   ComplexGridF series = ComplexGridF::Zero(1, 2048);
-  const Pulse pulse{750e3, bandwidth, 220};
+  const Pulse pulse{750e3, chirp_band, 220};
   const EchoEnvelope envelope = echo_envelope(pulse, {}, 0);
   const double fine = step_time / 4;  // no aliasing
   for (Eigen::Index n = 0; n < 2048; ++n)
@@ -92,7 +92,7 @@ TEST(BeamSpectrum, of_a_gaussian_pulse_is_as_wide_as_its_bandwidth) {
   const BeamSpectrum spectrum = beam_spectrum(series, beam, fine, {750e3, 1024});
   const double peak = *std::max_element(spectrum.density.begin(), spectrum.density.end());
   for (std::size_t k = 0; k < spectrum.frequency.size(); ++k) {
-    const double x = (spectrum.frequency[k] - 750e3) / bandwidth;
+    const double x = (spectrum.frequency[k] - 750e3) / chirp_band;
     if (std::abs(x) > 1.2) continue;
     EXPECT_NEAR(spectrum.density[k] / peak / std::exp(-4 * std::numbers::ln2 * x * x), 1, 0.01) << x;
   }
@@ -101,7 +101,7 @@ TEST(BeamSpectrum, of_a_gaussian_pulse_is_as_wide_as_its_bandwidth) {
 TEST(PulseDensity, of_a_gaussian_is_the_closed_form_with_aliasing) {
   const std::size_t beam[] = {0};
   const std::vector<double> frequency = beam_spectrum(noise(1, 400), beam, step_time, {750e3, 64}).frequency;
-  const std::vector<double> density = pulse_density({750e3, bandwidth, 220}, step_time, frequency, 3.5);
+  const std::vector<double> density = pulse_density({750e3, chirp_band, 220}, step_time, frequency, 3.5);
   double sum = 0;
   for (const double d : density) sum += d;
   EXPECT_NEAR(sum * (frequency[1] - frequency[0]), 3.5, 1e-12);
@@ -110,7 +110,7 @@ TEST(PulseDensity, of_a_gaussian_is_the_closed_form_with_aliasing) {
     EXPECT_NEAR(density[k] / peak, folded_gaussian(frequency[k] - 750e3) / folded_gaussian(0), 1e-6) << k;
 }
 
-// A sweep of large time-bandwidth product fills its band evenly under a uniform replica, and nothing else: half the
+// A sweep of large time-chirp_band product fills its band evenly under a uniform replica, and nothing else: half the
 // power at the band's edges, little beyond.
 TEST(PulseDensity, of_a_sweep_fills_its_band) {
   const Pulse sweep{100e3, 20e3, 220, PulseShape::linear_fm, 0.02, ReplicaWindow::uniform};
@@ -141,7 +141,7 @@ TEST(BeamSpectrum, refuses_invalid_series) {
             }),
             "beam_spectrum: options.segment = 7 samples, must be even and at least 2");
   EXPECT_EQ(error_of([&] {
-              pulse_density({750e3, bandwidth, 220}, step_time, {1, 2, 4}, 1);
+              pulse_density({750e3, chirp_band, 220}, step_time, {1, 2, 4}, 1);
             }),
             "pulse_density: frequency[2] = 4 Hz, must be evenly spaced");
 }

@@ -9,19 +9,17 @@
 
 namespace {
 
-constexpr double c = 1500;
-
 SonarHead head_of(double frequency, double bandwidth, std::size_t elements, double min_range, double max_range) {
-  return line_head({frequency, bandwidth, 200, 9, elements, 80, 2, 20, min_range, max_range, c});
+  return line_head({frequency, bandwidth, 200, 9, elements, 80, 2, 20, min_range, max_range, c0});
 }
 
-Medium water() { return {c, {0.02, 0, 0}}; }
+Medium water() { return {c0, {0.02, 0, 0}}; }
 
 Echoes echoes_in(const SonarHead& head, std::size_t n) {
   Echoes e;
   for (std::size_t i = 0; i < n; ++i) {
     const auto at = random_uniform(3, RandomStage::scene_points, {i, 0, 0});
-    e.delay.push_back(2 * (head.gate.min_range + at[0] * (head.gate.max_range - head.gate.min_range)) / c);
+    e.delay.push_back(2 * (head.gate.min_range + at[0] * (head.gate.max_range - head.gate.min_range)) / c0);
     e.u.push_back(1.4 * at[1] - 0.7);
     e.amplitude.push_back(random_complex_normal(3, RandomStage::noise, {i, 0, 0}));
   }
@@ -36,15 +34,15 @@ ComplexGrid referee(const Echoes& e, const SonarHead& head, const Medium& medium
     return wavefront == Wavefront::plane ? -y * u : std::sqrt(r * r - 2 * r * y * u + y * y) - r;
   };
   for (std::size_t i = 0; i < e.size(); ++i) {
-    const double r = 0.5 * c * e.delay[i];
+    const double r = 0.5 * c0 * e.delay[i];
     const EchoEnvelope envelope = echo_envelope(head.pulse, medium.absorption, r);
     for (std::size_t b = 0; b < head.fan.beams(); ++b)
       for (std::size_t n = 0; n < head.gate.bins(); ++n)
         for (std::size_t m = 0; m < elements; ++m) {
           const double y = head.array.spacing * (static_cast<double>(m) - 0.5 * (static_cast<double>(elements) - 1));
-          const double in = longer(r, e.u[i], y) / c,
-                       out = longer(head.gate.centre(n), std::sin(head.fan.azimuth[b]), y) / c;
-          const double t = 2 * head.gate.centre(n) / c - e.delay[i] + out - in;
+          const double in = longer(r, e.u[i], y) / c0,
+                       out = longer(head.gate.centre(n), std::sin(head.fan.azimuth[b]), y) / c0;
+          const double t = 2 * head.gate.centre(n) / c0 - e.delay[i] + out - in;
           p(b, n) += head.array.shading[m] / static_cast<double>(elements) * e.amplitude[i] *
                      std::polar(1.0, 2 * pi * head.pulse.centre_frequency * (in - out)) * envelope.at(t);
         }
@@ -94,7 +92,7 @@ TEST(ElementSeries, focus_keeps_the_level_of_a_point_in_the_near_field) {
   SonarHead head = head_of(900e3, 30e3, 102, 0.8, 1.2);
   head.fan = make_fan(1, 0, radians(1), radians(20));
   Echoes point;
-  point.delay = {2 * head.gate.centre(17) / c};
+  point.delay = {2 * head.gate.centre(17) / c0};
   point.u = {0};
   point.amplitude = {{1, 0}};
   const double alone = std::exp(-2 * 0.02 * head.gate.centre(17));
@@ -107,14 +105,14 @@ TEST(ElementSeries, focus_keeps_the_level_of_a_point_in_the_near_field) {
 TEST(ElementSeries, port_elements_receive_port_echoes_first) {
   const SonarHead head = head_of(400e3, 100e3, 40, 5, 5.4);
   Echoes point;
-  point.delay = {2 * 5.2 / c};
+  point.delay = {2 * 5.2 / c0};
   point.u = {0.5};
   point.amplitude = {{1, 0}};
   const ElementSeries series = element_series(point, head, water(), {1e-4, Wavefront::plane});
   Eigen::Index starboard = 0, port = 0;
   series.pressure.row(0).abs().maxCoeff(&starboard);
   series.pressure.row(39).abs().maxCoeff(&port);
-  EXPECT_NEAR(static_cast<double>(starboard - port) * series.step, 39 * head.array.spacing * 0.5 / c, series.step);
+  EXPECT_NEAR(static_cast<double>(starboard - port) * series.step, 39 * head.array.spacing * 0.5 / c0, series.step);
 }
 
 TEST(ElementSeries, same_bits_for_any_number_of_threads) {

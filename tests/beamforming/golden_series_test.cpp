@@ -3,12 +3,13 @@
 #include "acoustics/scattering.hpp"
 #include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double c = 1500, fc = 900e3, sample_rate = 118e3, db_per_m = 0.0354;
+constexpr double fc = 900e3, sample_rate = 118e3, db_per_m = 0.0354;
 
 /// Rows of numbers of a CSV file, without comments and header.
 std::vector<std::vector<double>> read_table(const std::string& name) {
@@ -26,12 +27,12 @@ std::vector<std::vector<double>> read_table(const std::string& name) {
 
 /// One omnidirectional beam whose bin n - 1 is the golden sample n.
 SonarHead golden_head(std::size_t samples) {
-  const double bin = c / (2 * sample_rate);
+  const double bin = c0 / (2 * sample_rate);
   SonarHead head;
   head.pulse = {fc, 29.5e3 * std::sqrt(2 * std::numbers::ln2) / pi, 220};
   head.fan = make_fan(1, 0.1, 0.1, 0.1);
   head.gate = {0.5 * bin, (static_cast<double>(samples) - 0.5) * bin, bin};
-  head.array = {0.5 * c / fc, uniform_shading(1)};
+  head.array = {0.5 * c0 / fc, uniform_shading(1)};
   return head;
 }
 
@@ -47,7 +48,7 @@ std::vector<Complex> series_of_beam(const std::vector<std::vector<double>>& scat
     xi.push_back(Complex(row[7], row[8]) / std::numbers::sqrt2);
   }
   const SonarHead head = golden_head(samples);
-  const Medium medium{c, {db_per_m * nepers_per_db, 0, 0}};
+  const Medium medium{c0, {db_per_m * nepers_per_db, 0, 0}};
   const ComplexGrid p = synthesize_direct(target_echoes(s, sigma, xi, head.pulse, medium), head, medium);
   std::vector<Complex> series(static_cast<std::size_t>(p.cols()));
   for (std::size_t n = 0; n < series.size(); ++n)

@@ -7,8 +7,6 @@
 
 namespace {
 
-constexpr double c = 1490;
-
 SonarHead head_of(PulseShape shape) {
   SonarHead head = line_head({.beams = 64, .elements = 32, .max_range = 2.2});
   if (shape == PulseShape::linear_fm) head.pulse.shape = shape, head.pulse.duration = 1e-3;
@@ -18,14 +16,14 @@ SonarHead head_of(PulseShape shape) {
 /// Absorption of 20 dB from end to end of the gate, and as much over the band by its slope or its curvature.
 Medium medium_of(bool slope, bool curvature) {
   const double loss = 20 * nepers_per_db / 2.4;
-  return {c, {loss, slope ? 0.3 * loss / 30e3 : 0, curvature ? 0.3 * loss / 30e3 / 30e3 : 0}};
+  return {c0_cold, {loss, slope ? 0.3 * loss / 30e3 : 0, curvature ? 0.3 * loss / 30e3 / 30e3 : 0}};
 }
 
 Echoes crowd(std::size_t count, double doppler) {
   Echoes e;
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = random_uniform(5, RandomStage::scene_points, {i, 0, 0});
-    e.delay.push_back(2 * (0.95 + 1.3 * at[0]) / c);  // some begin or end outside the gate
+    e.delay.push_back(2 * (0.95 + 1.3 * at[0]) / c0_cold);  // some begin or end outside the gate
     e.u.push_back(-0.9 + 1.8 * at[1]);
     e.amplitude.push_back(std::polar(1.0, 2 * pi * at[2]));
     if (doppler != 0) e.doppler.push_back(doppler * (2 * at[3] - 1));

@@ -9,7 +9,6 @@
 
 namespace {
 
-constexpr double c = 1490;
 using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&, const SynthesisOptions&);
 const std::vector<ReplicaWindow> windows = {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming};
 
@@ -24,7 +23,7 @@ Echoes random_echoes(std::size_t n, double doppler = 0) {
   Echoes e;
   for (std::uint64_t i = 0; i < n; ++i) {
     const auto x = random_uniform(3, RandomStage::scene_points, {i, 0, 0});
-    e.delay.push_back(2 * (1 + 2 * x[0]) / c);
+    e.delay.push_back(2 * (1 + 2 * x[0]) / c0_cold);
     e.u.push_back(-0.9 + 1.8 * x[1]);
     e.amplitude.push_back(std::polar(std::pow(10, -2 * x[2]), 2 * pi * x[3]));
     if (doppler != 0) e.doppler.push_back(doppler * (2 * x[3] - 1));
@@ -32,7 +31,7 @@ Echoes random_echoes(std::size_t n, double doppler = 0) {
   return e;
 }
 
-Medium medium(int order = 0) { return {c, absorption_about({}, 750e3, order)}; }
+Medium sweep_medium(int order = 0) { return {c0_cold, absorption_about({}, 750e3, order)}; }
 
 /// |a - b| at most, against the highest of b.
 double highest_error(const ComplexGrid& a, const ComplexGrid& b) {
@@ -50,11 +49,11 @@ TEST(LinearFmSynthesis, peak_of_one_scatterer_is_the_sonar_equation) {
     s.range = {r}, s.azimuth = {0}, s.elevation = {0};
     const std::vector<double> sigma{power_from_db(ts)};
     const std::vector<std::complex<double>> xi{1};
-    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, medium());
-    const double loss = 20 * std::log10(r) + medium().absorption.a0 / nepers_per_db * r;
+    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, sweep_medium());
+    const double loss = 20 * std::log10(r) + sweep_medium().absorption.a0 / nepers_per_db * r;
     for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
       Eigen::Index beam, bin;
-      const double peak = synthesize(echoes, head, medium(), {}).abs().maxCoeff(&beam, &bin);
+      const double peak = synthesize(echoes, head, sweep_medium(), {}).abs().maxCoeff(&beam, &bin);
       EXPECT_EQ(bin, 200);
       EXPECT_NEAR(pressure_level_db(peak), 220 - 2 * loss + ts, synthesize == synthesize_spectrum ? 1e-3 : 1e-9);
     }
@@ -67,9 +66,10 @@ TEST(LinearFmSynthesis, gridded_keeps_its_tolerance_against_the_referee) {
       for (const int order : {0, 1, 2}) {
         const SonarHead head = head_of(window);
         const Echoes echoes = random_echoes(60, doppler);
-        const ComplexGrid reference = synthesize_direct(echoes, head, medium(order));
+        const ComplexGrid reference = synthesize_direct(echoes, head, sweep_medium(order));
         for (const double tolerance : {0.5, 0.1, 1e-2, 1e-4, 1e-10})
-          EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, medium(order), {tolerance, 0}), reference), tolerance)
+          EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, sweep_medium(order), {tolerance, 0}), reference),
+                    tolerance)
               << "order " << order << ", doppler " << doppler;
       }
 }
@@ -84,7 +84,8 @@ TEST(LinearFmSynthesis, spectrum_form_agrees_with_the_referee) {
     for (const double doppler : {0.0, 900.0}) {
       const SonarHead head = head_of(window, 3, 8);
       const Echoes echoes = random_echoes(12, doppler);
-      EXPECT_LT(highest_error(synthesize_spectrum(echoes, head, medium()), synthesize_direct(echoes, head, medium())),
+      EXPECT_LT(highest_error(synthesize_spectrum(echoes, head, sweep_medium()),
+                              synthesize_direct(echoes, head, sweep_medium())),
                 5e-5);
     }
 }
@@ -96,10 +97,10 @@ TEST(LinearFmSynthesis, absorption_inside_the_band_agrees_with_a_filter_on_the_s
         for (const double times : {1.0, 10.0, 100.0}) {
           SonarHead head = head_of(window, 1, 8);
           head.pulse.duration = duration;
-          Medium m = medium(order);
+          Medium m = sweep_medium(order);
           m.absorption.a0 *= times, m.absorption.a1 *= times, m.absorption.a2 *= times;
           Echoes e;
-          e.delay = {2 * 2.0 / c}, e.u = {0}, e.amplitude = {1};
+          e.delay = {2 * 2.0 / c0_cold}, e.u = {0}, e.amplitude = {1};
           const double difference_db = 2 * m.absorption.a1 * 2.0 * head.pulse.bandwidth / nepers_per_db;
           EXPECT_LT(highest_error(synthesize_spectrum(e, head, m), synthesize_direct(e, head, m)),
                     5e-5 + 0.06 * difference_db / (head.pulse.bandwidth * duration))
@@ -113,9 +114,9 @@ TEST(LinearFmSynthesis, doppler_of_a_gaussian_agrees_with_a_moved_spectrum) {
   head.pulse = {750e3, 60e3, 220};
   const Echoes echoes = random_echoes(20, 900);
   for (const int order : {0, 1, 2}) {
-    const ComplexGrid direct = synthesize_direct(echoes, head, medium(order));
-    EXPECT_LT(relative_l2(synthesize_spectrum(echoes, head, medium(order)), direct), 1e-11);
-    EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, medium(order), {1e-8, 0}), direct), 1e-8);
+    const ComplexGrid direct = synthesize_direct(echoes, head, sweep_medium(order));
+    EXPECT_LT(relative_l2(synthesize_spectrum(echoes, head, sweep_medium(order)), direct), 1e-11);
+    EXPECT_LT(relative_l2(synthesize_gridded(echoes, head, sweep_medium(order), {1e-8, 0}), direct), 1e-8);
   }
 }
 
@@ -125,13 +126,13 @@ TEST(LinearFmSynthesis, doppler_turns_a_long_burst_with_the_carrier) {
   head.pulse = {750e3, 20, 220};
   head.gate = {30, 60, 0.01};
   Echoes echoes;
-  echoes.delay = {2 * 45 / c}, echoes.u = {0}, echoes.amplitude = {1};
-  const ComplexGrid still = synthesize_direct(echoes, head, medium());
+  echoes.delay = {2 * 45 / c0_cold}, echoes.u = {0}, echoes.amplitude = {1};
+  const ComplexGrid still = synthesize_direct(echoes, head, sweep_medium());
   echoes.doppler = {500};
   for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded}) {
-    const ComplexGrid moving = synthesize(echoes, head, medium(), {1e-12, 0});
+    const ComplexGrid moving = synthesize(echoes, head, sweep_medium(), {1e-12, 0});
     for (Eigen::Index n = 0; n < still.cols(); n += 97) {
-      const double t = 2 * head.gate.centre(static_cast<std::size_t>(n)) / c - echoes.delay[0];
+      const double t = 2 * head.gate.centre(static_cast<std::size_t>(n)) / c0_cold - echoes.delay[0];
       EXPECT_LT(std::abs(moving(0, n) - still(0, n) * std::polar(1.0, -2 * pi * 500 * t)), 1e-11);
     }
   }
@@ -142,11 +143,11 @@ TEST(LinearFmSynthesis, zero_doppler_equals_no_doppler) {
     SonarHead head = head_of(ReplicaWindow::hamming);
     head.pulse.shape = shape;
     Echoes echoes = random_echoes(30);
-    const ComplexGrid none = synthesize_direct(echoes, head, medium(2));
-    const ComplexGrid gridded = synthesize_gridded(echoes, head, medium(2));
+    const ComplexGrid none = synthesize_direct(echoes, head, sweep_medium(2));
+    const ComplexGrid gridded = synthesize_gridded(echoes, head, sweep_medium(2));
     echoes.doppler.assign(echoes.size(), 0);
-    EXPECT_TRUE((synthesize_direct(echoes, head, medium(2)) == none).all());
-    EXPECT_TRUE((synthesize_gridded(echoes, head, medium(2)) == gridded).all());
+    EXPECT_TRUE((synthesize_direct(echoes, head, sweep_medium(2)) == none).all());
+    EXPECT_TRUE((synthesize_gridded(echoes, head, sweep_medium(2)) == gridded).all());
   }
 }
 
@@ -154,8 +155,9 @@ TEST(LinearFmSynthesis, gives_the_same_bits_for_any_number_of_threads) {
   const SonarHead head = head_of(ReplicaWindow::hann, 9, 12);
   const Echoes echoes = random_echoes(80, 300);
   for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded}) {
-    const ComplexGrid one = synthesize(echoes, head, medium(2), {1e-6, 1});
-    for (const int threads : {2, 7}) EXPECT_TRUE((synthesize(echoes, head, medium(2), {1e-6, threads}) == one).all());
+    const ComplexGrid one = synthesize(echoes, head, sweep_medium(2), {1e-6, 1});
+    for (const int threads : {2, 7})
+      EXPECT_TRUE((synthesize(echoes, head, sweep_medium(2), {1e-6, threads}) == one).all());
   }
 }
 
@@ -165,8 +167,8 @@ TEST(LinearFmSynthesis, noise_has_the_autocorrelation_of_the_replica) {
   for (const ReplicaWindow window : windows) {
     SonarHead head = head_of(window, 1, 1);
     head.gate.max_range = 150;
-    head.array = {0.5 * c / 750e3, {1}};
-    const ComplexGrid p = synthesize_noise(head, medium(), 60, {.seed = 4});
+    head.array = {0.5 * c0_cold / 750e3, {1}};
+    const ComplexGrid p = synthesize_noise(head, sweep_medium(), 60, {.seed = 4});
     EXPECT_NEAR(pressure_level_db(std::sqrt(p.abs2().mean())), 60, 0.15);
 
     const Pulse& pulse = head.pulse;
@@ -180,7 +182,7 @@ TEST(LinearFmSynthesis, noise_has_the_autocorrelation_of_the_replica) {
       return sum;
     };
     for (const int lag : {1, 2, 3, 10}) {
-      const double seconds = lag * 2 * head.gate.bin_size / c;
+      const double seconds = lag * 2 * head.gate.bin_size / c0_cold;
       const auto n = p.cols() - lag;
       const auto a = p.row(0).head(n), b = p.row(0).tail(n);
       const std::complex<double> measured = (b * a.conjugate()).sum() / std::sqrt(a.abs2().sum() * b.abs2().sum());
@@ -193,14 +195,14 @@ TEST(LinearFmSynthesis, names_wrong_doppler_and_v) {
   const SonarHead head = head_of(ReplicaWindow::hann);
   Echoes e = random_echoes(4);
   e.doppler = {1, 2};
-  EXPECT_EQ(error_of([&] { synthesize_direct(e, head, medium()); }),
+  EXPECT_EQ(error_of([&] { synthesize_direct(e, head, sweep_medium()); }),
             "synthesize_direct: 4 echoes have 0 values of v and 2 of doppler; must be none, or one of each per echo");
   e.doppler = {1, 2, std::nan(""), 4};
-  EXPECT_EQ(error_of([&] { synthesize_gridded(e, head, medium()); }),
+  EXPECT_EQ(error_of([&] { synthesize_gridded(e, head, sweep_medium()); }),
             "synthesize_gridded: echo 2 has v 0, doppler nan Hz; all must be finite");
   e.doppler.clear();
   e.v = {0, 0, 0, INFINITY};
-  EXPECT_EQ(error_of([&] { synthesize_spectrum(e, head, medium()); }),
+  EXPECT_EQ(error_of([&] { synthesize_spectrum(e, head, sweep_medium()); }),
             "synthesize_spectrum: echo 3 has v inf, doppler 0 Hz; all must be finite");
 }
 

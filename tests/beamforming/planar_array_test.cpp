@@ -8,19 +8,19 @@
 
 namespace {
 
-constexpr double c = 1500, wavelength = 1500 / 750e3;
-const Medium medium{c, {0.02, 0, 0}};
+constexpr double wavelength_750k = c0 / 750e3;
+const Medium planar_medium{c0, {0.02, 0, 0}};
 
-LineArray taylor(std::size_t elements) { return {wavelength / 2, taylor_shading(elements, -30)}; }
-LineArray uniform(std::size_t elements) { return {wavelength / 2, uniform_shading(elements)}; }
+LineArray taylor(std::size_t elements) { return {wavelength_750k / 2, taylor_shading(elements, -30)}; }
+LineArray uniform(std::size_t elements) { return {wavelength_750k / 2, uniform_shading(elements)}; }
 
 /// beams x rows over 40 x 30 degrees.
 SonarHead stacked_head(std::size_t beams, std::size_t rows, double elevation_width = radians(60)) {
   SonarHead head;
   head.pulse = {750e3, 60e3, 220};
-  head.gate = {1, 3, default_bin_size(head.pulse, c)};
+  head.gate = {1, 3, default_bin_size(head.pulse, c0)};
   head.array = taylor(24);
-  head.fan.beam_width = array_beam_width(head.array, wavelength), head.fan.elevation_width = elevation_width;
+  head.fan.beam_width = array_beam_width(head.array, wavelength_750k), head.fan.elevation_width = elevation_width;
   const std::vector<double> azimuth = make_fan(beams, radians(40), 1, 1).azimuth;
   for (const double elevation : make_fan(rows, radians(30), 1, 1).azimuth)
     for (const double a : azimuth) head.fan.azimuth.push_back(a), head.fan.elevation.push_back(elevation);
@@ -31,16 +31,16 @@ SonarHead planar_head(std::size_t beams, std::size_t rows, const LineArray& colu
   SonarHead head = stacked_head(beams, rows);
   head.elevation_shape = ElevationShape::sector;
   head.column = column;
-  head.fan.row_width = array_beam_width(column, wavelength);
+  head.fan.row_width = array_beam_width(column, wavelength_750k);
   return head;
 }
 
-Echoes random_echoes(std::size_t n, double most_v = 0.4) {
+Echoes planar_echoes(std::size_t n, double most_v = 0.4) {
   Echoes e;
   for (std::uint64_t i = 0; i < n; ++i) {
     const auto x = random_uniform(3, RandomStage::scene_points, {i, 0, 0});
     const auto y = random_uniform(4, RandomStage::scene_points, {i, 0, 0});
-    e.delay.push_back(2 * (0.9 + 2.2 * x[0]) / c);
+    e.delay.push_back(2 * (0.9 + 2.2 * x[0]) / c0);
     e.u.push_back(-0.6 + 1.2 * x[1]);
     e.v.push_back(most_v * (2 * y[0] - 1));
     e.amplitude.push_back(std::polar(std::pow(10, -2 * x[2]), 2 * pi * x[3]));
@@ -49,7 +49,7 @@ Echoes random_echoes(std::size_t n, double most_v = 0.4) {
 }
 
 /// One echo at the centre of bin 100, amplitude 1.
-Echoes one_echo(const SonarHead& head, double u, double v) { return {{2 * head.gate.centre(100) / c}, {u}, {1}, {v}}; }
+Echoes one_echo(const SonarHead& head, double u, double v) { return {{2 * head.gate.centre(100) / c0}, {u}, {1}, {v}}; }
 
 const SynthesisMethod methods[] = {SynthesisMethod::gridded, SynthesisMethod::direct, SynthesisMethod::spectrum};
 
@@ -60,8 +60,8 @@ TEST(PlanarArray, response_is_the_double_sum_over_all_elements) {
   const SonarHead head = planar_head(7, 5);
   const std::size_t ny = head.array.elements(), nz = head.column->elements();
   for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.13, -0.07}, {-0.4, 0.33}}) {
-    const ComplexGrid p = synthesize(one_echo(head, u, v), head, medium, SynthesisMethod::direct);
-    const double gain = std::exp(-2 * medium.absorption.a0 * head.gate.centre(100));
+    const ComplexGrid p = synthesize(one_echo(head, u, v), head, planar_medium, SynthesisMethod::direct);
+    const double gain = std::exp(-2 * planar_medium.absorption.a0 * head.gate.centre(100));
     for (std::size_t b = 0; b < head.fan.beams(); ++b) {
       const double u_b = std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]);
       const double v_b = std::sin(head.fan.elevation[b]);
@@ -75,12 +75,12 @@ TEST(PlanarArray, response_is_the_double_sum_over_all_elements) {
   }
 }
 
-// A uniform half-wavelength array of N elements is 3 dB down where its sinc is: 0.88589 / N off in u, and in v.
+// A uniform half-wavelength_750k array of N elements is 3 dB down where its sinc is: 0.88589 / N off in u, and in v.
 TEST(PlanarArray, beams_have_their_closed_form_width_both_ways) {
   SonarHead head = planar_head(1, 1, uniform(40));
   head.array = uniform(64);
   const auto level = [&](double u, double v) {
-    return std::norm(synthesize(one_echo(head, u, v), head, {c, {}}, SynthesisMethod::direct)(0, 100));
+    return std::norm(synthesize(one_echo(head, u, v), head, {c0, {}}, SynthesisMethod::direct)(0, 100));
   };
   EXPECT_NEAR(level(0, 0), 1, 1e-12);
   for (const double side : {-1, 1}) {
@@ -97,10 +97,10 @@ TEST(PlanarArray, finds_a_target_in_its_beam_with_the_level_of_the_sonar_equatio
   s.range = {r}, s.azimuth = {head.fan.azimuth[beam]}, s.elevation = {head.fan.elevation[beam]};
   const std::vector<double> sigma{power_from_db(ts)};
   const std::vector<std::complex<double>> xi{1};
-  const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, medium, with_patterns({}, head));
-  const double loss = 20 * std::log10(r) + medium.absorption.a0 / nepers_per_db * r;
+  const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, planar_medium, with_patterns({}, head));
+  const double loss = 20 * std::log10(r) + planar_medium.absorption.a0 / nepers_per_db * r;
   for (const SynthesisMethod method : methods) {
-    const ComplexGrid p = synthesize(echoes, head, medium, method, {.tolerance = 1e-9});
+    const ComplexGrid p = synthesize(echoes, head, planar_medium, method, {.tolerance = 1e-9});
     Eigen::Index row = 0, column = 0;
     const double peak = p.abs().maxCoeff(&row, &column);
     EXPECT_EQ(row, static_cast<Eigen::Index>(beam));
@@ -111,24 +111,26 @@ TEST(PlanarArray, finds_a_target_in_its_beam_with_the_level_of_the_sonar_equatio
 
 TEST(Rows, of_a_head_with_one_are_the_line_array_bit_for_bit) {
   SonarHead head = stacked_head(9, 1);
-  Echoes echoes = random_echoes(50);
+  Echoes echoes = planar_echoes(50);
   for (const bool upwards : {true, false}) {
     if (!upwards) echoes.v.clear();
-    EXPECT_TRUE(
-        (synthesize(echoes, head, medium, SynthesisMethod::gridded) == synthesize_gridded(echoes, head, medium)).all());
-    EXPECT_TRUE(
-        (synthesize(echoes, head, medium, SynthesisMethod::direct) == synthesize_direct(echoes, head, medium)).all());
-    EXPECT_TRUE(
-        (synthesize(echoes, head, medium, SynthesisMethod::spectrum) == synthesize_spectrum(echoes, head, medium))
-            .all());
+    EXPECT_TRUE((synthesize(echoes, head, planar_medium, SynthesisMethod::gridded) ==
+                 synthesize_gridded(echoes, head, planar_medium))
+                    .all());
+    EXPECT_TRUE((synthesize(echoes, head, planar_medium, SynthesisMethod::direct) ==
+                 synthesize_direct(echoes, head, planar_medium))
+                    .all());
+    EXPECT_TRUE((synthesize(echoes, head, planar_medium, SynthesisMethod::spectrum) ==
+                 synthesize_spectrum(echoes, head, planar_medium))
+                    .all());
   }
 }
 
 // Each row is equivalent to a separate head with its own elevation pattern.
 TEST(Rows, of_a_head_without_column_are_tilted_heads_bit_for_bit) {
   const SonarHead head = stacked_head(6, 4);
-  const Echoes echoes = random_echoes(80);
-  const ComplexGrid p = synthesize(echoes, head, medium, SynthesisMethod::gridded);
+  const Echoes echoes = planar_echoes(80);
+  const ComplexGrid p = synthesize(echoes, head, planar_medium, SynthesisMethod::gridded);
   for (const FanRow& row : fan_rows(head.fan)) {
     SonarHead tilted = head;
     tilted.fan = make_fan(6, radians(40), head.fan.beam_width, head.fan.elevation_width, row.elevation);
@@ -136,7 +138,7 @@ TEST(Rows, of_a_head_without_column_are_tilted_heads_bit_for_bit) {
     for (std::size_t i = 0; i < weighted.size(); ++i)
       weighted.amplitude[i] *=
           elevation_response(head.elevation_shape, head.fan.elevation_width, std::asin(echoes.v[i]) - row.elevation);
-    const ComplexGrid line = synthesize_gridded(weighted, tilted, medium);
+    const ComplexGrid line = synthesize_gridded(weighted, tilted, planar_medium);
     for (std::size_t k = 0; k < 6; ++k) EXPECT_TRUE((p.row(row.beams[k]) == line.row(k)).all());
   }
 }
@@ -152,8 +154,8 @@ TEST(Rows, agree_with_tilted_heads_on_the_same_scatterers) {
     sigma.push_back(x[3]), xi.emplace_back(1);
   }
   const auto received_by = [&](const SonarHead& some) {
-    return synthesize(target_echoes(s, sigma, xi, some.pulse, medium, with_patterns({}, some)), some, medium,
-                      SynthesisMethod::direct);
+    return synthesize(target_echoes(s, sigma, xi, some.pulse, planar_medium, with_patterns({}, some)), some,
+                      planar_medium, SynthesisMethod::direct);
   };
   const ComplexGrid all = received_by(head);
   for (const FanRow& row : fan_rows(head.fan)) {
@@ -169,21 +171,21 @@ TEST(Rows, of_an_irregular_table_do_not_depend_on_the_order_of_the_beams) {
   turned.fan = head.fan;
   std::reverse(turned.fan.azimuth.begin(), turned.fan.azimuth.end());
   std::reverse(turned.fan.elevation.begin(), turned.fan.elevation.end());
-  const Echoes echoes = random_echoes(30);
-  const ComplexGrid p = synthesize(echoes, head, medium, SynthesisMethod::direct);
-  EXPECT_TRUE((synthesize(echoes, turned, medium, SynthesisMethod::direct).colwise().reverse() == p).all());
+  const Echoes echoes = planar_echoes(30);
+  const ComplexGrid p = synthesize(echoes, head, planar_medium, SynthesisMethod::direct);
+  EXPECT_TRUE((synthesize(echoes, turned, planar_medium, SynthesisMethod::direct).colwise().reverse() == p).all());
 }
 
 // A mirrored scene gives the mirrored image: port to starboard, and top to bottom.
 TEST(PlanarArray, gives_the_mirrored_image_of_a_mirrored_scene) {
   const SonarHead head = planar_head(6, 4);
-  const Echoes echoes = random_echoes(60);
+  const Echoes echoes = planar_echoes(60);
   Echoes across = echoes, upside_down = echoes;
   for (double& u : across.u) u = -u;
   for (double& v : upside_down.v) v = -v;
-  const ComplexGrid p = synthesize(echoes, head, medium, SynthesisMethod::direct);
-  const ComplexGrid left = synthesize(across, head, medium, SynthesisMethod::direct);
-  const ComplexGrid down = synthesize(upside_down, head, medium, SynthesisMethod::direct);
+  const ComplexGrid p = synthesize(echoes, head, planar_medium, SynthesisMethod::direct);
+  const ComplexGrid left = synthesize(across, head, planar_medium, SynthesisMethod::direct);
+  const ComplexGrid down = synthesize(upside_down, head, planar_medium, SynthesisMethod::direct);
   ComplexGrid left_back(p.rows(), p.cols()), down_back(p.rows(), p.cols());
   for (int row = 0; row < 4; ++row)
     for (int b = 0; b < 6; ++b) {
@@ -200,13 +202,14 @@ TEST(PlanarArray, gives_the_mirrored_image_of_a_mirrored_scene) {
 TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
   for (const SonarHead& head : {stacked_head(8, 4, radians(6)), stacked_head(8, 4), planar_head(8, 4)})
     for (const bool above : {false, true}) {
-      Echoes echoes = random_echoes(300);
+      Echoes echoes = planar_echoes(300);
       if (above)
         for (double& v : echoes.v) v = 0.45 + 0.3 * v;
-      const ComplexGrid exact = synthesize(echoes, head, medium, SynthesisMethod::direct);
+      const ComplexGrid exact = synthesize(echoes, head, planar_medium, SynthesisMethod::direct);
       for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12})
         EXPECT_LT(
-            relative_l2(synthesize(echoes, head, medium, SynthesisMethod::gridded, {.tolerance = tolerance}), exact),
+            relative_l2(synthesize(echoes, head, planar_medium, SynthesisMethod::gridded, {.tolerance = tolerance}),
+                        exact),
             tolerance)
             << "above: " << above << ", width " << degrees(head.fan.elevation_width);
     }
@@ -214,11 +217,11 @@ TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
 
 TEST(Synthesize, of_rows_does_not_depend_on_threads) {
   const SonarHead head = planar_head(5, 6);
-  const Echoes echoes = random_echoes(6000);
+  const Echoes echoes = planar_echoes(6000);
   for (const SynthesisMethod method : {SynthesisMethod::gridded, SynthesisMethod::direct}) {
-    const ComplexGrid p = synthesize(echoes, head, medium, method, {.threads = 1});
+    const ComplexGrid p = synthesize(echoes, head, planar_medium, method, {.threads = 1});
     for (const int threads : {2, 7})
-      EXPECT_TRUE((synthesize(echoes, head, medium, method, {.threads = threads}) == p).all());
+      EXPECT_TRUE((synthesize(echoes, head, planar_medium, method, {.threads = threads}) == p).all());
   }
 }
 
@@ -255,34 +258,35 @@ TEST(SampledHalfExtent, reaches_as_far_as_the_transmitter) {
 TEST(DirectivityIndex, of_a_planar_array_is_that_of_its_pattern_over_the_sphere) {
   SonarHead head = planar_head(1, 1, taylor(6));
   head.array = taylor(9);
-  head.column->spacing = 0.7 * wavelength;
+  head.column->spacing = 0.7 * wavelength_750k;
   double integral = 0;
   constexpr int n = 400;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double v = -1 + 2 * (i + 0.5) / n, azimuth = 2 * pi * (j + 0.5) / n;
       const double u = std::sqrt(1 - v * v) * std::sin(azimuth);
-      const double b = array_response(head.array, wavelength, u, 0) * array_response(*head.column, wavelength, v, 0);
+      const double b =
+          array_response(head.array, wavelength_750k, u, 0) * array_response(*head.column, wavelength_750k, v, 0);
       integral += b * b * (2.0 / n) * (2 * pi / n);
     }
-  EXPECT_NEAR(directivity_index_db(head, wavelength), 10 * std::log10(4 * pi / integral), 1e-3);
+  EXPECT_NEAR(directivity_index_db(head, wavelength_750k), 10 * std::log10(4 * pi / integral), 1e-3);
 }
 
 TEST(DirectivityIndex, of_planar_arrays_has_its_closed_forms) {
   SonarHead head = planar_head(1, 1, uniform(1));
-  EXPECT_NEAR(directivity_index_db(head, wavelength), directivity_index_db(head.array, wavelength), 1e-9);
+  EXPECT_NEAR(directivity_index_db(head, wavelength_750k), directivity_index_db(head.array, wavelength_750k), 1e-9);
   head.column.reset();
-  EXPECT_EQ(directivity_index_db(head, wavelength), directivity_index_db(head.array, wavelength));
+  EXPECT_EQ(directivity_index_db(head, wavelength_750k), directivity_index_db(head.array, wavelength_750k));
   // Large and uniform: 4 pi area / lambda^2 to the front alone, half of that with the image behind.
   head.column = head.array = uniform(128);
-  EXPECT_NEAR(directivity_index_db(head, wavelength), 10 * std::log10(128 * 128 * pi / 2), 0.05);
+  EXPECT_NEAR(directivity_index_db(head, wavelength_750k), 10 * std::log10(128 * 128 * pi / 2), 0.05);
   EXPECT_NEAR(array_gain_db(head), 20 * std::log10(128), 1e-9);
 }
 
 TEST(SynthesizeNoise, of_a_planar_array_is_the_element_level_less_its_gain) {
   const SonarHead head = planar_head(2, 3);
   const double level = 60;
-  const ComplexGrid p = synthesize_noise(head, {c, {}}, level);
+  const ComplexGrid p = synthesize_noise(head, {c0, {}}, level);
   EXPECT_NEAR(pressure_level_db(std::sqrt(p.abs2().mean())), level - array_gain_db(head), 0.5);
 }
 
@@ -293,14 +297,16 @@ TEST(SynthesizeNoise, of_two_rows_is_correlated_by_the_response_of_the_column) {
   head.array = uniform(10);
   head.gate.max_range = 21;
   head.fan.azimuth = {0, 0, 0, 0.1}, head.fan.elevation = {0, radians(4), radians(8), radians(4)};
-  const ComplexGrid p = synthesize_noise(head, {c, {}}, 60);
+  const ComplexGrid p = synthesize_noise(head, {c0, {}}, 60);
   const auto correlation = [&](int a, int b) {
     return (p.row(a) * p.row(b).conjugate()).sum() / std::sqrt(p.row(a).abs2().sum() * p.row(b).abs2().sum());
   };
-  const auto up = [&](double elevation) { return array_response(*head.column, wavelength, std::sin(elevation), 0); };
+  const auto up = [&](double elevation) {
+    return array_response(*head.column, wavelength_750k, std::sin(elevation), 0);
+  };
   EXPECT_LT(std::abs(correlation(0, 1) - up(radians(4))), 0.08);
   EXPECT_LT(std::abs(correlation(0, 2) - up(radians(8))), 0.08);
-  const double across = array_response(head.array, wavelength, std::cos(radians(4)) * std::sin(0.1), 0);
+  const double across = array_response(head.array, wavelength_750k, std::cos(radians(4)) * std::sin(0.1), 0);
   EXPECT_LT(std::abs(correlation(1, 3) - across), 0.08);
   EXPECT_LT(std::abs(correlation(0, 3) - up(radians(4)) * across), 0.08);
 }
@@ -309,7 +315,7 @@ TEST(SynthesizeNoise, of_rows_without_column_is_independent_and_that_of_the_firs
   SonarHead two = stacked_head(2, 2), one = two;
   two.gate.max_range = one.gate.max_range = 11;
   one.fan.azimuth.resize(2), one.fan.elevation.resize(2);
-  const ComplexGrid p = synthesize_noise(two, {c, {}}, 60), q = synthesize_noise(one, {c, {}}, 60);
+  const ComplexGrid p = synthesize_noise(two, {c0, {}}, 60), q = synthesize_noise(one, {c0, {}}, 60);
   EXPECT_TRUE((p.topRows(2) == q).all());
   const auto shared = (p.row(0) * p.row(2).conjugate()).sum() / p.row(0).abs2().sum();
   EXPECT_LT(std::abs(shared), 0.1);
@@ -317,25 +323,25 @@ TEST(SynthesizeNoise, of_rows_without_column_is_independent_and_that_of_the_firs
 
 TEST(SynthesizeNoise, of_a_planar_array_does_not_depend_on_threads) {
   const SonarHead head = planar_head(3, 4);
-  const ComplexGrid p = synthesize_noise(head, {c, {}}, 60, {.threads = 1});
-  for (const int threads : {2, 7}) EXPECT_TRUE((synthesize_noise(head, {c, {}}, 60, {.threads = threads}) == p).all());
+  const ComplexGrid p = synthesize_noise(head, {c0, {}}, 60, {.threads = 1});
+  for (const int threads : {2, 7}) EXPECT_TRUE((synthesize_noise(head, {c0, {}}, 60, {.threads = threads}) == p).all());
 }
 
 TEST(Synthesize, of_rows_names_what_is_wrong) {
   SonarHead head = planar_head(3, 2);
-  Echoes echoes = random_echoes(5);
+  Echoes echoes = planar_echoes(5);
   head.name = "flat";
-  EXPECT_EQ(error_of([&] { synthesize_gridded(echoes, head, medium); }),
+  EXPECT_EQ(error_of([&] { synthesize_gridded(echoes, head, planar_medium); }),
             "synthesize_gridded: head 'flat' has 2 rows of beams and a column, must be one row of a line array; use "
             "synthesize");
-  EXPECT_THAT(error_of([&] { synthesize_direct(echoes, stacked_head(3, 2), medium); }),
+  EXPECT_THAT(error_of([&] { synthesize_direct(echoes, stacked_head(3, 2), planar_medium); }),
               HasSubstr("has 2 rows of beams, must be one row of a line array; use synthesize"));
   echoes.v[3] = std::nan("");
-  EXPECT_THAT(error_of([&] { synthesize(echoes, head, medium, SynthesisMethod::gridded); }),
+  EXPECT_THAT(error_of([&] { synthesize(echoes, head, planar_medium, SynthesisMethod::gridded); }),
               HasSubstr("synthesize: echo 3 has v nan"));
   echoes.v.clear();
   EXPECT_EQ(
-      error_of([&] { synthesize(echoes, head, medium, SynthesisMethod::direct); }),
+      error_of([&] { synthesize(echoes, head, planar_medium, SynthesisMethod::direct); }),
       "synthesize: echoes have 5 delays and 0 directions upwards (v), must be one of each for a head with several rows "
       "of beams");
 }

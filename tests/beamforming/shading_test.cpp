@@ -1,13 +1,12 @@
 #include "beamforming/shading.hpp"
 
 #include "beamforming/line_array.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace {
 
-constexpr double lambda = 1.5 / 900;
-
-LineArray half_wavelength(const std::vector<double>& weights) { return {lambda / 2, weights}; }
+LineArray half_wavelength(const std::vector<double>& weights) { return {wavelength_900k / 2, weights}; }
 
 /// Levels [dB] of all maxima of |B| for u in (from, 1) under half-wavelength pitch, by a fine scan whose maxima are
 /// completed by the parabola through three points.
@@ -17,7 +16,7 @@ std::vector<double> side_lobes_db(const std::vector<double>& weights, double fro
   std::vector<double> amplitude;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double u = from + (1 - from) * static_cast<double>(i) / static_cast<double>(steps);
-    amplitude.push_back(std::abs(array_response(array, lambda, u, 0)));
+    amplitude.push_back(std::abs(array_response(array, wavelength_900k, u, 0)));
   }
   std::vector<double> levels;
   for (std::size_t i = 1; i + 1 < amplitude.size(); ++i) {
@@ -52,12 +51,12 @@ TEST(HammingShading, is_three_uniform_arrays) {
   const LineArray array = half_wavelength(hamming_shading(n)), uniform = half_wavelength(uniform_shading(n));
   const double null = 2.0 / static_cast<double>(n);  // in u, at half a wavelength
   for (const double u : {0.01, 0.07, 0.1337, 0.4, 0.9}) {
-    const auto d = [&](double at) { return array_response(uniform, lambda, at, 0); };
-    EXPECT_NEAR(array_response(array, lambda, u, 0), d(u) + 0.46 / 1.08 * (d(u - null) + d(u + null)), 1e-13);
+    const auto d = [&](double at) { return array_response(uniform, wavelength_900k, at, 0); };
+    EXPECT_NEAR(array_response(array, wavelength_900k, u, 0), d(u) + 0.46 / 1.08 * (d(u - null) + d(u + null)), 1e-13);
   }
 }
 
-// The same for a long array: sinc(v) (0.54 - 0.08 v^2) / (0.54 (1 - v^2)), v = L u / lambda. It vanishes at v = 2 (the
+// The same for a long array: sinc(v) (0.54 - 0.08 v^2) / (0.54 (1 - v^2)), v = L u / wavelength_900k. It vanishes at v = 2 (the
 // zero of the sinc at 1 is lifted) and at v = sqrt(0.54 / 0.08) = 2.598; the highest of its maxima is the side lobe.
 TEST(HammingShading, has_its_highest_side_lobe_42_7_db_down) {
   double highest = 0;
@@ -85,15 +84,15 @@ TEST(ChebyshevShading, has_its_first_null_at_the_closed_form) {
   for (const std::size_t n : {4U, 9U, 100U}) {
     const double x0 = std::cosh(std::acosh(amplitude_from_db(30)) / static_cast<double>(n - 1));
     const double null = 2 / pi * std::acos(std::cos(pi / (2 * static_cast<double>(n - 1))) / x0);
-    EXPECT_NEAR(array_response(half_wavelength(chebyshev_shading(n, -30)), lambda, null, 0), 0, 1e-12) << n;
+    EXPECT_NEAR(array_response(half_wavelength(chebyshev_shading(n, -30)), wavelength_900k, null, 0), 0, 1e-12) << n;
   }
 }
 
 // Dolph's optimum: for the same level and length no other shading has a narrower beam.
 TEST(ChebyshevShading, is_narrower_than_taylor_of_the_same_level) {
-  const double chebyshev = array_beam_width(half_wavelength(chebyshev_shading(64, -30)), lambda);
-  EXPECT_LT(chebyshev, array_beam_width(half_wavelength(taylor_shading(64, -30)), lambda));
-  EXPECT_GT(chebyshev, array_beam_width(half_wavelength(uniform_shading(64)), lambda));
+  const double chebyshev = array_beam_width(half_wavelength(chebyshev_shading(64, -30)), wavelength_900k);
+  EXPECT_LT(chebyshev, array_beam_width(half_wavelength(taylor_shading(64, -30)), wavelength_900k));
+  EXPECT_GT(chebyshev, array_beam_width(half_wavelength(uniform_shading(64)), wavelength_900k));
 }
 
 TEST(Shading, errors_name_function_value_and_rule) {

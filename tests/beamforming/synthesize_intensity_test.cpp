@@ -8,10 +8,9 @@
 
 namespace {
 
-constexpr double c = 1500;
 const double db_per_part = 10 / std::numbers::ln10;
 
-SonarSpec spec(std::size_t beams = 16) {
+SonarSpec intensity_spec(std::size_t beams = 16) {
   SonarSpec s;
   s.name = "test";
   s.centre_frequency = 600e3, s.bandwidth = 30e3;
@@ -21,12 +20,12 @@ SonarSpec spec(std::size_t beams = 16) {
   return s;
 }
 
-SonarHead line() { return make_head(spec(), c); }
+SonarHead line() { return make_head(intensity_spec(), c0); }
 
 SonarHead long_line() {
-  SonarSpec s = spec();
+  SonarSpec s = intensity_spec();
   s.max_range = 6;
-  return make_head(s, c);
+  return make_head(s, c0);
 }
 
 SonarHead sweep() {
@@ -37,18 +36,18 @@ SonarHead sweep() {
 }
 
 /// Absorption of 40 dB over the gate, with slope and curvature of a like size over the band.
-Medium water(int order) {
+Medium water_of_order(int order) {
   const double a0 = 20 * nepers_per_db;
-  return {c, {a0, order < 1 ? 0 : 2 * a0 / 600e3, order < 2 ? 0 : 2 * a0 / (600e3 * 30e3)}};
+  return {c0, {a0, order < 1 ? 0 : 2 * a0 / 600e3, order < 2 ? 0 : 2 * a0 / (600e3 * 30e3)}};
 }
 
 /// Echoes in and around fan and gate with complex normal amplitudes.
-Echoes echoes_in(const SonarHead& head, std::size_t count, bool moving = false) {
+Echoes intensity_echoes(const SonarHead& head, std::size_t count, bool moving = false) {
   Echoes e;
   const double length = head.gate.max_range - head.gate.min_range;
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = random_uniform(5, RandomStage::scene_points, {i, 0, 0});
-    e.delay.push_back(2 * (head.gate.min_range + length * (1.02 * at[0] - 0.01)) / c);
+    e.delay.push_back(2 * (head.gate.min_range + length * (1.02 * at[0] - 0.01)) / c0);
     e.u.push_back(0.8 * at[1] - 0.4);
     e.v.push_back(0.5 * at[2] - 0.25);
     e.amplitude.push_back(random_complex_normal(5, RandomStage::noise, {i, 0, 0}));
@@ -60,7 +59,7 @@ Echoes echoes_in(const SonarHead& head, std::size_t count, bool moving = false) 
 /// The definition, term by term: the sum of (|A|^2 |B|^2 |G|^2)^power.
 Grid<double> by_definition(const Echoes& e, const SonarHead& head, const Medium& medium, int power = 1) {
   Grid<double> sum = Grid<double>::Zero(head.fan.beams(), head.gate.bins());
-  const double wavelength = c / head.pulse.centre_frequency;
+  const double wavelength = c0 / head.pulse.centre_frequency;
   const EchoShapes shapes(head.pulse, medium);
   const bool rows = fan_rows(head.fan).size() > 1;
   for (std::size_t b = 0; b < head.fan.beams(); ++b) {
@@ -71,7 +70,7 @@ Grid<double> by_definition(const Echoes& e, const SonarHead& head, const Medium&
       const double response =
           array_response(head.array, wavelength, e.u[i], u_b) * (rows || head.column ? row.at(e.v[i]) : 1);
       for (std::size_t n = 0; n < head.gate.bins(); ++n) {
-        const double g = std::abs(envelope.at(2 * head.gate.centre(n) / c - e.delay[i]));
+        const double g = std::abs(envelope.at(2 * head.gate.centre(n) / c0 - e.delay[i]));
         sum(b, n) += std::pow(std::norm(e.amplitude[i]) * response * response * g * g, power);
       }
     }
@@ -89,10 +88,10 @@ TEST(SynthesizeIntensity, is_the_sum_of_squares_to_the_square_of_the_tolerance) 
   for (const std::size_t beams : {1u, 16u})
     for (const int order : {0, 1, 2})
       for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
-        SonarHead head = make_head(spec(beams), c);
+        SonarHead head = make_head(intensity_spec(beams), c0);
         if (beams == 1) head.array = {head.array.spacing, {0.7, 1.6, 0.7}};  // odd; the other one is even
-        const Medium medium = water(order);
-        const Echoes echoes = echoes_in(head, 150, order == 2);
+        const Medium medium = water_of_order(order);
+        const Echoes echoes = intensity_echoes(head, 150, order == 2);
         EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, medium, {.tolerance = tolerance}),
                               by_definition(echoes, head, medium)),
                   tolerance * tolerance)
@@ -103,21 +102,24 @@ TEST(SynthesizeIntensity, is_the_sum_of_squares_to_the_square_of_the_tolerance) 
 TEST(SynthesizeIntensity, of_a_sweep_is_the_sum_of_squares) {
   const SonarHead head = sweep();
   for (const int order : {0, 1}) {
-    const Echoes echoes = echoes_in(head, 30, order == 1);
-    EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, water(order)), by_definition(echoes, head, water(order))),
+    const Echoes echoes = intensity_echoes(head, 30, order == 1);
+    EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, water_of_order(order)),
+                          by_definition(echoes, head, water_of_order(order))),
               1e-12);
   }
 }
 
 TEST(SynthesizeIntensity, gives_rows_and_columns_their_patterns) {
-  SonarSpec rows = spec();
+  SonarSpec rows = intensity_spec();
   rows.elevations = {radians(-6), radians(4)};
   SonarSpec planar = rows;
   planar.column_beam_width = radians(8);
   for (const SonarSpec& s : {rows, planar}) {
-    const SonarHead head = make_head(s, c);
-    const Echoes echoes = echoes_in(head, 100);
-    EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, water(0)), by_definition(echoes, head, water(0))), 1e-6);
+    const SonarHead head = make_head(s, c0);
+    const Echoes echoes = intensity_echoes(head, 100);
+    EXPECT_LT(relative_l2(synthesize_intensity(echoes, head, water_of_order(0)),
+                          by_definition(echoes, head, water_of_order(0))),
+              1e-6);
   }
 }
 
@@ -125,8 +127,8 @@ TEST(SynthesizeIntensity, gives_rows_and_columns_their_patterns) {
 TEST(SynthesizeIntensity, is_the_mean_over_random_phases_within_its_statistical_error) {
   constexpr int draws = 400;
   const SonarHead head = long_line();
-  const Medium medium{c, {}};
-  Echoes echoes = echoes_in(head, 4000);
+  const Medium medium{c0, {}};
+  Echoes echoes = intensity_echoes(head, 4000);
   for (auto& a : echoes.amplitude) a = 1;
   const Grid<double> expected = synthesize_intensity(echoes, head, medium);
   const Grid<double> variance = expected.square() - by_definition(echoes, head, medium, 2);
@@ -152,20 +154,20 @@ TEST(SynthesizeIntensity, is_the_mean_over_random_phases_within_its_statistical_
 
 TEST(SynthesizeIntensity, as_a_method_gives_its_root_as_a_real_pressure) {
   const SonarHead head = line();
-  const Echoes echoes = echoes_in(head, 50);
-  const ComplexGrid p = synthesize(echoes, head, water(0), SynthesisMethod::incoherent);
+  const Echoes echoes = intensity_echoes(head, 50);
+  const ComplexGrid p = synthesize(echoes, head, water_of_order(0), SynthesisMethod::incoherent);
   EXPECT_TRUE((p.imag() == 0).all());
-  EXPECT_TRUE((p.real() == synthesize_intensity(echoes, head, water(0)).sqrt()).all());
+  EXPECT_TRUE((p.real() == synthesize_intensity(echoes, head, water_of_order(0)).sqrt()).all());
 }
 
 TEST(SynthesizeIntensity, does_not_depend_on_the_number_of_threads) {
   for (const SonarHead& head : {line(), sweep()}) {
-    const Echoes echoes = echoes_in(head, 60);
-    const Grid<double> one = synthesize_intensity(echoes, head, water(0), {.threads = 1});
-    const Grid<float> error = predict_level_error_db(echoes, head, water(0), {.threads = 1});
+    const Echoes echoes = intensity_echoes(head, 60);
+    const Grid<double> one = synthesize_intensity(echoes, head, water_of_order(0), {.threads = 1});
+    const Grid<float> error = predict_level_error_db(echoes, head, water_of_order(0), {.threads = 1});
     for (const int threads : {2, 7}) {
-      EXPECT_TRUE((synthesize_intensity(echoes, head, water(0), {.threads = threads}) == one).all());
-      const Grid<float> again = predict_level_error_db(echoes, head, water(0), {.threads = threads});
+      EXPECT_TRUE((synthesize_intensity(echoes, head, water_of_order(0), {.threads = threads}) == one).all());
+      const Grid<float> again = predict_level_error_db(echoes, head, water_of_order(0), {.threads = threads});
       EXPECT_TRUE((again == error || (again.isNaN() && error.isNaN())).all());
     }
   }
@@ -174,9 +176,9 @@ TEST(SynthesizeIntensity, does_not_depend_on_the_number_of_threads) {
 TEST(PredictLevelError, of_equal_points_in_one_place_falls_with_the_root_of_their_number) {
   const SonarHead head = line();
   for (const std::size_t n : {1u, 4u, 100u}) {
-    const double delay = 2 * head.gate.centre(20) / c;
+    const double delay = 2 * head.gate.centre(20) / c0;
     const Echoes echoes{std::vector(n, delay), std::vector(n, 0.1), std::vector<std::complex<double>>(n, {0, 0.3})};
-    const Grid<float> error = predict_level_error_db(echoes, head, {c, {}});
+    const Grid<float> error = predict_level_error_db(echoes, head, {c0, {}});
     const float inside = error(9, 20);
     EXPECT_NEAR(inside, db_per_part / std::sqrt(static_cast<double>(n)), 0.02 * inside);
     EXPECT_TRUE(std::isnan(error(9, error.cols() - 1)));  // no echo there
@@ -186,8 +188,8 @@ TEST(PredictLevelError, of_equal_points_in_one_place_falls_with_the_root_of_thei
 TEST(PredictLevelError, follows_from_the_sums_of_weights_and_squares) {
   for (const SonarHead& head : {line(), sweep()})
     for (const int order : {0, 1}) {
-      const Echoes echoes = echoes_in(head, 40);
-      const Medium medium = water(order);
+      const Echoes echoes = intensity_echoes(head, 40);
+      const Medium medium = water_of_order(order);
       const Grid<double> once = by_definition(echoes, head, medium), twice = by_definition(echoes, head, medium, 2);
       const Grid<float> error = predict_level_error_db(echoes, head, medium, {.dynamic_range_db = 30});
       const double least = 1e-3 * once.maxCoeff();
@@ -215,13 +217,13 @@ TEST(PredictLevelError, is_the_spread_of_the_level_over_independent_points) {
     for (std::size_t i = 0; i < 8000; ++i) {
       const auto at = random_uniform(seed, RandomStage::scene_points, {i, 0, 0});
       if (at[2] > 0.7) continue;
-      e.delay.push_back(2 * (head.gate.min_range + length * at[0]) / c);
+      e.delay.push_back(2 * (head.gate.min_range + length * at[0]) / c0);
       e.u.push_back(2 * at[1] - 1);
       e.amplitude.push_back(1);
     }
-    const Grid<double> w = synthesize_intensity(e, head, {c, {}}, {.tolerance = 1e-2});
+    const Grid<double> w = synthesize_intensity(e, head, {c0, {}}, {.tolerance = 1e-2});
     level.push_back(db_from_power(w(beam, bin)));
-    if (seed < 10) predicted += std::pow(predict_level_error_db(e, head, {c, {}})(beam, bin), 2) / 10;
+    if (seed < 10) predicted += std::pow(predict_level_error_db(e, head, {c0, {}})(beam, bin), 2) / 10;
   }
   double mean = 0;
   for (const double l : level) mean += l / scenes;
@@ -231,8 +233,8 @@ TEST(PredictLevelError, is_the_spread_of_the_level_over_independent_points) {
 
 TEST(PredictLevelError, refuses_an_invalid_dynamic_range) {
   const SonarHead head = line();
-  const Echoes echoes = echoes_in(head, 3);
+  const Echoes echoes = intensity_echoes(head, 3);
   for (const double range : {0.0, 51.0, std::nan("")})
-    EXPECT_THAT(error_of([&] { predict_level_error_db(echoes, head, water(0), {.dynamic_range_db = range}); }),
+    EXPECT_THAT(error_of([&] { predict_level_error_db(echoes, head, water_of_order(0), {.dynamic_range_db = range}); }),
                 HasSubstr("must be within (0, 50]"));
 }

@@ -15,38 +15,37 @@ using namespace insonify;
 
 namespace {
 
-constexpr double c = 1500;
-Medium water() { return {c, {0.02, 0, 0}}; }
+Medium near_water() { return {c0, {0.02, 0, 0}}; }
 
-struct Case {
+struct WidebandCase {
   const char* name;
   double frequency, bandwidth;
   std::size_t elements;
   double field_of_view, min_range, max_range;
 };
 
-SonarHead head_of(const Case& of) {
+SonarHead wideband_head(const WidebandCase& of) {
   SonarHead head;
   head.pulse = {of.frequency, of.bandwidth, 200};
-  head.array = {0.5 * c / of.frequency, taylor_shading(of.elements, -30)};
+  head.array = {0.5 * c0 / of.frequency, taylor_shading(of.elements, -30)};
   head.fan = make_fan(9, radians(of.field_of_view), radians(2), radians(20));
-  head.gate = {of.min_range, of.max_range, 0.44 * c / (2 * of.bandwidth)};
+  head.gate = {of.min_range, of.max_range, 0.44 * c0 / (2 * of.bandwidth)};
   return head;
 }
 
-Echoes echoes_in(const SonarHead& head, std::size_t n) {
+Echoes near_echoes(const SonarHead& head, std::size_t n) {
   Echoes e;
   const double widest = std::sin(head.fan.azimuth.back());
   for (std::size_t i = 0; i < n; ++i) {
     const auto at = random_uniform(5, RandomStage::scene_points, {i, 0, 0});
-    e.delay.push_back(2 * (head.gate.min_range + at[0] * (head.gate.max_range - head.gate.min_range)) / c);
+    e.delay.push_back(2 * (head.gate.min_range + at[0] * (head.gate.max_range - head.gate.min_range)) / c0);
     e.u.push_back(1.05 * widest * (2 * at[1] - 1));
     e.amplitude.push_back(random_complex_normal(5, RandomStage::noise, {i, 0, 0}));
   }
   return e;
 }
 
-ComplexGrid exact(const Echoes& e, const SonarHead& head, const Medium& medium = water()) {
+ComplexGrid exact(const Echoes& e, const SonarHead& head, const Medium& medium = near_water()) {
   return synthesize(e, head, medium, SynthesisMethod::element_exact, {1e-7});
 }
 
@@ -54,54 +53,54 @@ double relative_l2(const ComplexGrid& a, const ComplexGrid& b) {
   return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
 }
 
-class WidebandPromise : public testing::TestWithParam<Case> {};
+class WidebandPromise : public testing::TestWithParam<WidebandCase> {};
 
 }  // namespace
 
 TEST_P(WidebandPromise, true_delays_of_every_element_to_the_tolerance) {
-  const SonarHead head = head_of(GetParam());
-  const Echoes e = echoes_in(head, 60);
+  const SonarHead head = wideband_head(GetParam());
+  const Echoes e = near_echoes(head, 60);
   const ComplexGrid referee = exact(e, head);
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5})
-    EXPECT_LE(relative_l2(synthesize_true_delays(e, head, water(), {tolerance}), referee), tolerance) << tolerance;
+    EXPECT_LE(relative_l2(synthesize_true_delays(e, head, near_water(), {tolerance}), referee), tolerance) << tolerance;
   // What it is for: the narrow band is wrong by more than that.
-  EXPECT_GT(relative_l2(synthesize_gridded(e, head, water()), referee), 1e-2);
+  EXPECT_GT(relative_l2(synthesize_gridded(e, head, near_water()), referee), 1e-2);
 }
 
 INSTANTIATE_TEST_SUITE_P(heads, WidebandPromise,
-                         testing::Values(Case{"wide", 400e3, 100e3, 40, 120, 3, 3.6},
-                                         Case{"half_the_carrier", 400e3, 200e3, 40, 120, 6, 6.3},
-                                         Case{"narrow_fan", 1800e3, 150e3, 160, 28, 4, 4.4},
-                                         Case{"long_array", 400e3, 40e3, 128, 120, 20, 21},
-                                         Case{"near", 400e3, 100e3, 40, 90, 0.5, 0.7},
-                                         Case{"oculus_m750d", 750e3, 187.5e3, 64, 130, 0.5, 0.6},
-                                         Case{"em2040", 400e3, 37.5e3, 64, 140, 0.5, 0.9},
-                                         Case{"aris_3000", 3000e3, 250e3, 128, 28, 0.4, 0.45},
-                                         Case{"p900_45", 900e3, 29.5e3, 64, 45, 0.5, 0.8},
-                                         Case{"as_near_as_the_array_is_long", 400e3, 100e3, 40, 90, 0.075, 0.2},
-                                         Case{"all_of_it_near", 400e3, 100e3, 40, 90, 0.075, 0.1},
-                                         Case{"hardly_a_band", 600e3, 1.5e3, 64, 90, 0.5, 5}),
+                         testing::Values(WidebandCase{"wide", 400e3, 100e3, 40, 120, 3, 3.6},
+                                         WidebandCase{"half_the_carrier", 400e3, 200e3, 40, 120, 6, 6.3},
+                                         WidebandCase{"narrow_fan", 1800e3, 150e3, 160, 28, 4, 4.4},
+                                         WidebandCase{"long_array", 400e3, 40e3, 128, 120, 20, 21},
+                                         WidebandCase{"near", 400e3, 100e3, 40, 90, 0.5, 0.7},
+                                         WidebandCase{"oculus_m750d", 750e3, 187.5e3, 64, 130, 0.5, 0.6},
+                                         WidebandCase{"em2040", 400e3, 37.5e3, 64, 140, 0.5, 0.9},
+                                         WidebandCase{"aris_3000", 3000e3, 250e3, 128, 28, 0.4, 0.45},
+                                         WidebandCase{"p900_45", 900e3, 29.5e3, 64, 45, 0.5, 0.8},
+                                         WidebandCase{"as_near_as_the_array_is_long", 400e3, 100e3, 40, 90, 0.075, 0.2},
+                                         WidebandCase{"all_of_it_near", 400e3, 100e3, 40, 90, 0.075, 0.1},
+                                         WidebandCase{"hardly_a_band", 600e3, 1.5e3, 64, 90, 0.5, 5}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 // Pulses of moving echoes, and of losses that tilt and widen them, are each gridded as they are.
 TEST(WidebandSynthesizer, moving_echoes_and_absorption_by_frequency_keep_the_tolerance) {
-  const SonarHead head = head_of({"", 400e3, 100e3, 40, 120, 3, 3.6});
-  Echoes e = echoes_in(head, 60);
+  const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 3, 3.6});
+  Echoes e = near_echoes(head, 60);
   for (std::size_t i = 0; i < e.size(); ++i) e.doppler.push_back(40.0 * static_cast<double>(i % 50) - 1000);
-  const Medium tilted{c, {0.02, 2e-8, 1e-14}};
+  const Medium tilted{c0, {0.02, 2e-8, 1e-14}};
   EXPECT_LE(relative_l2(synthesize_true_delays(e, head, tilted, {1e-3}), exact(e, head, tilted)), 1e-3);
 }
 
 TEST(WidebandSynthesizer, sweeps_keep_a_hundredth) {
-  SonarHead head = head_of({"", 400e3, 60e3, 40, 120, 5, 6});
+  SonarHead head = wideband_head({"", 400e3, 60e3, 40, 120, 5, 6});
   head.pulse.shape = PulseShape::linear_fm;
   head.pulse.duration = 1e-3;
-  const Echoes e = echoes_in(head, 40);
-  EXPECT_LE(relative_l2(synthesize_true_delays(e, head, water(), {1e-2}), exact(e, head)), 1e-2);
+  const Echoes e = near_echoes(head, 40);
+  EXPECT_LE(relative_l2(synthesize_true_delays(e, head, near_water(), {1e-2}), exact(e, head)), 1e-2);
 }
 
 TEST(WidebandSynthesizer, heads_of_several_rows_are_made_row_by_row) {
-  SonarHead head = head_of({"", 400e3, 100e3, 40, 90, 4, 4.4});
+  SonarHead head = wideband_head({"", 400e3, 100e3, 40, 90, 4, 4.4});
   const BeamFan row = head.fan;
   for (const double elevation : {-0.1, 0.1})
     for (std::size_t b = 0; b < row.beams(); ++b) {
@@ -111,53 +110,53 @@ TEST(WidebandSynthesizer, heads_of_several_rows_are_made_row_by_row) {
   head.fan.azimuth.erase(head.fan.azimuth.begin(), head.fan.azimuth.begin() + static_cast<std::ptrdiff_t>(row.beams()));
   head.fan.elevation.erase(head.fan.elevation.begin(),
                            head.fan.elevation.begin() + static_cast<std::ptrdiff_t>(row.beams()));
-  Echoes e = echoes_in(head, 40);
+  Echoes e = near_echoes(head, 40);
   for (std::size_t i = 0; i < e.size(); ++i) e.v.push_back(0.3 * std::sin(static_cast<double>(i)));
-  EXPECT_LE(relative_l2(synthesize(e, head, water(), SynthesisMethod::true_delays, {1e-3}), exact(e, head)), 1e-3);
+  EXPECT_LE(relative_l2(synthesize(e, head, near_water(), SynthesisMethod::true_delays, {1e-3}), exact(e, head)), 1e-3);
 }
 
 // A loud echo does not spoil a faint one a block away: each is right relative to its own level.
 TEST(WidebandSynthesizer, errors_stay_where_they_are_made) {
-  const SonarHead head = head_of({"", 400e3, 100e3, 40, 120, 3, 9});
+  const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 3, 9});
   Echoes e;
-  e.delay = {2 * 3.5 / c, 2 * 8.5 / c};
+  e.delay = {2 * 3.5 / c0, 2 * 8.5 / c0};
   e.u = {0.2, -0.4};
   e.amplitude = {{1e8, 0}, {1, 0}};
-  const ComplexGrid referee = exact(e, head), image = synthesize_true_delays(e, head, water(), {1e-3});
+  const ComplexGrid referee = exact(e, head), image = synthesize_true_delays(e, head, near_water(), {1e-3});
   const Eigen::Index half = referee.cols() * 3 / 4;
   EXPECT_LE(relative_l2(image.rightCols(referee.cols() - half), referee.rightCols(referee.cols() - half)), 1e-3);
 }
 
 TEST(WidebandSynthesizer, one_echo_and_none) {
-  const SonarHead head = head_of({"", 400e3, 100e3, 40, 120, 3, 5});
-  const WidebandSynthesizer plan(head, water(), {1e-3});
+  const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 3, 5});
+  const WidebandSynthesizer plan(head, near_water(), {1e-3});
   EXPECT_EQ(plan.pressure({}).abs2().sum(), 0);
   Echoes point;
-  point.delay = {2 * 4.0 / c};
+  point.delay = {2 * 4.0 / c0};
   point.u = {0.01};
   point.amplitude = {{1e-30, 0}};
   EXPECT_LE(relative_l2(plan.pressure(point), exact(point, head)), 1e-3);
   // Just outside the gate, in the outermost beam, whose elements hear part of it within.
-  point.delay = {2 * 5.005 / c};
+  point.delay = {2 * 5.005 / c0};
   point.u = {0.86};
   EXPECT_LE(relative_l2(plan.pressure(point), exact(point, head)), 1e-2);
 }
 
 TEST(WidebandSynthesizer, same_bits_for_any_number_of_threads) {
-  const SonarHead head = head_of({"", 400e3, 100e3, 40, 120, 0.3, 6});
-  const Echoes e = echoes_in(head, 200);
-  const ComplexGrid one = synthesize_true_delays(e, head, water(), {1e-3, 1});
+  const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 0.3, 6});
+  const Echoes e = near_echoes(head, 200);
+  const ComplexGrid one = synthesize_true_delays(e, head, near_water(), {1e-3, 1});
   for (const int threads : {2, 7})
-    EXPECT_TRUE((one == synthesize_true_delays(e, head, water(), {1e-3, threads})).all());
+    EXPECT_TRUE((one == synthesize_true_delays(e, head, near_water(), {1e-3, threads})).all());
 }
 
 TEST(WidebandSynthesizer, refuses_what_it_cannot_keep) {
-  const SonarHead head = head_of({"", 400e3, 100e3, 40, 120, 3, 4});
-  EXPECT_NE(error_of([&] { synthesize_true_delays({}, head, water(), {1e-6}); }).find("tolerance = 1e-06"),
+  const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 3, 4});
+  EXPECT_NE(error_of([&] { synthesize_true_delays({}, head, near_water(), {1e-6}); }).find("tolerance = 1e-06"),
             std::string::npos);
-  EXPECT_NE(error_of([&] { synthesize_true_delays({}, head, water(), {0.5}); }).find("tolerance = 0.5"),
+  EXPECT_NE(error_of([&] { synthesize_true_delays({}, head, near_water(), {0.5}); }).find("tolerance = 0.5"),
             std::string::npos);
-  Echoes e = echoes_in(head, 3);
+  Echoes e = near_echoes(head, 3);
   e.u[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(error_of([&] { synthesize_true_delays(e, head, water()); }).find("echo 1"), std::string::npos);
+  EXPECT_NE(error_of([&] { synthesize_true_delays(e, head, near_water()); }).find("echo 1"), std::string::npos);
 }

@@ -5,8 +5,6 @@ using namespace insonify::extreme;
 
 namespace {
 
-const Pulse pulse{900e3, 29.5e3, 220};
-
 SonarSpec loud_sonar(double source_level_db) {
   SonarSpec s = small_sonar();
   s.source_level_db = source_level_db;
@@ -17,10 +15,10 @@ SonarSpec loud_sonar(double source_level_db) {
 
 // 2 alpha r of 80, 200 and 900 Np: beyond single, then beyond double precision.
 TEST(ExtremeLevels, n17_absorption_beyond_double_precision_is_silence) {
-  const SonarHead head = single_beam(pulse, 9, 11);
+  const SonarHead head = single_beam(pulse_900k, 9, 11);
   for (const double alpha : {4.0, 10.0, 45.0, 1e300}) {
     const Medium medium{1500, {alpha, 0, 0}};
-    const Echoes echoes = echoes_of(targets_at({10}), pulse, medium);
+    const Echoes echoes = echoes_of(targets_at({10}), pulse_900k, medium);
     for (const ComplexGrid& p : {synthesize_direct(echoes, head, medium), synthesize_gridded(echoes, head, medium)}) {
       EXPECT_TRUE(p.isFinite().all()) << alpha;
       const double expected = std::abs(echoes.amplitude[0]) * std::exp(-2 * alpha * 10);
@@ -51,8 +49,8 @@ TEST(ExtremeLevels, n17_absorption_that_varies_over_the_band_stays_finite_howeve
 }
 
 TEST(ExtremeLevels, n19_absorption_that_would_amplify_is_refused) {
-  const SonarHead head = single_beam(pulse, 9, 11);
-  const Echoes echoes = echoes_of(targets_at({10}), pulse, clear_water());
+  const SonarHead head = single_beam(pulse_900k, 9, 11);
+  const Echoes echoes = echoes_of(targets_at({10}), pulse_900k, clear_water());
   for (const auto synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum})
     expect_error(ErrorKind::argument, {"absorption = -1 dB/m", "must be >= 0"}, [&] {
       synthesize(echoes, head, {1500, {-nepers_per_db, 0, 0}}, {});
@@ -76,14 +74,14 @@ TEST(ExtremeLevels, n19_materials_that_would_amplify_or_are_no_number_are_refuse
   for (const double mu : {-0.1, not_a_number, infinity}) {
     const std::vector<Material> materials{{"odd", mu}};
     expect_error(ErrorKind::argument, {"lambert_mu", "'odd'", ">= 0"},
-                 [&] { direct_echoes(s, materials, pulse, clear_water()); });
+                 [&] { direct_echoes(s, materials, pulse_900k, clear_water()); });
     SceneCloud scene = plate(5, 1, 3);
     scene.materials = materials;
     expect_error(ErrorKind::content, {"lambert_mu", "'odd'", ">= 0"}, [&] { ping_of(scene); });
   }
   for (const double sigma : {-1.0, not_a_number, infinity})
     expect_error(ErrorKind::argument, {"sigma[0]", "m^2", ">= 0"},
-                 [&] { echoes_of(targets_at({5}), pulse, clear_water(), sigma); });
+                 [&] { echoes_of(targets_at({5}), pulse_900k, clear_water(), sigma); });
 }
 
 TEST(ExtremeLevels, n32_echoes_below_the_smallest_numbers_change_nothing) {

@@ -5,8 +5,6 @@ using namespace insonify::extreme;
 
 namespace {
 
-const Pulse pulse{900e3, 29.5e3, 220};
-
 using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&, const SynthesisOptions&);
 const std::vector<Synthesis> methods = {synthesize_direct, synthesize_gridded, synthesize_spectrum};
 
@@ -14,9 +12,9 @@ const std::vector<Synthesis> methods = {synthesize_direct, synthesize_gridded, s
 
 // A plain frequency sum shows a target at 14.017 m in a window of 13.017 m at 1 m, at full level.
 TEST(ExtremeGates, n09_echo_from_beyond_the_gate_does_not_wrap_round) {
-  const SonarHead head = single_beam(pulse, 0.5, 13.517);
+  const SonarHead head = single_beam(pulse_900k, 0.5, 13.517);
   for (const double r : {14.017, 14.517, 27.034, 300.0}) {
-    const Echoes echoes = echoes_of(targets_at({r}), pulse, clear_water());
+    const Echoes echoes = echoes_of(targets_at({r}), pulse_900k, clear_water());
     const double unwrapped = std::abs(echoes.amplitude[0]);
     for (const Synthesis& synthesize : methods)
       EXPECT_LT(synthesize(echoes, head, clear_water(), {}).abs().maxCoeff(), 1e-12 * unwrapped) << r << " m";
@@ -24,8 +22,8 @@ TEST(ExtremeGates, n09_echo_from_beyond_the_gate_does_not_wrap_round) {
 }
 
 TEST(ExtremeGates, n10_n11_the_gate_cuts_an_echo_at_its_edges_but_does_not_change_it) {
-  const Echoes echoes = echoes_of(targets_at({2.0, 8.0}), pulse, clear_water());
-  const SonarHead wide = single_beam(pulse, 1, 9), narrow = single_beam(pulse, 2, 8);
+  const Echoes echoes = echoes_of(targets_at({2.0, 8.0}), pulse_900k, clear_water());
+  const SonarHead wide = single_beam(pulse_900k, 1, 9), narrow = single_beam(pulse_900k, 2, 8);
   const auto skipped = static_cast<Eigen::Index>(std::llround((2.0 - 1.0) / 0.002));
   for (const Synthesis& synthesize : methods) {
     const ComplexGrid all = synthesize(echoes, wide, clear_water(), {}),
@@ -49,7 +47,7 @@ TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_
     ASSERT_EQ(p.sampling.scatterers, 1U) << r << " m";
     ASSERT_EQ(p.soundings.size(), 1U) << r << " m";
     EXPECT_NEAR(p.soundings.range[0], r, 0.011);
-    // Just outside: the end of its pulse is still received; farther away nothing is.
+    // Just outside: the end of its pulse_900k is still received; farther away nothing is.
     scene.point[0].x() = static_cast<float>(r < 2 ? r - 0.02 : r + 0.02);
     const double tail = image(ping_of(scene, {.amplitude = SurfaceAmplitude::coherent}, s)).abs().maxCoeff();
     EXPECT_GT(tail, 0) << r << " m";
@@ -60,11 +58,11 @@ TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_
 }
 
 TEST(ExtremeGates, n18_without_absorption_pressure_falls_as_one_over_range_squared) {
-  const SonarHead head = single_beam(pulse, 1, 20);
+  const SonarHead head = single_beam(pulse_900k, 1, 20);
   double first = 0;
   for (const double r : {1.0, 2.0, 5.0, 10.0, 20.0}) {
     const double here =
-        synthesize_direct(echoes_of(targets_at({r}), pulse, clear_water()), head, clear_water()).abs().maxCoeff();
+        synthesize_direct(echoes_of(targets_at({r}), pulse_900k, clear_water()), head, clear_water()).abs().maxCoeff();
     if (first == 0) first = here;
     EXPECT_NEAR(here * r * r / first, 1, 1e-10) << r;
   }

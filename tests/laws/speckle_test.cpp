@@ -15,7 +15,7 @@ SonarHead bottom_head() {
   const double bandwidth = 20e3, bin = 0.44 * speed / (2 * bandwidth);
   return head_with(one_degree_array(), azimuths, bandwidth, {7.2, 8.9, bin});
 }
-constexpr Eigen::Index bins_apart = 4;
+constexpr Eigen::Index bins_between = 4;
 
 /// Mean intensity of one pixel in closed form: the sum of the patches' powers, each with beam and pulse.
 double mean_intensity(const Echoes& coherent, const SonarHead& head, std::size_t beam, std::size_t bin) {
@@ -43,7 +43,7 @@ const std::vector<double>& bottom_intensities() {
     const auto beams = static_cast<Eigen::Index>(head.fan.beams()), bins = static_cast<Eigen::Index>(head.gate.bins());
     Grid<double> mean(beams, bins);
     for (Eigen::Index b = 0; b < beams; ++b)
-      for (Eigen::Index n = 0; n < bins; n += bins_apart)
+      for (Eigen::Index n = 0; n < bins; n += bins_between)
         mean(b, n) = mean_intensity(steady, head, static_cast<std::size_t>(b), static_cast<std::size_t>(n));
     std::vector<double> result;
     options.amplitude = SurfaceAmplitude::complex_normal;
@@ -51,7 +51,7 @@ const std::vector<double>& bottom_intensities() {
       const ComplexGrid p = synthesize_gridded(direct_echoes(s, scene.materials, head.pulse, clear_water(), options),
                                                head, clear_water());
       for (Eigen::Index b = 0; b < beams; ++b)
-        for (Eigen::Index n = 0; n < bins; n += bins_apart) result.push_back(std::norm(p(b, n)) / mean(b, n));
+        for (Eigen::Index n = 0; n < bins; n += bins_between) result.push_back(std::norm(p(b, n)) / mean(b, n));
     }
     return result;
   }();

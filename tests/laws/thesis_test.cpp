@@ -12,7 +12,7 @@ using namespace insonify::thesis;
 
 namespace {
 
-constexpr double wavelength = speed_of_sound / 900e3;
+constexpr double thesis_wavelength = speed_of_sound / 900e3;
 
 /// Targets of 1 m^2 straight ahead, or at these azimuths.
 Echoes targets(const std::vector<double>& range, std::vector<double> azimuth = {}) {
@@ -75,7 +75,7 @@ TEST(Thesis, second_cosine_of_equation_20_loses_3_db_at_60_degrees) {
 }
 
 // Eq. 21: the phase is that of the way there and back. A target at 5 m appears at 5 m; moved away by an eighth of a
-// wavelength its phase turns by a quarter of a cycle. Eq. 27: time runs forwards; in a window of 13 m it is not at 8 m.
+// thesis_wavelength its phase turns by a quarter of a cycle. Eq. 27: time runs forwards; in a window of 13 m it is not at 8 m.
 TEST(Thesis, a_target_at_5_m_appears_at_5_m) {
   SonarHead head = make_sonar(51);
   head.gate = {1, 13, 2e-3};
@@ -86,7 +86,7 @@ TEST(Thesis, a_target_at_5_m_appears_at_5_m) {
     const double peak = std::abs(pressure(0, bin_of(head.gate, 5)));
     for (const double wrong : {2.5, 8.0, 10.0}) EXPECT_LT(std::abs(pressure(0, bin_of(head.gate, wrong))), 1e-9 * peak);
   }
-  const auto turn = targets({5 + wavelength / 8}).amplitude[0] / targets({5}).amplitude[0];
+  const auto turn = targets({5 + thesis_wavelength / 8}).amplitude[0] / targets({5}).amplitude[0];
   EXPECT_NEAR(std::arg(turn), pi / 2, 1e-9);
 }
 
@@ -113,15 +113,15 @@ TEST(Thesis, spectrum_of_equation_22_is_0_375_b_wide) {
 
 // Eq. 33: sinc^2(x) = 1/2 at x = 0.442946, so the constant is 0.885893; the printed 0.884 stands at -2.996 dB.
 TEST(Thesis, constant_of_equation_33_is_0_885893) {
-  const LineArray line{wavelength / 100, uniform_shading(2000)};
+  const LineArray line{thesis_wavelength / 100, uniform_shading(2000)};
   const double length = 20;  // [wavelengths]
-  EXPECT_NEAR(2 * half_power_offset(line, wavelength, 1) * length, 0.885893, 2e-6);
-  EXPECT_NEAR(db_from_amplitude(array_response(line, wavelength, 0.884 / 2 / length, 0)), -2.996, 1e-3);
+  EXPECT_NEAR(2 * half_power_offset(line, thesis_wavelength, 1) * length, 0.885893, 2e-6);
+  EXPECT_NEAR(db_from_amplitude(array_response(line, thesis_wavelength, 0.884 / 2 / length, 0)), -2.996, 1e-3);
 }
 
 // Figures 17 to 21: a beam of 0.1 rad has its first null at 6.48 degrees.
 TEST(Thesis, beam_of_a_tenth_of_a_radian_has_its_first_null_at_6_5_degrees) {
-  const BeamPatternReport report = measure_beam_pattern(aperture(144), wavelength, 0);
+  const BeamPatternReport report = measure_beam_pattern(aperture(144), thesis_wavelength, 0);
   EXPECT_NEAR(report.width, 0.1, 1e-5);
   ASSERT_TRUE(report.first_null);
   EXPECT_NEAR(degrees(*report.first_null), 6.479, 1e-3);
@@ -152,7 +152,8 @@ TEST(Thesis, slice_through_one_scatterer_is_the_beam_pattern) {
   const Eigen::Index bin = bin_of(head.gate, range);
   const std::complex<double> on_target = pressure(76, bin);  // beam 77 looks at column 77
   for (std::size_t b = 0; b < head.fan.beams(); ++b) {
-    const double pattern = array_response(head.array, wavelength, std::sin(azimuth), std::sin(head.fan.azimuth[b]));
+    const double pattern =
+        array_response(head.array, thesis_wavelength, std::sin(azimuth), std::sin(head.fan.azimuth[b]));
     ASSERT_NEAR(std::abs(pressure(b, bin) / on_target - pattern), 0, 1e-12);
   }
 }
@@ -170,7 +171,7 @@ TEST(Thesis, lobes_of_figure_21_go_with_the_repeated_scatterers) {
   for (const std::size_t beam : {25, 76, 127, 178, 229}) {
     double sum = 0;  // of the five patterns; the neighbours' side lobes take up to a third off
     for (const double a : azimuth)
-      sum += array_response(head.array, wavelength, std::sin(a), std::sin(head.fan.azimuth[beam]));
+      sum += array_response(head.array, thesis_wavelength, std::sin(a), std::sin(head.fan.azimuth[beam]));
     EXPECT_NEAR(all[beam] / peak, sum, 1e-9) << "beam " << beam + 1;
     EXPECT_GT(sum, 0.65) << "beam " << beam + 1;
   }
@@ -181,7 +182,7 @@ TEST(Thesis, lobes_of_figure_21_go_with_the_repeated_scatterers) {
   }
 }
 
-// True grating lobes need elements more than half a wavelength apart: full copies at sin g = sin s + n lambda / d.
+// True grating lobes need elements more than half a thesis_wavelength apart: full copies at sin g = sin s + n lambda / d.
 TEST(Thesis, true_grating_lobes_stand_at_the_closed_form) {
   for (const double pitch : {1.5, 2.0, 3.0}) {
     const double target = radians(-10);
@@ -192,12 +193,12 @@ TEST(Thesis, true_grating_lobes_stand_at_the_closed_form) {
     SonarHead head = make_sonar(51);
     head.fan.azimuth = lobes;
     head.fan.elevation.assign(lobes.size(), 0);
-    head.array = {pitch * wavelength, uniform_shading(6)};
+    head.array = {pitch * thesis_wavelength, uniform_shading(6)};
     const auto copies = slice(targets({2.25}, {target}), head, 2.25);
     for (const double copy : copies) EXPECT_NEAR(level_db(copy, copies.front()), 0, 1e-9);
 
-    // Elements of the same total length, half a wavelength apart, hear the target and nothing from there.
-    head.array = {0.5 * wavelength, uniform_shading(static_cast<std::size_t>(12 * pitch))};
+    // Elements of the same total length, half a thesis_wavelength apart, hear the target and nothing from there.
+    head.array = {0.5 * thesis_wavelength, uniform_shading(static_cast<std::size_t>(12 * pitch))};
     const auto dense = slice(targets({2.25}, {target}), head, 2.25);
     const double peak = *std::max_element(dense.begin(), dense.end());
     for (std::size_t b = 0; b < lobes.size(); ++b) {

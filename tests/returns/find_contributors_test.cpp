@@ -7,10 +7,10 @@
 
 namespace {
 
-const Medium medium{1500, {0.02, 0, 0}};
+const Medium contributor_medium{1500, {0.02, 0, 0}};
 
 /// 600 kHz, 11 beams over 40 degrees, bins of 1 cm from 2 m to 4 m.
-SonarHead small_head() {
+SonarHead contributor_head() {
   SonarHead head;
   head.pulse = {600e3, 30e3, 200};
   head.array = array_for_beam_width(radians(3), 1500 / 600e3, Shading::taylor, -30);
@@ -35,14 +35,14 @@ struct SurfelSet {
   }
   void add(std::uint32_t of, double range, double azimuth, double elevation, std::complex<double> amplitude,
            LegPair by = {}) {
-    echoes.delay.push_back(2 * range / medium.sound_speed);
+    echoes.delay.push_back(2 * range / contributor_medium.sound_speed);
     echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)), echoes.v.push_back(std::sin(elevation));
     echoes.amplitude.push_back(amplitude);
     surfel.push_back(of), legs.push_back(by);
   }
   std::vector<SurfelEchoes> parts() const { return {{echoes, surfel, legs}}; }
   Contributors find(const SonarHead& head, const ContributorOptions& options = {}) const {
-    return find_contributors(scene, parts(), head, medium, options);
+    return find_contributors(scene, parts(), head, contributor_medium, options);
   }
 };
 
@@ -71,16 +71,16 @@ using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t>;
 
 /// Reference: every echo in every pixel, with the whole pulse and the array summed element by element (E63).
 std::map<Key, double> energies_at(const SurfelSet& h, const SonarHead& head, std::size_t beam, std::size_t bin) {
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  const double wavelength = contributor_medium.sound_speed / head.pulse.centre_frequency;
   const double u_beam = std::cos(head.fan.elevation[beam]) * std::sin(head.fan.azimuth[beam]);
   const bool rows = head.column || fan_rows(head.fan).size() > 1;
-  const EchoShapes shapes(head.pulse, medium);
+  const EchoShapes shapes(head.pulse, contributor_medium);
   RowResponse row(head, wavelength, head.fan.elevation[beam]);
   std::map<Key, double> energies;
   for (std::size_t i = 0; i < h.echoes.size(); ++i) {
     const double response =
         array_response(head.array, wavelength, h.echoes.u[i], u_beam) * (rows ? row.at(h.echoes.v[i]) : 1);
-    const double t = 2 * head.gate.centre(bin) / medium.sound_speed - h.echoes.delay[i];
+    const double t = 2 * head.gate.centre(bin) / contributor_medium.sound_speed - h.echoes.delay[i];
     const double energy =
         std::norm(h.echoes.amplitude[i] * response * shapes.of(h.echoes.delay[i], h.echoes.doppler_of(i)).at(t));
     energies[{h.surfel[i], h.legs[i].out, h.legs[i].back}] += energy;
@@ -123,27 +123,27 @@ void expect_as_referee(const SurfelSet& set, const SonarHead& head) {
 }  // namespace
 
 TEST(FindContributors, agrees_with_every_echo_against_every_pixel) {
-  for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_echoes(seed), small_head());
+  for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_echoes(seed), contributor_head());
 }
 
 // Many parts close together, represented by a few directions.
 TEST(FindContributors, agrees_with_the_referee_for_surfels_of_many_parts) {
-  expect_as_referee(random_echoes(10, false, 25, 50, 0.003), small_head());
-  SonarHead head = small_head();
+  expect_as_referee(random_echoes(10, false, 25, 50, 0.003), contributor_head());
+  SonarHead head = contributor_head();
   head.fan.elevation_width = radians(10);
   for (std::size_t b = 0; b < 6; ++b) head.fan.elevation[b] = radians(-8);
   expect_as_referee(random_echoes(11, false, 25, 50, 0.003), head);
 }
 
 TEST(FindContributors, agrees_with_the_referee_for_a_sweep_with_doppler) {
-  SonarHead head = small_head();
+  SonarHead head = contributor_head();
   head.pulse.shape = PulseShape::linear_fm;
   head.pulse.duration = 1e-3;
   expect_as_referee(random_echoes(4, true), head);
 }
 
 TEST(FindContributors, agrees_with_the_referee_for_rows_and_for_a_planar_array) {
-  SonarHead head = small_head();
+  SonarHead head = contributor_head();
   const BeamFan below = make_fan(11, radians(40), radians(3), radians(10), radians(-8));
   head.fan.elevation_width = radians(10);
   head.fan.azimuth.insert(head.fan.azimuth.end(), below.azimuth.begin(), below.azimuth.end());
@@ -156,7 +156,7 @@ TEST(FindContributors, agrees_with_the_referee_for_rows_and_for_a_planar_array) 
 
 // Elements two wavelengths apart have a grating lobe at u = 0.5 as high as the main lobe.
 TEST(FindContributors, includes_grating_lobes) {
-  SonarHead head = small_head();
+  SonarHead head = contributor_head();
   head.array = {2 * 1500 / 600e3, std::vector<double>(16, 1.0)};
   head.fan = make_fan(1, 0, radians(3), radians(30));
   SurfelSet set;
@@ -167,7 +167,7 @@ TEST(FindContributors, includes_grating_lobes) {
 }
 
 TEST(FindContributors, shares_of_a_pixel_add_up_to_one_when_all_are_listed) {
-  const Contributors c = random_echoes(7).find(small_head(), {.per_pixel = 90});
+  const Contributors c = random_echoes(7).find(contributor_head(), {.per_pixel = 90});
   for (std::size_t pixel = 0; pixel < c.beams * c.bins; ++pixel) {
     double sum = 0;
     for (std::size_t k = 0; k < 90; ++k) {
@@ -187,7 +187,7 @@ TEST(FindContributors, shares_of_a_pixel_add_up_to_one_when_all_are_listed) {
 TEST(FindContributors, a_single_target_is_listed_where_it_contributes_and_nowhere_else) {
   SurfelSet set;
   set.add_surfel();
-  const SonarHead head = small_head();
+  const SonarHead head = contributor_head();
   set.add(set.add_surfel(), 3.005, head.fan.azimuth[7], radians(-5), {0, 2});
   const Contributors c = set.find(head);
   const std::size_t at = c.at(7, 100);  // its centre is 3.005 m
@@ -208,7 +208,7 @@ TEST(FindContributors, two_targets_of_one_cell_at_different_elevations_are_both_
   SurfelSet set;
   set.add(set.add_surfel(), 3.005, 0, radians(10), 1);
   set.add(set.add_surfel(), 3.005, 0, radians(-20), {0, 2});
-  const Contributors c = set.find(small_head());
+  const Contributors c = set.find(contributor_head());
   const std::size_t at = c.at(5, 100);
   EXPECT_EQ(c.surfel[at], 1U);
   EXPECT_EQ(c.surfel[at + 1], 0U);
@@ -224,7 +224,7 @@ TEST(FindContributors, parts_of_a_surfel_count_together) {
   set.add_surfel(), set.add_surfel();
   for (int p = 0; p < 4; ++p) set.add(0, 3.005, 0, 0, std::polar(1.0, 1.5 * p));
   set.add(1, 3.005, 0, 0, std::sqrt(3.0));
-  const Contributors c = set.find(small_head());
+  const Contributors c = set.find(contributor_head());
   EXPECT_EQ(c.surfel[c.at(5, 100)], 0U);
   EXPECT_NEAR(c.share[c.at(5, 100)], 4.0 / 7, 1e-4);
 }
@@ -235,7 +235,7 @@ TEST(FindContributors, paths_of_one_surfel_are_separate_contributors) {
   set.add(0, 3.005, 0, 0, 3);
   set.add(0, 3.005, 0, radians(30), 2, {0, 1});
   set.add(0, 3.005, 0, radians(31), 1, {1, 1});
-  const Contributors c = set.find(small_head());
+  const Contributors c = set.find(contributor_head());
   const std::size_t at = c.at(5, 100);
   EXPECT_EQ(c.path[at], PathKind::direct);
   EXPECT_EQ(c.path[at + 1], PathKind::one_bounce);
@@ -254,7 +254,7 @@ TEST(FindContributors, label_images_put_materials_at_their_bearing) {
       set.scene.material[s] = azimuth > radians(5) ? 2 : 1;
       set.add(s, 2.5 + 0.02 * j, azimuth, radians(-20), 1);
     }
-  SonarHead head = small_head();
+  SonarHead head = contributor_head();
   const Contributors c = set.find(head);
   const auto materials = material_image(c);
   const auto ids = instance_image(c);
@@ -271,9 +271,9 @@ TEST(FindContributors, label_images_put_materials_at_their_bearing) {
 
 TEST(FindContributors, does_not_depend_on_threads) {
   const SurfelSet set = random_echoes(8);
-  const Contributors one = set.find(small_head(), {.threads = 1});
+  const Contributors one = set.find(contributor_head(), {.threads = 1});
   for (const int threads : {2, 7}) {
-    const Contributors many = set.find(small_head(), {.threads = threads});
+    const Contributors many = set.find(contributor_head(), {.threads = threads});
     EXPECT_EQ(one.surfel, many.surfel);
     EXPECT_EQ(one.share, many.share);
     EXPECT_EQ(one.elevation, many.elevation);
@@ -281,7 +281,7 @@ TEST(FindContributors, does_not_depend_on_threads) {
 }
 
 TEST(FindContributors, of_no_echoes_are_none) {
-  const Contributors c = SurfelSet().find(small_head());
+  const Contributors c = SurfelSet().find(contributor_head());
   EXPECT_EQ(c.beams, 11U);
   EXPECT_EQ(c.bins, 200U);
   for (const std::uint32_t s : c.surfel) EXPECT_EQ(s, Contributors::none);
@@ -289,7 +289,7 @@ TEST(FindContributors, of_no_echoes_are_none) {
 
 TEST(FindContributors, refuses_invalid_arguments) {
   SurfelSet set = random_echoes(9);
-  const SonarHead head = small_head();
+  const SonarHead head = contributor_head();
   EXPECT_EQ(error_of([&] { set.find(head, {.per_pixel = 0}); }),
             "find_contributors: per_pixel = 0, must be within 1 and 255");
   EXPECT_EQ(error_of([&] { set.find(head, {.per_pixel = 256}); }),

@@ -6,11 +6,11 @@
 namespace {
 
 constexpr double alpha_db = 0.3;  ///< [dB/m]
-const Medium medium{1500, {alpha_db * nepers_per_db, 0, 0}};
+const Medium decibel_medium{1500, {alpha_db * nepers_per_db, 0, 0}};
 constexpr double mu = 0.05, area = 1e-4;
 
 /// 600 kHz, 21 beams over 40 degrees, 1 m to 30 m.
-SonarHead small_head() {
+SonarHead insonifying_head() {
   SonarHead head;
   head.pulse = {600e3, 30e3, 210};
   head.array = array_for_beam_width(radians(3), 1500 / 600e3, Shading::taylor, -30);
@@ -41,10 +41,10 @@ Scatterers seen(const SceneCloud& scene, const SonarHead& head, const Pose& pose
   return find_scatterers(scene, pose, head.fan, head.gate, options).scatterers;
 }
 
-Insonification map_of(const SceneCloud& scene, const SonarHead& head = small_head(),
+Insonification map_of(const SceneCloud& scene, const SonarHead& head = insonifying_head(),
                       const Pose& pose = Pose::Identity(), double per_cell = 0) {
   Insonification map;
-  add_ping(map, scene, seen(scene, head, pose, per_cell), head, medium);
+  add_ping(map, scene, seen(scene, head, pose, per_cell), head, decibel_medium);
   return map;
 }
 
@@ -73,15 +73,15 @@ TEST(Insonification, twice_the_range_costs_12_db_and_absorption) {
 TEST(Insonification, level_does_not_depend_on_the_splitting) {
   SceneCloud scene = target_at(7);
   scene.area[0] = 0.0025F;
-  const Scatterers parts = seen(scene, small_head(), Pose::Identity(), 5000);
+  const Scatterers parts = seen(scene, insonifying_head(), Pose::Identity(), 5000);
   ASSERT_GT(parts.size(), 10U);
-  EXPECT_NEAR(map_of(scene, small_head(), Pose::Identity(), 5000).level_db[0], map_of(scene).level_db[0], 0.02);
+  EXPECT_NEAR(map_of(scene, insonifying_head(), Pose::Identity(), 5000).level_db[0], map_of(scene).level_db[0], 0.02);
 }
 
 // Half a beam spacing and 15 degrees of elevation off: the fan's pattern, the cone's, and -3 dB of the elevation
 // pattern.
 TEST(Insonification, level_off_the_axes_includes_the_patterns) {
-  const SonarHead head = small_head();
+  const SonarHead head = insonifying_head();
   const double azimuth = radians(20.0 / 21), elevation = radians(15);
   const double u = std::cos(elevation) * std::sin(azimuth), u_beam = std::sin(radians(40.0 / 21));
   const double nearest = std::min(std::abs(u), std::abs(u - u_beam));
@@ -92,7 +92,7 @@ TEST(Insonification, level_off_the_axes_includes_the_patterns) {
 }
 
 TEST(Insonification, of_a_planar_array_includes_the_response_of_the_best_row) {
-  SonarHead head = small_head();
+  SonarHead head = insonifying_head();
   head.fan = {{0, 0}, {radians(-5), radians(5)}, radians(3), radians(30), radians(6)};
   head.column = array_for_beam_width(radians(6), 1500 / 600e3, Shading::uniform, 0);
   const double v = std::sin(radians(4));
@@ -113,7 +113,7 @@ TEST(Insonification, reports_the_grazing_angle) {
 // A flat bottom of Lambert's law: mu sin^2 of the grazing angle per square metre, and per cell the sonar equation with
 // a cell of the equivalent widths: whatever the density of the cloud.
 TEST(Insonification, scattering_and_cell_level_of_a_flat_bottom_are_closed_forms) {
-  const SonarHead head = small_head();
+  const SonarHead head = insonifying_head();
   const double depth = 3, wavelength = 1500 / 600e3;
   double width = 0;  // of the beam's intensity, in direction cosine
   for (double u = -0.5; u < 0.5; u += 1e-4)
@@ -155,7 +155,7 @@ TEST(Insonification, hidden_or_outside_surfels_have_no_hits) {
 }
 
 TEST(Insonification, surfels_just_beside_the_fan_are_no_hits) {
-  const SonarHead head = small_head();
+  const SonarHead head = insonifying_head();
   const double edge = head.fan.azimuth.back() > 0 ? head.fan.azimuth.back() : head.fan.azimuth.front();
   EXPECT_EQ(map_of(target_at(7, edge + radians(0.5))).hits[0], 1U);
   EXPECT_EQ(map_of(target_at(7, edge + radians(3.9))).hits[0], 0U);  // between main and side lobe
@@ -163,12 +163,13 @@ TEST(Insonification, surfels_just_beside_the_fan_are_no_hits) {
 
 TEST(Insonification, pings_accumulate_hits_and_the_best) {
   const SceneCloud scene = target_at(12);
-  const SonarHead head = small_head();
+  const SonarHead head = insonifying_head();
   Pose near = Pose::Identity(), away = Pose::Identity();
   near.translation() = Eigen::Vector3d(6, 0, 0);
   away.translation() = Eigen::Vector3d(20, 0, 0);  // looks the other way
   Insonification map;
-  for (const Pose& pose : {Pose::Identity(), near, away}) add_ping(map, scene, seen(scene, head, pose), head, medium);
+  for (const Pose& pose : {Pose::Identity(), near, away})
+    add_ping(map, scene, seen(scene, head, pose), head, decibel_medium);
   EXPECT_EQ(map.pings, 3U);
   EXPECT_EQ(map.hits[0], 2U);
   EXPECT_NEAR(map.level_db[0], sonar_equation(6), 1e-4);
@@ -179,13 +180,13 @@ TEST(Insonification, of_another_scene_is_refused_and_unchanged) {
   Insonification map = map_of(target_at(7));
   SceneCloud other = target_at(7);
   add_surfel(other, {5, 0, 0}, {-1, 0, 0}, area);
-  const SonarHead head = small_head();
-  EXPECT_EQ(error_of([&] { add_ping(map, other, {}, head, medium); }),
+  const SonarHead head = insonifying_head();
+  EXPECT_EQ(error_of([&] { add_ping(map, other, {}, head, decibel_medium); }),
             "add_ping: the map has 1 surfels, but the scene has 2; give an empty map, or one of this scene");
   EXPECT_EQ(map.pings, 1U);
   const Scatterers two = seen(other, head, Pose::Identity());
-  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), two, head, medium); }),
+  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), two, head, decibel_medium); }),
             "add_ping: a scatterer is of surfel 1, but the scene has 1");
-  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, medium, {.min_response_db = 3}); }),
+  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, decibel_medium, {.min_response_db = 3}); }),
             "add_ping: min_response_db = 3 dB, must be <= 0");
 }

@@ -6,8 +6,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-const BeamFan fan = make_fan(64, radians(60), radians(1), radians(40));
-const RangeGate gate{0.1, 50, 0.01};
+const BeamFan split_fan = make_fan(64, radians(60), radians(1), radians(40));
+const RangeGate split_gate{0.1, 50, 0.01};
 
 SceneCloud small_wall() {
   SceneCloud scene;
@@ -50,8 +50,9 @@ TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell_of_a_planar_array) 
 
 TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {
   const SceneCloud scene = small_wall();
-  const Scatterers whole = find_scatterers(scene, at(0, 0, 0), fan, gate, unsplit()).scatterers;
-  const Scatterers parts = find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 200}).scatterers;
+  const Scatterers whole = find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, unsplit()).scatterers;
+  const Scatterers parts =
+      find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, {.scatterers_per_cell = 200}).scatterers;
   EXPECT_EQ(whole.size(), scene.size());
   EXPECT_GT(parts.size(), 5 * whole.size());
   EXPECT_NEAR(total(parts.projected_area), total(whole.projected_area), 1e-4 * total(whole.projected_area));
@@ -62,7 +63,7 @@ TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {
 TEST(Splitting, leaves_an_unsplit_surfel_at_its_centre) {
   const SceneCloud scene = small_wall();
   const Pose pose = at(0.5, 0.2, -0.1, 3, -2);
-  const Scatterers s = find_scatterers(scene, pose, fan, gate, unsplit()).scatterers;
+  const Scatterers s = find_scatterers(scene, pose, split_fan, split_gate, unsplit()).scatterers;
   for (std::size_t i = 0; i < s.size(); ++i)
     ASSERT_LT((world_position(s, i, pose) - scene.point[s.surfel[i]].cast<double>()).norm(), 1e-12);
 }
@@ -75,7 +76,7 @@ TEST(Splitting, puts_every_part_at_the_same_place_for_every_pose) {
   std::size_t shared = 0;
   std::set<std::size_t> sizes;
   for (const Pose& pose : poses) {
-    const Scatterers s = find_scatterers(scene, pose, fan, gate, options).scatterers;
+    const Scatterers s = find_scatterers(scene, pose, split_fan, split_gate, options).scatterers;
     sizes.insert(s.size());
     for (std::size_t i = 0; i < s.size(); ++i) {
       const auto [place, is_new] = places.emplace(s.id[i], world_position(s, i, pose));
@@ -91,7 +92,8 @@ TEST(Splitting, puts_every_part_at_the_same_place_for_every_pose) {
 TEST(Splitting, spreads_parts_evenly_over_the_disc_of_the_surfel) {
   SceneCloud scene;
   add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, pi);  // a disc of radius 1 m
-  const Scatterers s = find_scatterers(scene, at(0, 0, 0), fan, gate, {.scatterers_per_cell = 1e4}).scatterers;
+  const Scatterers s =
+      find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, {.scatterers_per_cell = 1e4}).scatterers;
   ASSERT_EQ(s.size(), 4096u);
   Vector3d mean = Vector3d::Zero();
   double inner = 0, port = 0;
@@ -111,7 +113,7 @@ TEST(Splitting, spreads_parts_evenly_over_the_disc_of_the_surfel) {
 TEST(Splitting, follows_the_seed) {
   const SceneCloud scene = small_wall();
   SamplingOptions options{.scatterers_per_cell = 100};
-  const auto range = find_scatterers(scene, at(0, 0, 0), fan, gate, options).scatterers.range;
+  const auto range = find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, options).scatterers.range;
   options.seed = 2;
-  EXPECT_NE(find_scatterers(scene, at(0, 0, 0), fan, gate, options).scatterers.range, range);
+  EXPECT_NE(find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, options).scatterers.range, range);
 }

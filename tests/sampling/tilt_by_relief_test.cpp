@@ -6,8 +6,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-const BeamFan fan = make_fan(64, radians(60), radians(1), radians(40));
-const RangeGate gate{0.1, 50, 0.01};
+const BeamFan tilt_fan = make_fan(64, radians(60), radians(1), radians(40));
+const RangeGate tilt_gate{0.1, 50, 0.01};
 
 /// A plate with micro-relief whose normal is `incidence` [rad] off the direction to a distant head.
 SceneCloud rough_plate(double incidence, double relief_slope, bool oriented = true) {
@@ -22,7 +22,7 @@ SceneCloud rough_plate(double incidence, double relief_slope, bool oriented = tr
 }
 
 Scatterers seen(const SceneCloud& scene, const SamplingOptions& options, const Pose& pose = at(0, 0, 0)) {
-  return find_scatterers(scene, pose, fan, {0.1, 2000, 0.01}, options).scatterers;
+  return find_scatterers(scene, pose, tilt_fan, {0.1, 2000, 0.01}, options).scatterers;
 }
 
 double cross_section(const Scatterers& s) {

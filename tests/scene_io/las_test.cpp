@@ -81,13 +81,13 @@ std::vector<Eigen::Vector3d> places() {
   return all;
 }
 
-LoadedScene loaded(const LasFile& las) { return load_scene(own_file("cloud.las", las.bytes(places()))); }
+LoadedScene loaded_las(const LasFile& las) { return load_scene(own_file("cloud.las", las.bytes(places()))); }
 
 }  // namespace
 
 TEST(Las, has_the_places_and_classes_of_all_point_formats) {
   for (int format = 0; format <= 10; ++format) {
-    const LoadedScene scene = loaded({.minor = format >= 6 ? 4 : format > 3 ? 3 : 2, .format = format});
+    const LoadedScene scene = loaded_las({.minor = format >= 6 ? 4 : format > 3 ? 3 : 2, .format = format});
     ASSERT_EQ(scene.scene.size(), 64u) << format;
     for (std::size_t i = 0; i < 64; ++i) {
       EXPECT_LT((world(scene.scene, i) - places()[i]).norm(), 1e-3) << format;
@@ -102,7 +102,7 @@ TEST(Las, has_the_places_and_classes_of_all_point_formats) {
 }
 
 TEST(Las, extra_bytes_are_fields_with_their_scale) {
-  const LoadedScene scene = loaded({.minor = 4, .format = 6, .extra = true});
+  const LoadedScene scene = loaded_las({.minor = 4, .format = 6, .extra = true});
   for (std::size_t i = 0; i < 64; ++i) {
     EXPECT_NEAR(scene.scene.area[i], 0.01 + 1e-4 * static_cast<double>(i), 1e-8);
     EXPECT_EQ(scene.scene.id[i], 1000 + i);

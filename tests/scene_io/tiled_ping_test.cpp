@@ -15,14 +15,14 @@ const Pose& harbour_pose() {
 }
 
 /// Small tiles, so that small scenes have many.
-TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
+TileWriterOptions few_tiles() { return {.tile_surfels = 200}; }
 
 /// Pings the whole scene and the part loaded from a .tiles file, and expects identical bits.
 void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environment& environment,
                       SimulationOptions options, double most_of_the_scene) {
   options.outputs.scatterers = true;
   const std::string path = own_path("part.tiles");
-  save_tiles(path, whole, small_tiles());
+  save_tiles(path, whole, few_tiles());
   const TiledScene tiled(path);
   const SonarHead head = small_head({});
   const TileSelection selection =

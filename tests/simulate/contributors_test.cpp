@@ -7,9 +7,9 @@
 
 namespace {
 
-const SonarHead head = small_head({.beams = 32, .field_of_view_deg = 50, .max_range = 18});
+const SonarHead contributing_head = small_head({.beams = 32, .field_of_view_deg = 50, .max_range = 18});
 
-/// A level plane 3 m below the head, one material to port (y > 0), another to starboard.
+/// A level plane 3 m below the contributing_head, one material to port (y > 0), another to starboard.
 SceneCloud two_materials() {
   SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {30, 30}});
   scene.materials = {{"mud", 0.01}, {"rock", 0.01}};
@@ -24,25 +24,27 @@ const Pose over_plane = pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0);
 
 TEST(SimulatedContributors, are_kept_when_asked_for) {
   const SceneCloud scene = two_materials();
-  const SimulatedPing without = simulate_ping(scene, head, over_plane, {});
+  const SimulatedPing without = simulate_ping(scene, contributing_head, over_plane, {});
   EXPECT_TRUE(without.contributors.empty());
-  const SimulatedPing with = simulate_ping(scene, head, over_plane, {}, {.outputs = {.contributors = 2}});
-  EXPECT_EQ(with.contributors.beams, head.fan.beams());
-  EXPECT_EQ(with.contributors.bins, head.gate.bins());
+  const SimulatedPing with = simulate_ping(scene, contributing_head, over_plane, {}, {.outputs = {.contributors = 2}});
+  EXPECT_EQ(with.contributors.beams, contributing_head.fan.beams());
+  EXPECT_EQ(with.contributors.bins, contributing_head.gate.bins());
   EXPECT_EQ(with.contributors.per_pixel, 2U);
   EXPECT_TRUE((with.ping.pressure == without.ping.pressure).all());
 }
 
 // Port is positive azimuth: beams that look to port show the mud there.
 TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
-  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.outputs = {.contributors = 1}});
+  const SimulatedPing p =
+      simulate_ping(two_materials(), contributing_head, over_plane, {}, {.outputs = {.contributors = 1}});
   const auto image = material_image(p.contributors);
   std::size_t right = 0, all = 0;
-  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
-    if (std::abs(head.fan.azimuth[b]) < radians(3)) continue;
-    for (std::size_t n = 0; n < head.gate.bins(); ++n) {
-      if (head.gate.centre(n) < 5 || head.gate.centre(n) > 14) continue;
-      right += image(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n)) == (head.fan.azimuth[b] > 0 ? 0 : 1);
+  for (std::size_t b = 0; b < contributing_head.fan.beams(); ++b) {
+    if (std::abs(contributing_head.fan.azimuth[b]) < radians(3)) continue;
+    for (std::size_t n = 0; n < contributing_head.gate.bins(); ++n) {
+      if (contributing_head.gate.centre(n) < 5 || contributing_head.gate.centre(n) > 14) continue;
+      right += image(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n)) ==
+               (contributing_head.fan.azimuth[b] > 0 ? 0 : 1);
       ++all;
     }
   }
@@ -51,11 +53,12 @@ TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
 }
 
 // The elevation that is named is where a plane 3 m below shows at that range: asin(-3 / r) in the world, 15 degrees up
-// in the head, as seen straight ahead.
+// in the contributing_head, as seen straight ahead.
 TEST(SimulatedContributors, of_a_plane_stand_at_the_elevation_of_the_plane) {
-  const SimulatedPing p = simulate_ping(two_materials(), head, over_plane, {}, {.outputs = {.contributors = 1}});
-  for (std::size_t n = 0; n < head.gate.bins(); ++n) {
-    const double r = head.gate.centre(n);
+  const SimulatedPing p =
+      simulate_ping(two_materials(), contributing_head, over_plane, {}, {.outputs = {.contributors = 1}});
+  for (std::size_t n = 0; n < contributing_head.gate.bins(); ++n) {
+    const double r = contributing_head.gate.centre(n);
     if (r < 7 || r > 14) continue;
     const double expected = std::asin(-3 / r) + radians(15);
     ASSERT_NEAR(p.contributors.elevation[p.contributors.at(16, n)], expected, radians(1)) << r;
@@ -67,7 +70,7 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   SceneCloud scene;
   scene.materials = {{"m", 0.1}};
   add_surfel(scene, {10, 0, -4}, {-1, 0, 0}, 1e-3);
-  SonarHead wide = head;
+  SonarHead wide = contributing_head;
   wide.fan.elevation_width = radians(170);
   Environment environment;
   environment.surface = SeaSurface{};
@@ -99,8 +102,8 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
 TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
-  const SimulatedPing p =
-      simulate_ping(scene, head, pose, {}, {.outputs = {.contributors = 1}, .detection = {.false_alarm_rate = 1}});
+  const SimulatedPing p = simulate_ping(scene, contributing_head, pose, {},
+                                        {.outputs = {.contributors = 1}, .detection = {.false_alarm_rate = 1}});
   ASSERT_GT(p.soundings.size(), 100U);
   std::size_t near = 0;
   for (std::size_t i = 0; i < p.soundings.size(); ++i) {
@@ -108,7 +111,7 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
     ASSERT_NE(p.contributors.surfel[at], Contributors::none);
     const std::uint32_t s = p.contributors.surfel[at];
     const Eigen::Vector3d place = pose.inverse() * (scene.origin + scene.point[s].cast<double>());
-    const double off = direction_of(place).azimuth - head.fan.azimuth[p.soundings.beam[i]];
+    const double off = direction_of(place).azimuth - contributing_head.fan.azimuth[p.soundings.beam[i]];
     near += std::abs(place.norm() - static_cast<double>(p.soundings.range[i])) < 0.3 && std::abs(off) < radians(4);
   }
   EXPECT_GT(near, 0.9 * static_cast<double>(p.soundings.size()));
@@ -118,16 +121,16 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
 TEST(SimulatedContributors, are_insonified) {
   const SceneCloud scene = two_materials();
   const SimulatedPing p =
-      simulate_ping(scene, head, over_plane, {}, {.outputs = {.scatterers = true, .contributors = 1}});
+      simulate_ping(scene, contributing_head, over_plane, {}, {.outputs = {.scatterers = true, .contributors = 1}});
   Insonification map;
-  add_ping(map, scene, p.scatterers, head, p.medium, {.min_response_db = -300});
+  add_ping(map, scene, p.scatterers, contributing_head, p.medium, {.min_response_db = -300});
   std::size_t hits = 0;
   for (const std::uint32_t h : map.hits) hits += h;
   EXPECT_LE(hits, p.sampling.visible);
   EXPECT_GT(hits, p.sampling.visible / 2);
   std::size_t named = 0, covered = 0;
   for (std::size_t b = 4; b < 28; ++b)
-    for (std::size_t n = 100; n < head.gate.bins() - 100; ++n) {
+    for (std::size_t n = 100; n < contributing_head.gate.bins() - 100; ++n) {
       const std::uint32_t s = p.contributors.surfel[p.contributors.at(b, n)];
       if (s == Contributors::none) continue;
       ++named;

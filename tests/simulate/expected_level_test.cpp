@@ -8,12 +8,12 @@
 
 namespace {
 
-const SonarHead head = small_head({.beams = 12,
-                                   .field_of_view_deg = 24,
-                                   .elevation_width_deg = 30,
-                                   .min_range = 3,
-                                   .max_range = 8,
-                                   .source_level_db = 200});
+const SonarHead level_head = small_head({.beams = 12,
+                                         .field_of_view_deg = 24,
+                                         .elevation_width_deg = 30,
+                                         .min_range = 3,
+                                         .max_range = 8,
+                                         .source_level_db = 200});
 
 /// Between surface and bottom, in water that scatters.
 Environment loud_sea() {
@@ -33,8 +33,8 @@ const SceneCloud& plane() {
 
 const Pose above = pose_from_yaw_pitch_roll({-4, 0, 2.5}, 0, radians(25), 0);
 
-SimulatedPing ping(const SimulationOptions& options, const Environment& environment = {}) {
-  return simulate_ping(plane(), head, above, environment, options);
+SimulatedPing ping_levels(const SimulationOptions& options, const Environment& environment = {}) {
+  return simulate_ping(plane(), level_head, above, environment, options);
 }
 
 Grid<double> power(const ComplexGridF& pressure) { return pressure.cast<std::complex<double>>().abs2(); }
@@ -56,14 +56,14 @@ struct Spread {
     options.synthesis.method = SynthesisMethod::incoherent;
     options.outputs.scatterers = true;
     Grid<double> sum, squares, prediction;
-    Grid<bool> judged = Grid<bool>::Constant(head.fan.beams(), head.gate.bins(), true);
+    Grid<bool> judged = Grid<bool>::Constant(level_head.fan.beams(), level_head.gate.bins(), true);
     sum = squares = prediction = Grid<double>::Zero(judged.rows(), judged.cols());
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       options.seed = seed;
-      const SimulatedPing p = ping(options);
-      const Transmission sent = resolve_ping(whole_of(plane()), head, above, {}, options).sent;
+      const SimulatedPing p = ping_levels(options);
+      const Transmission sent = resolve_ping(whole_of(plane()), level_head, above, {}, options).sent;
       const Echoes echoes = direct_echoes(p.scatterers, plane().materials, sent.pulse, sent.medium, sent.echo_options);
-      const Grid<double> error = predict_level_error_db(echoes, head, sent.medium).cast<double>();
+      const Grid<double> error = predict_level_error_db(echoes, level_head, sent.medium).cast<double>();
       judged = judged && error < 1.5;
       const Grid<double> level = 10 * power(p.ping.pressure).log10();
       sum += level, squares += level.square(), prediction += error.square() / seeds;
@@ -82,7 +82,7 @@ TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
                             .synthesis = {.method = SynthesisMethod::incoherent},
                             .effects = {.multipath = Choice::never, .noise = true},
                             .outputs = {.layers = true}};
-  const SimulatedPing expected = ping(options, loud_sea());
+  const SimulatedPing expected = ping_levels(options, loud_sea());
   EXPECT_TRUE(expected.ping.expected_level);
   EXPECT_TRUE((expected.ping.pressure.imag() == 0).all());
 
@@ -93,7 +93,7 @@ TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
   for (std::uint64_t seed = 1; seed <= pings; ++seed) {
     options.seed = seed;
     options.ping = static_cast<std::int64_t>(seed);
-    const SimulatedPing p = ping(options, loud_sea());
+    const SimulatedPing p = ping_levels(options, loud_sea());
     EXPECT_FALSE(p.ping.expected_level);
     for (const Layer& layer : p.ping.layers) mean[layer.name] += power(layer.pressure).sum() / pings;
   }
@@ -103,11 +103,11 @@ TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
 }
 
 TEST(ExpectedLevel, adds_layers_by_their_squares) {
-  const SimulatedPing p = ping({.sampling = {.scatterers_per_cell = 2},
-                                .synthesis = {.method = SynthesisMethod::incoherent},
-                                .effects = {.multipath = Choice::always, .noise = true},
-                                .outputs = {.layers = true}},
-                               loud_sea());
+  const SimulatedPing p = ping_levels({.sampling = {.scatterers_per_cell = 2},
+                                       .synthesis = {.method = SynthesisMethod::incoherent},
+                                       .effects = {.multipath = Choice::always, .noise = true},
+                                       .outputs = {.layers = true}},
+                                      loud_sea());
   ASSERT_EQ(p.ping.layers.size(), 6u);
   Grid<double> sum = Grid<double>::Zero(p.ping.pressure.rows(), p.ping.pressure.cols());
   for (const Layer& layer : p.ping.layers) sum += power(layer.pressure);
@@ -117,10 +117,10 @@ TEST(ExpectedLevel, adds_layers_by_their_squares) {
 TEST(ExpectedLevel, does_not_depend_on_the_amplitude_law_nor_on_threads) {
   SimulationOptions options{.sampling = {.scatterers_per_cell = 2},
                             .synthesis = {.method = SynthesisMethod::incoherent}};
-  const SimulatedPing one = ping(options);
+  const SimulatedPing one = ping_levels(options);
   options.amplitude = SurfaceAmplitude::random_phase;
   options.threads = 3;
-  EXPECT_TRUE((ping(options).ping.pressure == one.ping.pressure).all());
+  EXPECT_TRUE((ping_levels(options).ping.pressure == one.ping.pressure).all());
 }
 
 TEST(LevelError, is_an_upper_estimate_for_split_surfels) {
@@ -152,7 +152,7 @@ TEST(LevelError, asked_for_is_kept_in_99_of_100_cells) {
                                            .level_error_db = 0.7,
                                            .outer_elevations = Choice::never,
                                            .outer_azimuths = Choice::never}};
-    const SimulatedPing p = ping(options);
+    const SimulatedPing p = ping_levels(options);
     const ConvergenceReport& report = p.convergence;
     EXPECT_TRUE(report.reached);
     EXPECT_TRUE(p.notes.empty() || kind == SamplingKind::rays);
@@ -166,11 +166,11 @@ TEST(LevelError, asked_for_is_kept_in_99_of_100_cells) {
     const auto below = (p.ping.level_error_db < 0.7f).count();
     EXPECT_DOUBLE_EQ(static_cast<double>(below) / static_cast<double>(report.judged), report.share_below);
 
-    // What was used, asked for outright, gives the same ping.
+    // What was used, asked for outright, gives the same ping_levels.
     options.sampling.level_error_db = 0;
     options.sampling.scatterers_per_cell = report.scatterers_per_cell;
     options.sampling.rays_per_beam = report.rays_per_beam;
-    const SimulatedPing again = ping(options);
+    const SimulatedPing again = ping_levels(options);
     EXPECT_TRUE((again.ping.pressure == p.ping.pressure).all());
     EXPECT_EQ(again.ping.level_error_db.size(), 0);
     EXPECT_EQ(again.convergence.samplings, 0);
@@ -181,7 +181,8 @@ TEST(LevelError, out_of_reach_is_told) {
   // A surfel has at most 4096 parts, which leave 4.34 dB / 64.
   SceneCloud scene;
   add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, 0.01);
-  const SimulatedPing p = simulate_ping(scene, head, Pose::Identity(), {}, {.sampling = {.level_error_db = 1e-3}});
+  const SimulatedPing p =
+      simulate_ping(scene, level_head, Pose::Identity(), {}, {.sampling = {.level_error_db = 1e-3}});
   EXPECT_FALSE(p.convergence.reached);
   EXPECT_LT(p.convergence.share_below, 0.99);
   ASSERT_FALSE(p.notes.empty());
@@ -190,7 +191,7 @@ TEST(LevelError, out_of_reach_is_told) {
 
 TEST(LevelError, of_a_silent_ping_is_kept_at_once) {
   const SimulatedPing p =
-      simulate_ping(SceneCloud{}, head, Pose::Identity(), {}, {.sampling = {.level_error_db = 0.5}});
+      simulate_ping(SceneCloud{}, level_head, Pose::Identity(), {}, {.sampling = {.level_error_db = 0.5}});
   EXPECT_TRUE(p.convergence.reached);
   EXPECT_EQ(p.convergence.judged, 0u);
   EXPECT_EQ(p.convergence.samplings, 1);
@@ -206,7 +207,7 @@ TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
     if (std::hypot(whole.point[i].x() - middle, whole.point[i].y()) > gap)
       add_surfel(scene, whole.point[i].cast<double>(), whole.normal[i].cast<double>(), whole.area[i]);
   SimulationOptions options{.sampling = {.scatterers_per_cell = 0, .rays_per_beam = 512}, .outputs = {.mask = true}};
-  const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, head, above, {}, options); };
+  const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, level_head, above, {}, options); };
   const SimulatedPing clean = ping_of(whole), pierced = ping_of(scene);
   ASSERT_EQ(pierced.ping.unknown.size(), pierced.ping.pressure.size());
   EXPECT_EQ(clean.holes.directions, 12u * 512u);

@@ -7,21 +7,22 @@
 
 namespace {
 
-const SonarHead head = small_head({.max_range = 20});
+const SonarHead plain_head = small_head({.max_range = 20});
 
 SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
   SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
   scene.origin += shift;
   const Water water;
-  return simulate_ping(scene, head, pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0),
-                       {water}, options);
+  return simulate_ping(scene, plain_head,
+                       pose_from_yaw_pitch_roll(Eigen::Vector3d(0, 0, -3) + shift, 0, radians(10), 0), {water},
+                       options);
 }
 
-/// A flat bottom 3 m below a head at y, looking 15 degrees down.
+/// A flat bottom 3 m below a plain_head at y, looking 15 degrees down.
 SimulatedPing ping_plane(double y, const SimulationOptions& options) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 100000, .size = {30, 30}});
   const Water water;
-  return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, y, 3}, 0, radians(15), 0), {water}, options);
+  return simulate_ping(scene, plain_head, pose_from_yaw_pitch_roll({0, y, 3}, 0, radians(15), 0), {water}, options);
 }
 
 ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<std::complex<double>>(); }
@@ -63,7 +64,7 @@ TEST(SimulatePing, changes_speckle_but_not_the_level_with_the_seed) {
   EXPECT_NEAR(d.mean_level_db, 0, 0.4);
 }
 
-// World and head moved together by whole metres: the same relative geometry to the last bit of double.
+// World and plain_head moved together by whole metres: the same relative geometry to the last bit of double.
 TEST(SimulatePing, does_not_change_when_world_and_head_move_together) {
   const SimulatedPing here = ping_harbour({}), far = ping_harbour({}, {1e6, -2e6, 300});
   EXPECT_EQ(here.sampling.scatterers, far.sampling.scatterers);
@@ -81,14 +82,14 @@ TEST(SimulatePing, gridded_and_direct_agree_on_a_scene) {
 TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {30, 30}});
   const Water water;
-  const SimulatedPing p = simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0), {water},
-                                        {.detection = {.false_alarm_rate = 1}});
+  const SimulatedPing p = simulate_ping(scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0),
+                                        {water}, {.detection = {.false_alarm_rate = 1}});
   ASSERT_GT(p.soundings.size(), 500U);
   std::vector<double> off;
   for (const auto& x : p.soundings.position) off.push_back(std::abs(x.z()));
   std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
-  EXPECT_LT(off[off.size() / 2], head.gate.bin_size);
-  EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * head.gate.bin_size);
+  EXPECT_LT(off[off.size() / 2], plain_head.gate.bin_size);
+  EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * plain_head.gate.bin_size);
 }
 
 // Noise adds to the echoes and is what an empty sea holds: thermal level in the band less the array's directivity.
@@ -96,7 +97,7 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const Water water;
   const auto ping = [&](bool noise) {
-    return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water},
+    return simulate_ping(scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water},
                          {.effects = {.noise = noise}});
   };
   const SimulatedPing p = ping(true);
@@ -108,7 +109,7 @@ TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const Water water;
   const SimulatedPing p =
-      simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water});
+      simulate_ping(scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water});
   EXPECT_EQ(p.sampling.scatterers, 0U);
   EXPECT_EQ(p.ping.pressure.abs().maxCoeff(), 0);
   EXPECT_EQ(p.soundings.size(), 0U);

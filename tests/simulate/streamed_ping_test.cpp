@@ -6,12 +6,12 @@
 
 namespace {
 
-const SonarHead head = small_head({.max_range = 20});
+const SonarHead streamed_head = small_head({.max_range = 20});
 
 void expect_same_stored(const SceneCloud& scene, SimulationOptions options, const Pose& pose) {
-  const SimulatedPing streamed = simulate_ping(scene, head, pose, {}, options);
+  const SimulatedPing streamed = simulate_ping(scene, streamed_head, pose, {}, options);
   options.outputs.scatterers = true;
-  const SimulatedPing stored = simulate_ping(scene, head, pose, {}, options);
+  const SimulatedPing stored = simulate_ping(scene, streamed_head, pose, {}, options);
   EXPECT_EQ(streamed.scatterers.size(), 0U);
   EXPECT_EQ(stored.scatterers.size(), streamed.sampling.scatterers);
   EXPECT_GT(streamed.sampling.scatterers, 100000U);

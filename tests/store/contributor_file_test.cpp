@@ -30,7 +30,7 @@ std::string write(const NamedContributors& named, const std::string& name = "c.h
   return path;
 }
 
-std::string error_of_reading(const std::string& path) {
+std::string error_of_contributors(const std::string& path) {
   return replaced(error_with_kind([&] { read_contributor_file(path); }), path, "c.h5");
 }
 
@@ -83,7 +83,7 @@ TEST(ContributorFile, names_the_dataset_that_is_missing) {
   for (const char* name : {"/surfel", "/id", "/share", "/elevation", "/material", "/path", "/material_names"}) {
     const std::string path = write(make_contributors());
     change(path, [&](hid_t file) { EXPECT_GE(H5Ldelete(file, name, H5P_DEFAULT), 0); });
-    EXPECT_EQ(error_of_reading(path), "content: c.h5: dataset " + std::string(name) + " is missing");
+    EXPECT_EQ(error_of_contributors(path), "content: c.h5: dataset " + std::string(name) + " is missing");
   }
 }
 
@@ -95,7 +95,7 @@ TEST(ContributorFile, of_another_schema_names_both_versions) {
     H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
     H5Aclose(attribute);
   });
-  EXPECT_EQ(error_of_reading(path), "content: c.h5: has contributor schema 7, this version reads schema 1");
+  EXPECT_EQ(error_of_contributors(path), "content: c.h5: has contributor schema 7, this version reads schema 1");
 }
 
 TEST(ContributorFile, that_contradicts_itself_is_refused) {
@@ -104,7 +104,7 @@ TEST(ContributorFile, that_contradicts_itself_is_refused) {
     H5Ldelete(file, "/share", H5P_DEFAULT);
     H5Lcreate_hard(file, "/material_image", file, "/share", H5P_DEFAULT, H5P_DEFAULT);
   });
-  EXPECT_EQ(error_of_reading(path), "content: c.h5: /share has 2 dimensions, must have 3");
+  EXPECT_EQ(error_of_contributors(path), "content: c.h5: /share has 2 dimensions, must have 3");
   const std::string other = write(make_contributors());
   change(other, [](hid_t file) {
     const hid_t dataset = H5Dopen2(file, "/path", H5P_DEFAULT);
@@ -112,7 +112,7 @@ TEST(ContributorFile, that_contradicts_itself_is_refused) {
     H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, kinds.data());
     H5Dclose(dataset);
   });
-  EXPECT_EQ(error_of_reading(other), "content: c.h5: /path holds 9, must be 0, 1 or 2");
+  EXPECT_EQ(error_of_contributors(other), "content: c.h5: /path holds 9, must be 0, 1 or 2");
 }
 
 TEST(ContributorFile, foreign_missing_and_truncated_files_are_refused) {

@@ -44,7 +44,7 @@ std::string write(const Cube& cube, const std::string& name = "cube.h5") {
   return path;
 }
 
-std::string error_of_reading(const std::string& path) {
+std::string error_of_cube(const std::string& path) {
   return replaced(error_with_kind([&] { read_cube(path); }), path, "cube.h5");
 }
 
@@ -150,13 +150,13 @@ TEST(CubeMaps, of_another_type_or_extent_are_refused) {
     const RawFile file(path);
     H5Lcreate_hard(file, "/level_error_db", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown must be of uint8");
+  EXPECT_EQ(error_of_cube(path), "content: cube.h5: /unknown must be of uint8");
   {
     const RawFile file(path);
     H5Ldelete(file, "/unknown", H5P_DEFAULT);
     H5Lcreate_hard(file, "/pose", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /unknown differs in extent from /pressure");
+  EXPECT_EQ(error_of_cube(path), "content: cube.h5: /unknown differs in extent from /pressure");
 }
 
 TEST(Cube, keeps_the_row_width_of_a_planar_array) {
@@ -311,7 +311,7 @@ TEST(Cube, names_the_dataset_that_is_missing) {
   for (const char* name : {"/pressure", "/range", "/azimuth", "/elevation", "/pose", "/time", "/ping"}) {
     const std::string path = write(make_cube());
     { EXPECT_GE(H5Ldelete(RawFile(path), name, H5P_DEFAULT), 0); }
-    EXPECT_EQ(error_of_reading(path), "content: cube.h5: dataset " + std::string(name) + " is missing");
+    EXPECT_EQ(error_of_cube(path), "content: cube.h5: dataset " + std::string(name) + " is missing");
   }
 }
 
@@ -321,7 +321,7 @@ TEST(Cube, names_the_attribute_that_is_missing) {
         "insonify_version", "sonar", "beam_width", "elevation_width", "min_range", "max_range", "bin_size"}) {
     const std::string path = write(make_cube());
     { EXPECT_GE(H5Adelete(RawFile(path), name), 0); }
-    EXPECT_EQ(error_of_reading(path), "content: cube.h5: attribute '" + std::string(name) + "' is missing");
+    EXPECT_EQ(error_of_cube(path), "content: cube.h5: attribute '" + std::string(name) + "' is missing");
   }
 }
 
@@ -334,7 +334,7 @@ TEST(Cube, of_another_schema_names_both_versions) {
     H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
     H5Aclose(attribute);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: has cube schema 7, this version reads schema 1");
+  EXPECT_EQ(error_of_cube(path), "content: cube.h5: has cube schema 7, this version reads schema 1");
 }
 
 TEST(Cube, that_contradicts_itself_is_refused) {
@@ -346,16 +346,16 @@ TEST(Cube, that_contradicts_itself_is_refused) {
     H5Aclose(attribute);
   };
   set("bin_size", 0.022);
-  EXPECT_EQ(error_of_reading(path),
+  EXPECT_EQ(error_of_cube(path),
             "content: cube.h5: /pressure has 46 bins, but min_range, max_range and bin_size give 23");
   set("bin_size", -1);
-  EXPECT_EQ(error_of_reading(path).substr(0, 17), "content: cube.h5:");
+  EXPECT_EQ(error_of_cube(path).substr(0, 17), "content: cube.h5:");
   {
     const RawFile file(path);
     H5Ldelete(file, "/time", H5P_DEFAULT);
     H5Lcreate_hard(file, "/azimuth", file, "/time", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_EQ(error_of_reading(path), "content: cube.h5: /time has 70 entries, 3 expected from /pressure");
+  EXPECT_EQ(error_of_cube(path), "content: cube.h5: /time has 70 entries, 3 expected from /pressure");
 }
 
 TEST(Cube, refuses_foreign_missing_and_truncated_files) {

@@ -5,7 +5,7 @@ namespace {
 
 std::string refusal(const std::string& text) { return error_of_file(load_labels, "labels.csv", text); }
 
-void refuses(const std::string& text, const std::string& what) {
+void refuses_labels(const std::string& text, const std::string& what) {
   EXPECT_EQ(refusal(text), "content: labels.csv:" + what);
 }
 
@@ -26,12 +26,13 @@ TEST(LabelTable, holds_bearing_range_and_any_text) {
 }
 
 TEST(LabelTable, refuses_what_is_no_label_with_file_and_line) {
-  refuses("bearing,range,text\n", "1: header is 'bearing,range,text', must be bearing_deg,range_m,text");
-  refuses("bearing_deg,range_m,text\n1,2,a\n1;2;b\n", "3: has fewer than 3 columns, must be bearing_deg,range_m,text");
-  refuses("bearing_deg,range_m,text\neast,2,a\n", "2: bearing_deg = 'east', must be a finite number");
-  refuses("bearing_deg,range_m,text\n1,nan,a\n", "2: range_m = 'nan', must be a finite number");
-  refuses("bearing_deg,range_m,text\n400,2,a\n", "2: bearing_deg = 400 deg, must be within -360 and 360");
-  refuses("bearing_deg,range_m,text\n4,0,a\n", "2: range_m = 0 m, must be > 0");
+  refuses_labels("bearing,range,text\n", "1: header is 'bearing,range,text', must be bearing_deg,range_m,text");
+  refuses_labels("bearing_deg,range_m,text\n1,2,a\n1;2;b\n",
+                 "3: has fewer than 3 columns, must be bearing_deg,range_m,text");
+  refuses_labels("bearing_deg,range_m,text\neast,2,a\n", "2: bearing_deg = 'east', must be a finite number");
+  refuses_labels("bearing_deg,range_m,text\n1,nan,a\n", "2: range_m = 'nan', must be a finite number");
+  refuses_labels("bearing_deg,range_m,text\n400,2,a\n", "2: bearing_deg = 400 deg, must be within -360 and 360");
+  refuses_labels("bearing_deg,range_m,text\n4,0,a\n", "2: range_m = 0 m, must be > 0");
   EXPECT_THAT(refusal("bearing_deg,range_m,text\n"), HasSubstr("labels.csv: has no labels"));
   EXPECT_THAT(error_with_kind([] { load_labels(own_path("none.csv")); }), HasSubstr("file: "));
 }

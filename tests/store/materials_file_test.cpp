@@ -8,7 +8,7 @@ namespace {
 
 std::string error_of_materials(const std::string& text) { return error_of_file(load_materials, "m.toml", text); }
 
-void refuses(const std::string& text, const std::string& what) {
+void refuses_materials(const std::string& text, const std::string& what) {
   EXPECT_EQ(error_of_materials(text), "content: m.toml:" + what);
 }
 
@@ -73,21 +73,22 @@ TEST(Materials, refuse_intervals_that_overlap_or_hold_nothing) {
     return "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = -20\n" + first +
            "\n[[material]]\nname = \"y\"\nlambert_mu_db = -20\n" + second + "\n";
   };
-  refuses(two("to = 10", "from = 9.5"),
-          "9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong to one material");
-  refuses(two("from = 4", "from = 3\nto = 3"), "9: from = 3 of 'y', must be below to = 3");
-  refuses(two("from = nan", ""), "5: from = nan of 'x', must be below to = inf");
-  refuses(two("from = \"a\"", ""), "5: from must be a number");
+  refuses_materials(
+      two("to = 10", "from = 9.5"),
+      "9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong to one material");
+  refuses_materials(two("from = 4", "from = 3\nto = 3"), "9: from = 3 of 'y', must be below to = 3");
+  refuses_materials(two("from = nan", ""), "5: from = nan of 'x', must be below to = inf");
+  refuses_materials(two("from = \"a\"", ""), "5: from must be a number");
   EXPECT_EQ(load_materials(own_file("touching.toml", two("to = 10", "from = 10"))).field.intervals.size(), 2u);
 }
 
 TEST(Materials, refuse_fractions_and_slopes_that_no_surface_has) {
   const std::string start = "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = -20\n";
-  refuses(start + "coherent_fraction = 1.5\n", "5: coherent_fraction = 1.5, must be within 0 and 1");
-  refuses(start + "coherent_fraction = -0.1\n", "5: coherent_fraction = -0.1, must be within 0 and 1");
-  refuses(start + "relief_slope = 20\n",
-          "5: relief_slope = 20, must be within 0 and 1 (rise over run, rms: 45 degrees)");
-  refuses(start + "relief_slop = 0.1\n", "5: unknown key 'relief_slop'; did you mean 'relief_slope'?");
+  refuses_materials(start + "coherent_fraction = 1.5\n", "5: coherent_fraction = 1.5, must be within 0 and 1");
+  refuses_materials(start + "coherent_fraction = -0.1\n", "5: coherent_fraction = -0.1, must be within 0 and 1");
+  refuses_materials(start + "relief_slope = 20\n",
+                    "5: relief_slope = 20, must be within 0 and 1 (rise over run, rms: 45 degrees)");
+  refuses_materials(start + "relief_slop = 0.1\n", "5: unknown key 'relief_slop'; did you mean 'relief_slope'?");
 }
 
 TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
@@ -96,8 +97,9 @@ TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
   };
   EXPECT_EQ(load_materials(own_file("m.toml", with("-inf"))).materials[0].material.lambert_mu, 0);
   EXPECT_EQ(load_materials(own_file("m.toml", with("-4.97"))).materials[0].material.lambert_mu, 1 / pi);
-  refuses(with("-4.9"),
-          "4: lambert_mu_db = -4.9 dB, must be at most -4.97 dB (1/pi: no surface sends back more than it receives)");
+  refuses_materials(
+      with("-4.9"),
+      "4: lambert_mu_db = -4.9 dB, must be at most -4.97 dB (1/pi: no surface sends back more than it receives)");
   EXPECT_THAT(error_of_materials(with("nan")), HasSubstr("m.toml:4: lambert_mu_db = nan dB, must be"));
 }
 
@@ -117,26 +119,27 @@ TEST(Materials, by_label_have_their_label_as_index_and_gaps_are_filled) {
 
 TEST(Materials, errors_name_line_key_and_remedy) {
   const std::string start = "schema = 1\n[[material]]\nname = \"x\"\n";
-  refuses(start + "lambert_mu = -20\n", "4: unknown key 'lambert_mu'; did you mean 'lambert_mu_db'?");
-  refuses(start, "2: missing key 'lambert_mu_db'");
-  refuses(start + "lambert_mu_db = \"loud\"\n", "4: lambert_mu_db must be a number");
-  refuses("schema = 1\n[[material]]\nname = 7\nlambert_mu_db = -20\n", "3: name must be text in quotes");
-  refuses(start + "lambert_mu_db = -20\nlabel = 1.5\n", "5: label = 1.5, must be a whole number within 0 and 65535");
-  refuses(start + "lambert_mu_db = -20\nlabel = 65536\n",
-          "5: label = 65536, must be a whole number within 0 and 65535");
-  refuses("schema = 1\nmaterials = []\n", "2: unknown key 'materials'; did you mean 'material'?");
-  refuses("schema = 1\n", "1: no [[material]] in the file");
-  refuses("schema = 1\nmaterial = [1]\n", "2: material must be a table: [[material]]");
-  refuses("schema = 2\n", "1: schema = 2, this version reads schema 1");
-  refuses("[[material]]\n", "1: missing key 'schema'");
+  refuses_materials(start + "lambert_mu = -20\n", "4: unknown key 'lambert_mu'; did you mean 'lambert_mu_db'?");
+  refuses_materials(start, "2: missing key 'lambert_mu_db'");
+  refuses_materials(start + "lambert_mu_db = \"loud\"\n", "4: lambert_mu_db must be a number");
+  refuses_materials("schema = 1\n[[material]]\nname = 7\nlambert_mu_db = -20\n", "3: name must be text in quotes");
+  refuses_materials(start + "lambert_mu_db = -20\nlabel = 1.5\n",
+                    "5: label = 1.5, must be a whole number within 0 and 65535");
+  refuses_materials(start + "lambert_mu_db = -20\nlabel = 65536\n",
+                    "5: label = 65536, must be a whole number within 0 and 65535");
+  refuses_materials("schema = 1\nmaterials = []\n", "2: unknown key 'materials'; did you mean 'material'?");
+  refuses_materials("schema = 1\n", "1: no [[material]] in the file");
+  refuses_materials("schema = 1\nmaterial = [1]\n", "2: material must be a table: [[material]]");
+  refuses_materials("schema = 2\n", "1: schema = 2, this version reads schema 1");
+  refuses_materials("[[material]]\n", "1: missing key 'schema'");
 }
 
 TEST(Materials, refuse_a_label_or_name_given_twice) {
   const std::string two =
       "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = -20\n"
       "[[material]]\nname = \"y\"\nlabel = 0\nlambert_mu_db = -20\n";
-  refuses(two, "5: label 0 of 'y' belongs to 'x' already");
-  refuses(replaced(replaced(two, "\"y\"", "\"x\""), "= 0", "= 4"), "5: material 'x' is listed twice");
+  refuses_materials(two, "5: label 0 of 'y' belongs to 'x' already");
+  refuses_materials(replaced(replaced(two, "\"y\"", "\"x\""), "= 0", "= 4"), "5: material 'x' is listed twice");
 }
 
 TEST(ShippedMaterials, start_with_the_default_and_have_a_source_each) {

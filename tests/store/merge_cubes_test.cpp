@@ -7,7 +7,7 @@ using testing::ElementsAre;
 namespace {
 
 // A cube of one ping whose samples are all `value`, which identifies it.
-NamedCube run(const std::string& name, double time, float value, std::int64_t number = 0) {
+NamedCube run_of(const std::string& name, double time, float value, std::int64_t number = 0) {
   Ping ping;
   ping.number = number;
   ping.time = time;
@@ -37,16 +37,16 @@ std::vector<std::int64_t> numbers(const Cube& cube) {
 }
 
 template <typename Change>
-std::string refusal(Change&& change) {
-  NamedCube second = run("out-1", 1, 2);
+std::string refusal_of_merging(Change&& change) {
+  NamedCube second = run_of("out-1", 1, 2);
   change(second.cube);
-  return error_with_kind([&] { merge_cubes({run("out-0", 0, 1), second}); });
+  return error_with_kind([&] { merge_cubes({run_of("out-0", 0, 1), second}); });
 }
 
 }  // namespace
 
 TEST(MergeCubes, puts_pings_in_order_of_time_and_says_of_the_rest_what_the_first_cube_does) {
-  const Cube merged = merge_cubes({run("b", 2, 20, 7), run("a", 1, 10, 9), run("c", 3, 30, 8)});
+  const Cube merged = merge_cubes({run_of("b", 2, 20, 7), run_of("a", 1, 10, 9), run_of("c", 3, 30, 8)});
   EXPECT_THAT(values(merged), ElementsAre(10, 20, 30));
   EXPECT_THAT(numbers(merged), ElementsAre(9, 7, 8)) << "unique numbers stay";
   EXPECT_EQ(merged.seed, 20U);
@@ -54,34 +54,37 @@ TEST(MergeCubes, puts_pings_in_order_of_time_and_says_of_the_rest_what_the_first
 }
 
 TEST(MergeCubes, keeps_the_order_given_for_pings_of_one_time_and_counts_numbers_that_are_alike) {
-  const Cube merged = merge_cubes({run("b", 5, 20, 3), run("a", 5, 10, 3), run("c", 0, 30, 3)});
+  const Cube merged = merge_cubes({run_of("b", 5, 20, 3), run_of("a", 5, 10, 3), run_of("c", 0, 30, 3)});
   EXPECT_THAT(values(merged), ElementsAre(30, 20, 10));
   EXPECT_THAT(numbers(merged), ElementsAre(0, 1, 2));
 }
 
 TEST(MergeCubes, keeps_layers_only_if_all_pings_have_the_same) {
-  NamedCube second = run("b", 1, 2);
+  NamedCube second = run_of("b", 1, 2);
   second.cube.pings[0].layers.pop_back();
-  for (const Ping& ping : merge_cubes({run("a", 0, 1), second}).pings) EXPECT_TRUE(ping.layers.empty());
+  for (const Ping& ping : merge_cubes({run_of("a", 0, 1), second}).pings) EXPECT_TRUE(ping.layers.empty());
 }
 
 TEST(MergeCubes, makes_a_cube_that_can_be_written_and_read) {
-  const Cube merged = merge_cubes({run("a", 0, 1), run("b", 1, 2)});
+  const Cube merged = merge_cubes({run_of("a", 0, 1), run_of("b", 1, 2)});
   write_cube(own_path("all.h5"), merged);
   EXPECT_THAT(values(read_cube(own_path("all.h5"))), ElementsAre(1, 2));
 }
 
 TEST(MergeCubes, refuses_another_sonar_fan_gate_pulse_or_water) {
   EXPECT_EQ(
-      refusal([](Cube& c) { c.sonar = "other"; }),
+      refusal_of_merging([](Cube& c) { c.sonar = "other"; }),
       "content: out-1: is of sonar other, not test as in out-0; only pings of one sonar, fan and gate can be merged");
-  EXPECT_THAT(refusal([](Cube& c) { c.pings[0].fan = make_fan(5, 1, 0.1, 0.1); }),
+  EXPECT_THAT(refusal_of_merging([](Cube& c) { c.pings[0].fan = make_fan(5, 1, 0.1, 0.1); }),
               HasSubstr("out-1: has 5 beams, not 4 as in out-0"));
-  EXPECT_THAT(refusal([](Cube& c) { c.pings[0].fan.azimuth[2] += 1e-6; }), HasSubstr("beams of other directions"));
-  EXPECT_THAT(refusal([](Cube& c) { c.pings[0].gate.max_range = 2.1; }),
+  EXPECT_THAT(refusal_of_merging([](Cube& c) { c.pings[0].fan.azimuth[2] += 1e-6; }),
+              HasSubstr("beams of other directions"));
+  EXPECT_THAT(refusal_of_merging([](Cube& c) { c.pings[0].gate.max_range = 2.1; }),
               HasSubstr("has ranges 1 to 2.1 m in bins of 0.1 m, not 1 to 2 m in bins of 0.1 m"));
-  EXPECT_THAT(refusal([](Cube& c) { c.bandwidth = 20e3; }), HasSubstr("has a pulse of 900000 Hz and 20000 Hz wide"));
-  EXPECT_THAT(refusal([](Cube& c) { c.sound_speed = 1480; }), HasSubstr("has a sound speed of 1480 m/s, not 1500 m/s"));
-  EXPECT_THAT(refusal([](Cube& c) { c.pings.clear(); }), HasSubstr("content: out-1: holds no pings"));
+  EXPECT_THAT(refusal_of_merging([](Cube& c) { c.bandwidth = 20e3; }),
+              HasSubstr("has a pulse of 900000 Hz and 20000 Hz wide"));
+  EXPECT_THAT(refusal_of_merging([](Cube& c) { c.sound_speed = 1480; }),
+              HasSubstr("has a sound speed of 1480 m/s, not 1500 m/s"));
+  EXPECT_THAT(refusal_of_merging([](Cube& c) { c.pings.clear(); }), HasSubstr("content: out-1: holds no pings"));
   EXPECT_THAT(error_with_kind([] { merge_cubes({}); }), HasSubstr("argument: merge_cubes: no cubes"));
 }

@@ -3,7 +3,7 @@
 #include "support/test.hpp"
 
 namespace {
-void refuses(const std::string& text, const std::string& what) {
+void refuses_profile(const std::string& text, const std::string& what) {
   EXPECT_EQ(error_of_file(load_sound_speed_profile, "cast.csv", text), "content: cast.csv:" + what);
 }
 }  // namespace
@@ -28,22 +28,23 @@ TEST(ProfileFile, turns_temperature_and_salinity_into_sound_speed_at_their_depth
 }
 
 TEST(ProfileFile, names_a_header_that_is_neither) {
-  refuses("depth_m,temperature_c\n", "1: missing column 'salinity_psu'");
-  refuses("depth_m\n", "1: missing column 'sound_speed'");
-  refuses("depth,sound_speed\n", "1: unknown column 'depth'; did you mean 'depth_m'?");
-  refuses("depth_m,sound_speed,salinity_psu\n", "1: column 'salinity_psu' cannot be combined with 'sound_speed'");
-  refuses("depth_m,depth_m\n", "1: column 'depth_m' occurs twice");
-  refuses("", " has no header, must start with depth_m,sound_speed or depth_m,temperature_c,salinity_psu");
+  refuses_profile("depth_m,temperature_c\n", "1: missing column 'salinity_psu'");
+  refuses_profile("depth_m\n", "1: missing column 'sound_speed'");
+  refuses_profile("depth,sound_speed\n", "1: unknown column 'depth'; did you mean 'depth_m'?");
+  refuses_profile("depth_m,sound_speed,salinity_psu\n",
+                  "1: column 'salinity_psu' cannot be combined with 'sound_speed'");
+  refuses_profile("depth_m,depth_m\n", "1: column 'depth_m' occurs twice");
+  refuses_profile("", " has no header, must start with depth_m,sound_speed or depth_m,temperature_c,salinity_psu");
 }
 
 TEST(ProfileFile, names_line_column_value_and_rule) {
   const std::string speeds = "depth_m,sound_speed\n0,1500\n", water = "depth_m,temperature_c,salinity_psu\n";
-  refuses(speeds + "0,1500\n", "3: depth_m = 0 m, must be deeper than the previous line, 0 m");
-  refuses(speeds + "1,343\n", "3: sound_speed = 343 m/s, must be within 1300 and 1700 m/s");
-  refuses(speeds + "1,fast\n", "3: sound_speed = 'fast', must be a finite number");
-  refuses(speeds + "1\n", "3: has 1 fields, the header has 2");
-  refuses(water + "-1,10,35\n", "2: depth_m = -1 m, must be >= 0 (it is positive down)");
-  refuses(water + "1,290,35\n", "2: temperature_c = 290 deg C, must be within -4 and 100");
-  refuses(water + "1,10,-35\n", "2: salinity_psu = -35 psu, must be within 0 and 400");
-  refuses("depth_m,sound_speed\n", " has a header only, must have at least one entry");
+  refuses_profile(speeds + "0,1500\n", "3: depth_m = 0 m, must be deeper than the previous line, 0 m");
+  refuses_profile(speeds + "1,343\n", "3: sound_speed = 343 m/s, must be within 1300 and 1700 m/s");
+  refuses_profile(speeds + "1,fast\n", "3: sound_speed = 'fast', must be a finite number");
+  refuses_profile(speeds + "1\n", "3: has 1 fields, the header has 2");
+  refuses_profile(water + "-1,10,35\n", "2: depth_m = -1 m, must be >= 0 (it is positive down)");
+  refuses_profile(water + "1,290,35\n", "2: temperature_c = 290 deg C, must be within -4 and 100");
+  refuses_profile(water + "1,10,-35\n", "2: salinity_psu = -35 psu, must be within 0 and 400");
+  refuses_profile("depth_m,sound_speed\n", " has a header only, must have at least one entry");
 }

@@ -4,7 +4,7 @@
 namespace {
 const std::string header = "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n";
 
-void refuses(const std::string& text, const std::string& what) {
+void refuses_table(const std::string& text, const std::string& what) {
   EXPECT_EQ(error_of_file(load_scatterer_table, "s.csv", text), "content: s.csv:" + what);
 }
 }  // namespace
@@ -45,28 +45,29 @@ TEST(ScattererTable, reads_the_last_line_without_newline_and_a_table_of_none) {
 }
 
 TEST(ScattererTable, names_a_missing_unknown_or_doubled_column) {
-  refuses("range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re\n", "1: missing column 'xi_im'");
-  refuses("# one\nrange,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n",
-          "2: unknown column 'range'; did you mean 'range_m'?");
-  refuses("range_m,temperature\n", "1: unknown column 'temperature'");
-  refuses("range_m,xi_re,xi_re\n", "1: column 'xi_re' occurs twice");
+  refuses_table("range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re\n", "1: missing column 'xi_im'");
+  refuses_table("# one\nrange,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n",
+                "2: unknown column 'range'; did you mean 'range_m'?");
+  refuses_table("range_m,temperature\n", "1: unknown column 'temperature'");
+  refuses_table("range_m,xi_re,xi_re\n", "1: column 'xi_re' occurs twice");
 }
 
 TEST(ScattererTable, names_line_column_value_and_rule) {
-  refuses(header + "10,0,0,1,1,0\n# x\n0,0,0,1,1,0\n", "4: range_m = 0 m, must be > 0");
-  refuses(header + "1,0,0,-1e-3,1,0\n", "2: sigma_m2 = -0.001 m^2, must be >= 0");
-  refuses(header + "1,45,0,1,1,0\n", "2: azimuth_rad = 45 rad, must be within -pi and pi (is it in degrees?)");
-  refuses(header + "1,0,-2,1,1,0\n", "2: elevation_rad = -2 rad, must be within -pi/2 and pi/2 (is it in degrees?)");
-  refuses(header + "1,0,0,1,nan,0\n", "2: xi_re = 'nan', must be a finite number");
-  refuses(header + "inf,0,0,1,1,0\n", "2: range_m = 'inf', must be a finite number");
-  refuses(header + "1,0,0,1,1,0x\n", "2: xi_im = '0x', must be a finite number");
-  refuses(header + "1,,0,1,1,0\n", "2: azimuth_rad = '', must be a finite number");
-  refuses(header + "1,0,0,1,1\n", "2: has 5 fields, the header has 6");
+  refuses_table(header + "10,0,0,1,1,0\n# x\n0,0,0,1,1,0\n", "4: range_m = 0 m, must be > 0");
+  refuses_table(header + "1,0,0,-1e-3,1,0\n", "2: sigma_m2 = -0.001 m^2, must be >= 0");
+  refuses_table(header + "1,45,0,1,1,0\n", "2: azimuth_rad = 45 rad, must be within -pi and pi (is it in degrees?)");
+  refuses_table(header + "1,0,-2,1,1,0\n",
+                "2: elevation_rad = -2 rad, must be within -pi/2 and pi/2 (is it in degrees?)");
+  refuses_table(header + "1,0,0,1,nan,0\n", "2: xi_re = 'nan', must be a finite number");
+  refuses_table(header + "inf,0,0,1,1,0\n", "2: range_m = 'inf', must be a finite number");
+  refuses_table(header + "1,0,0,1,1,0x\n", "2: xi_im = '0x', must be a finite number");
+  refuses_table(header + "1,,0,1,1,0\n", "2: azimuth_rad = '', must be a finite number");
+  refuses_table(header + "1,0,0,1,1\n", "2: has 5 fields, the header has 6");
 }
 
 TEST(ScattererTable, says_what_an_empty_or_missing_file_lacks) {
-  refuses("# only a comment\n",
-          " has no header, must start with range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im");
+  refuses_table("# only a comment\n",
+                " has no header, must start with range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im");
   const std::string missing = own_path("missing.csv");
   EXPECT_EQ(error_with_kind([&] { load_scatterer_table(missing); }), "file: " + missing + ": no such file");
 }

@@ -22,7 +22,7 @@ SonarFile load(const std::string& text) { return load_sonar_file(own_file("s.tom
 
 std::string error_of_sonar(const std::string& text) { return error_of_file(load_sonar_file, "s.toml", text); }
 
-void refuses(const std::string& text, const std::string& what) {
+void refuses_sonar(const std::string& text, const std::string& what) {
   EXPECT_EQ(error_of_sonar(text), "content: s.toml:" + what);
 }
 
@@ -75,8 +75,8 @@ TEST(SonarFile, reads_how_a_mission_mounts_the_head) {
       load(plain + "mounting_deg = { value = [0, 90, 0], status = \"derived\", source = \"down\" }\n");
   EXPECT_EQ(down.mounting.y(), radians(90));
   EXPECT_EQ(down.numbers.back().value, "[0.0, 90.0, 0.0]");
-  refuses(plain + "mounting_deg = [0, 90]\n",
-          "12: mounting_deg = [0.0, 90.0], must be three numbers: yaw, pitch, roll");
+  refuses_sonar(plain + "mounting_deg = [0, 90]\n",
+                "12: mounting_deg = [0.0, 90.0], must be three numbers: yaw, pitch, roll");
 }
 
 TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
@@ -98,9 +98,10 @@ TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
 TEST(SonarFile, takes_range_resolution_for_bandwidth_but_not_both) {
   EXPECT_DOUBLE_EQ(load(replaced(plain, "bandwidth_hz = 30e3", "range_resolution_m = 0.0254")).spec.bandwidth,
                    1500 / 0.0508);
-  refuses(plain + "range_resolution_m = 0.0254\n",
-          "12: bandwidth_hz and range_resolution_m say the same thing; leave one out");
-  refuses(replaced(plain, "bandwidth_hz = 30e3\n", ""), "1: missing key 'bandwidth_hz' (or 'range_resolution_m')");
+  refuses_sonar(plain + "range_resolution_m = 0.0254\n",
+                "12: bandwidth_hz and range_resolution_m say the same thing; leave one out");
+  refuses_sonar(replaced(plain, "bandwidth_hz = 30e3\n", ""),
+                "1: missing key 'bandwidth_hz' (or 'range_resolution_m')");
 }
 
 // Three beams at -20, 0, 30 deg: mean spacing 25 deg, half of it beyond either end makes 75 deg.
@@ -110,51 +111,53 @@ TEST(SonarFile, takes_beams_at_given_azimuths) {
   EXPECT_EQ(s.azimuths, (std::vector<double>{radians(-20), 0, radians(30)}));
   EXPECT_EQ(s.beams, 3u);
   EXPECT_NEAR(s.field_of_view, radians(75), 1e-15);
-  refuses(text + "beams = 3\n", "11: beams follows from azimuths_deg; leave it out");
-  refuses(replaced(text, "[-20, 0, 30.0]", "[]"),
-          "6: azimuths_deg = [], must be a list of numbers within -180 and 180");
-  refuses(replaced(text, "30.0", "300"),
-          "6: azimuths_deg = [-20.0, 0.0, 300.0], must be a list of numbers within -180 and 180");
-  refuses(replaced(text, "30.0", "\"x\""), "6: azimuths_deg must be a list of numbers");
+  refuses_sonar(text + "beams = 3\n", "11: beams follows from azimuths_deg; leave it out");
+  refuses_sonar(replaced(text, "[-20, 0, 30.0]", "[]"),
+                "6: azimuths_deg = [], must be a list of numbers within -180 and 180");
+  refuses_sonar(replaced(text, "30.0", "300"),
+                "6: azimuths_deg = [-20.0, 0.0, 300.0], must be a list of numbers within -180 and 180");
+  refuses_sonar(replaced(text, "30.0", "\"x\""), "6: azimuths_deg must be a list of numbers");
 }
 
 TEST(SonarFile, unknown_keys_are_errors_with_line_and_suggestion) {
-  refuses(plain + "\n# a comment\nelevaton_deg = 3\n", "14: unknown key 'elevaton_deg'; did you mean 'elevation_deg'?");
-  refuses(plain + "colour = 3\n", "12: unknown key 'colour'");
-  refuses(replaced(plain, "210", "{ value = 1, status = \"sourced\", sources = \"a\" }"),
-          "5: unknown key 'sources'; did you mean 'source'?");
+  refuses_sonar(plain + "\n# a comment\nelevaton_deg = 3\n",
+                "14: unknown key 'elevaton_deg'; did you mean 'elevation_deg'?");
+  refuses_sonar(plain + "colour = 3\n", "12: unknown key 'colour'");
+  refuses_sonar(replaced(plain, "210", "{ value = 1, status = \"sourced\", sources = \"a\" }"),
+                "5: unknown key 'sources'; did you mean 'source'?");
 }
 
 TEST(SonarFile, missing_keys_are_named) {
   for (const char* line : {"centre_frequency_hz = 900_000\n", "source_level_db = 210\n", "beam_width_deg = 1.5\n",
                            "elevation_width_deg = 20\n", "min_range_m = 0.5\n", "max_range_m = 30\n"}) {
     const std::string key = std::string(line).substr(0, std::string(line).find(' '));
-    refuses(replaced(plain, line, ""), "1: missing key '" + key + "'");
+    refuses_sonar(replaced(plain, line, ""), "1: missing key '" + key + "'");
   }
-  refuses(replaced(plain, "beams = 128\n", ""), "1: missing key 'beams' (or 'azimuths_deg')");
-  refuses(replaced(plain, "name = \"mine\"\n", ""), "1: missing key 'name'");
-  refuses(replaced(plain, "schema = 1\n", ""), "1: missing key 'schema'");
+  refuses_sonar(replaced(plain, "beams = 128\n", ""), "1: missing key 'beams' (or 'azimuths_deg')");
+  refuses_sonar(replaced(plain, "name = \"mine\"\n", ""), "1: missing key 'name'");
+  refuses_sonar(replaced(plain, "schema = 1\n", ""), "1: missing key 'schema'");
 }
 
 TEST(SonarFile, wrong_types_are_errors_with_line) {
-  refuses(replaced(plain, "210", "\"loud\""), "5: source_level_db = \"loud\", must be a number");
-  refuses(replaced(plain, "210", "true"),
-          "5: source_level_db must be a number, text or list, or a table {value, status, "
-          "source}");
-  refuses(replaced(plain, "128", "12.5"), "6: beams = 12.5, must be a whole number within 1 and 65536");
-  refuses(replaced(plain, "128", "0"), "6: beams = 0.0, must be a whole number within 1 and 65536");
-  refuses(plain + "elevation_shape = \"round\"\n", "12: elevation_shape = \"round\", must be gaussian, line or sector");
-  refuses(replaced(plain, "210", "{ status = \"sourced\" }"), "5: source_level_db: missing key 'value'");
-  refuses(replaced(plain, "210", "{ value = 210, status = \"certain\" }"),
-          "5: source_level_db: status = \"certain\", must be sourced, recalled, derived, "
-          "assumed, "
-          "unknown or user");
-  refuses(replaced(plain, "210", "nan"), "5: source_level_db = nan, must be a number");
+  refuses_sonar(replaced(plain, "210", "\"loud\""), "5: source_level_db = \"loud\", must be a number");
+  refuses_sonar(replaced(plain, "210", "true"),
+                "5: source_level_db must be a number, text or list, or a table {value, status, "
+                "source}");
+  refuses_sonar(replaced(plain, "128", "12.5"), "6: beams = 12.5, must be a whole number within 1 and 65536");
+  refuses_sonar(replaced(plain, "128", "0"), "6: beams = 0.0, must be a whole number within 1 and 65536");
+  refuses_sonar(plain + "elevation_shape = \"round\"\n",
+                "12: elevation_shape = \"round\", must be gaussian, line or sector");
+  refuses_sonar(replaced(plain, "210", "{ status = \"sourced\" }"), "5: source_level_db: missing key 'value'");
+  refuses_sonar(replaced(plain, "210", "{ value = 210, status = \"certain\" }"),
+                "5: source_level_db: status = \"certain\", must be sourced, recalled, derived, "
+                "assumed, "
+                "unknown or user");
+  refuses_sonar(replaced(plain, "210", "nan"), "5: source_level_db = nan, must be a number");
 }
 
 TEST(SonarFile, values_that_make_no_sonar_are_errors_with_line) {
-  refuses(replaced(plain, "max_range_m = 30", "max_range_m = 0.25"),
-          "11: max_range_m = 0.25 m, must be above min_range_m");
+  refuses_sonar(replaced(plain, "max_range_m = 30", "max_range_m = 0.25"),
+                "11: max_range_m = 0.25 m, must be above min_range_m");
   EXPECT_EQ(error_of_sonar(replaced(plain, "900_000", "-9")).substr(0, 47),
             "content: s.toml:3: centre_frequency_hz = -9 Hz,");
   EXPECT_EQ(error_of_sonar(replaced(plain, "bandwidth_hz = 30e3", "range_resolution_m = 1e-6")).substr(0, 32),
@@ -162,7 +165,7 @@ TEST(SonarFile, values_that_make_no_sonar_are_errors_with_line) {
 }
 
 TEST(SonarFile, other_schemas_and_broken_toml_are_errors_with_line) {
-  refuses(replaced(plain, "schema = 1", "schema = 2"), "1: schema = 2, this version reads schema 1");
+  refuses_sonar(replaced(plain, "schema = 1", "schema = 2"), "1: schema = 2, this version reads schema 1");
   EXPECT_EQ(error_of_sonar(plain + "beams = = 3\n").substr(0, 19), "content: s.toml:12:");
   EXPECT_EQ(error_of_sonar(plain + "beams = 3\n").substr(0, 19), "content: s.toml:12:");  // given twice
 }
@@ -203,9 +206,9 @@ TEST(SonarFile, shading_is_kept_and_written_only_if_side_lobe_db_does_not_say_it
       const std::string text = sonar_as_toml(spec);
       EXPECT_EQ(text.find("shading = ") == std::string::npos, said) << text;
       if (side_lobe_db == 0 && (shading == Shading::taylor || shading == Shading::chebyshev)) {
-        refuses(text,
-                "9: side_lobe_db = 0 dB, must be within -80 and -13.3 for shading taylor or "
-                "chebyshev");
+        refuses_sonar(text,
+                      "9: side_lobe_db = 0 dB, must be within -80 and -13.3 for shading taylor or "
+                      "chebyshev");
       } else {
         expect_same_bits(load(text).spec, spec);
       }
@@ -214,8 +217,9 @@ TEST(SonarFile, shading_is_kept_and_written_only_if_side_lobe_db_does_not_say_it
 
 TEST(SonarFile, shading_is_one_of_four_words) {
   EXPECT_EQ(load(plain + "shading = \"hamming\"\n").spec.shading, Shading::hamming);
-  refuses(plain + "shading = \"hann\"\n", "12: shading = \"hann\", must be taylor, uniform, hamming or chebyshev");
-  refuses(plain + "shading = 3\n", "12: shading = 3.0, must be taylor, uniform, hamming or chebyshev");
+  refuses_sonar(plain + "shading = \"hann\"\n",
+                "12: shading = \"hann\", must be taylor, uniform, hamming or chebyshev");
+  refuses_sonar(plain + "shading = 3\n", "12: shading = 3.0, must be taylor, uniform, hamming or chebyshev");
   std::map<std::string, SonarNumber> numbers;
   for (const auto& number : load(plain + "side_lobe_db = 0\n").numbers) numbers[number.key] = number;
   EXPECT_EQ(numbers["shading"].value, "uniform");
@@ -239,19 +243,19 @@ TEST(SonarFile, takes_a_sweep_with_its_length_and_window) {
 }
 
 TEST(SonarFile, refuses_halves_of_a_sweep_with_line) {
-  refuses(plain + "pulse = \"chirp\"\n", "12: pulse = \"chirp\", must be gaussian or linear_fm");
-  refuses(plain + "pulse = \"linear_fm\"\npulse_length_s = \"long\"\n",
-          "13: pulse_length_s = \"long\", must be a number");
-  refuses(plain + "pulse = \"linear_fm\"\n",
-          "12: pulse = linear_fm, must come with pulse_length_s, the duration of the sweep");
-  refuses(plain + "pulse_length_s = 0.001\n",
-          "12: pulse_length_s = 0.001 s, must be left out for pulse gaussian, whose length follows "
-          "from its bandwidth; use pulse = \"linear_fm\"");
-  refuses(plain + "pulse = \"linear_fm\"\npulse_length_s = 0.001\nreplica_window = \"kaiser\"\n",
-          "14: replica_window = \"kaiser\", must be uniform, hann or hamming");
-  refuses(plain + "replica_window = \"hann\"\n",
-          "12: replica_window = hann, must be left out for pulse gaussian; use pulse = "
-          "\"linear_fm\"");
+  refuses_sonar(plain + "pulse = \"chirp\"\n", "12: pulse = \"chirp\", must be gaussian or linear_fm");
+  refuses_sonar(plain + "pulse = \"linear_fm\"\npulse_length_s = \"long\"\n",
+                "13: pulse_length_s = \"long\", must be a number");
+  refuses_sonar(plain + "pulse = \"linear_fm\"\n",
+                "12: pulse = linear_fm, must come with pulse_length_s, the duration of the sweep");
+  refuses_sonar(plain + "pulse_length_s = 0.001\n",
+                "12: pulse_length_s = 0.001 s, must be left out for pulse gaussian, whose length follows "
+                "from its bandwidth; use pulse = \"linear_fm\"");
+  refuses_sonar(plain + "pulse = \"linear_fm\"\npulse_length_s = 0.001\nreplica_window = \"kaiser\"\n",
+                "14: replica_window = \"kaiser\", must be uniform, hann or hamming");
+  refuses_sonar(plain + "replica_window = \"hann\"\n",
+                "12: replica_window = hann, must be left out for pulse gaussian; use pulse = "
+                "\"linear_fm\"");
 }
 
 TEST(SonarFile, given_azimuths_survive_bit_for_bit) {
@@ -288,30 +292,30 @@ TEST(SonarFile, takes_a_table_of_beams) {
   EXPECT_EQ(beams_of(s), 3u);
   EXPECT_EQ(s.elevations, (std::vector<double>{radians(1), radians(-2), radians(3)}));
   expect_same_bits(load(sonar_as_toml(s)).spec, s);
-  refuses(replaced(text, "[1, -2, 3]", "[1, -2]"),
-          "7: elevations_deg = 2 numbers, must be as many as the 3 of azimuths_deg, one for each beam");
-  refuses(replaced(text, "[1, -2, 3]", "[1, -2, 93]"),
-          "7: elevations_deg = [1.0, -2.0, 93.0], must be a list of numbers within -90 and 90");
-  refuses(text + "elevation_deg = 3\n", "12: elevation_deg follows from elevations_deg; leave it out");
+  refuses_sonar(replaced(text, "[1, -2, 3]", "[1, -2]"),
+                "7: elevations_deg = 2 numbers, must be as many as the 3 of azimuths_deg, one for each beam");
+  refuses_sonar(replaced(text, "[1, -2, 3]", "[1, -2, 93]"),
+                "7: elevations_deg = [1.0, -2.0, 93.0], must be a list of numbers within -90 and 90");
+  refuses_sonar(text + "elevation_deg = 3\n", "12: elevation_deg follows from elevations_deg; leave it out");
 }
 
 TEST(SonarFile, refuses_widths_and_rows_that_make_no_array) {
-  refuses(plain + "column_beam_width_deg = 0\n",
-          "12: column_beam_width_deg = 0.0, must be > 0; omit the key if there is none");
-  refuses(plain + "transmit_width_deg = -4\n",
-          "12: transmit_width_deg = -4.0, must be > 0; omit the key if there is none");
-  refuses(plain + "transmit_width_deg = 400\n",
-          "12: transmit_width_deg = 400 deg, must be > 0 and at most 360; leave it out for a transmitter "
-          "that fills the fan evenly");
+  refuses_sonar(plain + "column_beam_width_deg = 0\n",
+                "12: column_beam_width_deg = 0.0, must be > 0; omit the key if there is none");
+  refuses_sonar(plain + "transmit_width_deg = -4\n",
+                "12: transmit_width_deg = -4.0, must be > 0; omit the key if there is none");
+  refuses_sonar(plain + "transmit_width_deg = 400\n",
+                "12: transmit_width_deg = 400 deg, must be > 0 and at most 360; leave it out for a transmitter "
+                "that fills the fan evenly");
   std::string rows = "elevations_deg = [0";
   for (int r = 0; r < 512; ++r) rows += ", 1";
-  refuses(plain + rows + "]\n", "12: elevations_deg = 513 rows of 128 beams, must be at most 65536 beams in all");
+  refuses_sonar(plain + rows + "]\n", "12: elevations_deg = 513 rows of 128 beams, must be at most 65536 beams in all");
 }
 
 TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
   const SonarSpec spec = load(plain).spec;
   expect_same_bits(load("seed = 3\n[sonar]\n" + sonar_as_toml(spec) + "[water]\nsalinity_psu = 35\n").spec, spec);
-  refuses("seed = 3\n[sonar]\nschema = 1\n", "2: missing key 'centre_frequency_hz'");
+  refuses_sonar("seed = 3\n[sonar]\nschema = 1\n", "2: missing key 'centre_frequency_hz'");
 }
 
 TEST(SetSonarValue, sets_every_key_of_files) {

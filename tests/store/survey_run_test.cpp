@@ -9,10 +9,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const SurveyRun run{"abc", {{"fls", 10, 4}}};
+const SurveyRun small_run{"abc", {{"fls", 10, 4}}};
 
 BlockFiles finished_block() {
-  open_survey_run(own_path("run"), run);
+  open_survey_run(own_path("run"), small_run);
   const BlockFiles files = block_files(own_path("run"), "fls", 1);
   own_file("run/fls/blocks/000001.h5", "cube");
   own_file("run/fls/blocks/000001.ply", "returns");
@@ -46,10 +46,10 @@ Cube cube_of(float value, std::size_t pings, std::vector<std::string> layers, bo
 }  // namespace
 
 TEST(SurveyRun, is_a_folder_of_one_mission) {
-  open_survey_run(own_path("run"), run);
-  open_survey_run(own_path("run"), run);
-  EXPECT_EQ(load_survey_run(own_path("run")).heads, run.heads);
-  SurveyRun other = run;
+  open_survey_run(own_path("run"), small_run);
+  open_survey_run(own_path("run"), small_run);
+  EXPECT_EQ(load_survey_run(own_path("run")).heads, small_run.heads);
+  SurveyRun other = small_run;
   other.mission_sha256 = "abd";
   EXPECT_EQ(error_of([&] { open_survey_run(own_path("run"), other); }, ErrorKind::content),
             own_path("run") +
@@ -57,7 +57,7 @@ TEST(SurveyRun, is_a_folder_of_one_mission) {
                 " choose another folder");
   fs::create_directory(own_path("mine"));
   own_file("mine/thesis.txt", "");
-  EXPECT_THAT(error_of([] { open_survey_run(own_path("mine"), run); }, ErrorKind::file),
+  EXPECT_THAT(error_of([] { open_survey_run(own_path("mine"), small_run); }, ErrorKind::file),
               HasSubstr("holds thesis.txt but no survey.toml, so it is no survey"));
   EXPECT_THAT(error_of([] { load_survey_run(own_path("mine")); }, ErrorKind::file),
               HasSubstr("not the folder of a survey"));

@@ -5,7 +5,7 @@ namespace {
 const std::string angles = "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n";
 const std::string quaternions = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
 
-void refuses(const std::string& text, const std::string& what) {
+void refuses_way(const std::string& text, const std::string& what) {
   EXPECT_EQ(error_of_file(load_trajectory, "way.csv", text), "content: way.csv:" + what);
 }
 }  // namespace
@@ -27,11 +27,11 @@ TEST(TrajectoryFile, reads_unit_quaternions_in_any_order_of_columns) {
 }
 
 TEST(TrajectoryFile, names_line_column_value_and_rule) {
-  refuses(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n", "3: time_s = 0 s, must be later than the previous line, 0 s");
-  refuses(angles + "0,0,0,0,0,1000,0\n", "2: pitch_deg = 1000 degrees, must be within -360 and 360");
-  refuses(quaternions + "0,0,0,0,0,0,0,2\n", "2: length of (qx, qy, qz, qw) = 2, must be 1 within 0.001");
-  refuses(angles + "0,0,nan,0,0,0,0\n", "2: y_m = 'nan', must be a finite number");
-  refuses("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n", "1: missing column 'roll_deg'");
-  refuses("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n", "1: unknown column 'time'; did you mean 'time_s'?");
-  refuses(angles + "0,0,0,0,0,0,0\n", " has 1 entries, must have at least two");
+  refuses_way(angles + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n", "3: time_s = 0 s, must be later than the previous line, 0 s");
+  refuses_way(angles + "0,0,0,0,0,1000,0\n", "2: pitch_deg = 1000 degrees, must be within -360 and 360");
+  refuses_way(quaternions + "0,0,0,0,0,0,0,2\n", "2: length of (qx, qy, qz, qw) = 2, must be 1 within 0.001");
+  refuses_way(angles + "0,0,nan,0,0,0,0\n", "2: y_m = 'nan', must be a finite number");
+  refuses_way("time_s,x_m,y_m,z_m,yaw_deg,pitch_deg\n", "1: missing column 'roll_deg'");
+  refuses_way("time,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n", "1: unknown column 'time'; did you mean 'time_s'?");
+  refuses_way(angles + "0,0,0,0,0,0,0\n", " has 1 entries, must have at least two");
 }

@@ -1,7 +1,20 @@
 #pragma once
+#include "acoustics/pulse.hpp"
+#include "beamforming/line_array.hpp"
+#include "beamforming/shading.hpp"
 #include "beamforming/sonar_spec.hpp"
 
 namespace insonify {
+
+/// Speeds of sound [m/s] of most tests, and the pulse of the published model (900 kHz).
+inline constexpr double c0 = 1500, c0_cold = 1490;
+inline const Pulse pulse_900k{900e3, 29.5e3, 220};
+inline constexpr double wavelength_900k = c0 / 900e3;
+
+/// Uniform line of n elements.
+inline LineArray uniform_line(std::size_t n, double pitch_in_wavelengths) {
+  return {pitch_in_wavelengths * wavelength_900k, uniform_shading(n)};
+}
 
 /// A small multibeam sonar; all of these work at 450 kHz with 20 kHz of bandwidth.
 struct SmallSonar {

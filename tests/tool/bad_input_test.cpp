@@ -5,7 +5,7 @@
 
 namespace {
 
-const std::string head = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 2:10 -o out";
+const std::string bad_head = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 2:10 -o out";
 
 class BadInput : public ToolTest {
  protected:
@@ -15,7 +15,7 @@ class BadInput : public ToolTest {
 }  // namespace
 
 TEST_F(BadInput, missing_file) {
-  expect_refused("ping nowhere.pcd" + head, 4, {"nowhere.pcd"});
+  expect_refused("ping nowhere.pcd" + bad_head, 4, {"nowhere.pcd"});
   expect_refused("info nowhere.ply", 4, {"nowhere.ply"});
   expect_refused("prepare nowhere.ply -o x.ply", 4, {"nowhere.ply"});
   expect_refused("synthesize nowhere.csv --sonar p900-45 -o out", 4, {"nowhere.csv"});
@@ -24,13 +24,13 @@ TEST_F(BadInput, missing_file) {
 
 TEST_F(BadInput, text_file_named_pcd) {
   write("notes.pcd", "These are my notes about the reef.\nNothing else.\n");
-  expect_refused("ping notes.pcd" + head, 3, {"notes.pcd", "PCD"});
+  expect_refused("ping notes.pcd" + bad_head, 3, {"notes.pcd", "PCD"});
 }
 
 TEST_F(BadInput, ply_cut_off_in_the_middle) {
   const std::string whole = read("plane.ply");
   write("half.ply", whole.substr(0, whole.size() / 2));
-  expect_refused("ping half.ply" + head, 3, {"half.ply", "cut off"});
+  expect_refused("ping half.ply" + bad_head, 3, {"half.ply", "cut off"});
 }
 
 TEST_F(BadInput, unknown_sonar_and_unknown_sonar_key) {
@@ -38,9 +38,9 @@ TEST_F(BadInput, unknown_sonar_and_unknown_sonar_key) {
   write("mine.toml", "schema = 1\nname = \"mine\"\ncentre_freqency_hz = 9e5\n");
   expect_refused("ping plane.ply --sonar mine.toml --pose=0,0,3,0,15,0 -o out", 3,
                  {"mine.toml:3", "centre_freqency_hz", "did you mean 'centre_frequency_hz'"});
-  expect_refused("ping plane.ply" + head + " --set sonar.beems=3", 2, {"beems", "beams"});
-  expect_refused("ping plane.ply" + head + " --set water.salt=3", 2, {"salt", "salinity_psu"});
-  expect_refused("ping plane.ply" + head + " --set beams", 2, {"--set", "section.key=value"});
+  expect_refused("ping plane.ply" + bad_head + " --set sonar.beems=3", 2, {"beems", "beams"});
+  expect_refused("ping plane.ply" + bad_head + " --set water.salt=3", 2, {"salt", "salinity_psu"});
+  expect_refused("ping plane.ply" + bad_head + " --set beams", 2, {"--set", "section.key=value"});
 }
 
 TEST_F(BadInput, pose_with_five_numbers) {
@@ -61,7 +61,7 @@ TEST_F(BadInput, empty_cloud) {
   write("empty.pcd",
         "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT 1\n"
         "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 0\nDATA ascii\n");
-  expect_refused("ping empty.pcd" + head, 3, {"empty.pcd"});
+  expect_refused("ping empty.pcd" + bad_head, 3, {"empty.pcd"});
 }
 
 TEST_F(BadInput, cloud_in_millimetres) {
@@ -69,16 +69,16 @@ TEST_F(BadInput, cloud_in_millimetres) {
   for (int i = 0; i < 40; ++i)
     for (int j = 0; j < 40; ++j) text += std::to_string(300 * i) + " " + std::to_string(300 * j - 6000) + " 0\n";
   write("millimetres.xyz", text);
-  expect_refused("ping millimetres.xyz" + head, 3, {"millimetres.xyz", "--unit mm"});
-  succeed("ping millimetres.xyz --unit mm -q" + head);
+  expect_refused("ping millimetres.xyz" + bad_head, 3, {"millimetres.xyz", "--unit mm"});
+  succeed("ping millimetres.xyz --unit mm -q" + bad_head);
 }
 
 TEST_F(BadInput, existing_run) {
-  succeed("ping plane.ply -q" + head);
+  succeed("ping plane.ply -q" + bad_head);
   const std::string cube = read("out/cube.h5");
-  expect_refused("ping plane.ply --seed 5" + head, 4, {"out", "--force"});
+  expect_refused("ping plane.ply --seed 5" + bad_head, 4, {"out", "--force"});
   EXPECT_EQ(read("out/cube.h5"), cube);
-  succeed("ping plane.ply --seed 5 --force -q" + head);
+  succeed("ping plane.ply --seed 5 --force -q" + bad_head);
   EXPECT_NE(read("out/cube.h5"), cube);
 }
 
@@ -88,22 +88,22 @@ TEST_F(BadInput, existing_file_of_prepare_and_make_scene) {
 }
 
 TEST_F(BadInput, impossible_values) {
-  expect_refused("ping plane.ply" + head + " --set sonar.bandwidth_hz=0", 2, {"bandwidth_hz = 0 Hz"});
-  expect_refused("ping plane.ply" + head + " --set sonar.bin_size_m=1", 2,
+  expect_refused("ping plane.ply" + bad_head + " --set sonar.bandwidth_hz=0", 2, {"bandwidth_hz = 0 Hz"});
+  expect_refused("ping plane.ply" + bad_head + " --set sonar.bin_size_m=1", 2,
                  {"bin_size_m = 1 m would under-sample the pulse"});
-  expect_refused("ping plane.ply" + head + " --set water.salinity_psu=-3", 2, {"salinity_psu = -3 psu"});
-  expect_refused("ping plane.ply" + head + " --tolerance 0", 2, {"tolerance = 0"});
-  expect_refused("ping plane.ply" + head + " --material stel", 2, {"stel", "did you mean 'steel'"});
-  expect_refused("ping plane.ply" + head + " --unit furlong", 2, {"furlong", "m, mm, cm, km, ft"});
+  expect_refused("ping plane.ply" + bad_head + " --set water.salinity_psu=-3", 2, {"salinity_psu = -3 psu"});
+  expect_refused("ping plane.ply" + bad_head + " --tolerance 0", 2, {"tolerance = 0"});
+  expect_refused("ping plane.ply" + bad_head + " --material stel", 2, {"stel", "did you mean 'steel'"});
+  expect_refused("ping plane.ply" + bad_head + " --unit furlong", 2, {"furlong", "m, mm, cm, km, ft"});
   expect_refused("make-scene habour -o x.ply", 2, {"habour", "harbour"});
   expect_refused("make-scene plane --points 0 -o x.ply", 2, {"points"});
 }
 
 TEST_F(BadInput, wrong_words) {
   expect_refused("pong plane.ply", 2, {"--help"});
-  expect_refused("ping plane.ply" + head + " --colour red", 2, {"--colour"});
+  expect_refused("ping plane.ply" + bad_head + " --colour red", 2, {"--colour"});
   expect_refused("ping", 2, {"--help"});
-  expect_refused("ping plane.ply" + head + " -j 100000", 2, {"100000", "within 0 and 1024"});
+  expect_refused("ping plane.ply" + bad_head + " -j 100000", 2, {"100000", "within 0 and 1024"});
 }
 
 TEST_F(BadInput, csv_with_a_bad_number_names_its_line) {

@@ -9,7 +9,7 @@
 
 namespace {
 
-const std::string head = " --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,10,0 --range 2:14";
+const std::string harbour_head = " --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,10,0 --range 2:14";
 
 class PingRun : public ToolTest {
  protected:
@@ -51,7 +51,7 @@ std::map<std::string, std::vector<double>> read_ply_columns(const std::string& b
 }  // namespace
 
 TEST_F(PingRun, writes_everything_and_says_what_it_did) {
-  succeed("ping harbour.ply -o out" + head);
+  succeed("ping harbour.ply -o out" + harbour_head);
   for (const char* file : {"cube.h5", "returns.pcd", "returns.ply", "fan.png", "run.toml", "manifest.json"})
     EXPECT_TRUE(std::filesystem::exists(path(std::string("out/") + file))) << file;
   const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
@@ -67,8 +67,8 @@ TEST_F(PingRun, writes_everything_and_says_what_it_did) {
 }
 
 TEST_F(PingRun, same_seed_same_bytes_for_one_and_two_threads) {
-  succeed("ping harbour.ply -j1 -o one --no-picture" + head);
-  succeed("ping harbour.ply -j2 -o two --no-picture" + head);
+  succeed("ping harbour.ply -j1 -o one --no-picture" + harbour_head);
+  succeed("ping harbour.ply -j2 -o two --no-picture" + harbour_head);
   EXPECT_EQ(read("one/cube.h5"), read("two/cube.h5"));
   EXPECT_EQ(read("one/returns.pcd"), read("two/returns.pcd"));
   EXPECT_EQ(read("one/returns.ply"), read("two/returns.ply"));
@@ -149,7 +149,7 @@ TEST_F(PingRun, noise_fills_a_silent_view_at_the_noise_floor) {
 }
 
 TEST_F(PingRun, water_outside_the_formulas_is_computed_and_noted) {
-  const ToolResult result = run("ping harbour.ply --set water.temperature_c=45 --no-picture -o out" + head);
+  const ToolResult result = run("ping harbour.ply --set water.temperature_c=45 --no-picture -o out" + harbour_head);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("45")) << result.err;
   EXPECT_THAT(result.err, HasSubstr("extrapolation")) << result.err;
@@ -163,7 +163,7 @@ TEST_F(PingRun, settings_may_stand_before_the_scene) {
 }
 
 TEST_F(PingRun, draws_each_view) {
-  succeed("ping harbour.ply -o out --no-picture -q" + head);
+  succeed("ping harbour.ply -o out --no-picture -q" + harbour_head);
   for (const std::string view : {"fan", "rect", "ascan"}) {
     succeed("image out --view " + view + " -o " + view + ".png --size 400x300 -q");
     EXPECT_EQ(read(view + ".png").substr(1, 3), "PNG");
@@ -172,8 +172,8 @@ TEST_F(PingRun, draws_each_view) {
 
 TEST_F(PingRun, prepared_scene_gives_the_same_ping) {
   succeed("prepare harbour.ply -o again.ply -q");
-  succeed("ping harbour.ply -o one --no-picture -q" + head);
-  succeed("ping again.ply -o two --no-picture -q" + head);
+  succeed("ping harbour.ply -o one --no-picture -q" + harbour_head);
+  succeed("ping again.ply -o two --no-picture -q" + harbour_head);
   EXPECT_EQ(compare_images(image("one"), image("two")).relative_l2, 0);
 }
 
@@ -183,7 +183,7 @@ TEST_F(PingRun, info_tells_machines_what_it_tells_people) {
   EXPECT_TRUE(cloud["normals"].get<bool>());
   EXPECT_LE(cloud["bounds"]["max"][2].get<double>(), 1e-3);
   EXPECT_THAT(succeed("info harbour.ply"), HasSubstr("bounds"));
-  succeed("ping harbour.ply -o out --no-picture -q" + head);
+  succeed("ping harbour.ply -o out --no-picture -q" + harbour_head);
   EXPECT_EQ(nlohmann::json::parse(succeed("info out --json"))["beams"], 32);
 }
 

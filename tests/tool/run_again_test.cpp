@@ -54,7 +54,7 @@ class RunAgain : public ToolTest {
 };
 
 const std::string pose = " --pose=0,0,-3,0,10,0";
-const std::string head = "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16";
+const std::string again_head = "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16";
 const std::string gate = " --range 2:9";
 
 }  // namespace
@@ -88,29 +88,29 @@ TEST_F(RunAgain, the_same_bytes_for_all_kinds_of_options) {
           " --multipath --noise --layers --environment sea.toml --profile ctd.csv --set bottom.height_m=-9 "
           "--set bottom.lambert_mu_db=-23.7 --set wind.speed_m_s=7.3 --set water.temperature_c=4.7"};
   for (const std::string& options : sets) {
-    succeed(head + (options.find("--range") == options.npos ? gate : "") + options + " -o first --force");
+    succeed(again_head + (options.find("--range") == options.npos ? gate : "") + options + " -o first --force");
     succeed("ping --run first/run.toml -o again --force --no-picture -q");
     expect_same("first", "again");
   }
 }
 
 TEST_F(RunAgain, options_beside_it_override_it) {
-  succeed(head + gate + pose + " --noise --seed 7 --keep mask --without occlusion -o first");
+  succeed(again_head + gate + pose + " --noise --seed 7 --keep mask --without occlusion -o first");
   succeed(
       "ping --run first/run.toml --noise=false --seed 8 --keep paths --without motion --range 6:8 -o other "
       "--no-picture -q");
-  succeed(head + pose + " --seed 8 --keep paths --without motion --range 6:8 -o expected");
+  succeed(again_head + pose + " --seed 8 --keep paths --without motion --range 6:8 -o expected");
   expect_same("expected", "other");
   // A trajectory takes the place of a pose and its motion, and a pose that of a trajectory.
-  succeed(head + gate + pose + " --velocity=1,0,0 --world ned -o moving");
+  succeed(again_head + gate + pose + " --velocity=1,0,0 --world ned -o moving");
   succeed("ping --run moving/run.toml --trajectory track.csv --time 1.5 -o track --no-picture -q");
   succeed("ping --run track/run.toml" + pose + " -o still --no-picture -q");
-  succeed(head + gate + pose + " --time 1.5 -o still2");
+  succeed(again_head + gate + pose + " --time 1.5 -o still2");
   expect_same("still2", "still");
 }
 
 TEST_F(RunAgain, files_are_found_from_the_run) {
-  succeed(head + gate + " --trajectory track.csv -o first");
+  succeed(again_head + gate + " --trajectory track.csv -o first");
   std::filesystem::create_directory(path("site"));
   for (const char* name : {"harbour.ply", "track.csv", "first"})
     std::filesystem::rename(path(name), path(std::string("site/") + name));

@@ -13,7 +13,7 @@ using namespace insonify::tool;
 
 namespace {
 
-constexpr double altitude = 5, height = 1;
+constexpr double altitude = 5, box_height = 1;
 
 /// A flat bed 5 m below the origin, with a box 1 m high on it to port: 6 m along the way, from 8 to 9 m across.
 const std::string bed_with_box = R"(
@@ -39,8 +39,8 @@ f 8 12 11
 f 8 11 7
 )";
 
-/// A line along x over the bed, with a head of 0.1 m resolution to each side and a swath.
-const std::string line = R"(schema = 1
+/// A line_mission along x over the bed, with a head of 0.1 m resolution to each side and a swath.
+const std::string line_mission = R"(schema = 1
 [survey]
 scene = "bed.obj"
 [trajectory]
@@ -94,7 +94,7 @@ class SideScan : public ToolTest {
  protected:
   void SetUp() override {
     write("bed.obj", bed_with_box);
-    write("line.toml", line);
+    write("line.toml", line_mission);
   }
 };
 
@@ -111,7 +111,7 @@ PingHistory ramp() {
 }  // namespace
 
 TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_height) {
-  succeed("survey line.toml -q -o run");
+  succeed("survey line_mission.toml -q -o run");
   succeed("merge -q run --mosaic 0.5");
   const ImageRun port = read_image_run(path("run/port"), "");
   ImageOptions options;
@@ -119,17 +119,17 @@ TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_he
   constexpr double cell = 0.1;
 
   // By slant range the shadow begins where the far edge of the box's top is, at 9 m across and 4 m down.
-  const double edge = std::hypot(9, altitude - height);
+  const double edge = std::hypot(9, altitude - box_height);
   const auto [begin, end] = shadow_around(beam_history(port, options), 11, 13);
   EXPECT_NEAR(begin, edge, cell);
-  EXPECT_NEAR(end - begin, height * edge / (altitude - height), cell);
+  EXPECT_NEAR(end - begin, box_height * edge / (altitude - box_height), cell);
 
-  // On the ground it ends where the line over that edge meets the bottom.
+  // On the ground it ends where the line_mission over that edge meets the bottom.
   for (const bool by_pose : {false, true}) {
     ImageOptions ground = options;
     (by_pose ? ground.bottom : ground.altitude) = by_pose ? "-5" : "5";
     const auto shadow = shadow_around(on_flat_bottom(beam_history(port, options), altitudes_of(port, ground)), 10, 12);
-    EXPECT_NEAR(shadow.second, 9 * altitude / (altitude - height), cell);
+    EXPECT_NEAR(shadow.second, 9 * altitude / (altitude - box_height), cell);
   }
 
   // Starboard sees the bed alone.

@@ -8,7 +8,7 @@
 namespace {
 
 const std::string sonar = " --sonar p900-45 --set sonar.beams=64 --scatterers-per-cell 3 --no-picture -q";
-const std::string head = sonar + " --pose=0,0,-3,0,10,0 --range 2:15";
+const std::string tiles_head = sonar + " --pose=0,0,-3,0,10,0 --range 2:15";
 
 class Tiles : public ToolTest {
  protected:
@@ -20,8 +20,8 @@ class Tiles : public ToolTest {
 TEST_F(Tiles, a_ping_of_the_tiles_is_the_ping_of_the_cloud_byte_for_byte) {
   succeed("prepare harbour.ply -o harbour.tiles -q");
   for (const std::string& more : {std::string(), std::string(" --multipath --set surface.height_m=0")}) {
-    succeed("ping harbour.ply --force -o a" + head + more);
-    succeed("ping harbour.tiles --force -o b" + head + more);
+    succeed("ping harbour.ply --force -o a" + tiles_head + more);
+    succeed("ping harbour.tiles --force -o b" + tiles_head + more);
     EXPECT_EQ(read("a/cube.h5"), read("b/cube.h5"));
     EXPECT_EQ(read("a/returns.ply"), read("b/returns.ply"));
   }
@@ -40,15 +40,16 @@ TEST_F(Tiles, the_manifest_says_how_much_was_read) {
   const auto info = nlohmann::json::parse(succeed("info harbour.tiles --json"));
   EXPECT_EQ(info["format"], "insonify tiles");
   EXPECT_EQ(info["materials"][0], "sand");
-  const auto manifest = nlohmann::json::parse(succeed("ping harbour.tiles --json -o out" + head));
+  const auto manifest = nlohmann::json::parse(succeed("ping harbour.tiles --json -o out" + tiles_head));
   const auto& tiles = manifest["scene"]["tiles"];
   EXPECT_EQ(tiles["surfels"], info["surfels"]);
   EXPECT_EQ(tiles["tiles"], info["tiles"]);
   EXPECT_GT(tiles["surfels_read"], 0);
   EXPECT_LT(tiles["surfels_read"], tiles["surfels"]);
   EXPECT_LT(tiles["tiles_read"], tiles["tiles"]);
-  EXPECT_THAT(succeed("plan harbour.tiles" + head.substr(0, head.find(" --no-picture")) + " --pose=0,0,-3,0,10,0"),
-              HasSubstr("direct"));
+  EXPECT_THAT(
+      succeed("plan harbour.tiles" + tiles_head.substr(0, tiles_head.find(" --no-picture")) + " --pose=0,0,-3,0,10,0"),
+      HasSubstr("direct"));
 }
 
 TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
@@ -61,13 +62,13 @@ TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
 
 TEST_F(Tiles, what_cannot_be_pinged_is_refused) {
   succeed("prepare harbour.ply -o harbour.tiles -q");
-  expect_refused("ping harbour.tiles -o out --memory-limit 0.001" + head, 1,
+  expect_refused("ping harbour.tiles -o out --memory-limit 0.001" + tiles_head, 1,
                  {"harbour.tiles", "need about", "GiB", "raise the limit"});
-  expect_refused("ping harbour.tiles -o out --material sand" + head, 2, {"--material", "prepared already"});
+  expect_refused("ping harbour.tiles -o out --material sand" + tiles_head, 2, {"--material", "prepared already"});
   expect_refused("prepare harbour.ply -o harbour.tiles", 4, {"harbour.tiles", "exists already"});
   const std::string good = read("harbour.tiles");
   write("cut.tiles", good.substr(0, good.size() / 2));
-  expect_refused("ping cut.tiles -o out" + head, 3, {"cut.tiles", "cut off"});
+  expect_refused("ping cut.tiles -o out" + tiles_head, 3, {"cut.tiles", "cut off"});
   expect_refused("info cut.tiles", 3, {"cut.tiles", "cut off"});
   write("text.tiles", "hello");
   expect_refused("info text.tiles", 3, {"text.tiles", "not a .tiles file"});

@@ -10,7 +10,7 @@ class ShowAscan : public PictureTest {
 };
 
 // Only the line is blue, on white.
-bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }
+bool is_curve(const Rgb& colour) { return colour[2] > colour[0] + 60; }
 
 // Mean height of the line between two fractions of the picture's width; -1 if there is none.
 double line_height(const ReadPicture& picture, double from, double to) {
@@ -18,7 +18,7 @@ double line_height(const ReadPicture& picture, double from, double to) {
   int count = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = static_cast<int>(from * picture.width); x < to * picture.width; ++x)
-      if (is_line(picture.at(x, y))) {
+      if (is_curve(picture.at(x, y))) {
         sum += y;
         ++count;
       }

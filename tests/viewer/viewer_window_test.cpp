@@ -6,7 +6,7 @@
 
 namespace {
 
-class Window : public testing::Test {
+class WindowFixture : public testing::Test {
  protected:
   void open(ViewerOptions options = {}) {
     options.width = 800, options.height = 600;
@@ -54,7 +54,7 @@ class Window : public testing::Test {
 
 }  // namespace
 
-TEST_F(Window, a_click_on_a_target_selects_its_sample_and_explains_it) {
+TEST_F(WindowFixture, a_click_on_a_target_selects_its_sample_and_explains_it) {
   open();
   for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
     window_->play(click_at(window_->pixel_of(target->place), ViewerPanelName::fan));
@@ -65,7 +65,7 @@ TEST_F(Window, a_click_on_a_target_selects_its_sample_and_explains_it) {
 }
 
 // Finds the bright cell in the picture itself, independently of the layout.
-TEST_F(Window, targets_are_drawn_where_clicks_find_them) {
+TEST_F(WindowFixture, targets_are_drawn_where_clicks_find_them) {
   ViewerOptions options;
   options.start.colour_map = "grey";
   open(options);
@@ -95,7 +95,7 @@ TEST_F(Window, targets_are_drawn_where_clicks_find_them) {
   EXPECT_GT(window_->pixel_of(made_.far.place).y, port.y + 0.2 * fan.height());
 }
 
-TEST_F(Window, clicks_find_the_same_cell_after_the_fan_was_moved_and_zoomed) {
+TEST_F(WindowFixture, clicks_find_the_same_cell_after_the_fan_was_moved_and_zoomed) {
   open();
   const Point2 before = window_->pixel_of(made_.port.place);
   window_->play(drag_from(middle(ViewerPanelName::fan), {40, -25}, ViewerPanelName::fan));
@@ -114,14 +114,14 @@ TEST_F(Window, clicks_find_the_same_cell_after_the_fan_was_moved_and_zoomed) {
   EXPECT_NEAR(window_->pixel_of(made_.port.place).x, before.x, 1e-6);
 }
 
-TEST_F(Window, a_drag_is_no_click) {
+TEST_F(WindowFixture, a_drag_is_no_click) {
   open();
   window_->play(drag_from(window_->pixel_of(made_.port.place), {30, 0}, ViewerPanelName::fan));
   EXPECT_FALSE(window_->state().selected);
   EXPECT_TRUE(said_.empty());
 }
 
-TEST_F(Window, a_click_on_a_target_in_3d_selects_its_sample) {
+TEST_F(WindowFixture, a_click_on_a_target_in_3d_selects_its_sample) {
   open();
   for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
     const auto at = window_->pixel_of_point(target->position);
@@ -133,7 +133,7 @@ TEST_F(Window, a_click_on_a_target_in_3d_selects_its_sample) {
   EXPECT_LT(window_->pixel_of_point(made_.port.position)->x, window_->pixel_of_point(made_.starboard.position)->x);
 }
 
-TEST_F(Window, a_click_on_the_ascan_keeps_the_beam_and_takes_the_range) {
+TEST_F(WindowFixture, a_click_on_the_ascan_keeps_the_beam_and_takes_the_range) {
   ViewerOptions options;
   options.start.selected = made_.port.place;
   open(options);
@@ -143,7 +143,7 @@ TEST_F(Window, a_click_on_the_ascan_keeps_the_beam_and_takes_the_range) {
   EXPECT_NEAR(static_cast<double>(window_->state().selected->bin), 60, 12);  // near the middle of the gate
 }
 
-TEST_F(Window, two_clicks_measure_the_distance_between_two_targets) {
+TEST_F(WindowFixture, two_clicks_measure_the_distance_between_two_targets) {
   open();
   window_->press_key("d");
   window_->play(click_at(window_->pixel_of(made_.port.place), ViewerPanelName::fan));
@@ -153,7 +153,7 @@ TEST_F(Window, two_clicks_measure_the_distance_between_two_targets) {
   EXPECT_FALSE(window_->state().selected);
 }
 
-TEST_F(Window, keys_change_what_is_drawn) {
+TEST_F(WindowFixture, keys_change_what_is_drawn) {
   made_ = three_targets(3);
   open();
   const Box whole{0, 800, 0, 600};
@@ -166,7 +166,7 @@ TEST_F(Window, keys_change_what_is_drawn) {
   }
 }
 
-TEST_F(Window, the_same_state_is_drawn_the_same_way_whatever_came_before) {
+TEST_F(WindowFixture, the_same_state_is_drawn_the_same_way_whatever_came_before) {
   made_ = three_targets(3);
   open();
   const auto before = picture("viewer_before.png");
@@ -176,7 +176,7 @@ TEST_F(Window, the_same_state_is_drawn_the_same_way_whatever_came_before) {
   EXPECT_EQ(differences(before, picture("viewer_after.png"), {0, 800, 0, 600}), 0);
 }
 
-TEST_F(Window, the_slider_sets_the_gain) {
+TEST_F(WindowFixture, the_slider_sets_the_gain) {
   open();
   // Ends of the slider's tube; a press on the tube moves the slider there.
   const Box& facts = window_->layout().facts;
@@ -187,7 +187,7 @@ TEST_F(Window, the_slider_sets_the_gain) {
   EXPECT_NEAR(window_->state().gain_db, 20, 4);  // three quarters of the way from -40 to 40
 }
 
-TEST_F(Window, playing_moves_on_by_itself) {
+TEST_F(WindowFixture, playing_moves_on_by_itself) {
   made_ = three_targets(64);  // too many to wrap around in the time
   ViewerOptions options;
   options.events = parse_viewer_script("key space; wait 0.6; key space");
@@ -196,7 +196,7 @@ TEST_F(Window, playing_moves_on_by_itself) {
   EXPECT_FALSE(window_->state().playing);
 }
 
-TEST_F(Window, quits_on_request) {
+TEST_F(WindowFixture, quits_on_request) {
   ViewerOptions options;
   options.events = parse_viewer_script("key q; key Up");
   open(options);
@@ -204,7 +204,7 @@ TEST_F(Window, quits_on_request) {
   EXPECT_EQ(window_->state().gain_db, 0);
 }
 
-TEST_F(Window, inspects_a_scene_and_says_its_pose) {
+TEST_F(WindowFixture, inspects_a_scene_and_says_its_pose) {
   const Ping ping = made_.data.pings[0];
   made_.data.pings.clear();
   made_.data.fan = ping.fan;
@@ -228,7 +228,7 @@ TEST_F(Window, inspects_a_scene_and_says_its_pose) {
   EXPECT_THAT(window_->explanation(), HasSubstr(" 0 seen"));
 }
 
-TEST_F(Window, a_run_without_scene_shows_its_fan_alone) {
+TEST_F(WindowFixture, a_run_without_scene_shows_its_fan_alone) {
   made_.data.scene = {};
   open();
   EXPECT_EQ(window_->layout().scene.width(), 0);
@@ -236,7 +236,7 @@ TEST_F(Window, a_run_without_scene_shows_its_fan_alone) {
   EXPECT_EQ(window_->state().selected, made_.port.place);
 }
 
-TEST_F(Window, refuses_what_cannot_be_shown) {
+TEST_F(WindowFixture, refuses_what_cannot_be_shown) {
   const auto refuses = [&](const ViewerData& data, const ViewerOptions& options, ErrorKind kind = ErrorKind::argument) {
     return error_of([&] { ViewerWindow window(data, options, ViewerScreen::off_screen); }, kind);
   };
