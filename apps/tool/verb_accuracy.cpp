@@ -81,16 +81,16 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
   }
   if (o.run.sonar.empty() || o.pose.empty())
     fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
-  const Pose pose = parse_pose(o.pose, o.world);
-  const HeadSetup setup = set_up_head(o.common, o.run);
+  PingSetup setup{parse_pose(o.pose, o.world), set_up_head(o.common, o.run), {}};
+  setup.simulation.seed = o.common.seed;
+  setup.simulation.threads = o.common.threads;
   const LoadOptions loading = load_options(o.common, o.scene);
   progress.step("loading " + o.scene.path);
-  const LoadedScene loaded = load_scene(o.scene.path, loading);
+  LoadedScene loaded = load_scene(o.scene.path, loading);
+  sample_for_ping({}, setup, loaded);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
-  SimulationOptions simulation;
-  simulation.seed = o.common.seed;
-  simulation.threads = o.common.threads;
-  return accuracy_sweep_of(task_of(loaded.scene, setup.head, pose, setup.environment, simulation), sweep);
+  const auto& [pose, head, simulation] = setup;
+  return accuracy_sweep_of(task_of(loaded.scene, head.head, pose, head.environment, simulation), sweep);
 }
 
 std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,

@@ -54,29 +54,36 @@ WidebandBlock::WidebandBlock(const WidebandPlan& plan, double first_in, double l
   undone = bend_of_beams(plan, plan.time_of(std::max(first - guard, 0.0)), plan.time_of(std::min(last + guard, bins)));
 }
 
-void WidebandRoom::add_image(const Echoes& echoes, List list, const WidebandBlock& block, ComplexGrid& pressure) {
-  const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed;
+void WidebandRoom::begin(const WidebandBlock& block) {
   start_time_ = plan_.time_of(block.first - static_cast<double>(plan_.guard));
   unit_ = 0;
-  for (const std::uint32_t i : list)
-    unit_ = std::max(unit_, std::abs(echoes.amplitude[i]) * std::exp(-loss * std::max(0.0, echoes.delay[i])));
-  if (unit_ == 0) unit_ = 1;
-  grid_echoes(echoes, list);
+  re_.clear();
+  im_.clear();
+  std::fill(touched_.begin(), touched_.end(), false);
+}
+
+void WidebandRoom::add(const Echoes& echoes, List list) {
+  if (unit_ == 0) {
+    const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed;
+    double most = 0;
+    for (const std::uint32_t i : list)
+      most = std::max(most, std::abs(echoes.amplitude[i]) * std::exp(-loss * std::max(0.0, echoes.delay[i])));
+    if (most == 0) return;
+    unit_ = std::exp2(std::round(std::log2(most)));
+  }
+  if (plan_.one_shape && echoes.doppler.empty())
+    grid_alike(echoes, list);
+  else
+    grid_singly(echoes, list);
+}
+
+void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) {
+  if (unit_ == 0) return;
   std::fill(elements_.begin(), elements_.end(), 0.0F);
   for (std::size_t q = 0; q < block.received.terms; ++q) add_echo_term(block.received, q);
   for (std::size_t k = 0; k < elements_.size(); ++k)
     elements_[k] *= plan_.element_weight[k / (2 * lines_at_once) * lines_at_once + k % lines_at_once];
   add_beams(block, pressure);
-}
-
-void WidebandRoom::grid_echoes(const Echoes& echoes, List list) {
-  re_.clear();
-  im_.clear();
-  std::fill(touched_.begin(), touched_.end(), false);
-  if (plan_.one_shape && echoes.doppler.empty())
-    grid_alike(echoes, list);
-  else
-    grid_singly(echoes, list);
 }
 
 void WidebandRoom::grid_alike(const Echoes& echoes, List list) {

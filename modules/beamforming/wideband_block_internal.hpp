@@ -39,14 +39,17 @@ class WidebandRoom {
 
   using List = std::span<const std::uint32_t>;
 
-  /// Adds the beams of a block to `pressure`, within a guard of it. `list`: its echoes.
-  void add_image(const Echoes& echoes, List list, const WidebandBlock& block, ComplexGrid& pressure);
+  /// Begins a block without echoes.
+  void begin(const WidebandBlock& block);
+  /// Adds echoes of the block, those of `list`; calls may follow one another, with the same bits as one of all echoes.
+  void add(const Echoes& echoes, List list);
+  /// Adds the beams of the block to `pressure`, within a guard of it.
+  void add_image(const WidebandBlock& block, ComplexGrid& pressure);
 
  private:
   using Complex = std::complex<float>;
   using Spectrum = AlignedArray<Complex, float>;
 
-  void grid_echoes(const Echoes& echoes, List list);
   void grid_alike(const Echoes& echoes, List list);
   void grid_singly(const Echoes& echoes, List list);
   /// Adds what elements receive of one term of the bend.
@@ -68,7 +71,7 @@ class WidebandRoom {
   std::vector<double> pulse_re_, pulse_im_;
   std::vector<bool> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;
-  double start_time_ = 0, unit_ = 1;
+  double start_time_ = 0, unit_ = 0;  // unit: a power of two, of the first echoes; 0: none yet
 };
 
 }  // namespace insonify

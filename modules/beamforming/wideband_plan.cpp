@@ -48,59 +48,55 @@ double longest_reach(const SonarHead& head, const Medium& medium, double toleran
 
 }  // namespace
 
-BendPhase::BendPhase(const SonarHead& head, const Medium& medium, double near, double far) {
-  const double length = length_of(head.array);
-  all = pi * (head.pulse.centre_frequency + 0.6 * head.pulse.bandwidth) / medium.sound_speed * 0.25 * length * length /
-        near;
-  over_range = 0.5 * all * (1 - near / far);
-}
-
-double wideband_nearest(const SonarHead& head, const Medium& medium, double tolerance) {
-  // Curvature that changes with range moves the frequencies of the outermost elements: by 0.3 of the band at most. What
-  // is of third order over a pulse is left out: measured at 0.01 of that part of the band times (reach / range)^2.
-  const double length = length_of(head.array),
-               reach = 0.5 * medium.sound_speed * longest_reach(head, medium, tolerance),
-               moved = length * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
-  return std::max({3 * length, moved / std::sqrt(0.3), std::sqrt(moved * reach / std::sqrt(50 * tolerance))}) + reach;
-}
-
-std::size_t wideband_guard(const SonarHead& head, const Medium& medium, double tolerance, double widest) {
-  const TimeAxis axis(head.gate, medium.sound_speed);
-  const double across = 0.5 * length_of(head.array) / medium.sound_speed * 2.1 * widest;
-  return static_cast<std::size_t>(std::ceil((across + longest_reach(head, medium, tolerance)) / axis.step)) + 2;
-}
-
-WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options,
-                           double widest_in, std::size_t block_bins)
-    : head(head_in),
-      medium(medium_in),
-      tolerance(options.tolerance),
+WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double tolerance_in, double widest_in,
+                             std::size_t block_bins)
+    : tolerance(tolerance_in),
       widest(widest_in),
       axis(head.gate, medium.sound_speed),
-      cut(pulse_cut(options.tolerance)),
-      shapes(head.pulse, medium),
-      u_beam(beam_cosines(head.fan)),
+      cut(pulse_cut(tolerance_in)),
       aperture(length_of(head.array)),
-      kernel(8, oversampling_for(tolerance)) {
-  for (const double u : u_beam) widest = std::max(widest, std::abs(u));
-  for (std::size_t m = 0; m < head.array.elements(); ++m)
-    y.push_back(head.array.spacing * element_place(m, head.array.elements()));
-  plan_time(block_bins);
-  plan_directions();
-  plan_elements();
-  plan_moments();
-}
-
-void WidebandPlan::plan_time(std::size_t block_bins) {
-  guard = wideband_guard(head, medium, tolerance, widest);
-  cycle = fast_grid_length(block_bins + 2 * guard);
+      reach(longest_reach(head, medium, tolerance_in)) {
+  for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
+  const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
+  guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
+  cycle = fast_length(block_bins + 2 * guard);
   block = cycle - 2 * guard;
   half_band = band_of(head.pulse, tolerance);
   fine =
       fast_grid_length(static_cast<std::size_t>(std::ceil(2 * half_band * static_cast<double>(cycle) * axis.step)) + 2);
   fine_step = static_cast<double>(cycle) * axis.step / static_cast<double>(fine);
   fine_row = fine + 8;
-  reach = longest_reach(head, medium, tolerance);
+
+  // A period that the kernel between harmonics needs, and the array as long as it is at the highest frequency.
+  const double finer = oversampling_for(tolerance);
+  period = 2.02 * widest * finer;
+  const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
+  most = static_cast<std::size_t>(std::ceil(wavelengths * period + 0.5 * static_cast<double>(kernel_width))) + 1;
+  grid =
+      fast_length(std::max<std::size_t>(64, static_cast<std::size_t>(std::ceil(finer * static_cast<double>(rows())))));
+  grid_stride = grid + 16;
+  const double shift =
+      0.5 * period * aperture / medium.sound_speed / seconds() * static_cast<double>(lines_at_once - 1);
+  taps = kernel_width + static_cast<std::size_t>(std::ceil(shift));
+}
+
+WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, double tolerance_in, double widest_in,
+                           std::size_t block_bins)
+    : WidebandSizes(head_in, medium_in, tolerance_in, widest_in, block_bins),
+      head(head_in),
+      medium(medium_in),
+      shapes(head.pulse, medium),
+      u_beam(beam_cosines(head.fan)),
+      kernel(kernel_width, oversampling_for(tolerance)) {
+  for (std::size_t m = 0; m < head.array.elements(); ++m)
+    y.push_back(head.array.spacing * element_place(m, head.array.elements()));
+  plan_pulse();
+  plan_directions();
+  plan_elements();
+  plan_moments();
+}
+
+void WidebandPlan::plan_pulse() {
   if (head.pulse.shape == PulseShape::gaussian) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
   one_shape = medium.absorption.a1 == 0 && medium.absorption.a2 == 0 && head.pulse.shape == PulseShape::gaussian;
   if (!one_shape) return;
@@ -112,14 +108,7 @@ void WidebandPlan::plan_time(std::size_t block_bins) {
 }
 
 void WidebandPlan::plan_directions() {
-  // A period that the kernel between harmonics needs, and the array as long as it is at the highest frequency.
-  period = 2.02 * widest * oversampling_for(tolerance);
-  const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
   const auto half_width = 0.5 * static_cast<double>(kernel.width());
-  most = static_cast<std::size_t>(std::ceil(wavelengths * period + half_width)) + 1;
-  grid = fast_grid_length(std::max<std::size_t>(
-      64, static_cast<std::size_t>(std::ceil(oversampling_for(tolerance) * static_cast<double>(rows())))));
-  grid_stride = grid + 16;
   columns = pieces_of(kernel);
   // The trapezoidal rule in s, x = (w / 2) sin(s), as the kernel's transform has it.
   constexpr int steps = 24;
@@ -162,8 +151,6 @@ void WidebandPlan::plan_elements() {
     const double first = line_of(chunk * lines_at_once), last = line_of(chunk * lines_at_once + lines_at_once - 1);
     if (std::min(std::abs(first), std::abs(last)) <= top) chunks.push_back(chunk);
   }
-  const double shift = period * y.back() / c / seconds() * static_cast<double>(lines_at_once - 1);
-  taps = width + static_cast<std::size_t>(std::ceil(shift));
   tap_row.assign(chunks.size() * n, 0);
   tap_weight.assign(chunks.size() * n * taps * lines_at_once, 0);
   element_weight.assign(chunks.size() * n * lines_at_once, 0);

@@ -13,60 +13,33 @@
 
 namespace insonify {
 
-/// What the synthesis with true delays has in common for all blocks of time of one length. The pulses of a block and
-/// all that the array's delays make of them fit into one cycle of a transform. Directions lie on a grid over one
-/// period; its harmonics k / period, |k| <= most, are places on the array in wavelengths, between which the elements
-/// are interpolated, frequency by frequency.
-struct WidebandPlan {
-  static constexpr std::size_t band_nodes = 7;  ///< frequencies at which smooth functions of it are known
-  static constexpr std::size_t moments = 12;
+/// Sizes of the synthesis with true delays for blocks of time of one length. The pulses of a block and all that the array's
+/// delays make of them fit into one cycle of a transform. Directions lie on a grid over one period; its harmonics
+/// k / period, |k| <= most, are places on the array in wavelengths, between which the elements are interpolated, frequency
+/// by frequency.
+struct WidebandSizes {
+  static constexpr std::size_t kernel_width = 8;
 
-  SonarHead head;
-  Medium medium;
   double tolerance;
   double widest;  ///< |u| of echoes and beams
   TimeAxis axis;
-  double cut;  ///< pulses are cut where they fall below this
-  EchoShapes shapes;
-  std::vector<double> u_beam;
-  double aperture;             ///< length of the array [m]
-  std::vector<double> y;       ///< places of elements [m], positive to port
-  double spectral_width2 = 0;  ///< a of a Gaussian pulse with the spectrum exp(-a f^2) [s^2]; 0: of a sweep
+  double cut;       ///< pulses are cut where they fall below this
+  double aperture;  ///< length of the array [m]
 
   double half_band = 0;                         ///< frequencies off the carrier that count [Hz]
   std::size_t block = 0, guard = 0, cycle = 0;  ///< bins of a block at most, to either side of it, of a cycle
   std::size_t fine = 0, fine_row = 0;           ///< samples of a cycle before the beams; room for them
   double fine_step = 0;                         ///< [s]
-  bool one_shape = false;                       ///< all pulses are alike, but for their level
   double reach = 0;                             ///< half length of a pulse at the end of the gate [s]
-  double half = 0;                              ///< of what is gridded of a pulse, if they are alike [s]
-  std::size_t pulse_samples = 0;
-  PolynomialPieces<float> pulse, columns;
 
   double period = 0;                      ///< of direction
   std::size_t grid = 0, grid_stride = 0;  ///< steps of the period
   std::size_t most = 0;                   ///< harmonics run from -most to most, one row each
-  GriddingKernel kernel;                  ///< of directions on the grid, and of places between harmonics
-  std::vector<double> place_factor;       ///< undoes it between harmonics, by step of the grid
-  std::vector<float> row_factor;          ///< undoes it on the grid, by row
-  std::vector<float> beam_weight;         ///< of each beam, kernel.width() grid steps
-  std::vector<std::uint32_t> beam_row;
+  std::size_t taps = 0;                   ///< rows that give an element
 
-  std::vector<std::size_t> chunks;           ///< those of lines_at_once frequencies that count
-  std::size_t taps = 0;                      ///< rows that give an element
-  std::vector<std::uint32_t> tap_row;        ///< the first of them, by chunk and element
-  std::vector<float> tap_weight;             ///< by chunk, element, tap and line
-  std::vector<float> element_weight;         ///< by chunk, element and line: shading, and undoes gridding
-  std::vector<double> node_frequency;        ///< off the carrier, against the sign of lines [Hz]
-  std::vector<std::complex<double>> moment;  ///< of the kernel by element, node and order, relative to order 0
+  /// `widest`: |u| of echoes; `block_bins`: length of a block asked for.
+  WidebandSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, std::size_t block_bins);
 
-  /// `widest`: |u| of echoes and beams; `block_bins`: length of a block asked for.
-  WidebandPlan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest,
-               std::size_t block_bins);
-
-  /// Transforms of the kernel times x^j, x in its steps, j < moments; `frequency` in cycles per step.
-  std::array<std::complex<double>, moments> kernel_moments(double frequency) const;
-  std::size_t elements() const { return y.size(); }
   std::size_t rows() const { return 2 * most + 1; }
   /// When bin `bin` of the gate is [s].
   double time_of(double bin) const { return axis.start + bin * axis.step; }
@@ -78,9 +51,47 @@ struct WidebandPlan {
   }
   double seconds() const { return static_cast<double>(fine) * fine_step; }
   std::size_t top_line() const { return static_cast<std::size_t>(half_band * seconds()); }
+};
+
+/// What the synthesis with true delays has in common for all blocks of time of one length.
+struct WidebandPlan : WidebandSizes {
+  static constexpr std::size_t band_nodes = 7;  ///< frequencies at which smooth functions of it are known
+  static constexpr std::size_t moments = 12;
+
+  SonarHead head;
+  Medium medium;
+  EchoShapes shapes;
+  std::vector<double> u_beam;
+  std::vector<double> y;       ///< places of elements [m], positive to port
+  double spectral_width2 = 0;  ///< a of a Gaussian pulse with the spectrum exp(-a f^2) [s^2]; 0: of a sweep
+
+  bool one_shape = false;  ///< all pulses are alike, but for their level
+  double half = 0;         ///< of what is gridded of a pulse, if they are alike [s]
+  std::size_t pulse_samples = 0;
+  PolynomialPieces<float> pulse, columns;
+
+  GriddingKernel kernel;             ///< of directions on the grid, and of places between harmonics
+  std::vector<double> place_factor;  ///< undoes it between harmonics, by step of the grid
+  std::vector<float> row_factor;     ///< undoes it on the grid, by row
+  std::vector<float> beam_weight;    ///< of each beam, kernel.width() grid steps
+  std::vector<std::uint32_t> beam_row;
+
+  std::vector<std::size_t> chunks;           ///< those of lines_at_once frequencies that count
+  std::vector<std::uint32_t> tap_row;        ///< the first of the taps, by chunk and element
+  std::vector<float> tap_weight;             ///< by chunk, element, tap and line
+  std::vector<float> element_weight;         ///< by chunk, element and line: shading, and undoes gridding
+  std::vector<double> node_frequency;        ///< off the carrier, against the sign of lines [Hz]
+  std::vector<std::complex<double>> moment;  ///< of the kernel by element, node and order, relative to order 0
+
+  /// As WidebandSizes.
+  WidebandPlan(const SonarHead& head, const Medium& medium, double tolerance, double widest, std::size_t block_bins);
+
+  /// Transforms of the kernel times x^j, x in its steps, j < moments; `frequency` in cycles per step.
+  std::array<std::complex<double>, moments> kernel_moments(double frequency) const;
+  std::size_t elements() const { return y.size(); }
 
  private:
-  void plan_time(std::size_t block_bins);
+  void plan_pulse();
   void plan_directions();
   void plan_elements();
   void plan_moments();
@@ -96,11 +107,19 @@ struct BendPhase {
   BendPhase(const SonarHead& head, const Medium& medium, double near, double far);
 };
 
-/// Range of echoes from which on blocks keep the tolerance [m]: pulses that begin at three lengths of the
-/// array, or more of narrow bands.
-double wideband_nearest(const SonarHead& head, const Medium& medium, double tolerance);
+/// How time is divided: blocks without gaps, from where they keep the tolerance or the gate begins until after its end.
+/// Longer blocks spend less on their ends, but their wavefronts differ more.
+struct WidebandLayout {
+  struct Block {
+    double first, last;  ///< first and one after the last bin
+    std::size_t level;   ///< of its length
+  };
+  double guard;    ///< bins that a block reaches beyond its ends: the array's delays, and the pulse
+  double nearest;  ///< range from which on blocks keep the tolerance [m]
+  std::vector<WidebandSizes> levels;
+  std::vector<Block> blocks;
 
-/// Bins to either side of a block that its echoes reach: the array's delays, and the pulse.
-std::size_t wideband_guard(const SonarHead& head, const Medium& medium, double tolerance, double widest);
+  WidebandLayout(const SonarHead& head, const Medium& medium, double tolerance, double widest);
+};
 
 }  // namespace insonify

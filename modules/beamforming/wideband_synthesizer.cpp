@@ -10,6 +10,7 @@
 #include "beamforming/element_series.hpp"
 #include "beamforming/flush_denormals_internal.hpp"
 #include "beamforming/wideband_block_internal.hpp"
+#include "beamforming/wideband_feed_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -17,9 +18,8 @@ namespace insonify {
 namespace {
 
 constexpr double finest = 1e-5, coarsest = 0.1;
-constexpr double kept = 0.7;  // of the tolerance, for what bounds leave out
-constexpr double most_phase =
-    5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
+constexpr double kept = 0.7;                 // of the tolerance, for what bounds leave out
+constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
 
 /// Rooms that no thread works in.
 class Rooms {
@@ -42,54 +42,61 @@ class Rooms {
 };
 
 /// A plan and its transforms, for blocks of one length.
-struct Level {
-  WidebandPlan tables;
+struct LevelTables {
+  WidebandPlan plan;
   WidebandTransforms transforms;
-  std::vector<std::size_t> blocks;  ///< by number
   mutable Rooms rooms;
 
-  Level(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest, std::size_t bins)
-      : tables(head, medium, options, widest, bins), transforms(tables) {}
+  LevelTables(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes)
+      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.block), transforms(plan) {}
 };
 
-/// First and one after the last bin of a block, its level, and what is made of it when echoes first need it.
-struct Span {
-  double first, last;
-  std::size_t level;
-  mutable std::once_flag made = {};
-  mutable std::unique_ptr<WidebandBlock> block = nullptr;
-
-  const WidebandBlock& of(const WidebandPlan& plan) const {
-    std::call_once(made, [&] { block = std::make_unique<WidebandBlock>(plan, first, last); });
-    return *block;
+/// Made when it is first used.
+template <typename Thing>
+class Lazy {
+ public:
+  template <typename Make>
+  const Thing& get(const Make& make) const {
+    std::call_once(made_, [&] { thing_ = make(); });
+    return *thing_;
   }
+
+ private:
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<Thing> thing_;
 };
 
-Echoes some_of(const Echoes& echoes, const std::vector<std::size_t>& which) {
-  Echoes some;
-  for (const std::size_t i : which) {
-    some.delay.push_back(echoes.delay[i]);
-    some.u.push_back(echoes.u[i]);
-    some.amplitude.push_back(echoes.amplitude[i]);
-    if (!echoes.doppler.empty()) some.doppler.push_back(echoes.doppler[i]);
-  }
-  return some;
+void append(const Echoes& from, std::uint32_t i, Echoes& to) {
+  to.delay.push_back(from.delay[i]);
+  to.u.push_back(from.u[i]);
+  to.amplitude.push_back(from.amplitude[i]);
+  if (!from.doppler.empty()) to.doppler.push_back(from.doppler[i]);
 }
 
 }  // namespace
 
 struct WidebandSynthesizer::Plan {
-  std::vector<std::unique_ptr<Level>> levels;  ///< of ever longer blocks
-  std::deque<Span> blocks;                     ///< in order of time, without gaps
-  double guard;                                ///< bins that a block reaches beyond its ends
-  double nearest;                              ///< range from which on blocks are used [m]
-  int threads;
+  SonarHead head;
+  Medium medium;
+  SynthesisOptions options;
+  double widest;  ///< |u| of echoes
+  WidebandLayout layout;
+  WidebandStretches stretches;  ///< what is nearer than blocks reach, then the blocks
+  std::deque<Lazy<LevelTables>> levels;
+  std::deque<Lazy<WidebandBlock>> blocks;
 
   Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
-  const WidebandPlan& tables() const { return levels[0]->tables; }
-  ComplexGrid pressure(const Echoes& echoes) const;
+  const LevelTables& tables_of(std::size_t level) const;
+  const WidebandBlock& block(std::size_t number) const;
+  ComplexGrid pressure(const WidebandFeed& feed) const;
+  void add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure) const;
   /// Adds echoes nearer than blocks reach, element by element.
-  void add_nearest(const Echoes& echoes, ComplexGrid& pressure) const;
+  void add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const;
+  /// Calls use(plan) with this plan, or with one for echoes as far out as `far_out`.
+  template <typename Use>
+  ComplexGrid with(double far_out, const Use& use) const {
+    return far_out <= widest ? use(*this) : use(Plan(head, medium, options, far_out));
+  }
 };
 
 WidebandSynthesizer::WidebandSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
@@ -108,90 +115,100 @@ WidebandSynthesizer::WidebandSynthesizer(WidebandSynthesizer&&) noexcept = defau
 WidebandSynthesizer& WidebandSynthesizer::operator=(WidebandSynthesizer&&) noexcept = default;
 
 ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
-  const Plan& plan = *plan_;
-  const WidebandPlan& tables = plan.tables();
-  require_synthesis(echoes, tables.head, tables.medium, {tables.tolerance, plan.threads}, "WidebandSynthesizer");
+  require_synthesis(echoes, plan_->head, plan_->medium, plan_->options, "WidebandSynthesizer");
   double widest = 0;
   for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
-  if (widest > tables.widest)
-    return Plan(tables.head, tables.medium, {tables.tolerance, plan.threads}, widest).pressure(echoes);
-  return plan.pressure(echoes);
+  return plan_->with(widest, [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches)); });
 }
 
-WidebandSynthesizer::Plan::Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
-                                double widest)
-    : threads(options.threads) {
-  const auto bins = static_cast<double>(head.gate.bins());
-  const std::size_t ends = wideband_guard(head, medium, options.tolerance, widest);
-  guard = static_cast<double>(ends);
-  const auto fits = [&](double range, std::size_t level) {
-    const double far = range + static_cast<double>(2 * ends << level) * head.gate.bin_size;
-    return BendPhase(head, medium, range, far).over_range <= most_phase;
-  };
-  nearest = std::max(wideband_nearest(head, medium, options.tolerance), 1e-3 * head.gate.bin_size);
-  while (!fits(nearest, 0)) nearest *= 1.02;
-  // Longer blocks spend less on their ends, but their wavefronts differ more.
-  double first = std::max(-guard, std::ceil((nearest - head.gate.min_range) / head.gate.bin_size));
-  do {
-    const double range = std::max(nearest, head.gate.min_range + first * head.gate.bin_size);
-    const double allowed = range / head.gate.bin_size, wanted = bins + guard - first;
-    std::size_t level = 0;
-    while (level < 2 && static_cast<double>(2 * ends << level) < wanted &&
-           static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1))
-      ++level;
-    while (levels.size() <= level)
-      levels.push_back(std::make_unique<Level>(head, medium, options, widest, 2 * ends << levels.size()));
-    const double last = first + static_cast<double>(levels[level]->tables.block);
-    levels[level]->blocks.push_back(blocks.size());
-    blocks.emplace_back(first, last, level);
-    first = last;
-  } while (first < bins + guard);
+ComplexGrid WidebandSynthesizer::pressure_of(const EchoSource& source) const {
+  if (source.stored) return pressure(*source.stored);
+  return plan_->with(widest_of(source, plan_->widest), [&](const Plan& plan) {
+    return plan.pressure(feed_of(source, plan.stretches, plan.medium.sound_speed));
+  });
 }
 
-ComplexGrid WidebandSynthesizer::Plan::pressure(const Echoes& echoes) const {
-  // Echoes by block; none is of use beyond the last one.
-  const TimeAxis& axis = tables().axis;
-  std::vector<std::vector<std::uint32_t>> of_block(blocks.size());
-  std::vector<std::size_t> near;
-  std::vector<std::uint32_t> block_of;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    block_of.resize(static_cast<std::size_t>(blocks[b].last - blocks[0].first), static_cast<std::uint32_t>(b));
-  for (std::size_t i = 0; i < echoes.size(); ++i) {
-    const double bin = (echoes.delay[i] - axis.start) / axis.step - blocks[0].first;
-    if (bin < 0 && bin + blocks[0].first >= -guard)
-      near.push_back(i);
-    else if (bin >= 0 && bin < static_cast<double>(block_of.size()))
-      of_block[block_of[static_cast<std::size_t>(bin)]].push_back(static_cast<std::uint32_t>(i));
-  }
-  ComplexGrid pressure(tables().head.fan.beams(), axis.bins);
+WidebandSynthesizer::Plan::Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in,
+                                double widest_in)
+    : head(head_in),
+      medium(medium_in),
+      options(options_in),
+      widest(widest_in),
+      layout(head, medium, options.tolerance, widest),
+      stretches{TimeAxis(head.gate, medium.sound_speed), {std::min(-layout.guard, layout.blocks[0].first)}},
+      levels(layout.levels.size()),
+      blocks(layout.blocks.size()) {
+  for (const WidebandLayout::Block& block : layout.blocks) stretches.edge.push_back(block.first);
+  stretches.edge.push_back(layout.blocks.back().last);
+}
+
+const LevelTables& WidebandSynthesizer::Plan::tables_of(std::size_t level) const {
+  return levels[level].get([&] { return std::make_unique<LevelTables>(head, medium, layout.levels[level]); });
+}
+
+const WidebandBlock& WidebandSynthesizer::Plan::block(std::size_t number) const {
+  const WidebandLayout::Block& span = layout.blocks[number];
+  return blocks[number].get(
+      [&] { return std::make_unique<WidebandBlock>(tables_of(span.level).plan, span.first, span.last); });
+}
+
+ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed) const {
+  ComplexGrid pressure(head.fan.beams(), stretches.axis.bins);
   pressure.setZero();
   // Neighbouring blocks share bins.
-  for (const auto& level : levels) {
-    for (const std::size_t parity : {0U, 1U})
-      parallel_for(level->blocks.size(), threads, [&](std::size_t k) {
-        const std::size_t b = level->blocks[k];
-        if (b % 2 != parity || of_block[b].empty()) return;
-        const FlushDenormals flush;
-        auto room = level->rooms.take(level->tables, level->transforms);
-        room->add_image(echoes, of_block[b], blocks[b].of(level->tables), pressure);
-        level->rooms.give(std::move(room));
-      });
-  }
-  if (!near.empty()) add_nearest(some_of(echoes, near), pressure);
+  for (const std::size_t parity : {0U, 1U})
+    parallel_for((blocks.size() + 1 - parity) / 2, options.threads,
+                 [&](std::size_t k) { add_block(2 * k + parity, feed, pressure); });
+  add_nearest(feed, pressure);
   return pressure;
 }
 
-void WidebandSynthesizer::Plan::add_nearest(const Echoes& echoes, ComplexGrid& pressure) const {
-  const WidebandPlan& tables = this->tables();
-  const PulseReach reach(tables.head.pulse, tables.medium.absorption, tables.medium.sound_speed, true, tables.cut);
-  const double last = *std::max_element(echoes.delay.begin(), echoes.delay.end()),
-               beyond = tables.aperture + 0.5 * tables.medium.sound_speed * reach.at(last);
-  SonarHead head = tables.head;
-  head.gate.max_range = std::min(head.gate.max_range, 0.5 * tables.medium.sound_speed * last + beyond);
-  if (head.gate.max_range <= head.gate.min_range) return;
-  const ElementOptions options{0.5 * tables.tolerance, Wavefront::spherical, threads};
-  const ComplexGrid image =
-      beam_from_elements(element_series(echoes, head, tables.medium, options), head, tables.medium, options);
+void WidebandSynthesizer::Plan::add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure) const {
+  const FlushDenormals flush;
+  const LevelTables* tables = nullptr;
+  std::unique_ptr<WidebandRoom> room;
+  feed.visit(number + 1, [&](const Echoes& echoes, WidebandRoom::List list) {
+    if (!room) {
+      tables = &tables_of(layout.blocks[number].level);
+      room = tables->rooms.take(tables->plan, tables->transforms);
+      room->begin(block(number));
+    }
+    room->add(echoes, list);
+  });
+  if (!room) return;
+  room->add_image(block(number), pressure);
+  tables->rooms.give(std::move(room));
+}
+
+void WidebandSynthesizer::Plan::add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const {
+  double last = -1;
+  feed.visit(0, [&](const Echoes& echoes, WidebandRoom::List list) {
+    for (const std::uint32_t i : list) last = std::max(last, echoes.delay[i]);
+  });
+  if (last < 0) return;
+  const PulseReach reach(head.pulse, medium.absorption, medium.sound_speed, true, pulse_cut(options.tolerance));
+  const double beyond = layout.levels[0].aperture + 0.5 * medium.sound_speed * reach.at(last);
+  SonarHead near = head;
+  near.gate.max_range = std::min(near.gate.max_range, 0.5 * medium.sound_speed * last + beyond);
+  if (near.gate.max_range <= near.gate.min_range) return;
+  const ElementOptions exact{0.5 * options.tolerance, Wavefront::spherical, options.threads};
+  // As many at once, however they come.
+  ElementSeries all;
+  Echoes some;
+  const auto sum = [&] {
+    ElementSeries series = element_series(some, near, medium, exact);
+    if (all.pressure.size() > 0) series.pressure += all.pressure;
+    all = std::move(series);
+    some = {};
+  };
+  feed.visit(0, [&](const Echoes& echoes, WidebandRoom::List list) {
+    for (const std::uint32_t i : list) {
+      append(echoes, i, some);
+      if (some.size() == exact_at_once) sum();
+    }
+  });
+  if (some.size() > 0) sum();
+  const ComplexGrid image = beam_from_elements(all, near, medium, exact);
   pressure.leftCols(image.cols()) += image;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "acoustics/echoes.hpp"
+#include "acoustics/echo_source.hpp"
 #include "beamforming/sonar_head.hpp"
 #include "beamforming/synthesize.hpp"
 
@@ -36,6 +36,9 @@ class WidebandSynthesizer {
   /// beams x bins [Pa]; the bits do not depend on the number of threads. Throws Error for a NaN in an echo, named by
   /// its number.
   ComplexGrid pressure(const Echoes& echoes) const;
+  /// The same, to the byte, of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c.
+  /// Chunks are made again for each block that they reach into; memory does not grow with their number.
+  ComplexGrid pressure_of(const EchoSource& source) const;
 
  private:
   struct Plan;

@@ -4,6 +4,7 @@
 
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesize_noise.hpp"
+#include "beamforming/wideband_synthesizer.hpp"
 #include "core/units.hpp"
 #include "simulate/layer_sum_internal.hpp"
 
@@ -26,8 +27,11 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
 void LayerSum::add(const std::string& name, const EchoSource& source) {
   if (source.stored) return add(name, *source.stored);
   const SimulationOptions& o = ping_.options;
+  const SynthesisOptions options{o.synthesis.tolerance, o.threads};
   add_pressure(name, source.size(),
-               PingSynthesizer(ping_.head, ping_.sent.medium, {o.synthesis.tolerance, o.threads}).pressure_of(source));
+               o.synthesis.method == SynthesisMethod::true_delays
+                   ? WidebandSynthesizer(ping_.head, ping_.sent.medium, options).pressure_of(source)
+                   : PingSynthesizer(ping_.head, ping_.sent.medium, options).pressure_of(source));
 }
 
 void LayerSum::add_noise() {

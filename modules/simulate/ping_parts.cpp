@@ -41,10 +41,11 @@ std::vector<std::uint32_t> divide(const VisibleSurfels& visible, std::vector<Ech
 
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
   const auto in = [](Choice choice) { return choice == Choice::always; };
-  return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
-         o.synthesis.method != SynthesisMethod::gridded || o.sampling.kind == SamplingKind::rays ||
-         o.sampling.level_error_db > 0 || in(o.effects.multipath) || in(o.effects.moving) || ping.environment.profile ||
-         ping.head.column || fan_rows(ping.head.fan).size() > 1;
+  const bool streams =
+      o.synthesis.method == SynthesisMethod::gridded || o.synthesis.method == SynthesisMethod::true_delays;
+  return !streams || o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
+         o.sampling.kind == SamplingKind::rays || o.sampling.level_error_db > 0 || in(o.effects.multipath) ||
+         in(o.effects.moving) || ping.environment.profile || ping.head.column || fan_rows(ping.head.fan).size() > 1;
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {

@@ -118,6 +118,15 @@ TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
   }
 }
 
+// Two triangles 400 m wide: their overview has 36 surfels in the swath, the ping's own samples thousands.
+TEST_F(AccuracyVerb, samples_a_mesh_as_a_ping_does) {
+  write("bed.obj", "v -200 -200 0\nv 200 -200 0\nv 200 200 0\nv -200 200 0\nf 1 2 3 4\n");
+  succeed(
+      "accuracy --quick -q --no-picture --scene bed.obj --sonar em2040 --set sonar.beams=16 --pose=0,0,20,0,90,0 "
+      "--range 19:21 --methods gridded --tolerances 1e-3 --repeats 1 -o run");
+  EXPECT_GT(number(rows_of("run/sweep.csv").at(0)["scatterers"]), 1000);
+}
+
 TEST_F(AccuracyVerb, refuses_what_it_cannot_do_before_it_works) {
   expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "gridded, direct"});
   expect_refused("accuracy --quick --tolerances 2 -o run", 2, {"--tolerances", "2", "[1e-13, 1)"});
