@@ -31,13 +31,12 @@ TEST(StreamedPing, is_the_stored_one_for_each_shape_of_pulse_and_any_threads) {
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
   for (const int order : {0, 2})
     for (const int threads : {1, 3})
-      expect_same_stored(
-          scene,
-          {.sampling = {.scatterers_per_cell = 40},
-           .synthesis = {.true_delays = Choice::never},
-           .effects = {.absorption_order = order},
-           .threads = threads},
-          pose);
+      expect_same_stored(scene,
+                         {.sampling = {.scatterers_per_cell = 40},
+                          .synthesis = {.true_delays = Choice::never},
+                          .effects = {.absorption_order = order},
+                          .threads = threads},
+                         pose);
 }
 
 TEST(StreamedPing, is_the_stored_one_with_relief_detections_everywhere_and_in_double) {
