@@ -2,17 +2,13 @@
 #include <array>
 #include <cmath>
 
-#include "beamforming/gridding_loops_internal.hpp"
 #include "beamforming/wideband_block_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t kernel_batch = 256;  // echoes handed to the kernel at once
 using kernels::lines_at_once;
-
-kernels::Pieces<float> pieces(const PolynomialPieces<float>& p) { return {p.coefficient.data(), p.degree, p.lanes}; }
 
 kernels::TimeFactor factor_of(const BendSeries& bend, std::size_t term) {
   return {bend.along.data() + term * bend.powers * 2 * bend.stride, bend.powers, bend.stride};
@@ -54,29 +50,6 @@ WidebandBlock::WidebandBlock(const WidebandPlan& plan, double first_in, double l
   undone = bend_of_beams(plan, plan.time_of(std::max(first - guard, 0.0)), plan.time_of(std::min(last + guard, bins)));
 }
 
-void WidebandRoom::begin(const WidebandBlock& block) {
-  start_time_ = plan_.time_of(block.first - static_cast<double>(plan_.guard));
-  unit_ = 0;
-  re_.clear();
-  im_.clear();
-  std::fill(touched_.begin(), touched_.end(), false);
-}
-
-void WidebandRoom::add(const Echoes& echoes, List list) {
-  if (unit_ == 0) {
-    const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed;
-    double most = 0;
-    for (const std::uint32_t i : list)
-      most = std::max(most, std::abs(echoes.amplitude[i]) * std::exp(-loss * std::max(0.0, echoes.delay[i])));
-    if (most == 0) return;
-    unit_ = std::exp2(std::round(std::log2(most)));
-  }
-  if (plan_.one_shape && echoes.doppler.empty())
-    grid_alike(echoes, list);
-  else
-    grid_singly(echoes, list);
-}
-
 void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) {
   if (unit_ == 0) return;
   std::fill(elements_.begin(), elements_.end(), 0.0F);
@@ -84,62 +57,6 @@ void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) 
   for (std::size_t k = 0; k < elements_.size(); ++k)
     elements_[k] *= plan_.element_weight[k / (2 * lines_at_once) * lines_at_once + k % lines_at_once];
   add_beams(block, pressure);
-}
-
-void WidebandRoom::grid_alike(const Echoes& echoes, List list) {
-  const WidebandPlan& plan = plan_;
-  std::array<std::uint32_t, kernel_batch> row, column;
-  std::array<float, kernel_batch> row_offset, column_offset, re, im;
-  const kernels::GridTargets<float> targets{row.data(),           column.data(), row_offset.data(),
-                                            column_offset.data(), re.data(),     im.data()};
-  const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  for (; !list.empty(); list = list.subspan(std::min(kernel_batch, list.size()))) {
-    const std::size_t count = std::min(kernel_batch, list.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t i = list[k];
-      const double delay = echoes.delay[i];
-      const double low_column = plan.column_of(echoes.u[i]) - half_width, column_0 = std::ceil(low_column);
-      const double low_row = (delay - plan.half - start_time_) / plan.fine_step, row_0 = std::ceil(low_row);
-      const double gain = std::exp(-plan.medium.absorption.a0 * c * delay) / unit_;
-      column[k] = static_cast<std::uint32_t>(column_0);
-      column_offset[k] = static_cast<float>(2 * (column_0 - low_column) - 1);
-      row[k] = static_cast<std::uint32_t>(row_0);
-      row_offset[k] = static_cast<float>(2 * (row_0 - low_row) - 1);
-      re[k] = static_cast<float>(gain * echoes.amplitude[i].real());
-      im[k] = static_cast<float>(gain * echoes.amplitude[i].imag());
-      touched_[row[k] / wideband_tile] = touched_[(row[k] + plan.pulse_samples) / wideband_tile] = true;
-    }
-    kernels::grid_pulses(targets, count, pieces(plan.pulse), plan.pulse_samples, pieces(plan.columns), scratch_.data(),
-                         re_.data(), im_.data(), plan.grid_stride);
-  }
-}
-
-void WidebandRoom::grid_singly(const Echoes& echoes, List list) {
-  const WidebandPlan& plan = plan_;
-  const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  const PulseReach reach(plan.head.pulse, plan.medium.absorption, c, !echoes.doppler.empty(), plan.cut);
-  for (const std::uint32_t i : list) {
-    const double delay = echoes.delay[i];
-    const double low_column = plan.column_of(echoes.u[i]) - half_width, column_0 = std::ceil(low_column);
-    const double half = reach.at(delay);
-    const EchoEnvelope envelope = plan.shapes.of(delay, echoes.doppler_of(i));
-    const double first = std::max(0.0, std::ceil((delay - half - start_time_) / plan.fine_step));
-    const double last =
-        std::min(std::floor((delay + half - start_time_) / plan.fine_step), static_cast<double>(plan.fine) - 1);
-    pulse_re_.clear();
-    pulse_im_.clear();
-    for (double n = first; n <= last; ++n) {
-      const std::complex<double> g =
-          1 / unit_ * echoes.amplitude[i] * envelope.at(start_time_ + n * plan.fine_step - delay);
-      pulse_re_.push_back(g.real());
-      pulse_im_.push_back(g.imag());
-      touched_[static_cast<std::size_t>(n) / wideband_tile] = true;
-    }
-    const std::size_t at = static_cast<std::size_t>(first) * plan.grid_stride + static_cast<std::size_t>(column_0);
-    kernels::grid_sampled_pulse(pulse_re_.data(), pulse_im_.data(), pulse_re_.size(),
-                                static_cast<float>(2 * (column_0 - low_column) - 1), pieces(plan.columns),
-                                re_.data() + at, im_.data() + at, plan.grid_stride);
-  }
 }
 
 template <typename Visit>

@@ -50,8 +50,12 @@ class WidebandRoom {
   using Complex = std::complex<float>;
   using Spectrum = AlignedArray<Complex, float>;
 
+  // Gaussian pulses that are alike, those that are not, and sweeps, sample by sample.
   void grid_alike(const Echoes& echoes, List list);
-  void grid_singly(const Echoes& echoes, List list);
+  void grid_gaussians(const Echoes& echoes, List list);
+  void grid_sweeps(const Echoes& echoes, List list);
+  /// Fine samples that hold something.
+  void touch(std::size_t row, std::size_t rows);
   /// Adds what elements receive of one term of the bend.
   void add_echo_term(const BendSeries& bend, std::size_t term);
   /// What elements received, as one term of the bend undoes it: bins of all harmonics.
@@ -67,7 +71,7 @@ class WidebandRoom {
   Spectrum tile_, spectrum_;
   std::vector<float> elements_;                  ///< by chunk and element
   std::vector<std::unique_ptr<Spectrum>> bins_;  ///< of each term
-  std::vector<float> scratch_, sums_, start_, step_, line_;
+  std::vector<float> scratch_, samples_, sums_, start_, step_, line_;
   std::vector<double> pulse_re_, pulse_im_;
   std::vector<bool> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;
