@@ -12,7 +12,10 @@ namespace {
 using Complex = std::complex<double>;
 using RowMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr std::size_t nodes_of_band = WidebandPlan::band_nodes;
-constexpr double share = 0.4;  // of the tolerance, for the terms left out
+constexpr double share = 0.4;         // of the tolerance, for the terms left out
+constexpr double node_share = 0.05;   // of the tolerance, for nodes in range
+constexpr double power_share = 0.02;  // of the tolerance, for powers of frequency
+constexpr double nothing = 1e-20;     // square of a part of a series that does not count
 
 double chebyshev_node(std::size_t j, std::size_t n) {
   return std::cos(pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n));
@@ -72,9 +75,8 @@ class BendValue {
  public:
   BendValue(const WidebandPlan& plan, bool echoes) : plan_(plan), echoes_(echoes) {}
 
-  Complex operator()(double r, double u, std::size_t m, std::size_t node) const {
-    const double frequency = frequency_of(node), wave = 2 * pi * frequency / plan_.medium.sound_speed;
-    const Bend bend(r, u, plan_.y[m]);
+  Complex operator()(const Bend& bend, std::size_t m, std::size_t node) const {
+    const double wave = 2 * pi * frequency_of(node) / plan_.medium.sound_speed;
     return echoes_ ? std::polar(1.0, wave * bend.b) * rest(bend, wave, m, node) : std::polar(1.0, -wave * bend.b);
   }
   /// What is left of it beside exp(2 pi i F b / c).
@@ -84,9 +86,14 @@ class BendValue {
     const Complex a = Complex(0, step * wave * bend.by_u), b = Complex(0, step * step * wave * bend.by_u2);
     const Complex* moment = plan_.moment.data() + (m * nodes_of_band + node) * WidebandPlan::moments;
     Complex before = 1, now = a, sum = 1, slope = 0;
+    double last = 1;
     for (std::size_t j = 1; j < WidebandPlan::moments; ++j) {
-      sum += now * moment[j];
+      const Complex part = now * moment[j];
+      sum += part;
       slope += static_cast<double>(j) * before * moment[j];
+      const double size = std::norm(part);
+      if (std::max(size, last) < nothing) break;  // every other one may be 0
+      last = size;
       const Complex next = a * now + static_cast<double>(j) * b * before;
       before = now;
       now = next;
@@ -97,7 +104,7 @@ class BendValue {
     const double late = width * (plan_.node_frequency[node] / pi - turn / (4 * pi * pi)),
                  later = late - width * turn / (4 * pi * pi);
     const Complex second = 0.5 * speed * speed * wave * bend.by_r2 * Complex(0, width / (2 * pi * pi) + later * later) +
-                           speed * step * wave * bend.by_ur * later * slope / sum;
+                           speed * step * wave * bend.by_ur * later * slope * std::conj(sum) / std::norm(sum);
     return std::exp(-turn * late - second) * sum;
   }
   double frequency_of(std::size_t node) const { return plan_.head.pulse.centre_frequency - plan_.node_frequency[node]; }
@@ -106,6 +113,20 @@ class BendValue {
   const WidebandPlan& plan_;
   bool echoes_;
 };
+
+/// Nodes in range: what interpolation between n of them leaves of a phase that goes by `over_range` to either side,
+/// and of its bend over the range.
+std::size_t range_nodes(const BendPhase& phase, double near, double far, double tolerance) {
+  const double ratio = (far - near) / (far + near);
+  const auto most = static_cast<std::size_t>(std::ceil(-std::log10(tolerance)) + 1 + std::ceil(1.4 * phase.over_range));
+  double turned = 1, bent = 1;
+  for (std::size_t n = 1; n < most; ++n) {
+    turned *= 0.5 * phase.over_range / static_cast<double>(n);
+    bent *= 0.5 * ratio;
+    if (n > 1 && 2 * turned + 2 * (phase.all + 0.3) * bent < node_share * tolerance) return n;
+  }
+  return most;
+}
 
 Places places_of(const WidebandPlan& plan, bool echoes, double first_time, double last_time) {
   Places places;
@@ -121,10 +142,9 @@ Places places_of(const WidebandPlan& plan, bool echoes, double first_time, doubl
   // As many as follow phases that change by this much.
   const double near = std::max(0.5 * c * first_time, std::max(least, 1e-3)), far = std::max(0.5 * c * last_time, near);
   const BendPhase phase(plan.head, plan.medium, near, far);
-  const auto digits = static_cast<std::size_t>(std::ceil(-std::log10(plan.tolerance)));
   const auto nodes = [](double turn) { return static_cast<std::size_t>(std::ceil(1.4 * turn)); };
   const std::size_t count_u = 14 + 2 * nodes(0.5 * phase.all * places.widest * places.widest),
-                    count_r = digits + 1 + nodes(phase.over_range);
+                    count_r = range_nodes(phase, near, far, plan.tolerance);
   for (std::size_t j = 0; j < count_u; ++j) places.u.push_back(places.widest * chebyshev_node(j, count_u));
   for (std::size_t j = 0; j < count_r; ++j)
     places.r.push_back(std::max(0.5 * c * (places.middle + places.half * chebyshev_node(j, count_r)), least));
@@ -168,26 +188,59 @@ RowMatrix sampled_bend(const WidebandPlan& plan, const Places& places, const Ben
   for (std::size_t j = 0; j < count_y; ++j)
     some.push_back(std::min(elements - 1, static_cast<std::size_t>(0.5 * (1 + chebyshev_node(j, count_y)) *
                                                                    static_cast<double>(elements))));
+  std::vector<double> weight;  // of an element at a frequency
+  for (std::size_t i = 0; i < count_y; ++i)
+    for (std::size_t f = 0; f < nodes_of_band; ++f) {
+      const double off = plan.node_frequency[f] / plan.half_band;
+      const double spectrum = std::exp(-plan.spectral_width2 * plan.half_band * plan.half_band * off * off);
+      weight.push_back(plan.head.array.shading[some[i]] * spectrum *
+                       std::pow((1 - std::pow(chebyshev_node(i, count_y), 2)) * (1 - off * off), 0.25));
+    }
   RowMatrix sampled(count_u * count_r, count_y * nodes_of_band);
   for (std::size_t j = 0; j < count_u; ++j)
     for (std::size_t k = 0; k < count_r; ++k)
-      for (std::size_t i = 0; i < count_y; ++i)
-        for (std::size_t f = 0; f < nodes_of_band; ++f) {
-          const double off = plan.node_frequency[f] / plan.half_band;
-          const double spectrum = plan.spectral_width2 > 0
-                                      ? std::exp(-plan.spectral_width2 * plan.half_band * plan.half_band * off * off)
-                                      : 1;
-          const double weight = plan.head.array.shading[some[i]] * spectrum *
-                                std::pow(1 - std::pow(chebyshev_node(i, count_y), 2), 0.25) *
-                                std::pow(1 - off * off, 0.25);
-          sampled(j * count_r + k, i * nodes_of_band + f) = weight * value(places.r[k], places.u[j], some[i], f);
-        }
+      for (std::size_t i = 0, at = 0; i < count_y; ++i) {
+        const Bend bend(places.r[k], places.u[j], plan.y[some[i]]);
+        for (std::size_t f = 0; f < nodes_of_band; ++f, ++at)
+          sampled(j * count_r + k, at) = weight[at] * value(bend, some[i], f);
+      }
   return sampled;
+}
+
+/// Along elements and frequency, what the chosen places give.
+void add_element_factors(const BendValue& value, const Places& places, const std::vector<std::size_t>& chosen,
+                         const WidebandPlan& plan, bool echoes, BendSeries& series) {
+  const std::size_t count_r = places.r.size();
+  const double c = plan.medium.sound_speed;
+  const Eigen::MatrixXd band_powers = powers_from_nodes(nodes_of_band);
+  Eigen::MatrixXcd power(nodes_of_band, echoes ? chosen.size() * plan.elements() : 0);
+  Eigen::VectorXcd rest(nodes_of_band);
+  for (const std::size_t one : chosen)
+    for (std::size_t m = 0; m < plan.elements(); ++m) {
+      const Bend bend(places.r[one % count_r], places.u[one / count_r], plan.y[m]);
+      const auto column = static_cast<Eigen::Index>(series.delay.size());
+      series.delay.push_back((echoes ? 1 : -1) * bend.b / c);
+      if (!echoes) continue;
+      for (std::size_t f = 0; f < nodes_of_band; ++f)
+        rest[f] = value.rest(bend, 2 * pi * value.frequency_of(f) / c, m, f);
+      power.col(column) = band_powers * rest;
+    }
+  if (!echoes) return;
+  // High powers may be nothing, all of them together.
+  Eigen::Index skipped = 0;
+  for (double left = power_share * plan.tolerance; skipped + 1 < power.rows(); ++skipped)
+    if ((left -= power.row(skipped).cwiseAbs().maxCoeff()) < 0) break;
+  series.rest_powers = static_cast<std::size_t>(power.rows() - skipped);
+  for (Eigen::Index k = 0; k < power.cols(); ++k)
+    for (Eigen::Index f = skipped; f < power.rows(); ++f) {
+      series.rest.push_back(static_cast<float>(power(f, k).real()));
+      series.rest.push_back(static_cast<float>(power(f, k).imag()));
+    }
 }
 
 BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first_time, double last_time) {
   const Places places = places_of(plan, echoes, first_time, last_time);
-  const std::size_t count_u = places.u.size(), count_r = places.r.size(), elements = plan.elements();
+  const std::size_t count_u = places.u.size(), count_r = places.r.size();
   const BendValue value(plan, echoes);
   const Elimination found(sampled_bend(plan, places, value), share * plan.tolerance);
 
@@ -224,25 +277,7 @@ BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first_time, dou
       }
   }
 
-  // Along elements and frequency.
-  const double c = plan.medium.sound_speed;
-  const Eigen::MatrixXd band_powers = powers_from_nodes(nodes_of_band);
-  for (const std::size_t chosen : found.chosen) {
-    const double at_u = places.u[chosen / count_r], at_r = places.r[chosen % count_r];
-    for (std::size_t m = 0; m < elements; ++m) {
-      const Bend bend(at_r, at_u, plan.y[m]);
-      series.delay.push_back((echoes ? 1 : -1) * bend.b / c);
-      if (!echoes) continue;
-      Eigen::VectorXcd rest(nodes_of_band);
-      for (std::size_t f = 0; f < nodes_of_band; ++f)
-        rest[f] = value.rest(bend, 2 * pi * value.frequency_of(f) / c, m, f);
-      const Eigen::VectorXcd power = band_powers * rest;
-      for (std::size_t f = 0; f < nodes_of_band; ++f) {
-        series.rest.push_back(static_cast<float>(power[f].real()));
-        series.rest.push_back(static_cast<float>(power[f].imag()));
-      }
-    }
-  }
+  add_element_factors(value, places, found.chosen, plan, echoes, series);
   return series;
 }
 

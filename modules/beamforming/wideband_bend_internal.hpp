@@ -20,7 +20,8 @@ struct BendSeries {
   std::size_t stride = 0;       ///< places, filled up to a multiple of 8
   std::vector<float> along;     ///< terms x powers x 2 (real, imaginary) x stride
   std::vector<double> delay;    ///< terms x elements [s]
-  std::vector<float> rest;      ///< terms x elements x band_nodes x 2: powers of frequency / half_band; none for beams
+  std::size_t rest_powers = 0;  ///< of frequency / half_band, highest first; none for beams
+  std::vector<float> rest;      ///< terms x elements x rest_powers x 2
 };
 
 /// For echoes, at steps of the grid of directions. Gridding smears echoes over grid steps and the time of a pulse, over

@@ -85,10 +85,10 @@ void WidebandRoom::each_chunk(const BendSeries& bend, std::size_t term, Visit&& 
       start_[2 * m] = static_cast<float>(now[m].real());
       start_[2 * m + 1] = static_cast<float>(now[m].imag());
     }
-    const float* rest = bend.rest.empty() ? nullptr : bend.rest.data() + term * elements * 2 * plan.band_nodes;
+    const float* rest = bend.rest.empty() ? nullptr : bend.rest.data() + term * elements * 2 * bend.rest_powers;
     visit(kernels::ElementTaps{elements, plan.taps, plan.tap_row.data() + i * elements,
                                plan.tap_weight.data() + i * elements * plan.taps * lines_at_once},
-          kernels::ElementTurns{start_.data(), step_.data(), rest, plan.band_nodes, line_.data()}, first,
+          kernels::ElementTurns{start_.data(), step_.data(), rest, bend.rest_powers, line_.data()}, first,
           elements_.data() + i * elements * 2 * lines_at_once);
   };
   now = carrier;

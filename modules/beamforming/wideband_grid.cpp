@@ -27,10 +27,10 @@ void WidebandRoom::begin(const WidebandBlock& block) {
 
 void WidebandRoom::add(const Echoes& echoes, List list) {
   if (unit_ == 0) {
-    const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed;
+    const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed * std::max(0.0, start_time_);
     double most = 0;
-    for (const std::uint32_t i : list)
-      most = std::max(most, std::abs(echoes.amplitude[i]) * std::exp(-loss * std::max(0.0, echoes.delay[i])));
+    for (const std::uint32_t i : list) most = std::max(most, std::norm(echoes.amplitude[i]));
+    most = std::sqrt(most) * std::exp(-loss);
     if (most == 0) return;
     unit_ = std::exp2(std::round(std::log2(most)));
   }
