@@ -13,6 +13,14 @@ std::size_t WidebandStretches::of(double delay) const {
   return static_cast<std::size_t>(std::upper_bound(edge.begin(), edge.end(), bin) - edge.begin()) - 1;
 }
 
+WidebandStretches stretches_of(const WidebandLayout& layout, const SonarHead& head, const Medium& medium) {
+  WidebandStretches stretches{TimeAxis(head.gate, medium.sound_speed),
+                              {std::min(-layout.guard, layout.blocks[0].first)}};
+  for (const WidebandLayout::Block& block : layout.blocks) stretches.edge.push_back(block.first);
+  stretches.edge.push_back(layout.blocks.back().last);
+  return stretches;
+}
+
 WidebandFeed feed_of(const Echoes& echoes, const WidebandStretches& stretches) {
   // Shared, since functions are copied.
   const auto lists = std::make_shared<std::vector<std::vector<std::uint32_t>>>(stretches.size() + 1);

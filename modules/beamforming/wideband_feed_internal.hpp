@@ -7,6 +7,7 @@
 
 #include "acoustics/echo_source.hpp"
 #include "beamforming/time_axis_internal.hpp"
+#include "beamforming/wideband_plan_internal.hpp"
 
 namespace insonify {
 
@@ -20,6 +21,12 @@ struct WidebandStretches {
   /// The stretch that holds a delay; size(): none.
   std::size_t of(double delay) const;
 };
+
+/// What is nearer than blocks reach, then the blocks.
+WidebandStretches stretches_of(const WidebandLayout& layout, const SonarHead& head, const Medium& medium);
+
+/// Of the tolerance that a WidebandSynthesizer is asked for, what its bounds aim at.
+constexpr double wideband_share = 0.7;
 
 /// The echoes of an image, stretch by stretch. visit(k, add) calls add(echoes, which) as often as need be for what stretch
 /// k holds, in the order of the echoes; it may be called concurrently.

@@ -18,7 +18,6 @@ namespace insonify {
 namespace {
 
 constexpr double finest = 1e-5, coarsest = 0.1;
-constexpr double kept = 0.7;                 // of the tolerance, for what bounds leave out
 constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
 
 /// Rooms that no thread works in.
@@ -105,10 +104,8 @@ WidebandSynthesizer::WidebandSynthesizer(const SonarHead& head, const Medium& me
   if (!(options.tolerance >= finest && options.tolerance <= coarsest))
     fail(ErrorKind::argument, "WidebandSynthesizer: tolerance = ", options.tolerance, ", must be within ", finest,
          " and ", coarsest, "; below that use the element-exact method");
-  double widest = 0;
-  for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
-  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{kept * options.tolerance, options.threads},
-                                 std::min(1.0, 1.1 * widest + 0.05));
+  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{wideband_share * options.tolerance, options.threads},
+                                 usual_extent(head));
 }
 WidebandSynthesizer::~WidebandSynthesizer() = default;
 WidebandSynthesizer::WidebandSynthesizer(WidebandSynthesizer&&) noexcept = default;
@@ -135,12 +132,9 @@ WidebandSynthesizer::Plan::Plan(const SonarHead& head_in, const Medium& medium_i
       options(options_in),
       widest(widest_in),
       layout(head, medium, options.tolerance, widest),
-      stretches{TimeAxis(head.gate, medium.sound_speed), {std::min(-layout.guard, layout.blocks[0].first)}},
+      stretches(stretches_of(layout, head, medium)),
       levels(layout.levels.size()),
-      blocks(layout.blocks.size()) {
-  for (const WidebandLayout::Block& block : layout.blocks) stretches.edge.push_back(block.first);
-  stretches.edge.push_back(layout.blocks.back().last);
-}
+      blocks(layout.blocks.size()) {}
 
 const LevelTables& WidebandSynthesizer::Plan::tables_of(std::size_t level) const {
   return levels[level].get([&] { return std::make_unique<LevelTables>(head, medium, layout.levels[level]); });
@@ -210,6 +204,12 @@ void WidebandSynthesizer::Plan::add_nearest(const WidebandFeed& feed, ComplexGri
   if (some.size() > 0) sum();
   const ComplexGrid image = beam_from_elements(all, near, medium, exact);
   pressure.leftCols(image.cols()) += image;
+}
+
+double WidebandSynthesizer::usual_extent(const SonarHead& head) {
+  double widest = 0;
+  for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
+  return std::min(1.0, 1.1 * widest + 0.05);
 }
 
 ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "beamforming/element_series.hpp"
+#include "beamforming/wideband_synthesizer.hpp"
 #include "simulate/ping_cost_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 
@@ -10,7 +12,7 @@ namespace insonify {
 namespace {
 
 // Nanoseconds: per surfel of the scene, per surfel in view, per scatterer, per sample of the image.
-constexpr double per_surfel = 550, per_surfel_in_view = 900, per_scatterer = 200, per_sample = 105;
+constexpr double per_surfel = 150, per_surfel_in_view = 400, per_scatterer = 50, per_sample = 30;
 constexpr double per_bent_ray = 300, per_moved_echo = 150, per_leg = 3000;
 
 /// What the cost of synthesis follows from, of one row of beams.
@@ -37,7 +39,7 @@ double gridded_row(const Load& load, const SynthesisChoice& choice, double eleme
   const double width = precision * static_cast<double>(choice.kernel_width);
   const double samples = std::min(load.pulse_samples, load.bins), lanes = choice.kernel_width > 8 ? 16 : 8;
   return load.bins * (grid * (0.3 * std::log2(grid) + 1.7 * precision + 4) + load.beams * (0.31 * width + 6)) +
-         load.echoes * (70 + samples * (precision * lanes + (load.own_shapes ? 20 : 0)));
+         load.echoes * (30 + samples * (precision * lanes + (load.own_shapes ? 6 : 0)));
 }
 
 double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisMethod method) {
@@ -45,24 +47,40 @@ double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisM
   const double all_pairs = load.elements * load.beams;
   switch (method) {
     case direct:
-      return load.echoes * load.beams * (0.4 * load.elements + (load.own_shapes ? 3.2 : 1.2) * load.bins);
+      return load.echoes * load.beams * (0.3 * load.elements + (load.own_shapes ? 2.2 : 0.8) * load.bins);
     case spectrum:
       return load.echoes * load.beams * (2.5 * load.elements + 4 * load.bins);
     case element_exact:
-      return load.echoes * load.elements * (100 + (load.own_shapes ? 100 : 50) * load.pulse_samples) +
-             130 * all_pairs * load.bins;
-    case true_delays:
-      return 11 * gridded_row(load, choice);
+      return load.echoes * load.elements * (70 + (load.own_shapes ? 70 : 35) * load.pulse_samples) +
+             90 * all_pairs * load.bins;
     case incoherent:
       return gridded_row(load, choice, 2);
+    case true_delays:  // of its own
     case gridded:
       break;
   }
   return gridded_row(load, choice);
 }
 
-double synthesis_seconds(const Load& load, const SynthesisChoice& choice, SynthesisMethod method) {
-  return 1e-9 * load.rows * synthesis_row(load, choice, method);
+/// True delays of one row of beams.
+WidebandCost true_delay_row(const PlanFacts& facts, const SimulationOptions& options, bool own_shapes) {
+  const ResolvedPing& ping = facts.ping;
+  const SonarHead row = head_of_a_row(ping.head);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < facts.sample.energy.size(); ++i)
+    if (facts.sample.energy[i] > 0) ranges.push_back(facts.sample.places.range[i]);
+  Medium medium = ping.sent.medium;
+  medium.absorption.a1 = own_shapes ? 1e-12 : 0;
+  const bool wide = options.sampling.outer_azimuths == Choice::always;
+  const double tolerance = std::clamp(options.synthesis.tolerance, min_true_delay_tolerance, max_element_tolerance);
+  return wideband_cost(row, medium, {tolerance, 1}, wide ? 1 : WidebandSynthesizer::usual_extent(row), ranges);
+}
+
+double synthesis_seconds(const PlanFacts& facts, const SimulationOptions& options, const Load& load,
+                         SynthesisMethod method) {
+  if (method != SynthesisMethod::true_delays) return 1e-9 * load.rows * synthesis_row(load, facts.synthesis, method);
+  const WidebandCost cost = true_delay_row(facts, options, load.own_shapes);
+  return load.rows * ((load.bins > 0 ? cost.seconds : 0) + load.echoes * cost.seconds_per_echo);
 }
 
 }  // namespace
@@ -80,16 +98,24 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
   PingCost cost;
   cost.seconds = 1e-9 * (per_surfel * surfels + per_surfel_in_view * facts.sample.surfels + per_scatterer * echoes +
                          per_sample * samples) +
-                 synthesis_seconds(load, facts.synthesis, options.synthesis.method);
+                 synthesis_seconds(facts, options, load, options.synthesis.method);
   if (options.effects.multipath == Choice::always) cost.seconds += seconds_of_multipath(facts);
   if (options.effects.refraction == Choice::always && facts.ping.environment.profile)
     cost.seconds += seconds_of_bent_rays(facts);
   if (options.effects.moving == Choice::always && !options.effects.motion.none())
     cost.seconds += seconds_of_moved_echoes(facts);
-  // What is stored of all patches stays; else what sampling takes is given back before the image is made.
-  cost.bytes = 0x1p21 + (needs_all_patches(facts.ping, options)
-                             ? 90 * surfels + 105 * echoes + 32 * samples
-                             : std::max(90 * surfels, 14 * surfels + 24 * samples) + 60 * facts.sample.surfels);
+  // What is stored of all patches stays; else what sampling takes is given back before the image is made. Few echoes are
+  // summed directly, and stored for that.
+  const SynthesisMethod method = options.synthesis.method;
+  const double image =
+      method == SynthesisMethod::true_delays ? true_delay_row(facts, options, load.own_shapes).bytes : 0;
+  const bool direct =
+      method == SynthesisMethod::gridded && echoes <= static_cast<double>(facts.synthesis.direct_echoes);
+  cost.bytes =
+      0x1p20 + (needs_all_patches(facts.ping, options)
+                    ? 90 * surfels + 105 * echoes + 32 * samples + image
+                    : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 110 * echoes : 0)) +
+                          60 * facts.sample.surfels);
   if (options.synthesis.method == SynthesisMethod::element_exact) cost.bytes += 80 * load.elements * load.bins;
   return cost;
 }
@@ -98,16 +124,16 @@ double seconds_of_scatterers(const PlanFacts& facts, double scatterers) {
   Load load = load_of(facts, facts.ping.options, scatterers);
   load.bins = 0;
   return 1e-9 * per_scatterer * scatterers +
-         synthesis_seconds(load, facts.synthesis, facts.ping.options.synthesis.method);
+         synthesis_seconds(facts, facts.ping.options, load, facts.ping.options.synthesis.method);
 }
 
 double seconds_of_own_shapes(const PlanFacts& facts) {
   const SynthesisMethod method = facts.ping.options.synthesis.method;
   Load load = load_of(facts, facts.ping.options, facts.sample.scatterers);
   load.own_shapes = true;
-  const double own = synthesis_seconds(load, facts.synthesis, method);
+  const double own = synthesis_seconds(facts, facts.ping.options, load, method);
   load.own_shapes = false;
-  return own - synthesis_seconds(load, facts.synthesis, method);
+  return own - synthesis_seconds(facts, facts.ping.options, load, method);
 }
 
 double seconds_of_bent_rays(const PlanFacts& facts) { return 1e-9 * per_bent_ray * facts.sample.scatterers; }
@@ -120,8 +146,8 @@ double seconds_of_multipath(const PlanFacts& facts) {
 
 double seconds_of_true_delays(const PlanFacts& facts) {
   const Load load = load_of(facts, facts.ping.options, facts.sample.scatterers);
-  return synthesis_seconds(load, facts.synthesis, SynthesisMethod::true_delays) -
-         synthesis_seconds(load, facts.synthesis, SynthesisMethod::gridded);
+  return synthesis_seconds(facts, facts.ping.options, load, SynthesisMethod::true_delays) -
+         synthesis_seconds(facts, facts.ping.options, load, SynthesisMethod::gridded);
 }
 
 }  // namespace insonify

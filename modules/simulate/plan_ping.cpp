@@ -19,6 +19,17 @@ double added_bound(const PlanFacts& facts, double energy) {
   return in_view > 0 ? plan_margin * std::sqrt(energy / in_view) : std::numeric_limits<double>::infinity();
 }
 
+SonarHead head_of_a_row(const SonarHead& head) {
+  SonarHead row = head;
+  const std::vector<std::size_t> beams = fan_rows(head.fan).front().beams;
+  row.column.reset();
+  row.fan.row_width = 0;
+  row.fan.azimuth.clear();
+  for (const std::size_t b : beams) row.fan.azimuth.push_back(head.fan.azimuth[b]);
+  row.fan.elevation.assign(beams.size(), head.fan.elevation[beams.front()]);
+  return row;
+}
+
 const char* decided_by_name(DecidedBy by) {
   return by == DecidedBy::budget ? "budget" : by == DecidedBy::choice ? "choice" : "scene";
 }
@@ -46,11 +57,8 @@ bool is_open(const PlanStage& stage, const SimulationOptions& options) {
 
 /// How one row of beams is gridded, or would be if the method is another: those may ask for more than gridding can.
 SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
-  SonarHead row = ping.head;
-  row.column.reset();
-  row.fan.row_width = 0;
-  std::fill(row.fan.elevation.begin(), row.fan.elevation.end(), row.fan.elevation[0]);
-  return PingSynthesizer(row, ping.sent.medium, {std::max(ping.options.synthesis.tolerance, min_gridding_tolerance), 1})
+  return PingSynthesizer(head_of_a_row(ping.head), ping.sent.medium,
+                         {std::max(ping.options.synthesis.tolerance, min_gridding_tolerance), 1})
       .choice();
 }
 

@@ -40,7 +40,7 @@ struct SynthesisSettings {
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
   /// Whether method gridded gives way to true_delays; as_needed: where the narrow-band image's error exceeds its share.
-  Choice true_delays = Choice::never;
+  Choice true_delays = Choice::as_needed;
 };
 
 /// What is computed beside direct echoes along straight rays from a head at rest. Noise is a choice: no plan adds it.

@@ -28,6 +28,7 @@ void close(SimulationOptions& o) {
   o.sampling.outer_elevations = o.sampling.outer_azimuths = Choice::never;
   o.effects.refraction = o.effects.moving = o.effects.multipath = Choice::never;
   o.effects.absorption_order = 0;
+  o.synthesis.true_delays = Choice::never;
 }
 
 /// A random head above a random bottom with a wall, in random water; nothing special.
@@ -225,7 +226,7 @@ TEST(PlanPing, budget_decides_what_is_left_open) {
   s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
   s.options.effects = {};
   s.options.sampling = {.scatterers_per_cell = 3};
-  s.options.synthesis.true_delays = Choice::as_needed;
+  s.options.synthesis = {};
   std::size_t in_before = 99;
   for (const double accuracy_db : {1e-6, 0.1, 1.0, 20.0}) {
     s.options.accuracy_db = accuracy_db;
@@ -252,10 +253,12 @@ TEST(PlanPing, is_what_a_ping_does) {
   s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
   s.options.effects = {};
   s.options.sampling = {.scatterers_per_cell = 1};
+  s.options.synthesis = {};
   for (const double accuracy_db : {0.1, 3.0}) {
     s.options.accuracy_db = accuracy_db;
     Situation planned = s;
     planned.options = plan_of(s).options;
+    EXPECT_EQ(planned.options.synthesis.method == SynthesisMethod::true_delays, accuracy_db < 1);
     EXPECT_TRUE((image(s) == image(planned)).all());
   }
 }

@@ -26,7 +26,7 @@ std::vector<PlanCase> cost_cases() {
                                               {}});
     c.options.threads = 1;
     c.options.sampling.scatterers_per_cell = per_cell;
-    c.options.synthesis.method = method;
+    c.options.synthesis = {.method = method, .true_delays = Choice::never};
   };
   using enum SynthesisMethod;
   add("many scatterers", "plane", 100000, "p900-45", 4, 12, 10);
@@ -37,7 +37,11 @@ std::vector<PlanCase> cost_cases() {
   add("incoherent", "harbour", 100000, "gemini-720im", 1, 20, 1, incoherent);
   add("direct", "plane", 2000, "gemini-720im", 4, 7, 0, direct);
   add("element-exact", "plane", 2000, "gemini-720im", 4, 7, 0, element_exact);
-  add("true-delays", "harbour", 100000, "gemini-720im", 8, 20, 1, true_delays);
+  add("true delays", "harbour", 100000, "gemini-720im", 1, 20, 1, true_delays);
+  add("true delays of many", "plane", 100000, "p900-45", 4, 12, 10, true_delays);
+  add("true delays, large image", "harbour", 60000, "oculus-m750d", 0.5, 60, 0, true_delays);
+  add("true delays, long array", "harbour", 60000, "aris-3000", 1, 10, 1, true_delays);
+  add("true delays, planar array", "plane", 20000, "waterlinked-3d15", 3, 6, 0, true_delays);
   return cases;
 }
 

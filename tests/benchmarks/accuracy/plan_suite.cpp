@@ -98,6 +98,7 @@ std::vector<PlanCase> plan_cases() {
     c.options.sampling.outer_elevations = c.options.sampling.outer_azimuths = Choice::never;
     c.options.effects.multipath = c.options.effects.refraction = c.options.effects.moving = Choice::never;
     c.options.effects.absorption_order = 0;
+    c.options.synthesis.true_delays = Choice::never;
     c.options.effects.motion = motion;
   };
   const Environment coast = water_of(12, 5);
