@@ -50,14 +50,14 @@ cat <<'TEXT'
 
 ## What is in, and why
 
-Default options. True delays are out at any bound, because the narrow-band image is the default method: with
-`SynthesisSettings::true_delays` = `as_needed` the budget decides. Their bound is what that costs.
+Default options.
 
 - **outer elevations** stay out where the scene ends before the pattern's floor, and come in where it goes on above or below the fan;
 - **outer azimuths** are what side lobes receive: most where the fan is narrow, nothing where it spans the scene;
 - **absorption's slope** grows with band and range: out only for narrow bands close by;
 - **refraction** and **motion** turn phases at once; in wherever there is a profile or a moving head;
-- **multipath** is in where pattern and pose let an echo by a boundary be received.
+- **multipath** is in where pattern and pose let an echo by a boundary be received;
+- **true delays** are in for nearly every array: a band of 5 % of the carrier, or a range of a hundred lengths of the array, costs more than their share.
 
 | scene | outer elevations | outer azimuths | absorption's slope | refraction | motion | multipath | true delays | left out |
 |---|---|---|---|---|---|---|---|---|

@@ -46,10 +46,9 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   return {
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
-       "planned: as the plan of the ping says; gridded: narrow band, far field; true-delays: wide band and near field, "
-       "slow at short range; direct and "
-       "element-exact: "
-       "the slow referees of both; or incoherent: the expected level, no speckle",
+       "planned: true-delays where the narrow band costs too much; gridded: narrow band, far field; true-delays: wide "
+       "band and near field, slow within three lengths of the array; direct and element-exact: the slow referees of "
+       "both; or incoherent: the expected level, no speckle",
        methods},
   };
 }

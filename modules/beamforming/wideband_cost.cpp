@@ -14,6 +14,7 @@ namespace {
 constexpr double per_grid_sample = 1.4, per_tap = 5, per_beam_sample = 2.8;  // of each term of a block
 constexpr double per_place = 200, per_element_node = 150, per_tap_made = 450;
 constexpr double per_pulse = 30, per_pulse_sample = 4, per_own_sample = 6;
+constexpr double out_of_cache = 2.5;  // for pulses on planes above 1 MiB
 constexpr double per_exact_sample = 35, per_exact_pair = 90;
 
 /// Terms of the bend whose phase spreads by so much over a block: those of the power series of an exponential.
@@ -63,10 +64,11 @@ WidebandCost wideband_cost(const SonarHead& head, const Medium& medium, const Sy
   }
   cost.bytes = room + kept;
 
-  const WidebandSizes& any = layout.levels[0];
+  const WidebandSizes& any = layout.levels.back();
   const auto samples = std::floor(2 * any.reach / any.fine_step) + 1;
   const bool own = medium.absorption.a1 != 0 || medium.absorption.a2 != 0;
-  cost.seconds_per_echo = 1e-9 * (per_pulse + samples * (per_pulse_sample + (own ? per_own_sample : 0)));
+  const double slower = 8 * static_cast<double>(any.fine * any.grid) > 0x1p20 ? out_of_cache : 1;
+  cost.seconds_per_echo = 1e-9 * (per_pulse + slower * samples * (per_pulse_sample + (own ? per_own_sample : 0)));
   if (echoes[0] > 0) {
     // Element by element, at four times the band; all of the near part of the gate.
     const double share = echoes[0] / static_cast<double>(ranges.size()),

@@ -14,7 +14,7 @@ using kernels::lines_at_once;
 
 /// The smallest length from `least` on, a multiple of 8, that FFTW transforms fast for its size: measured in single
 /// precision with FFTW_ESTIMATE, others take up to twice as long.
-std::size_t fast_length(std::size_t least) {
+std::size_t fast_grid_length(std::size_t least) {
   for (const std::size_t length : {16,  24,  32,  40,  48,  64,  80,  96,   120,  128,  144,  160,  192, 240,
                                    256, 320, 384, 400, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072})
     if (length >= least) return length;
@@ -60,7 +60,7 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
-  cycle = fast_length(block_bins + 2 * guard);
+  cycle = fast_grid_length(block_bins + 2 * guard);
   block = cycle - 2 * guard;
   half_band = band_of(head.pulse, tolerance);
   fine =
@@ -73,8 +73,8 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   period = 2.02 * widest * finer;
   const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
   most = static_cast<std::size_t>(std::ceil(wavelengths * period + 0.5 * static_cast<double>(kernel_width))) + 1;
-  grid =
-      fast_length(std::max<std::size_t>(64, static_cast<std::size_t>(std::ceil(finer * static_cast<double>(rows())))));
+  grid = fast_grid_length(
+      std::max<std::size_t>(64, static_cast<std::size_t>(std::ceil(finer * static_cast<double>(rows())))));
   grid_stride = grid + 16;
   const double shift =
       0.5 * period * aperture / medium.sound_speed / seconds() * static_cast<double>(lines_at_once - 1);

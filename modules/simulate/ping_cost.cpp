@@ -42,6 +42,16 @@ double gridded_row(const Load& load, const SynthesisChoice& choice, double eleme
          load.echoes * (30 + samples * (precision * lanes + (load.own_shapes ? 6 : 0)));
 }
 
+/// Gridding sums few echoes directly, and those of few beams.
+bool summed_directly(const Load& load, const SynthesisChoice& choice) {
+  return load.beams <= 4 || load.echoes <= static_cast<double>(choice.direct_echoes);
+}
+
+double summed_row(const Load& load) {
+  const double samples = std::min(load.pulse_samples, load.bins);
+  return load.echoes * (0.5 * load.elements + 50 * samples + load.beams * (0.4 * samples + 1));
+}
+
 double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisMethod method) {
   using enum SynthesisMethod;
   const double all_pairs = load.elements * load.beams;
@@ -54,12 +64,12 @@ double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisM
       return load.echoes * load.elements * (70 + (load.own_shapes ? 70 : 35) * load.pulse_samples) +
              90 * all_pairs * load.bins;
     case incoherent:
-      return gridded_row(load, choice, 2);
-    case true_delays:  // of its own
+      return 2 * gridded_row(load, choice, 2);  // with twice the digits
+    case true_delays:                           // of its own
     case gridded:
       break;
   }
-  return gridded_row(load, choice);
+  return summed_directly(load, choice) ? summed_row(load) : gridded_row(load, choice);
 }
 
 /// True delays of one row of beams.
@@ -109,12 +119,11 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
   const SynthesisMethod method = options.synthesis.method;
   const double image =
       method == SynthesisMethod::true_delays ? true_delay_row(facts, options, load.own_shapes).bytes : 0;
-  const bool direct =
-      method == SynthesisMethod::gridded && echoes <= static_cast<double>(facts.synthesis.direct_echoes);
+  const bool direct = method == SynthesisMethod::gridded && summed_directly(load, facts.synthesis);
   cost.bytes =
       0x1p20 + (needs_all_patches(facts.ping, options)
                     ? 90 * surfels + 105 * echoes + 32 * samples + image
-                    : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 110 * echoes : 0)) +
+                    : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 100 * echoes : 0)) +
                           60 * facts.sample.surfels);
   if (options.synthesis.method == SynthesisMethod::element_exact) cost.bytes += 80 * load.elements * load.bins;
   return cost;

@@ -40,6 +40,7 @@ struct SynthesisSettings {
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
   /// Whether method gridded gives way to true_delays; as_needed: where the narrow-band image's error exceeds its share.
+  /// For a tolerance finer than that of true_delays it gives way to element_exact, which is slow.
   Choice true_delays = Choice::as_needed;
 };
 

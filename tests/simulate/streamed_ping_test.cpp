@@ -12,7 +12,7 @@ void expect_same_stored(const SceneCloud& scene, SimulationOptions options, cons
                         const SonarHead& head = head_at_rest, std::size_t least = 100000) {
   const SimulatedPing streamed = simulate_ping(scene, head, pose, {}, options);
   options.outputs.scatterers = true;
-  const SimulatedPing stored = simulate_ping(scene, streamed_head, pose, {}, options);
+  const SimulatedPing stored = simulate_ping(scene, head, pose, {}, options);
   EXPECT_EQ(streamed.scatterers.size(), 0U);
   EXPECT_EQ(stored.scatterers.size(), streamed.sampling.scatterers);
   EXPECT_GT(streamed.sampling.scatterers, least);
