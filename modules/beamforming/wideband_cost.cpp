@@ -13,8 +13,8 @@ namespace {
 
 constexpr double per_grid_sample = 1.4, per_tap = 5, per_beam_sample = 2.8;  // of each term of a block
 constexpr double per_place = 200, per_element_node = 150, per_tap_made = 450;
-constexpr double per_pulse = 30, per_pulse_sample = 4, per_own_sample = 6;
-constexpr double out_of_cache = 2.5;  // for pulses on planes above 1 MiB
+constexpr double per_pulse = 30, per_pulse_sample = 3, per_own_sample = 3;
+constexpr double out_of_cache = 4;  // for pulses on planes above 1 MiB
 constexpr double per_exact_sample = 35, per_exact_pair = 90;
 
 /// Terms of the bend whose phase spreads by so much over a block: those of the power series of an exponential.

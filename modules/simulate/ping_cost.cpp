@@ -122,8 +122,8 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
   const bool direct = method == SynthesisMethod::gridded && summed_directly(load, facts.synthesis);
   cost.bytes =
       0x1p20 + (needs_all_patches(facts.ping, options)
-                    ? 90 * surfels + 105 * echoes + 32 * samples + image
-                    : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 100 * echoes : 0)) +
+                    ? 90 * surfels + 105 * echoes + 24 * samples + image
+                    : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 160 * echoes : 0)) +
                           60 * facts.sample.surfels);
   if (options.synthesis.method == SynthesisMethod::element_exact) cost.bytes += 80 * load.elements * load.bins;
   return cost;

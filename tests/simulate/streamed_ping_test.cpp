@@ -56,11 +56,11 @@ TEST(StreamedPing, of_true_delays_is_the_stored_one_for_each_shape_of_pulse_and_
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
   for (const int order : {0, 2})
     expect_same_stored(scene,
-                       {.sampling = {.scatterers_per_cell = 40},
+                       {.sampling = {.scatterers_per_cell = 10},
                         .synthesis = {SynthesisMethod::true_delays},
                         .effects = {.absorption_order = order},
                         .threads = order + 1},
-                       pose);
+                       pose, head_at_rest, 30000);
 }
 
 // Echoes nearer than blocks reach are summed element by element; those beside the fan lie on a wider grid.
