@@ -1,6 +1,8 @@
 #include "beamforming/synthesize.hpp"
 
 #include "beamforming/element_series.hpp"
+#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/planar_synthesizer_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "beamforming/synthesize_intensity.hpp"
@@ -35,12 +37,27 @@ ComplexGrid synthesize_line(const Echoes& echoes, const SonarHead& head, const M
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize");
+  if (method == SynthesisMethod::gridded && PlanarSynthesizer::suits(head, options))
+    return PlanarSynthesizer(head, medium, options).pressure(echoes);
   const double cutoff =
       method == SynthesisMethod::direct ? 0 : row_cutoff(options.tolerance, fan_rows(head.fan).size());
   return image_by_rows<ComplexGrid>(echoes, head, medium, cutoff, options.threads,
                                     [&](const Echoes& of_row, const SonarHead& line) {
                                       return synthesize_line(of_row, line, medium, method, options);
                                     });
+}
+
+ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium,
+                       const SynthesisOptions& options) {
+  require_synthesis({}, head, medium, options, "synthesize");
+  if (source.stored) return synthesize(*source.stored, head, medium, SynthesisMethod::gridded, options);
+  if (PlanarSynthesizer::suits(head, options)) return PlanarSynthesizer(head, medium, options).pressure_of(source);
+  if (streamed(head)) return PingSynthesizer(head, medium, options).pressure_of(source);
+  return synthesize(all_echoes(source), head, medium, SynthesisMethod::gridded, options);
+}
+
+bool streamed(const SonarHead& head) {
+  return head.column ? head.pulse.shape == PulseShape::gaussian : fan_rows(head.fan).size() == 1;
 }
 
 }  // namespace insonify

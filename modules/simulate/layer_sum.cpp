@@ -2,7 +2,6 @@
 #include <numbers>
 #include <utility>
 
-#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"
 #include "simulate/layer_sum_internal.hpp"
@@ -27,7 +26,7 @@ void LayerSum::add(const std::string& name, const EchoSource& source) {
   if (source.stored) return add(name, *source.stored);
   const SimulationOptions& o = ping_.options;
   add_pressure(name, source.size(),
-               PingSynthesizer(ping_.head, ping_.sent.medium, {o.synthesis.tolerance, o.threads}).pressure_of(source));
+               synthesize(source, ping_.head, ping_.sent.medium, {o.synthesis.tolerance, o.threads}));
 }
 
 void LayerSum::add_noise() {

@@ -2,6 +2,7 @@
 // one machine (docs/plan.md).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulate/ping_cost_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
@@ -17,6 +18,7 @@ constexpr double per_bent_ray = 300, per_moved_echo = 150, per_leg = 3000;
 struct Load {
   double echoes, rows, beams, elements, bins, pulse_samples;
   bool own_shapes;  ///< each echo has a pulse of its own
+  bool planar;      ///< gridded once for all rows
 };
 
 Load load_of(const PlanFacts& facts, const SimulationOptions& options, double echoes) {
@@ -28,7 +30,8 @@ Load load_of(const PlanFacts& facts, const SimulationOptions& options, double ec
           static_cast<double>(head.array.elements()),
           static_cast<double>(head.gate.bins()),
           static_cast<double>(facts.synthesis.pulse_samples),
-          options.effects.absorption_order > 0 || head.pulse.shape != PulseShape::gaussian};
+          options.effects.absorption_order > 0 || head.pulse.shape != PulseShape::gaussian,
+          head.column && head.pulse.shape == PulseShape::gaussian};
 }
 
 /// Nanoseconds of one row: transforms of all bins, beams of all bins, pulses of all echoes.
@@ -61,7 +64,18 @@ double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisM
   return gridded_row(load, choice);
 }
 
+/// Nanoseconds of a planar array: the transforms of all rows, and pulses that are added to as many lines over v as the
+/// kernel is wide.
+double gridded_plane(Load load, const SynthesisChoice& choice) {
+  const auto width = static_cast<double>(choice.kernel_width);
+  const double precision = choice.single_precision ? 0.5 : 1, lanes = choice.kernel_width > 8 ? 16 : 8;
+  const double echoes = std::exchange(load.echoes, 0);
+  return load.rows * gridded_row(load, choice) +
+         echoes * (150 + std::min(load.pulse_samples, load.bins) * width * precision * lanes * 0.4);
+}
+
 double synthesis_seconds(const Load& load, const SynthesisChoice& choice, SynthesisMethod method) {
+  if (load.planar && method == SynthesisMethod::gridded) return 1e-9 * gridded_plane(load, choice);
   return 1e-9 * load.rows * synthesis_row(load, choice, method);
 }
 

@@ -44,7 +44,7 @@ bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
   return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
          o.synthesis.method != SynthesisMethod::gridded || o.sampling.kind == SamplingKind::rays ||
          o.sampling.level_error_db > 0 || in(o.effects.multipath) || in(o.effects.moving) || ping.environment.profile ||
-         ping.head.column || fan_rows(ping.head.fan).size() > 1;
+         !streamed(ping.head);
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
