@@ -146,7 +146,7 @@ template <typename Real>
 double GaussianBatch<Real>::sample(const GriddingPlan<Real>& plan, const GriddingInput& input,
                                    std::span<const std::uint32_t> list, std::size_t first_bin) {
   // Amplitudes and places, gathered; their arrays lie side by side.
-  std::array<double, 11 * echo_batch> numbers;
+  std::array<double, 12 * echo_batch> numbers;
   const auto array = [&](std::size_t k) { return numbers.data() + k * echo_batch; };
   double *delay = array(0), *u = array(1), *amplitude_re = array(2), *amplitude_im = array(3), *doppler = array(4);
   double power = 0, latest = 0;
@@ -175,12 +175,10 @@ double GaussianBatch<Real>::sample(const GriddingPlan<Real>& plan, const Griddin
                                    absorption.a0,
                                    absorption.a1,
                                    absorption.a2};
-  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10)};
+  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10), array(11)};
   kernels::place_gaussians({delay, u, amplitude_re, amplitude_im, doppler}, list.size(), grid, state,
                            kernels::GaussianPlaces<Real>{row.data(), column.data(), column_offset.data()});
-  for (std::size_t k = 0; k < list.size(); ++k)
-    power += (amplitude_re[k] * amplitude_re[k] + amplitude_im[k] * amplitude_im[k]) *
-             std::exp(-4 * absorption.a0 * grid.range_per_delay * delay[k]);
+  for (std::size_t k = 0; k < list.size(); ++k) power += state.power[k];
   re.resize(echo_batch * plan.longest_rows);
   im.resize(echo_batch * plan.longest_rows);
   kernels::sample_gaussians(state, list.size(), plan.longest_rows, re.data(), im.data());

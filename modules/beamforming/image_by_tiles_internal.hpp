@@ -11,6 +11,7 @@
 #include "beamforming/flush_denormals_internal.hpp"
 #include "beamforming/grid_echoes_internal.hpp"
 #include "beamforming/gridded_image_internal.hpp"
+#include "beamforming/pulse_loops_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/tile_lists_internal.hpp"
 #include "beamforming/tile_pool_internal.hpp"
@@ -45,12 +46,15 @@ class Slab {
   void add(const Echoes& echoes) {
     require_finite(echoes, "PingSynthesizer");
     for (Place& place : places_) place.list.clear();
-    for (std::size_t i = 0; i < echoes.size(); ++i) {
-      auto [begin, end] = plan_.axis.around(echoes.delay[i], reach_.at(echoes.delay[i]));
-      begin = std::max(begin, first_), end = std::min(end, last_);
-      for (std::size_t bin = begin; bin < end; bin = (bin / plan_.tile_bins + 1) * plan_.tile_bins)
-        places_[(bin - first_) / plan_.tile_bins].list.push_back(static_cast<std::uint32_t>(i));
-    }
+    begin_.resize(echoes.size()), end_.resize(echoes.size());
+    kernels::reached_bins(echoes.delay.data(), echoes.size(),
+                          {plan_.axis.start, plan_.axis.step, reach_.half, reach_.growth, static_cast<double>(first_),
+                           static_cast<double>(last_)},
+                          begin_.data(), end_.data());
+    for (std::size_t i = 0; i < echoes.size(); ++i)
+      if (begin_[i] < end_[i])
+        for (std::size_t t = (begin_[i] - first_) / plan_.tile_bins; t <= (end_[i] - 1 - first_) / plan_.tile_bins; ++t)
+          places_[t].list.push_back(static_cast<std::uint32_t>(i));
     for (Place& place : places_) add(echoes, place);
   }
 
@@ -99,6 +103,7 @@ class Slab {
   std::size_t first_, last_;
   double min_range_ = 0, max_range_ = 0;
   std::vector<Place> places_;
+  std::vector<std::uint32_t> begin_, end_;  // samples that the echoes of a chunk reach
 };
 
 /// The image of echoes that are not stored: each thread forms the beams of one slab of `slab_tiles` tiles after another,
