@@ -10,14 +10,15 @@ constexpr std::size_t slab_tiles = 8;  // more of them: fewer parts made twice, 
 
 template <typename Real>
 GriddedImage GriddedSynthesis<Real>::image(const Echoes& echoes) const {
-  GriddingInput input = input_for(echoes);
-  input.unit = gridding_unit(echoes, plan_.medium, threads_);
+  const bool moving = !echoes.doppler.empty();
+  const GriddingInput input{echoes, reach_of(moving), plan_.common_shape && !moving,
+                            gridding_unit(echoes, plan_.medium, threads_)};
   return stored_image(input, plan_, tiles_, threads_, [&](auto&... arguments) { return form_beams(arguments...); });
 }
 
 template <typename Real>
 GriddedImage GriddedSynthesis<Real>::image(const EchoSource& source) const {
-  return streamed_image(source, plan_, tiles_, input_for({}).reach, slab_tiles, threads_,
+  return streamed_image(source, plan_, tiles_, reach_of(source.moving), slab_tiles, threads_,
                         [&](auto&... arguments) { return form_beams(arguments...); });
 }
 

@@ -85,20 +85,19 @@ GriddedSynthesis<Real>::GriddedSynthesis(const SonarHead& head, const Medium& me
 }
 
 template <typename Real>
-GriddingInput GriddedSynthesis<Real>::input_for(const Echoes& echoes) const {
-  const bool moving = !echoes.doppler.empty(), planned = plan_.common_shape && !moving;
+PulseReach GriddedSynthesis<Real>::reach_of(bool moving) const {
   PulseReach reach(plan_.head.pulse, plan_.medium.absorption, plan_.medium.sound_speed, moving, plan_.cut);
-  if (planned) reach.half = plan_.half;
-  return {echoes, reach, planned};
+  if (plan_.common_shape && !moving) reach.half = plan_.half;
+  return reach;
 }
 
 template <typename Real>
 bool GriddedSynthesis<Real>::direct_is_cheaper(const Echoes& echoes) const {
-  const GriddingInput input = input_for(echoes);
-  const SynthesisCost cost(plan_.head, plan_.choice, plan_.tile_bins, input.planned);
+  const bool moving = !echoes.doppler.empty();
+  const SynthesisCost cost(plan_.head, plan_.choice, plan_.tile_bins, plan_.common_shape && !moving);
   // Fewer overlapped tiles can only make gridding cheaper.
   if (!cost.direct_is_cheaper(echoes.size(), plan_.tiles())) return false;
-  return cost.direct_is_cheaper(echoes.size(), touched_tiles(echoes, plan_.axis, input.reach, plan_.tile_bins));
+  return cost.direct_is_cheaper(echoes.size(), touched_tiles(echoes, plan_.axis, reach_of(moving), plan_.tile_bins));
 }
 
 template <typename Real>

@@ -26,7 +26,7 @@ class GriddedSynthesis {
   bool direct_is_cheaper(std::size_t echoes) const;
 
  private:
-  GriddingInput input_for(const Echoes& echoes) const;
+  PulseReach reach_of(bool moving) const;
   /// Transforms the gridded tile into beams, bins [first, last) of `pressure`, and returns their energy [unit^2 bins];
   /// then it is empty.
   double form_beams(GridTile<Real>& tile, double unit, std::size_t first, std::size_t last,

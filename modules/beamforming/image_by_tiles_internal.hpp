@@ -94,7 +94,8 @@ class Slab {
       place.unit = std::exp2(std::round(0.5 * std::log2(most)));
       place.tile = pool_.take();
     }
-    place.energy += place.tile->add({echoes, reach_, plan_.common_shape, place.unit}, place.list, place.first_bin);
+    place.energy += place.tile->add({echoes, reach_, plan_.common_shape && echoes.doppler.empty(), place.unit},
+                                    place.list, place.first_bin);
   }
 
   const GriddingPlan<Real>& plan_;

@@ -44,3 +44,11 @@ TEST(StreamedPing, is_the_stored_one_with_relief_detections_everywhere_and_in_do
   options.synthesis.tolerance = 1e-7;
   expect_same_stored(scene, options, pose);
 }
+
+TEST(StreamedPing, is_the_stored_one_of_a_head_that_moves_and_turns) {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
+  SimulationOptions options{.sampling = {.scatterers_per_cell = 60}, .threads = 3};
+  options.effects.moving = Choice::always;
+  options.effects.motion = {{13, -4, 1}, {0.1, 0.2, -0.9}};
+  expect_same_stored(scene, options, pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0));
+}
