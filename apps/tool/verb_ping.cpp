@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -29,6 +31,11 @@ void print_summary(const std::string& output, const ordered_json& manifest) {
 }
 
 void add_ping_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
+
+double peak_level_db(const Ping& ping) {
+  const auto power = [](const std::complex<float>& p) { return std::norm(std::complex<double>(p)); };
+  return std::max(silence_db, pressure_level_db(std::sqrt(ping.pressure.unaryExpr(power).maxCoeff())));
+}
 
 void ping(const PingCommand& command) {
   PingOptions o = settled_options(command);
@@ -76,7 +83,7 @@ void ping(const PingCommand& command) {
   if (simulation.outputs.mask) manifest["holes"] = holes_json(result.holes);
   manifest["layers"] = layers_json(result.layers);
   if (!simulation.effects.motion.none()) manifest["motion"] = motion_json(simulation.effects.motion);
-  manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(result.ping.pressure.abs().maxCoeff()));
+  manifest["peak_level_db"] = peak_level_db(result.ping);
   write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);
   manifest["seconds"] = {{"load", load_seconds},
                          {"sampling", result.seconds.sampling},

@@ -36,6 +36,7 @@ inline void join_echoes(std::vector<Echoes>&& parts, Echoes& all) {
     append(all.u, part.u);
     append(all.v, part.v);
     append(all.amplitude, part.amplitude);
+    append(all.doppler, part.doppler);
     part = {};
   }
 }

@@ -25,4 +25,13 @@ struct EchoPatches {
 void direct_echoes(const EchoPatches& patches, std::size_t count, double cycles_per_m, double sound_speed,
                    EchoPlaces echoes);
 
+/// A head in motion, in its own axes at transmission.
+struct MovingHead {
+  double velocity[3], axis[3];  ///< [m/s]; unit vector of its turn, or 0
+  double turns_per_s, sound_speed, centre_frequency;
+};
+/// Turns echoes of patches at range, azimuth and elevation into those of a moving head (E44); sets their Doppler shifts.
+void move_echoes(const double* range, const double* azimuth, const double* elevation, std::size_t count,
+                 const MovingHead& head, EchoPlaces echoes, double* doppler);
+
 }  // namespace insonify::kernels

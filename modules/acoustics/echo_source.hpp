@@ -12,7 +12,7 @@ namespace insonify {
 /// Patches and their echoes in chunks, which are made when they are visited and not kept. A chunk may be visited any
 /// number of times, also concurrently, and is the same to the byte each time.
 struct EchoSource {
-  /// How many patches, and between which ranges [m].
+  /// How many patches, and between which ranges [m] they and half the ways of their echoes lie.
   struct Chunk {
     std::size_t size;
     double min_range, max_range;
@@ -24,6 +24,7 @@ struct EchoSource {
   /// Visits a chunk, patches and echoes index by index. Surfels that the filter refuses may be left out of it.
   std::function<void(std::size_t chunk, const Filter& wanted, const Visitor& visit)> visit;
   const Echoes* stored = nullptr;  ///< all echoes, if they are stored
+  bool moving = false;             ///< echoes have Doppler shifts
 
   std::size_t size() const;  ///< number of patches
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/echo_loops_internal.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -26,37 +27,6 @@ TrajectoryLeg leg_at(const Trajectory& t, double time, const char* who) {
   const double duration = t.time[i + 1] - t.time[i];
   return {t.pose[i], t.pose[i + 1], duration, (time - t.time[i]) / duration};
 }
-
-// A head in motion, in its own axes at transmission.
-struct MovingHead {
-  Eigen::Vector3d velocity, axis;
-  double turn_rate, sound_speed, centre_frequency;
-
-  // Where a way in head axes at transmission points at `time`.
-  Eigen::Vector3d turned(const Eigen::Vector3d& way, double time) const {
-    return turn_rate > 0 ? Eigen::AngleAxisd(-turn_rate * time, axis) * way : way;
-  }
-
-  void move(double r0, Direction direction, std::size_t i, Echoes& echoes) const {
-    const double c = sound_speed;
-    const Eigen::Vector3d ahead = unit_vector(direction);
-    const double closing = velocity.dot(ahead) / c, speed_2 = velocity.squaredNorm() / (c * c);
-
-    // Out from here, back to where the head will be: a quadratic equation in the delay. (E44)
-    const double delay = 2 * r0 / c * (1 - closing) / (1 - speed_2);
-    const double longer = r0 * 2 * (speed_2 - closing) / (1 - speed_2);  // r1 - r0
-    const double r1 = r0 + longer;
-    const Eigen::Vector3d back = (r0 * ahead - velocity * delay) / r1;
-    const double phase = 2 * pi * reduced_cycles(centre_frequency / c * longer);
-    const Eigen::Vector3d seen = turned(back, delay);
-
-    echoes.delay[i] = delay;
-    echoes.amplitude[i] *= std::polar(r0 / r1, phase);
-    echoes.u[i] = seen.y();
-    if (!echoes.v.empty()) echoes.v[i] = seen.z();
-    echoes.doppler[i] = centre_frequency * (closing + velocity.dot(back) / c) / (1 - closing);
-  }
-};
 
 void require_positive(double value, const char* name, const char* unit) {
   if (!(value > 0) || !std::isfinite(value))
@@ -121,13 +91,24 @@ void move_echoes(const Motion& motion, const Pose& world_from_head, const Scatte
 
   const Eigen::Matrix3d head_from_world = world_from_head.linear().transpose();
   const Eigen::Vector3d turn = head_from_world * motion.turn_rate;
-  const MovingHead head{head_from_world * motion.velocity, turn.normalized(), turn.norm(), sound_speed,
-                        centre_frequency};
+  const Eigen::Vector3d velocity = head_from_world * motion.velocity, axis = turn.normalized();
+  const kernels::MovingHead head{{velocity.x(), velocity.y(), velocity.z()},
+                                 {axis.x(), axis.y(), axis.z()},
+                                 turn.norm() / (2 * pi),
+                                 sound_speed,
+                                 centre_frequency};
+  for (const double range : scatterers.range) require_positive(range, "range", "m");
   echoes.doppler.resize(echoes.size());
-  for (std::size_t i = 0; i < echoes.size(); ++i) {
-    require_positive(scatterers.range[i], "range", "m");
-    head.move(scatterers.range[i], {scatterers.azimuth[i], scatterers.elevation[i]}, i, echoes);
-  }
+  std::vector<double> unused(echoes.v.empty() ? echoes.size() : 0);
+  kernels::move_echoes(scatterers.range.data(), scatterers.azimuth.data(), scatterers.elevation.data(), echoes.size(),
+                       head,
+                       {echoes.delay.data(), echoes.u.data(), echoes.v.empty() ? unused.data() : echoes.v.data(),
+                        reinterpret_cast<double*>(echoes.amplitude.data())},
+                       echoes.doppler.data());
+}
+
+double most_displacement(const Motion& motion, double sound_speed) {
+  return 1.03 * motion.velocity.norm() / sound_speed;
 }
 
 }  // namespace insonify

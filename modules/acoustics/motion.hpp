@@ -58,4 +58,8 @@ Motion motion_at(const Trajectory& trajectory, double time);
 void move_echoes(const Motion& motion, const Pose& world_from_head, const Scatterers& scatterers,
                  double centre_frequency, double sound_speed, Echoes& echoes);
 
+/// Returns by what part of the range at most a motion slower than a hundredth of the sound speed changes half the way of
+/// sound, c delay / 2, and by how much a displacement changes direction cosines.
+double most_displacement(const Motion& motion, double sound_speed);
+
 }  // namespace insonify

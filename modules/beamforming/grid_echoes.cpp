@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t batch = 128;            // echoes per call of the inner loop
+constexpr std::size_t batch = echo_batch;     // echoes per call of the inner loop
 constexpr std::size_t flush_interval = 2048;  // echoes added to a tile before partial sums are flushed
 
 template <typename Real>
@@ -99,50 +99,12 @@ double grid_sweeps(const GriddingPlan<Real>& plan, const GriddingInput& input, s
 template <typename Real>
 double grid_gaussian_pulses(const GriddingPlan<Real>& plan, const GriddingInput& input,
                             std::span<const std::uint32_t> list, std::size_t first_bin, GridTile<Real>& tile) {
-  // Amplitudes and places, gathered; their arrays lie side by side.
-  std::array<double, 11 * batch> numbers;
-  const auto array = [&](std::size_t k) { return numbers.data() + k * batch; };
-  double *delay = array(0), *u = array(1), *re = array(2), *im = array(3), *doppler = array(4);
-  double power = 0, latest = 0;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::uint32_t i = list[k];
-    delay[k] = input.echoes.delay[i];
-    u[k] = input.echoes.u[i];
-    re[k] = input.echoes.amplitude[i].real() / input.unit;
-    im[k] = input.echoes.amplitude[i].imag() / input.unit;
-    doppler[k] = input.echoes.doppler_of(i);
-    latest = std::max(latest, delay[k]);
-  }
-  plan.shapes.of(latest);  // throws if absorption lets a pulse grow
-  const Absorption& absorption = plan.medium.absorption;
-  const kernels::GaussianGrid grid{plan.axis.start,
-                                   plan.axis.step,
-                                   plan.longest_half,
-                                   static_cast<double>(first_bin) - static_cast<double>(plan.margin),
-                                   plan.cycles_per_u,
-                                   static_cast<double>(plan.grid),
-                                   0.5 * static_cast<double>(plan.kernel.width()),
-                                   static_cast<double>(grid_pad),
-                                   plan.element_offset != 0,
-                                   plan.shapes.of(0).a,
-                                   0.5 * plan.medium.sound_speed,
-                                   absorption.a0,
-                                   absorption.a1,
-                                   absorption.a2};
-  std::array<std::uint32_t, batch> row, column;
-  std::array<Real, batch> column_offset;
-  const kernels::GaussianPlaces<Real> places{row.data(), column.data(), column_offset.data()};
-  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10)};
-  kernels::place_gaussians({delay, u, re, im, doppler}, list.size(), grid, state, places);
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    power += (re[k] * re[k] + im[k] * im[k]) * std::exp(-4 * absorption.a0 * grid.range_per_delay * delay[k]);
-  }
-  tile.pulse_re.resize(batch * plan.longest_rows);
-  tile.pulse_im.resize(batch * plan.longest_rows);
-  kernels::sample_gaussians(state, list.size(), plan.longest_rows, tile.pulse_re.data(), tile.pulse_im.data());
-  kernels::grid_samples(places, list.size(), tile.pulse_re.data(), tile.pulse_im.data(), plan.longest_rows,
-                        pieces(plan.columns), tile.re.data(), tile.im.data(), plan.stride);
-  return power * plan.pulse_energy;
+  GaussianBatch<Real>& pulses = tile.pulses;
+  const double energy = pulses.sample(plan, input, list, first_bin);
+  kernels::grid_samples({pulses.row.data(), pulses.column.data(), pulses.column_offset.data()}, list.size(),
+                        pulses.re.data(), pulses.im.data(), plan.longest_rows, pieces(plan.columns), tile.re.data(),
+                        tile.im.data(), plan.stride);
+  return energy;
 }
 
 /// Grids sweeps of different shape, sample by sample.
@@ -181,11 +143,55 @@ double grid_sampled_sweeps(const GriddingPlan<Real>& plan, const GriddingInput& 
 }  // namespace
 
 template <typename Real>
+double GaussianBatch<Real>::sample(const GriddingPlan<Real>& plan, const GriddingInput& input,
+                                   std::span<const std::uint32_t> list, std::size_t first_bin) {
+  // Amplitudes and places, gathered; their arrays lie side by side.
+  std::array<double, 12 * echo_batch> numbers;
+  const auto array = [&](std::size_t k) { return numbers.data() + k * echo_batch; };
+  double *delay = array(0), *u = array(1), *amplitude_re = array(2), *amplitude_im = array(3), *doppler = array(4);
+  double power = 0, latest = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::uint32_t i = list[k];
+    delay[k] = input.echoes.delay[i];
+    u[k] = input.echoes.u[i];
+    amplitude_re[k] = input.echoes.amplitude[i].real() / input.unit;
+    amplitude_im[k] = input.echoes.amplitude[i].imag() / input.unit;
+    doppler[k] = input.echoes.doppler_of(i);
+    latest = std::max(latest, delay[k]);
+  }
+  plan.shapes.of(latest);  // throws if absorption lets a pulse grow
+  const Absorption& absorption = plan.medium.absorption;
+  const kernels::GaussianGrid grid{plan.axis.start,
+                                   plan.axis.step,
+                                   plan.longest_half,
+                                   static_cast<double>(first_bin) - static_cast<double>(plan.margin),
+                                   plan.cycles_per_u,
+                                   static_cast<double>(plan.grid),
+                                   0.5 * static_cast<double>(plan.kernel.width()),
+                                   static_cast<double>(grid_pad),
+                                   plan.element_offset != 0,
+                                   plan.shapes.of(0).a,
+                                   0.5 * plan.medium.sound_speed,
+                                   absorption.a0,
+                                   absorption.a1,
+                                   absorption.a2};
+  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10), array(11)};
+  kernels::place_gaussians({delay, u, amplitude_re, amplitude_im, doppler}, list.size(), grid, state,
+                           kernels::GaussianPlaces<Real>{row.data(), column.data(), column_offset.data()});
+  for (std::size_t k = 0; k < list.size(); ++k) power += state.power[k];
+  re.resize(echo_batch * plan.longest_rows);
+  im.resize(echo_batch * plan.longest_rows);
+  kernels::sample_gaussians(state, list.size(), plan.longest_rows, re.data(), im.data());
+  return power * plan.pulse_energy;
+}
+
+template <typename Real>
 GridTile<Real>::GridTile(const GriddingPlan<Real>& plan)
     : re(plan.tile_rows * plan.stride),
       im(plan.tile_rows * plan.stride),
       grid(plan.grid_row * plan.grid),
       scratch(plan.sweep ? 2 * (plan.tile_bins + 16) : std::max<std::size_t>(plan.rows.lanes, 8)),
+      plan_(&plan),
       plane_(plan.tile_rows * plan.stride) {}
 
 template <typename Real>
@@ -205,26 +211,33 @@ void GridTile<Real>::restore_flushed_sums() {
 }
 
 template <typename Real>
-double grid_echoes(const GriddingPlan<Real>& plan, const GriddingInput& input, std::span<const std::uint32_t> list,
-                   std::size_t first_bin, GridTile<Real>& tile) {
-  const auto grid = plan.longest_rows == 0 ? (input.planned ? &grid_sweeps<Real> : &grid_sampled_sweeps<Real>)
-                                           : (input.planned ? &grid_planned_pulses<Real> : &grid_gaussian_pulses<Real>);
+void GridTile<Real>::clear() {
+  re.clear();
+  im.clear();
+  flushed_re.clear();
+  flushed_im.clear();
+  since_flush = 0;
+}
+
+template <typename Real>
+double GridTile<Real>::add(const GriddingInput& input, std::span<const std::uint32_t> list, std::size_t first_bin) {
+  const auto add_some = plan_->longest_rows == 0
+                            ? (input.planned ? &grid_sweeps<Real> : &grid_sampled_sweeps<Real>)
+                            : (input.planned ? &grid_planned_pulses<Real> : &grid_gaussian_pulses<Real>);
   double energy = 0;
   while (!list.empty()) {
-    if (tile.since_flush == flush_interval) tile.flush_partial_sums();
-    const auto some = list.first(std::min({batch, list.size(), flush_interval - tile.since_flush}));
-    energy += grid(plan, input, some, first_bin, tile);
-    tile.since_flush += some.size();
+    if (since_flush == flush_interval) flush_partial_sums();
+    const auto some = list.first(std::min({batch, list.size(), flush_interval - since_flush}));
+    energy += add_some(*plan_, input, some, first_bin, *this);
+    since_flush += some.size();
     list = list.subspan(some.size());
   }
   return energy;
 }
 
+template struct GaussianBatch<float>;
+template struct GaussianBatch<double>;
 template struct GridTile<float>;
 template struct GridTile<double>;
-template double grid_echoes(const GriddingPlan<float>&, const GriddingInput&, std::span<const std::uint32_t>,
-                            std::size_t, GridTile<float>&);
-template double grid_echoes(const GriddingPlan<double>&, const GriddingInput&, std::span<const std::uint32_t>,
-                            std::size_t, GridTile<double>&);
 
 }  // namespace insonify

@@ -1,19 +1,12 @@
 #pragma once
 #include "acoustics/echo_source.hpp"
-#include "beamforming/fft_along_rows_internal.hpp"
+#include "beamforming/beam_transform_internal.hpp"
 #include "beamforming/grid_echoes_internal.hpp"
+#include "beamforming/gridded_image_internal.hpp"
 #include "beamforming/gridding_plan_internal.hpp"
+#include "beamforming/tile_pool_internal.hpp"
 
 namespace insonify {
-
-/// An image, and the fraction of the gridded energy that it contains.
-struct GriddedImage {
-  ComplexGrid pressure;  ///< beams x bins [Pa]
-  /// Root of the mean energy per beam over that of all gridded pulses: 0.1 for a fan of 500 beams of which 5 receive an
-  /// echo. Kernel errors are distributed evenly over all beams, so the smaller this fraction, the larger the relative
-  /// error.
-  double share = 0;
-};
 
 /// The gridded synthesis of PingSynthesizer in one precision.
 template <typename Real>
@@ -33,16 +26,17 @@ class GriddedSynthesis {
   bool direct_is_cheaper(std::size_t echoes) const;
 
  private:
-  using Complex = std::complex<Real>;
-
-  GriddingInput input_for(const Echoes& echoes) const;
-  /// Transforms the gridded tile into beams: bins [first, last) of `pressure`.
-  void form_beams(GridTile<Real>& tile, std::size_t first, std::size_t last, ComplexGrid& pressure) const;
-  void wrap_and_transpose(GridTile<Real>& tile) const;
+  PulseReach reach_of(bool moving) const;
+  /// Transforms the gridded tile into beams, bins [first, last) of `pressure`, and returns their energy [unit^2 bins];
+  /// then it is empty.
+  double form_beams(GridTile<Real>& tile, double unit, std::size_t first, std::size_t last,
+                    ComplexGrid& pressure) const;
 
   GriddingPlan<Real> plan_;
   int threads_;
-  FftAlongRows<Real> to_elements_, to_beams_;
+  BeamTransform<Real> to_beams_;
+  std::vector<std::size_t> beams_;  // all of the fan
+  mutable TilePool<GridTile<Real>> tiles_;
 };
 
 }  // namespace insonify

@@ -6,10 +6,7 @@
 #include "core/units.hpp"
 
 namespace insonify {
-namespace {
-
-/// Returns the smallest even number >= `least` without a prime factor above 5, a fast length for FFTW.
-std::size_t fast_length(std::size_t least) {
+std::size_t fft_length(std::size_t least) {
   for (std::size_t n = least + least % 2;; n += 2) {
     std::size_t rest = n;
     for (const std::size_t factor : {2, 3, 5})
@@ -17,8 +14,6 @@ std::size_t fast_length(std::size_t least) {
     if (rest == 1) return n;
   }
 }
-
-}  // namespace
 
 template <typename Real>
 GriddingPlan<Real>::GriddingPlan(const SonarHead& head_in, const Medium& medium_in, double tolerance,
@@ -30,7 +25,7 @@ GriddingPlan<Real>::GriddingPlan(const SonarHead& head_in, const Medium& medium_
       shapes(head.pulse, medium),
       common_shape(medium.absorption.a1 == 0 && medium.absorption.a2 == 0),
       kernel(kernel_tolerance),
-      grid(fast_length(std::max(2 * head.array.elements(), 2 * kernel.width()))),
+      grid(fft_length(std::max(2 * head.array.elements(), 2 * kernel.width()))),
       stride(grid + 2 * grid_pad),
       tile_bins(grid <= 2048 ? 64 : 32),
       grid_row(tile_bins + 8),

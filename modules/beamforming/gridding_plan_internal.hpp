@@ -13,6 +13,9 @@ namespace insonify {
 
 constexpr std::size_t grid_pad = 16;  ///< padding columns on either side of the grid
 
+/// Returns the smallest even number >= `least` without a prime factor above 5, a fast length for FFTW.
+std::size_t fft_length(std::size_t least);
+
 /// Constants of the gridded synthesis in one precision, shared by all pings of a head. A direction is represented by
 /// the phase between neighbouring elements [cycles]; `grid` steps cover one cycle. Element positions are integers for
 /// odd numbers of elements and half-integers for even ones, in which case the grid changes sign from one cycle to the

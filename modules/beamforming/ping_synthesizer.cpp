@@ -8,32 +8,26 @@
 
 #include "beamforming/gridded_synthesis_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
+#include "beamforming/synthesis_precision_internal.hpp"
 #include "beamforming/windowed_sum_internal.hpp"
 #include "core/error.hpp"
 
 namespace insonify {
 namespace {
 
-/// Errors of kernel and rounding are distributed evenly over all beams, so the kernel tolerance is the image tolerance
-/// times the fraction of the gridded energy that the beams receive. From this value on single precision suffices.
-constexpr double single_precision_from = 2e-6;
-/// Least tolerance of a kernel.
-constexpr double min_kernel_tolerance = 1e-15;
 /// Least ratio of coherent to incoherent amplitude: cancellation amplifies the error of cut pulses by its inverse.
 constexpr double least_kept = 0.25;
 
-/// Expected GriddedImage::share of an echo in the fan: root mean square of the pattern over the fan's extent in u.
-double expected_share(const SonarHead& head, double wavelength) {
-  const std::vector<double> u = beam_cosines(head.fan);
-  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+}  // namespace
+
+double expected_share(const LineArray& array, double wavelength, std::span<const double> cosines) {
+  const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
   double squares = 0;
-  for (const double w : head.array.shading) squares += w * w;
-  const auto n = static_cast<double>(head.array.elements());
-  const double lobe = wavelength / head.array.spacing * squares / (n * n);  // integral of the pattern squared over u
+  for (const double w : array.shading) squares += w * w;
+  const auto n = static_cast<double>(array.elements());
+  const double lobe = wavelength / array.spacing * squares / (n * n);  // integral of the pattern squared over u
   return std::sqrt(lobe / std::max(*high - *low, lobe));
 }
-
-}  // namespace
 
 /// The synthesis in single or double precision, accurate for images whose share is at least half of `share`.
 struct PingSynthesizer::Plan {
@@ -90,8 +84,8 @@ PingSynthesizer::PingSynthesizer(const SonarHead& head, const Medium& medium, co
   if (!(options.tolerance >= min_gridding_tolerance))
     fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ",
          min_gridding_tolerance, "; below that use the direct method");
-  plan_ = std::make_unique<Plan>(head, medium, options,
-                                 expected_share(head, medium.sound_speed / head.pulse.centre_frequency));
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  plan_ = std::make_unique<Plan>(head, medium, options, expected_share(head.array, wavelength, beam_cosines(head.fan)));
 }
 
 PingSynthesizer::~PingSynthesizer() = default;

@@ -37,6 +37,7 @@ INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t coun
     s.re[i] = gain * (echoes.re[i] * cosine - echoes.im[i] * sine);  // (E13)
     s.im[i] = gain * (echoes.re[i] * sine + echoes.im[i] * cosine);
     vec::sine_cosine(shift * g.step, s.turn_im[i], s.turn_re[i]);
+    s.power[i] = (echoes.re[i] * echoes.re[i] + echoes.im[i] * echoes.im[i]) * vec::exp(-4 * g.a0 * range);
     s.ratio[i] = vec::exp(-(2 * w + turn_step) * turn_step * per_4a);
     s.change[i] = vec::exp(-2 * turn_step * turn_step * per_4a);
   }
@@ -118,6 +119,21 @@ void grid_samples(GaussianPlaces<double> places, std::size_t count, const double
     grid_lanes<8>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
   else
     grid_lanes<16>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void reached_bins(const double* delay, std::size_t count, const PulseAxis& axis, std::uint32_t* begin,
+                  std::uint32_t* end) {
+  const PulseAxis a = axis;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i) {
+    const double grown = 1 + a.growth * delay[i], half = a.half * std::sqrt(grown > 1 ? grown : 1);
+    const double low = vec::ceil((delay[i] - half - a.start) / a.step);
+    const double high = vec::floor((delay[i] + half - a.start) / a.step) + 1;
+    const double from = low > a.first ? low : a.first, past = high < a.last ? high : a.last;
+    begin[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(from < a.last ? from : a.last));
+    end[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(past > a.first ? past : a.first));
+  }
 }
 
 }  // namespace insonify::kernels

@@ -21,9 +21,9 @@ struct GaussianGrid {
   double a_sent, range_per_delay, a0, a1, a2;  ///< of EchoEnvelope; absorption
 };
 
-/// Working numbers of `count` echoes, an array each.
+/// Working numbers of `count` echoes, an array each; power: of the peak after absorption at the carrier.
 struct GaussianState {
-  double *re, *im, *turn_re, *turn_im, *ratio, *change;
+  double *re, *im, *turn_re, *turn_im, *ratio, *change, *power;
 };
 
 /// Places Gaussian pulses, attenuated and shifted in frequency by absorption and Doppler (E8, E13, E54), on the grid; the
@@ -47,5 +47,13 @@ void grid_samples(GaussianPlaces<float> places, std::size_t count, const float* 
                   std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);
 void grid_samples(GaussianPlaces<double> places, std::size_t count, const double* pulse_re, const double* pulse_im,
                   std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride);
+
+/// Samples of a time axis that pulses reach: those within half sqrt(max(1, 1 + growth delay)) of the delay, clipped to
+/// [first, last); begin >= end: none.
+struct PulseAxis {
+  double start, step, half, growth, first, last;
+};
+void reached_bins(const double* delay, std::size_t count, const PulseAxis& axis, std::uint32_t* begin,
+                  std::uint32_t* end);
 
 }  // namespace insonify::kernels

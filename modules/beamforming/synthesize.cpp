@@ -1,6 +1,8 @@
 #include "beamforming/synthesize.hpp"
 
 #include "beamforming/element_series.hpp"
+#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/planar_synthesizer_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "beamforming/synthesize_intensity.hpp"
@@ -35,12 +37,32 @@ ComplexGrid synthesize_line(const Echoes& echoes, const SonarHead& head, const M
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize");
+  if (method == SynthesisMethod::gridded && PlanarSynthesizer::suits(head, options))
+    return PlanarSynthesizer(head, medium, options).pressure(echoes);
   const double cutoff =
       method == SynthesisMethod::direct ? 0 : row_cutoff(options.tolerance, fan_rows(head.fan).size());
   return image_by_rows<ComplexGrid>(echoes, head, medium, cutoff, options.threads,
                                     [&](const Echoes& of_row, const SonarHead& line) {
                                       return synthesize_line(of_row, line, medium, method, options);
                                     });
+}
+
+ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium, SynthesisMethod method,
+                       const SynthesisOptions& options) {
+  require_synthesis({}, head, medium, options, "synthesize");
+  if (source.stored) return synthesize(*source.stored, head, medium, method, options);
+  const bool planar = PlanarSynthesizer::suits(head, options);
+  if (!streamed(head, method) || (head.column && !planar))
+    return synthesize(all_echoes(source), head, medium, method, options);
+  if (method == SynthesisMethod::true_delays) return WidebandSynthesizer(head, medium, options).pressure_of(source);
+  if (planar) return PlanarSynthesizer(head, medium, options).pressure_of(source);
+  return PingSynthesizer(head, medium, options).pressure_of(source);
+}
+
+bool streamed(const SonarHead& head, SynthesisMethod method) {
+  const bool line = !head.column && fan_rows(head.fan).size() == 1;
+  if (method == SynthesisMethod::true_delays) return line;
+  return method == SynthesisMethod::gridded && (head.column ? head.pulse.shape == PulseShape::gaussian : line);
 }
 
 }  // namespace insonify

@@ -1,4 +1,5 @@
 #pragma once
+#include "acoustics/echo_source.hpp"
 #include "acoustics/echoes.hpp"
 #include "acoustics/water.hpp"
 #include "beamforming/sonar_head.hpp"
@@ -23,6 +24,8 @@ struct SynthesisOptions {
 ///                          B(u, v) = B_y(u - u_b) B_z(v - v_b), u_b = cos(elevation_b) sin(azimuth_b)
 ///   several rows, no column    the elevation pattern (E14) about the row's own elevation
 ///
+/// `gridded` grids a planar array with Gaussian pulses in time, u and v at once (E13).
+///
 /// See with_patterns for the patterns that direct_echoes must have applied. All but `direct`
 /// omit an echo from a row whose response is below tolerance / (10 sqrt(rows)) of that of the row nearest to it, which
 /// over all rows costs at most a tenth of the tolerance (relative L2 norm); `direct` omits none. `element_exact` makes
@@ -34,6 +37,13 @@ struct SynthesisOptions {
 /// methods do, and if there are several rows or a column, but not one echoes.v per echo.
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options = {});
+
+/// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made first.
+ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium, SynthesisMethod method,
+                       const SynthesisOptions& options = {});
+/// Whether the pressure of `head` is formed without all echoes at once: methods `gridded` and `true_delays` of one row of
+/// beams, and `gridded` of a planar array with Gaussian pulses.
+bool streamed(const SonarHead& head, SynthesisMethod method);
 
 // Synthesizers for heads with one row of beams and no column; they throw Error for others.
 

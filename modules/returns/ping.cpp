@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -11,8 +12,15 @@
 namespace insonify {
 
 ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
-  ComplexGridF stored = pressure.cast<std::complex<float>>();
-  if (!stored.isFinite().all())
+  ComplexGridF stored(pressure.rows(), pressure.cols());
+  const auto* from = reinterpret_cast<const double*>(pressure.data());
+  auto* to = reinterpret_cast<float*>(stored.data());
+  bool finite = true;
+  for (Eigen::Index k = 0; k < 2 * pressure.size(); ++k) {
+    to[k] = static_cast<float>(from[k]);
+    finite &= std::abs(to[k]) <= std::numeric_limits<float>::max();
+  }
+  if (!finite)
     fail(ErrorKind::content, who, ": pressure of up to ", pressure.abs().maxCoeff(),
          " Pa, must be below the 3.4e38 of single precision; lower source level, areas or lambert_mu");
   return stored;

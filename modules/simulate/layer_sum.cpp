@@ -2,9 +2,7 @@
 #include <numbers>
 #include <utility>
 
-#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesize_noise.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
 #include "core/units.hpp"
 #include "simulate/layer_sum_internal.hpp"
 
@@ -27,11 +25,9 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
 void LayerSum::add(const std::string& name, const EchoSource& source) {
   if (source.stored) return add(name, *source.stored);
   const SimulationOptions& o = ping_.options;
-  const SynthesisOptions options{o.synthesis.tolerance, o.threads};
-  add_pressure(name, source.size(),
-               o.synthesis.method == SynthesisMethod::true_delays
-                   ? WidebandSynthesizer(ping_.head, ping_.sent.medium, options).pressure_of(source)
-                   : PingSynthesizer(ping_.head, ping_.sent.medium, options).pressure_of(source));
+  add_pressure(
+      name, source.size(),
+      synthesize(source, ping_.head, ping_.sent.medium, o.synthesis.method, {o.synthesis.tolerance, o.threads}));
 }
 
 void LayerSum::add_noise() {

@@ -16,7 +16,7 @@ class LayerSum {
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
-  /// The same of a source, whose echoes need not be stored for methods gridded and true_delays and a head with one row of beams.
+  /// The same of a source, whose echoes need not be stored for a head and method that are `streamed`.
   void add(const std::string& name, const EchoSource& source);
   /// Adds the noise of all elements; for SynthesisMethod::incoherent, its expected intensity.
   void add_noise();

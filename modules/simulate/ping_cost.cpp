@@ -2,6 +2,7 @@
 // one machine (docs/plan.md).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "beamforming/element_series.hpp"
 #include "beamforming/wideband_synthesizer.hpp"
@@ -19,6 +20,7 @@ constexpr double per_bent_ray = 300, per_moved_echo = 150, per_leg = 3000;
 struct Load {
   double echoes, rows, beams, elements, bins, pulse_samples;
   bool own_shapes;  ///< each echo has a pulse of its own
+  bool planar;      ///< gridded once for all rows
 };
 
 Load load_of(const PlanFacts& facts, const SimulationOptions& options, double echoes) {
@@ -30,7 +32,8 @@ Load load_of(const PlanFacts& facts, const SimulationOptions& options, double ec
           static_cast<double>(head.array.elements()),
           static_cast<double>(head.gate.bins()),
           static_cast<double>(facts.synthesis.pulse_samples),
-          options.effects.absorption_order > 0 || head.pulse.shape != PulseShape::gaussian};
+          options.effects.absorption_order > 0 || head.pulse.shape != PulseShape::gaussian,
+          head.column && head.pulse.shape == PulseShape::gaussian};
 }
 
 /// Nanoseconds of one row: transforms of all bins, beams of all bins, pulses of all echoes.
@@ -72,6 +75,16 @@ double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisM
   return summed_directly(load, choice) ? summed_row(load) : gridded_row(load, choice);
 }
 
+/// Nanoseconds of a planar array: the transforms of all rows, and pulses that are added to as many lines over v as the
+/// kernel is wide.
+double gridded_plane(Load load, const SynthesisChoice& choice) {
+  const auto width = static_cast<double>(choice.kernel_width);
+  const double precision = choice.single_precision ? 0.5 : 1, lanes = choice.kernel_width > 8 ? 16 : 8;
+  const double echoes = std::exchange(load.echoes, 0);
+  return load.rows * gridded_row(load, choice) +
+         echoes * (150 + std::min(load.pulse_samples, load.bins) * width * precision * lanes * 0.4);
+}
+
 /// True delays of one row of beams.
 WidebandCost true_delay_row(const PlanFacts& facts, const SimulationOptions& options, bool own_shapes) {
   const ResolvedPing& ping = facts.ping;
@@ -88,6 +101,7 @@ WidebandCost true_delay_row(const PlanFacts& facts, const SimulationOptions& opt
 
 double synthesis_seconds(const PlanFacts& facts, const SimulationOptions& options, const Load& load,
                          SynthesisMethod method) {
+  if (load.planar && method == SynthesisMethod::gridded) return 1e-9 * gridded_plane(load, facts.synthesis);
   if (method != SynthesisMethod::true_delays) return 1e-9 * load.rows * synthesis_row(load, facts.synthesis, method);
   const WidebandCost cost = true_delay_row(facts, options, load.own_shapes);
   return load.rows * ((load.bins > 0 ? cost.seconds : 0) + load.echoes * cost.seconds_per_echo);

@@ -22,11 +22,25 @@ RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
   return report;
 }
 
+/// Places of all surfels, so wide that they hold what their echoes seem to be to a moving head.
+std::vector<PatchPlace> places_of(const ResolvedPing& ping, const VisibleSurfels& visible) {
+  std::vector<PatchPlace> places = visible.place;
+  const EffectSettings& effects = ping.options.effects;
+  if (effects.moving != Choice::always) return places;
+  const double c = ping.sent.medium.sound_speed, part = most_displacement(effects.motion, c);
+  for (PatchPlace& p : places) {
+    p.reach += part * (p.range + p.reach);
+    p.reach_u += 3 * part + effects.motion.turn_rate.norm() * 2 * (p.range + p.reach) / c;
+  }
+  return places;
+}
+
 /// Chunks of neighbouring surfels, and the first surfel of each.
-std::vector<std::uint32_t> divide(const VisibleSurfels& visible, std::vector<EchoSource::Chunk>& chunks) {
+std::vector<std::uint32_t> divide(const VisibleSurfels& visible, const std::vector<PatchPlace>& places,
+                                  std::vector<EchoSource::Chunk>& chunks) {
   std::vector<std::uint32_t> begin{0};
   for (std::uint32_t k = 0; k < visible.surfel.size(); ++k) {
-    const PatchPlace& p = visible.place[k];
+    const PatchPlace& p = places[k];
     if (begin.back() == k) chunks.push_back({0, p.range - p.reach, p.range + p.reach});
     EchoSource::Chunk& chunk = chunks.back();
     chunk.size += visible.first[k + 1] - visible.first[k];
@@ -41,11 +55,9 @@ std::vector<std::uint32_t> divide(const VisibleSurfels& visible, std::vector<Ech
 
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
   const auto in = [](Choice choice) { return choice == Choice::always; };
-  const bool streams =
-      o.synthesis.method == SynthesisMethod::gridded || o.synthesis.method == SynthesisMethod::true_delays;
-  return !streams || o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
+  return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
          o.sampling.kind == SamplingKind::rays || o.sampling.level_error_db > 0 || in(o.effects.multipath) ||
-         in(o.effects.moving) || ping.environment.profile || ping.head.column || fan_rows(ping.head.fan).size() > 1;
+         ping.environment.profile || !streamed(ping.head, o.synthesis.method);
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
@@ -64,27 +76,33 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, Simula
 
 EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts) {
   const Transmission& sent = ping.sent;
+  const EffectSettings& effects = ping.options.effects;
+  const bool moving = effects.moving == Choice::always && !effects.motion.none();
+  const auto echoes_of = [&scene, &ping, &sent, moving](const Scatterers& patches, const EchoOptions& options) {
+    Echoes echoes = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, options);
+    if (moving)
+      move_echoes(ping.options.effects.motion, ping.view.world_from_head, patches, sent.pulse.centre_frequency,
+                  sent.medium.sound_speed, echoes);
+    return echoes;
+  };
   if (parts.stored) {
-    const Scatterers& patches = parts.sampling.scatterers;
-    const EffectSettings& effects = ping.options.effects;
-    parts.direct = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, sent.echo_options);
-    if (effects.moving == Choice::always)
-      move_echoes(effects.motion, ping.view.world_from_head, patches, sent.pulse.centre_frequency,
-                  sent.medium.sound_speed, parts.direct);
-    return stored_source(patches, parts.direct, "simulate_ping");
+    parts.direct = echoes_of(parts.sampling.scatterers, sent.echo_options);
+    return stored_source(parts.sampling.scatterers, parts.direct, "simulate_ping");
   }
   EchoSource source;
+  source.moving = moving;
   EchoOptions on_one_thread = sent.echo_options;
   on_one_thread.threads = 1;
-  const std::vector<std::uint32_t> begin = divide(parts.visible, source.chunks);
-  source.visit = [&scene, &ping, &sent, &visible = parts.visible, begin, on_one_thread](
+  std::vector<PatchPlace> places = places_of(ping, parts.visible);
+  const std::vector<std::uint32_t> begin = divide(parts.visible, places, source.chunks);
+  source.visit = [&scene, &ping, &visible = parts.visible, places = std::move(places), begin, on_one_thread, echoes_of](
                      std::size_t chunk, const EchoSource::Filter& wanted, const EchoSource::Visitor& visit) {
     std::vector<std::uint32_t> which;
     for (std::uint32_t k = begin[chunk]; k < begin[chunk + 1]; ++k)
-      if (!wanted || wanted(visible.place[k])) which.push_back(k);
+      if (!wanted || wanted(places[k])) which.push_back(k);
     if (which.empty()) return;
     const Scatterers patches = make_parts(scene, ping.view.world_from_head, visible, which, 1);
-    visit(patches, direct_echoes(patches, scene.materials, sent.pulse, sent.medium, on_one_thread));
+    visit(patches, echoes_of(patches, on_one_thread));
   };
   return source;
 }

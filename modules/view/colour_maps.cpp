@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "core/error.hpp"
 #include "view/axes_internal.hpp"
@@ -81,28 +80,28 @@ double along(const ColourScale& scale, double at_db, double from, double to) {
 }  // namespace
 
 double automatic_max_db(const Grid<float>& level_db, double window_db) {
+  // Levels in steps of 5 dB up to and with their upper end, and those at the very lowest, which do not count.
+  constexpr int steps = 4096;
+  std::vector<std::size_t> count(2 * steps + 1, 0);
+  const auto step_of = [](float level) {
+    return static_cast<int>(std::clamp(std::ceil(static_cast<double>(level) / 5), -1.0 * steps, 1.0 * steps)) + steps;
+  };
   float lowest = std::numeric_limits<float>::infinity();
-  for (const float level : level_db.reshaped())
-    if (std::isfinite(level)) lowest = std::min(lowest, level);
-  if (!std::isfinite(lowest)) return 0;
-
-  // Levels above the lowest, counted in steps of 5 dB up to and with their upper end: the step of the quantile.
-  std::map<double, std::size_t> count;
-  std::size_t above = 0;
-  double step = -std::numeric_limits<double>::infinity();
-  std::size_t* in_step = nullptr;
+  std::size_t finite = 0, at_lowest = 0;
   for (Eigen::Index k = 0; k < level_db.size(); ++k) {
-    const double level = level_db.data()[k];
-    if (!std::isfinite(level) || level <= static_cast<double>(lowest)) continue;
-    if (!(level > step - 5 && level <= step)) step = 5.0 * std::ceil(level / 5.0), in_step = &count[step];
-    ++*in_step, ++above;
+    const float level = level_db.data()[k];
+    if (!(std::abs(level) <= std::numeric_limits<float>::max())) continue;
+    if (level < lowest) lowest = level, at_lowest = 0;
+    at_lowest += level == lowest;
+    ++count[static_cast<std::size_t>(step_of(level))], ++finite;
   }
-  if (above == 0) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
-  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(above - 1));
-  std::size_t below = 0;
-  for (const auto& [upper, levels] : count)
-    if ((below += levels) > rank) return upper;
-  return step;
+  if (finite == 0) return 0;
+  if (finite == at_lowest) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
+  count[static_cast<std::size_t>(step_of(lowest))] -= at_lowest;
+  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(finite - at_lowest - 1));
+  std::size_t below = 0, step = 0;
+  while ((below += count[step]) <= rank) ++step;
+  return 5.0 * (static_cast<double>(step) - steps);
 }
 
 std::vector<std::string> colour_map_names() {

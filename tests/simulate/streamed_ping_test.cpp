@@ -73,3 +73,14 @@ TEST(StreamedPing, of_true_delays_is_the_stored_one_close_by_and_beside_the_fan)
                       .synthesis = {SynthesisMethod::true_delays, 1e-3}},
                      pose, close, 5000);
 }
+
+TEST(StreamedPing, is_the_stored_one_of_a_head_that_moves_and_turns) {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
+  SimulationOptions options{.sampling = {.scatterers_per_cell = 60}, .threads = 3};
+  options.effects.moving = Choice::always;
+  options.effects.motion = {{13, -4, 1}, {0.1, 0.2, -0.9}};
+  for (const Choice true_delays : {Choice::never, Choice::always}) {
+    options.synthesis.true_delays = true_delays;
+    expect_same_stored(scene, options, pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0));
+  }
+}

@@ -1,0 +1,129 @@
+// How long warm pings of prepared scenes take, as tables in Markdown (docs/speed.md):
+//   ping_speed work       some pings of the harbour of a million surfels: medians of five
+//   ping_speed presets    every preset on harbour and plane: medians of three, or one if it takes more than a second
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/stop_watch.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "simulate/simulate_ping.hpp"
+#include "store/sonar_file.hpp"
+
+namespace {
+
+using namespace insonify;
+
+const Environment fresh_water{};
+
+/// Wall and CPU time of a ping [s], and what it was made of.
+struct PingTime {
+  double wall = 0, cpu = 0;
+  StageSeconds stages;
+  std::size_t scatterers = 0, samples = 0;
+};
+
+PingTime time_ping(const PreparedScene& scene, const SonarHead& head, const Pose& pose,
+                   const SimulationOptions& options) {
+  const std::clock_t begin = std::clock();
+  StopWatch watch;
+  const SimulatedPing result = simulate_ping(scene, head, pose, fresh_water, options);
+  PingTime time{watch.lap(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, result.seconds,
+                result.sampling.scatterers, head.fan.beams() * head.gate.bins()};
+  return time;
+}
+
+/// Median by wall time, after one ping that is not counted; of one ping only if that took more than a second.
+PingTime median_ping(int repeats, const PreparedScene& scene, const SonarHead& head, const Pose& pose,
+                     const SimulationOptions& options = {}) {
+  const PingTime first = time_ping(scene, head, pose, options);
+  std::vector<PingTime> times;
+  for (int k = 0; k < (first.wall > 1 ? 1 : repeats); ++k) times.push_back(time_ping(scene, head, pose, options));
+  std::sort(times.begin(), times.end(), [](const PingTime& a, const PingTime& b) { return a.wall < b.wall; });
+  return times[times.size() / 2];
+}
+
+SonarHead preset(const std::string& name, double min_range, double max_range) {
+  SonarSpec spec = find_sonar(name).spec;
+  spec.min_range = min_range, spec.max_range = max_range;
+  return make_head(spec, sound_speed(fresh_water.water));
+}
+
+/// 512 beams x 130 x 20 degrees at 750 kHz.
+SonarHead wide_head(double bandwidth, double max_range) {
+  SonarSpec spec;
+  spec.name = "wide";
+  spec.centre_frequency = 750e3, spec.bandwidth = bandwidth;
+  spec.beams = 512;
+  spec.field_of_view = radians(130), spec.beam_width = radians(1), spec.elevation_width = radians(20);
+  spec.min_range = 0.5, spec.max_range = max_range;
+  return make_head(spec, sound_speed(fresh_water.water));
+}
+
+void print_work(const std::string& name, const PingTime& t) {
+  const double n = static_cast<double>(t.scatterers);
+  std::printf("| %s | %zu | %zu | %.0f | %.0f | %.0f | %.0f / %.0f / %.0f |\n", name.c_str(), t.scatterers, t.samples,
+              1e3 * t.wall, 1e3 * t.cpu, 1e9 * t.cpu / n, 100 * (t.stages.sampling + t.stages.acoustics) / t.wall,
+              100 * t.stages.synthesis / t.wall, 100 * t.stages.detection / t.wall);
+  std::fflush(stdout);
+}
+
+void time_work() {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 1000000});
+  const PreparedScene harbour(scene);
+  const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+  const SimulationOptions unsplit{.sampling = {.scatterers_per_cell = 0}};
+  std::printf(
+      "| warm ping with detection | scatterers | samples | wall [ms] | CPU [ms] | CPU per scatterer [ns] | sampling / "
+      "synthesis / detection [%% of wall] |\n|---|---|---|---|---|---|---|\n");
+  print_work("512 beams, 2.5 cm, 0.5:15 m", median_ping(5, harbour, wide_head(30e3, 15), pose));
+  print_work("512 beams, 12 cm, 0.5:30 m", median_ping(5, harbour, wide_head(6250, 30), pose));
+  print_work("the same, unsplit", median_ping(5, harbour, wide_head(6250, 30), pose, unsplit));
+  print_work("512 beams, 2.5 cm, 0.5:8 m, unsplit", median_ping(5, harbour, wide_head(30e3, 8), pose, unsplit));
+  print_work("oculus-m750d, 0.5:30 m", median_ping(5, harbour, preset("oculus-m750d", 0.5, 30), pose));
+  print_work("oculus-m750d, 0.5:40 m", median_ping(5, harbour, preset("oculus-m750d", 0.5, 40), pose));
+  print_work("oculus-m1200d, 0.5:30 m", median_ping(5, harbour, preset("oculus-m1200d", 0.5, 30), pose));
+  print_work("p900-45, 0.5:30 m", median_ping(5, harbour, preset("p900-45", 0.5, 30), pose));
+  print_work("waterlinked-3d15, 0.3:15 m", median_ping(5, harbour, preset("waterlinked-3d15", 0.3, 15), pose));
+}
+
+void time_presets() {
+  const SceneCloud harbour = make_built_in_scene("harbour", {.points = 300000});
+  SceneCloud plane = make_built_in_scene("plane", {.points = 300000, .size = {60, 60}});
+  for (auto& point : plane.point) point.z() -= 8;
+  const PreparedScene scenes[] = {PreparedScene(harbour), PreparedScene(plane)};
+  std::printf(
+      "| preset | range [m] | beams x bins | own rate [Hz] | harbour: scatterers | ms per ping | pings per second | "
+      "real-time factor | plane: ms per ping | real-time factor |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  int in_real_time = 0, all = 0;
+  for (const SonarFile& file : list_sonars()) {
+    const double far = std::min(file.spec.max_range, 30.0), near = std::min(file.spec.min_range, 0.5 * far);
+    const SonarHead head = preset(file.spec.name, near, far);
+    const Eigen::Vector3d tilt = file.mounting.isZero(0) ? Eigen::Vector3d(0, radians(10), 0) : file.mounting;
+    const Pose pose = pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z());
+    const double rate = std::min(10.0, sound_speed(fresh_water.water) / (2 * far));
+    const PingTime over_harbour = median_ping(3, scenes[0], head, pose),
+                   over_plane = median_ping(3, scenes[1], head, pose);
+    std::printf("| %s | %.3g:%.3g | %zu x %zu | %.3g | %zu | %.0f | %.3g | %.2f | %.0f | %.2f |\n",
+                file.spec.name.c_str(), near, far, head.fan.beams(), head.gate.bins(), rate, over_harbour.scatterers,
+                1e3 * over_harbour.wall, 1 / over_harbour.wall, 1 / (rate * over_harbour.wall), 1e3 * over_plane.wall,
+                1 / (rate * over_plane.wall));
+    std::fflush(stdout);
+    ++all, in_real_time += rate * over_harbour.wall <= 1;
+  }
+  std::printf("\n%d of %d presets keep their own rate on the harbour.\n", in_real_time, all);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  if (what == "work") return time_work(), 0;
+  if (what == "presets") return time_presets(), 0;
+  std::fprintf(stderr, "ping_speed work|presets\n");
+  return 2;
+}
