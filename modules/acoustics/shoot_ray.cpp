@@ -10,7 +10,7 @@
 namespace insonify {
 namespace {
 
-constexpr const char* me = "shoot_ray";
+constexpr const char* shoot_call = "shoot_ray";
 constexpr double straight_turn = 1e-7;  // |gradient| x time below which an arc is straight to 1e-8 of its length
 
 /// A ray on its way. `slope` is asinh(tan(angle)), the angle positive down: it changes with time at the rate -gradient.
@@ -81,10 +81,10 @@ RayEnd shoot_vertically(const SoundSpeedProfile& profile, double depth, bool dow
 }  // namespace
 
 RayEnd shoot_ray(const SoundSpeedProfile& profile, double depth, double elevation, double time) {
-  require_valid(profile, me);
-  require(std::isfinite(depth), me, "depth", depth, "m", "finite");
-  require(std::abs(elevation) <= pi / 2, me, "elevation", elevation, "rad", "within -pi/2 and pi/2");
-  require(time >= 0 && std::isfinite(time), me, "time", time, "s", "finite and >= 0");
+  require_valid(profile, shoot_call);
+  require(std::isfinite(depth), shoot_call, "depth", depth, "m", "finite");
+  require(std::abs(elevation) <= pi / 2, shoot_call, "elevation", elevation, "rad", "within -pi/2 and pi/2");
+  require(time >= 0 && std::isfinite(time), shoot_call, "time", time, "s", "finite and >= 0");
   if (pi / 2 - std::abs(elevation) < 1e-9) return shoot_vertically(profile, depth, elevation < 0, time);
 
   RayState ray{0, depth, std::asinh(std::tan(-elevation))};

@@ -16,7 +16,7 @@
 namespace insonify {
 namespace {
 
-constexpr const char* me = "detect_bottom";
+constexpr const char* bottom_call = "detect_bottom";
 constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
 constexpr double steepest = 1.3;  // [rad] from the vertical, of the footprint that is assumed at first
 constexpr int neighbours = 3;     // beams on either side whose ranges give dr/du
@@ -199,19 +199,19 @@ Eigen::Vector3d place_of(const Ping& ping, const BottomOptions& options, std::si
 }
 
 void require_bottom_options(const Ping& ping, const BottomOptions& o) {
-  require(o.false_alarm_rate > 0 && o.false_alarm_rate < 1, me, "false_alarm_rate", o.false_alarm_rate, "",
+  require(o.false_alarm_rate > 0 && o.false_alarm_rate < 1, bottom_call, "false_alarm_rate", o.false_alarm_rate, "",
           "above 0 and below 1");
-  require(o.per_beam >= 1, me, "per_beam", o.per_beam, "", ">= 1");
-  require(o.sound_speed > 0, me, "sound_speed", o.sound_speed, "m/s", "> 0");
-  require(o.range_resolution >= 0, me, "range_resolution", o.range_resolution, "m", ">= 0");
-  if (o.profile) require_valid(*o.profile, me);
+  require(o.per_beam >= 1, bottom_call, "per_beam", o.per_beam, "", ">= 1");
+  require(o.sound_speed > 0, bottom_call, "sound_speed", o.sound_speed, "m/s", "> 0");
+  require(o.range_resolution >= 0, bottom_call, "range_resolution", o.range_resolution, "m", ">= 0");
+  if (o.profile) require_valid(*o.profile, bottom_call);
   if (ping.split_phase.size() > 0 &&
       (ping.split_phase.rows() != ping.pressure.rows() || ping.split_phase.cols() != ping.pressure.cols()))
-    fail(ErrorKind::argument, me, ": split_phase has ", ping.split_phase.rows(), " x ", ping.split_phase.cols(),
-         " cells, must have one for each of the pressure");
+    fail(ErrorKind::argument, bottom_call, ": split_phase has ", ping.split_phase.rows(), " x ",
+         ping.split_phase.cols(), " cells, must have one for each of the pressure");
   if (ping.expected_level)
-    fail(ErrorKind::argument, me, ": ping ", ping.number, " is an expected level, without the samples of an echo; ",
-         "simulate it with another method");
+    fail(ErrorKind::argument, bottom_call, ": ping ", ping.number,
+         " is an expected level, without the samples of an echo; ", "simulate it with another method");
 }
 
 }  // namespace
