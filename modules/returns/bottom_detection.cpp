@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* bottom_call = "detect_bottom";
 constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
-constexpr double steepest = 1.3;  // [rad] from the vertical, of the footprint that is assumed at first
-constexpr int neighbours = 3;     // beams on either side whose ranges give dr/du
+constexpr double steepest_view = 1.3;  // [rad] from the vertical, of the footprint that is assumed at first
+constexpr int neighbours = 3;          // beams on either side whose ranges give dr/du
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 /// A found echo of a beam.
@@ -90,7 +90,7 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
     cosine_.push_back(std::cos(ping.fan.elevation[b]) * std::sin(ping.fan.azimuth[b]));
     const Eigen::Vector3d axis =
         ping.world_from_head.linear() * unit_vector({ping.fan.azimuth[b], ping.fan.elevation[b]});
-    down_.push_back(std::min(steepest, std::acos(std::clamp(std::abs(axis.z()), 0.0, 1.0))));
+    down_.push_back(std::min(steepest_view, std::acos(std::clamp(std::abs(axis.z()), 0.0, 1.0))));
   }
 }
 
