@@ -11,7 +11,7 @@ declare -A why=(
   [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
   [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
-  [libx11-dev]="the viewer's window"
+  [libx11-dev]="the viewer's window" [libgdal-dev]="rasters as scenes (GDAL; libvtk9-dev needs it too)"
 )
 if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"

@@ -14,6 +14,7 @@ find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 if(INSONIFY_SCENE_IO)
+  find_package(GDAL QUIET CONFIG)  # rasters as scenes, if it is there
   find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search features)
 endif()
 if(INSONIFY_SCENE_IO OR INSONIFY_VIEW)

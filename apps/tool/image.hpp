@@ -69,6 +69,9 @@ struct ImageRun {
 /// Error(argument) for a layer that is not in it.
 ImageRun read_image_run(const std::string& path, const std::string& layer);
 
+/// The cube of a run directory, or the path itself if it is a file. Throws Error(file) or Error(content).
+std::string run_cube_path(const std::string& run);
+
 /// Reads the cube of a run directory, or a cube file; errors as read_image_run.
 Cube read_run_cube(const std::string& path);
 

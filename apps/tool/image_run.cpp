@@ -16,15 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The cube of a run directory, or the path itself if it is a file.
-std::string cube_path(const std::string& run) {
-  if (!fs::exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
-  if (!fs::is_directory(run)) return run;
-  std::string path = run + "/cube.h5";
-  if (!fs::exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
-  return path;
-}
-
 /// Replaces the pressure of a ping by one of its layers.
 void take_layer(Ping& ping, const std::string& name, const std::string& run) {
   const auto layer =
@@ -64,7 +55,15 @@ std::string fan_text(const BeamFan& fan) {
 
 }  // namespace
 
-Cube read_run_cube(const std::string& path) { return read_cube(cube_path(path)); }
+std::string run_cube_path(const std::string& run) {
+  if (!fs::exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
+  if (!fs::is_directory(run)) return run;
+  std::string path = run + "/cube.h5";
+  if (!fs::exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
+  return path;
+}
+
+Cube read_run_cube(const std::string& path) { return read_cube(run_cube_path(path)); }
 
 ImageRun read_image_run(const std::string& path, const std::string& layer) {
   ImageRun run{path, read_run_cube(path)};

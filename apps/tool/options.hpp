@@ -58,6 +58,7 @@ struct PingOptions {
   std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
+  bool split = false;
   int looks_range = 1, looks_pings = 1;
   int absorption_order = -1;
   double accuracy_db = 0.1;

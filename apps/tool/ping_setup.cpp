@@ -41,6 +41,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.outputs.layers = o.layers;
   s.outputs.looks_range = o.looks_range;
   s.outputs.looks_pings = o.looks_pings;
+  s.outputs.split_phase = o.split;
   s.outputs.elements = keeps(o, "elements");
   s.outputs.scatterers = keeps(o, "insonification");
   s.outputs.mask = keeps(o, "mask");

@@ -86,6 +86,9 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "contributors", "--contributors", &o.contributors, "how many of each pixel, with --keep contributors",
        contributor_numbers},
       {"ping", "layers", "--layers", &o.layers, "keep each kind of echo as a layer of the cube"},
+      {"ping", "split", "--split", &o.split,
+       "keep the phase between the halves of the array, by which soundings of the bottom are found at export; "
+       "three times the synthesis"},
       {"ping", "looks_range", "--looks-range", &o.looks_range,
        "range bins over which pictures and /intensity of the cube average", looks},
       {"ping", "looks_pings", "--looks-pings", &o.looks_pings,

@@ -5,6 +5,7 @@
 #include "returns/quantise.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
+#include "tool/export_product.hpp"
 #include "tool/image.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
@@ -16,14 +17,28 @@ namespace {
 
 struct ExportOptions {
   CommonOptions common;
-  std::string run;
-  std::string output;
+  ProductOptions product;
   bool force = false;
 };
 
 void add_options(OptionList list, ExportOptions& o) {
-  list.add("RUN", &o.run, "run directory or cube.h5", {.required = true});
-  list.add("-o,--output", &o.output, "directory to make", {.required = true});
+  ProductOptions& p = o.product;
+  list.add("RUN", &p.run, "run directory, survey or cube.h5", {.required = true});
+  list.add("-o,--output", &p.output, "file to write; of vtk: directory to make", {.required = true});
+  list.add(
+      "--to", &p.to,
+      "vtk: grids for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 in UTM, or "
+      "geotiff: a grid in UTM; mcap: images, points and poses as messages of ROS 2",
+      {.words = {"vtk", "gsf", "las", "geotiff", "mcap"}});
+  list.add("--anchor", &p.anchor,
+           "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: the mission's");
+  list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
+  list.add("--start-utc", &p.start_utc, "of time 0, as 2026-05-01T08:30:00Z; default: the mission's, else 1970");
+  list.add("--head", &p.head, "of a survey with several heads");
+  list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
+  list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy (gsf has one)",
+           {.within = std::pair(1, 100), .shown_as = "INT"});
+  list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
   list.add("--force", &o.force, "replace an existing directory of an earlier export");
   add_common(list, o.common, false);
 }
@@ -41,15 +56,18 @@ std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m)
         {"level_db_" + layer.name, level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure})});
   if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping)});
   if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db});
+  if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase});
   if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
   return fields;
 }
 
-void export_run(const ExportOptions& o) {
-  Progress progress(o.common, 2);
+void export_run(const ExportOptions& options) {
+  if (options.product.to != "vtk") return export_product(options.product, options.common);
+  const ProductOptions& o = options.product;
+  Progress progress(options.common, 2);
   progress.step("reading " + o.run);
   const Cube cube = read_run_cube(o.run);
-  RunDirectory directory(o.output, o.force);
+  RunDirectory directory(o.output, options.force);
 
   progress.step("writing " + o.output);
   std::vector<SeriesEntry> fans, images;
@@ -79,9 +97,11 @@ void export_run(const ExportOptions& o) {
 
 Verb export_verb() {
   return make_verb<ExportOptions>(
-      "export", "a run for ParaView and other VTK programs: .vts, .vti and .pvd",
-      {"insonify export out -o out-vtk", "insonify export survey -o vtk && paraview vtk/fan.pvd"}, add_options,
-      export_run);
+      "export", "a run for other programs: ParaView, hydrography, GIS, ROS",
+      {"insonify export out -o out-vtk", "insonify export survey -o vtk && paraview vtk/fan.pvd",
+       "insonify export survey --to gsf --anchor 54.1,7.9,90 -o survey.gsf",
+       "insonify export out --to mcap -o out.mcap"},
+      add_options, export_run);
 }
 
 }  // namespace insonify::tool

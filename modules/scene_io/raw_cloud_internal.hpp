@@ -115,6 +115,8 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options);
 RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
 RawCloud read_las(const std::string& path, const ReadOptions& options);
-RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp, .stl
+RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< of heights, by GDAL
+RawCloud read_asc(const std::string& path, const ReadOptions& options);     ///< text, or an ESRI ASCII grid
+RawCloud read_vtk(const std::string& path, const ReadOptions& options);     ///< .vtk, .vtp, .stl
 
 }  // namespace insonify

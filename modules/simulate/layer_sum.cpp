@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <complex>
 #include <numbers>
 #include <utility>
@@ -9,13 +10,18 @@
 namespace insonify {
 
 LayerSum::LayerSum(const ResolvedPing& ping)
-    : ping_(ping), incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {}
+    : ping_(ping), incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
+  if (ping.options.outputs.split_phase) split_ = split_aperture(ping.head, "simulate_ping");
+}
 
 void LayerSum::add(const std::string& name, const Echoes& echoes) {
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
   const double tolerance = o.synthesis.tolerance;
   add_pressure(name, echoes.size(), synthesize(echoes, ping_.head, medium, o.synthesis.method, {tolerance, o.threads}));
+  add_halves([&](const SplitAperture& split, ApertureSide side) {
+    return half_pressure(echoes, split, side, medium, {std::max(tolerance, min_gridding_tolerance), o.threads});
+  });
   if (!o.outputs.elements) return;
   ElementSeries series = element_series(echoes, ping_.head, medium, {tolerance, Wavefront::spherical, o.threads});
   if (elements_.pressure.size() > 0) series.pressure += elements_.pressure;
@@ -25,9 +31,12 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
 void LayerSum::add(const std::string& name, const EchoSource& source) {
   if (source.stored) return add(name, *source.stored);
   const SimulationOptions& o = ping_.options;
-  add_pressure(
-      name, source.size(),
-      synthesize(source, ping_.head, ping_.sent.medium, o.synthesis.method, {o.synthesis.tolerance, o.threads}));
+  const Medium& medium = ping_.sent.medium;
+  const SynthesisOptions synthesis{o.synthesis.tolerance, o.threads};
+  add_pressure(name, source.size(), synthesize(source, ping_.head, medium, o.synthesis.method, synthesis));
+  add_halves([&](const SplitAperture& split, ApertureSide side) {
+    return half_pressure(source, split, side, medium, synthesis);
+  });
 }
 
 void LayerSum::add_noise() {
@@ -38,6 +47,22 @@ void LayerSum::add_noise() {
                incoherent_
                    ? ComplexGrid(ComplexGrid::Constant(head.fan.beams(), head.gate.bins(), root_mean_square))
                    : synthesize_noise(head, ping_.sent.medium, ping_.element_noise_db, {o.seed, o.ping, o.threads}));
+  add_halves([&](const SplitAperture& split, ApertureSide side) {
+    return synthesize_noise(with_one_half(head, split, side), ping_.sent.medium, ping_.element_noise_db,
+                            {o.seed, o.ping, o.threads});
+  });
+}
+
+void LayerSum::add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image) {
+  if (!split_) return;
+  for (const ApertureSide side : {ApertureSide::port, ApertureSide::starboard}) {
+    ComplexGrid& sum = side == ApertureSide::port ? port_ : starboard_;
+    ComplexGrid pressure = image(*split_, side);
+    if (sum.size() == 0)
+      sum = std::move(pressure);
+    else
+      sum += pressure;
+  }
 }
 
 void LayerSum::add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure) {
@@ -56,6 +81,7 @@ void LayerSum::finish(SimulatedPing& result) {
                  ping_.head.fan,     ping_.head.gate,    stored_pressure(sum_, "simulate_ping"),
                  std::move(layers_)};
   result.ping.expected_level = incoherent_;
+  if (split_) result.ping.split_phase = phase_between(port_, starboard_);
   result.layers = std::move(report_);
   result.elements = std::move(elements_);
 }

@@ -1,8 +1,11 @@
 #pragma once
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "acoustics/echo_source.hpp"
+#include "beamforming/split_aperture.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 
@@ -27,10 +30,14 @@ class LayerSum {
 
  private:
   void add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure);
+  /// Adds what `image` gives of either half of a split aperture, if its phase is asked for.
+  void add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image);
 
   const ResolvedPing& ping_;
   bool incoherent_;
   ComplexGrid sum_;
+  std::optional<SplitAperture> split_;
+  ComplexGrid port_, starboard_;  // the sums of the halves
   std::vector<Layer> layers_;
   std::vector<LayerReport> report_;
   ElementSeries elements_;

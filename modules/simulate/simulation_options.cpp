@@ -86,6 +86,8 @@ void require_valid(const SimulationOptions& o, const char* who) {
                   o.outputs.looks_pings, "1 with method incoherent: an expected intensity has no looks to average");
   outputs.require(!(o.outputs.elements && o.synthesis.method == SynthesisMethod::incoherent), "elements", "true",
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
+  outputs.require(!(o.outputs.split_phase && o.synthesis.method == SynthesisMethod::incoherent), "split_phase", "true",
+                  "false with method incoherent: an expected intensity has no phase; use gridded");
   const Checker top{who, ""};
   top.require(o.accuracy_db > 0 && o.accuracy_db <= most_accuracy_db, "accuracy_db", o.accuracy_db,
               "above 0 and at most 20 dB");

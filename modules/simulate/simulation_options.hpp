@@ -67,7 +67,8 @@ struct OutputSettings {
   /// and so are noise and relief: as of a head that moves by half its aperture from pulse to pulse, or of a bottom that
   /// does not keep still. A head at rest before a rigid scene has one look, however many pulses it sends.
   int looks_range = 1, looks_pings = 1;
-  int contributors = 0;  ///< so many of the strongest surfels of every pixel (E63), at most 255
+  bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
+  int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255
 };
 
 /// All that can be chosen for a ping of a given head, place and environment.

@@ -18,6 +18,7 @@ constexpr const char* layers_group = "/layers";
 constexpr DatasetName intensity_name{"/intensity", "Pa^2"};
 constexpr DatasetName level_error_name{"/level_error_db", "dB"};
 constexpr DatasetName unknown_name{"/unknown", ""};
+constexpr DatasetName split_phase_name{"/split_phase", "rad"};
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.
 constexpr const char* expected_level_attribute = "expected_level";
 constexpr const char* expected_level_text = "expected level, no speckle";

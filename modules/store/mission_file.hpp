@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/geodesy.hpp"
 #include "simulate/mission.hpp"
 
 namespace insonify {
-
-/// Where the origin of the world is, and which way its x axis points: for products with coordinates of the globe.
-struct Anchor {
-  double latitude_deg = 0, longitude_deg = 0;
-  double heading_deg = 0;  ///< of the world's x axis, clockwise from north
-};
 
 /// Which sonar a head of the mission is.
 struct MissionSonar {

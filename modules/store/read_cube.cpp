@@ -158,6 +158,7 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
   read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::intensity);
   read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::level_error_db);
   read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, &Ping::unknown);
+  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::split_phase);
   return pings;
 }
 

@@ -37,6 +37,7 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   require(ping.intensity, first.intensity, "intensity");
   require(ping.level_error_db, first.level_error_db, "level_error_db");
   require(ping.unknown, first.unknown, "unknown");
+  require(ping.split_phase, first.split_phase, "split_phase");
   if (ping.scan.has_value() != first.scan.has_value())
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
          " is of a scanning head; write it to a cube of its own");
@@ -119,6 +120,7 @@ void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) 
   write(intensity_name, &Ping::intensity);
   write(level_error_name, &Ping::level_error_db);
   write(unknown_name, &Ping::unknown);
+  write(split_phase_name, &Ping::split_phase);
 }
 
 void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {

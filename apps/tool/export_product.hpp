@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+
+#include "tool/options.hpp"
+
+namespace insonify::tool {
+
+/// Options of `export --to gsf|las|mcap|geotiff`.
+struct ProductOptions {
+  std::string to = "vtk", run, output;
+  std::string head;                    ///< of a survey with several
+  std::string anchor, utm, start_utc;  ///< where and when; empty: as the mission says
+  double cell = 0.5;                   ///< of a raster [m]
+  int per_beam = 1;                    ///< soundings of a beam
+  bool linear = false;                 ///< images of pressure in 32 bits
+};
+
+/// Writes the pings of a run, one after the other, as a file of another program. Throws Error(argument) for a product with
+/// coordinates of the globe if neither options nor mission say where the world is, Error(content) for a survey that is
+/// not complete or has several heads, as read_cube for damaged cubes, and Error(file) if it cannot write.
+void export_product(const ProductOptions& options, const CommonOptions& common);
+
+}  // namespace insonify::tool

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/geodesy.hpp"
+#include "core/pending_file.hpp"
+
+namespace insonify {
+
+/// Well-known text (OGC 01-009) of a UTM zone on WGS 84, with its EPSG codes.
+std::string utm_wkt(const UtmZone& zone);
+
+/// A point of a LAS file.
+struct LasPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< easting, northing, height [m]
+  double time = 0;                                     ///< UTC, seconds since 1970
+  float level_db = 0;                                  ///< dB re 1 uPa
+  float deviation = 0;                                 ///< of the range [m]
+  std::uint32_t ping = 0;
+  std::uint16_t beam = 0;
+};
+
+/// Writes points as LAS 1.4 (ASPRS 2019), point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB
+/// from 0, class 40 (bathymetric point), adjusted GPS time (leap seconds left out), and level_db, deviation, ping and beam
+/// as extra bytes; the zone as well-known text. Points stream: only the header is written twice.
+class LasFile {
+ public:
+  /// Throws Error(file) if the file cannot be made. `offset` [m] is subtracted from coordinates, which may be up to
+  /// 214 km from it.
+  LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset);
+  /// Throws Error(content) for a point that is not finite or too far from the offset.
+  void add(const LasPoint& point);
+  /// Throws Error(file) if not all could be written.
+  void finish();
+
+ private:
+  std::string header() const;
+
+  PendingFile pending_;
+  std::ofstream out_;
+  std::string wkt_;
+  Eigen::Vector3d offset_;
+  std::uint64_t points_ = 0;
+  Eigen::Vector3d least_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d most_ = -least_;
+};
+
+}  // namespace insonify

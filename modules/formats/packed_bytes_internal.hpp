@@ -1,0 +1,51 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+// Private to formats: numbers as bytes of files.
+namespace insonify {
+
+static_assert(std::endian::native == std::endian::little, "insonify: files are packed on little-endian machines");
+
+/// Appends a number, lowest byte first.
+template <typename Number>
+void put_little(std::string& bytes, Number number) {
+  const auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  bytes.append(raw.data(), raw.size());
+}
+
+/// Appends a number, highest byte first.
+template <typename Number>
+void put_big(std::string& bytes, Number number) {
+  auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.data(), raw.size());
+}
+
+/// Appends text in a field of `length` bytes, zero-filled; longer text is cut.
+inline void put_field(std::string& bytes, std::string_view text, std::size_t length) {
+  bytes.append(text.substr(0, length));
+  bytes.append(length - std::min(length, text.size()), '\0');
+}
+
+/// CRC-32 of IEEE 802.3, of bytes that follow others whose value is `before`.
+inline std::uint32_t crc_32(std::string_view bytes, std::uint32_t before = 0) {
+  static const auto table = [] {
+    std::array<std::uint32_t, 256> t{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      t[i] = i;
+      for (int k = 0; k < 8; ++k) t[i] = (t[i] >> 1) ^ (t[i] & 1 ? 0xedb88320u : 0u);
+    }
+    return t;
+  }();
+  std::uint32_t crc = ~before;
+  for (const char c : bytes) crc = (crc >> 8) ^ table[(crc ^ static_cast<std::uint8_t>(c)) & 0xffu];
+  return ~crc;
+}
+
+}  // namespace insonify

@@ -1,0 +1,222 @@
+#include "formats/ros_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/error.hpp"
+#include "formats/packed_bytes_internal.hpp"
+#include "returns/looks.hpp"
+
+namespace insonify {
+namespace {
+
+/// A message being packed: every number is aligned to its size, counted from behind the four bytes of the head.
+class CdrMessage {
+ public:
+  template <typename Number>
+  void put(Number number) {
+    bytes_.append((sizeof(Number) - (bytes_.size() - 4) % sizeof(Number)) % sizeof(Number), '\0');
+    put_little(bytes_, number);
+  }
+  void text(const std::string& text) {
+    count(text.size() + 1);
+    bytes_.append(text).push_back('\0');
+  }
+  void count(std::size_t number) { put(static_cast<std::uint32_t>(number)); }
+  void vector(const Eigen::Vector3d& v) { put(v.x()), put(v.y()), put(v.z()); }
+  void header(std::uint64_t time, const std::string& frame) {
+    put(static_cast<std::int32_t>(time / 1000000000));
+    put(static_cast<std::uint32_t>(time % 1000000000));
+    text(frame);
+  }
+  std::string& raw() { return bytes_; }
+
+ private:
+  std::string bytes_{'\0', '\1', '\0', '\0'};
+};
+
+const std::string part_line = std::string(80, '=') + "\nMSG: ";
+const std::string header_part = part_line + "std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n" +
+                                part_line + "builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
+const std::string vector_part = part_line + "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
+constexpr std::uint32_t dtype_uint8 = 0, dtype_uint32 = 4;
+constexpr std::uint8_t float32_field = 7;
+
+void require_one_row(const Ping& ping, const char* who) {
+  if (fan_rows(ping.fan).size() > 1)
+    fail(ErrorKind::content, who, ": ping ", ping.number, " has several rows of beams, must have one");
+}
+
+Grid<std::uint8_t> greys_of(const Ping& ping, const Tvg& tvg, const GreyWindow& window) {
+  return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
+}
+
+}  // namespace
+
+RosType projected_sonar_image_type() {
+  return {"marine_acoustic_msgs/msg/ProjectedSonarImage",
+          "std_msgs/Header header\nmarine_acoustic_msgs/PingInfo ping_info\n"
+          "geometry_msgs/Vector3[] beam_directions\nfloat32[] ranges\nmarine_acoustic_msgs/SonarImageData image\n" +
+              header_part + part_line +
+              "marine_acoustic_msgs/PingInfo\nfloat32 frequency\nfloat32 sound_speed\nfloat32[] tx_beamwidths\n"
+              "float32[] rx_beamwidths\n" +
+              vector_part + part_line +
+              "marine_acoustic_msgs/SonarImageData\nuint32 DTYPE_UINT8=0\nuint32 DTYPE_INT8=1\nuint32 DTYPE_UINT16=2\n"
+              "uint32 DTYPE_INT16=3\nuint32 DTYPE_UINT32=4\nuint32 DTYPE_INT32=5\nuint32 DTYPE_UINT64=6\n"
+              "uint32 DTYPE_INT64=7\nuint32 DTYPE_FLOAT32=8\nuint32 DTYPE_FLOAT64=9\nbool is_bigendian\nuint32 dtype\n"
+              "uint32 beam_count\nuint8[] data\n"};
+}
+
+RosType image_type() {
+  return {"sensor_msgs/msg/Image",
+          "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\n"
+          "uint8[] data\n" +
+              header_part};
+}
+
+RosType point_cloud_type() {
+  return {"sensor_msgs/msg/PointCloud2",
+          "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n"
+          "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n" +
+              header_part + part_line +
+              "sensor_msgs/PointField\nuint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\n"
+              "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\n"
+              "uint32 count\n"};
+}
+
+RosType transforms_type() {
+  return {"tf2_msgs/msg/TFMessage",
+          "geometry_msgs/TransformStamped[] transforms\n" + part_line +
+              "geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
+              "geometry_msgs/Transform transform\n" +
+              header_part + part_line +
+              "geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n"
+              "geometry_msgs/Quaternion rotation\n" +
+              vector_part + part_line + "geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"};
+}
+
+std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double frequency, double sound_speed,
+                                  const Tvg& tvg, const SonarImageScale& scale) {
+  require_one_row(ping, "projected_sonar_image");
+  CdrMessage message;
+  message.header(time, "head_sonar");
+  message.put(static_cast<float>(frequency));
+  message.put(static_cast<float>(sound_speed));
+  for (const double width : {ping.fan.elevation_width, ping.fan.beam_width}) {
+    message.count(ping.fan.beams());
+    for (std::size_t b = 0; b < ping.fan.beams(); ++b) message.put(static_cast<float>(width));
+  }
+  message.count(ping.fan.beams());
+  for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
+    const Eigen::Vector3d ahead = unit_vector({ping.fan.azimuth[b], ping.fan.elevation[b]});
+    message.vector({ahead.z(), -ahead.y(), ahead.x()});  // up, starboard, forward
+  }
+  message.count(ping.gate.bins());
+  for (std::size_t n = 0; n < ping.gate.bins(); ++n) message.put(static_cast<float>(ping.gate.centre(n)));
+
+  message.put(std::uint8_t{0});  // little-endian
+  message.put(scale.linear ? dtype_uint32 : dtype_uint8);
+  message.count(ping.fan.beams());
+  std::string data;
+  if (scale.linear) {
+    for (Eigen::Index n = 0; n < ping.pressure.cols(); ++n)
+      for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b)
+        put_little(data, static_cast<std::uint32_t>(
+                             4294967295.0 *
+                             std::min(1.0, static_cast<double>(std::abs(ping.pressure(b, n))) / scale.full_scale)));
+  } else {
+    const Grid<std::uint8_t> grey = greys_of(ping, tvg, scale.window);
+    for (Eigen::Index n = 0; n < grey.cols(); ++n)
+      for (Eigen::Index b = 0; b < grey.rows(); ++b) data.push_back(static_cast<char>(grey(b, n)));
+  }
+  message.count(data.size());
+  message.raw() += data;
+  return message.raw();
+}
+
+std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height) {
+  require_one_row(ping, "fan_image");
+  const Grid<std::uint8_t> grey = greys_of(ping, tvg, window);
+  std::vector<std::size_t> order(ping.fan.beams());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return ping.fan.azimuth[a] < ping.fan.azimuth[b]; });
+  const double half = ping.fan.beam_width / 2;
+  const double port = ping.fan.azimuth[order.back()] + half, starboard = ping.fan.azimuth[order.front()] - half;
+  const double far = ping.gate.max_range, step = far / height;
+  const double side = far * std::sin(std::min(std::max(std::abs(port), std::abs(starboard)), std::numbers::pi / 2));
+  const int width = std::max(1, 2 * static_cast<int>(std::ceil(side / step)));
+
+  std::string pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), '\0');
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const double x = (height - row - 0.5) * step, y = (width / 2 - column - 0.5) * step;
+      const double range = std::hypot(x, y), azimuth = std::atan2(y, x);
+      const double bin = std::floor((range - ping.gate.min_range) / ping.gate.bin_size);
+      if (azimuth > port || azimuth < starboard || bin < 0 || bin >= static_cast<double>(grey.cols())) continue;
+      auto next = std::lower_bound(order.begin(), order.end(), azimuth,
+                                   [&](std::size_t b, double a) { return ping.fan.azimuth[b] < a; });
+      if (next == order.end() ||
+          (next != order.begin() && azimuth - ping.fan.azimuth[*(next - 1)] < ping.fan.azimuth[*next] - azimuth))
+        --next;
+      pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] =
+          static_cast<char>(grey(static_cast<Eigen::Index>(*next), static_cast<Eigen::Index>(bin)));
+    }
+  CdrMessage message;
+  message.header(time, "head");
+  message.count(static_cast<std::size_t>(height));
+  message.count(static_cast<std::size_t>(width));
+  message.text("mono8");
+  message.put(std::uint8_t{0});
+  message.count(static_cast<std::size_t>(width));
+  message.count(pixels.size());
+  message.raw() += pixels;
+  return message.raw();
+}
+
+std::string point_cloud(std::span<const Eigen::Vector3d> positions, std::span<const float> level_db,
+                        const Eigen::Vector3d& origin, std::uint64_t time) {
+  CdrMessage message;
+  message.header(time, "world");
+  message.count(1);
+  message.count(positions.size());
+  message.count(4);
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    message.text(std::array{"x", "y", "z", "intensity"}[k]);
+    message.put(4 * k);
+    message.put(float32_field);
+    message.count(1);
+  }
+  message.put(std::uint8_t{0});  // little-endian
+  message.count(16);
+  message.count(16 * positions.size());
+  message.count(16 * positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      put_little(message.raw(), static_cast<float>(positions[i][axis] - origin[axis]));
+    put_little(message.raw(), level_db[i]);
+  }
+  message.put(std::uint8_t{1});  // all are finite
+  return message.raw();
+}
+
+std::string head_transforms(const Pose& world_from_head, const Eigen::Vector3d& origin, std::uint64_t time) {
+  CdrMessage message;
+  const auto put_transform = [&](const char* parent, const char* child, const Eigen::Vector3d& place,
+                                 const Eigen::Matrix3d& turn) {
+    message.header(time, parent);
+    message.text(child);
+    message.vector(place);
+    const Eigen::Quaterniond q(turn);
+    message.put(q.x()), message.put(q.y()), message.put(q.z()), message.put(q.w());
+  };
+  Eigen::Matrix3d head_from_sonar;  // columns: up, starboard, forward
+  head_from_sonar << 0, 0, 1, 0, -1, 0, 1, 0, 0;
+  message.count(2);
+  put_transform("world", "head", world_from_head.translation() - origin, world_from_head.linear());
+  put_transform("head", "head_sonar", Eigen::Vector3d::Zero(), head_from_sonar);
+  return message.raw();
+}
+
+}  // namespace insonify

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/units.hpp"
+#include "returns/bottom_fits_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double prior_looks = 16;    // that the expected variance of a fit counts for
+constexpr double fewest_cells = 8;    // independent samples of a fit of phases
+constexpr double most_cells = 64;     // of its last pass: over more the line would bend
+constexpr double phase_reach = 0.8;   // of it, in half-power reaches: within, phases are far from +-pi
+constexpr double widths_of_echo = 3;  // standard deviations on either side of a centre of gravity
+constexpr double cell_of_pulse =
+    3.545;  // 2 sqrt(pi): effective independent spacing, in standard deviations of the pulse
+
+/// Bins within `reach` of `centre`, first and behind the last.
+std::pair<std::size_t, std::size_t> bins_within(const BottomBeam& beam, double centre, double reach) {
+  const double count = static_cast<double>(beam.intensity.size());
+  const double low = std::ceil((centre - reach - beam.first) / beam.step);
+  const double high = std::floor((centre + reach - beam.first) / beam.step) + 1;
+  return {static_cast<std::size_t>(std::clamp(low, 0.0, count)),
+          static_cast<std::size_t>(std::clamp(high, 0.0, count))};
+}
+
+double wrapped(double phase) { return std::remainder(phase, 2 * pi); }
+
+/// A line of phase over range: phase = at_centre + slope (r - centre).
+struct PhaseLine {
+  double centre = 0, at_centre = 0, slope = 0;
+  double at(double r) const { return at_centre + slope * (r - centre); }
+};
+
+/// The line by pulse pairs: the slope from phases a quarter of the interval apart, then the offset of all.
+PhaseLine first_line(const BottomBeam& beam, std::size_t begin, std::size_t end, double centre) {
+  const std::size_t lag = std::max<std::size_t>(1, (end - begin) / 4);
+  std::complex<double> pairs = 0, all = 0;
+  for (std::size_t n = begin; n + lag < end; ++n)
+    pairs += std::polar(std::sqrt(beam.intensity[n] * beam.intensity[n + lag]),
+                        static_cast<double>(beam.phase[n + lag]) - static_cast<double>(beam.phase[n]));
+  PhaseLine line{centre, 0, std::arg(pairs) / (static_cast<double>(lag) * beam.step)};
+  for (std::size_t n = begin; n < end; ++n)
+    all += std::polar(beam.intensity[n], static_cast<double>(beam.phase[n]) - line.at(beam.range(n)));
+  line.at_centre = std::arg(all);
+  return line;
+}
+
+/// Weighted sums over an interval, of a fitted line.
+struct PhaseSums {
+  double weight = 0, x = 0, xx = 0, y = 0, xy = 0, squares = 0;
+};
+
+PhaseSums sums_about(const BottomBeam& beam, std::size_t begin, std::size_t end, const PhaseLine& line) {
+  PhaseSums s;
+  for (std::size_t n = begin; n < end; ++n) {
+    const double w = beam.intensity[n], x = beam.range(n) - line.centre;
+    const double y = wrapped(static_cast<double>(beam.phase[n]) - line.at(beam.range(n)));
+    s.weight += w, s.x += w * x, s.xx += w * x * x, s.y += w * y, s.xy += w * x * y, s.squares += w * w;
+  }
+  return s;
+}
+
+/// Least squares of the residuals, about the weighted middle of the interval.
+PhaseLine refined(const BottomBeam& beam, std::size_t begin, std::size_t end, PhaseLine line) {
+  const PhaseSums s = sums_about(beam, begin, end, line);
+  const double middle = s.x / s.weight, spread = s.xx - s.x * middle;
+  const double slope = spread > 0 ? (s.xy - s.y * middle) / spread : 0;
+  return {line.centre + middle, line.at_centre + line.slope * middle + s.y / s.weight, line.slope + slope};
+}
+
+/// Variances of offset and slope of a fit from its residuals, which are correlated over the length of a pulse. (E95)
+std::pair<double, double> variances_of(const BottomBeam& beam, std::size_t begin, std::size_t end,
+                                       const PhaseLine& line, double cells) {
+  const auto correlated = static_cast<std::size_t>(std::ceil(cell_of_pulse / 2 * 1.5 * cells));
+  std::vector<double> offset, slope;
+  double weight = 0, spread = 0;
+  for (std::size_t n = begin; n < end; ++n) {
+    const double w = beam.intensity[n], x = beam.range(n) - line.centre;
+    const double e = w * wrapped(static_cast<double>(beam.phase[n]) - line.at(beam.range(n)));
+    offset.push_back(e), slope.push_back(e * x);
+    weight += w, spread += w * x * x;
+  }
+  const auto sum_of = [&](const std::vector<double>& v) {
+    double sum = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+      for (std::size_t j = i; j < std::min(v.size(), i + correlated + 1); ++j)
+        sum += (i == j ? 1 : 2) * (1 - static_cast<double>(j - i) / static_cast<double>(correlated + 1)) * v[i] * v[j];
+    return std::max(0.0, sum);
+  };
+  return {sum_of(offset) / (weight * weight), sum_of(slope) / (spread * spread)};
+}
+
+/// Variance of the phase of one look [rad^2]: (1 - g^2) / 2 g^2, g the coherence of the halves, which see the angles of a
+/// pulse's length at once and have noise of their own. (E95)
+double variance_of_looks(const BottomBeam& beam, const BottomEcho& echo, double slope, double mean_intensity) {
+  const double turn = slope * echo.pulse_deviation;
+  const double noise = 2 * beam.noise / std::max(mean_intensity - beam.noise, 0.01 * mean_intensity);
+  const double coherence = std::exp(-0.5 * turn * turn) / (1 + noise);
+  return (1 - coherence * coherence) / (2 * coherence * coherence);
+}
+
+}  // namespace
+
+BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start) {
+  const double pulse = echo.pulse_deviation * echo.pulse_deviation;
+  const double footprint = echo.footprint_deviation * echo.footprint_deviation;
+  const double reach = std::max(widths_of_echo * std::sqrt(pulse + footprint), 1.01 * beam.step);
+  double centre = start, sum = 0, square = 0;
+  for (int pass = 0; pass < 6; ++pass) {
+    const auto [begin, end] = bins_within(beam, centre, reach);
+    double moment = 0;
+    sum = square = 0;
+    for (std::size_t n = begin; n < end; ++n) {
+      const double x = beam.range(n) - centre;
+      sum += beam.compensated[n], moment += x * beam.compensated[n], square += x * x;
+    }
+    if (!(sum > 0) || !(std::abs(moment / sum) < reach)) return {start, infinite};
+    centre += moment / sum;
+    if (std::abs(moment / sum) < 1e-3 * beam.step) break;
+  }
+  const double speckle = 0.5 * footprint / std::sqrt(1 + footprint / pulse);  // (E94)
+  // Noise: of its own square, and of its product with the echo, bins as long as a pulse being independent.
+  const double at = beam.first + beam.step * std::round((centre - beam.first) / beam.step);
+  const auto nearest = static_cast<std::size_t>(
+      std::clamp((at - beam.first) / beam.step, 0.0, static_cast<double>(beam.intensity.size() - 1)));
+  const double gain = beam.compensated[nearest] / (beam.intensity[nearest] - beam.noise);
+  const double noise = beam.noise * (std::isfinite(gain) ? std::abs(gain) : 0);
+  const double cells = std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
+  const double from_noise = cells * (noise * noise * square / (sum * sum) + 2 * noise * (pulse + footprint) / sum);
+  return {centre, std::sqrt(speckle + from_noise)};
+}
+
+BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start) {
+  if (beam.phase.empty()) return {start, infinite};
+  const double cells = cell_of_pulse * echo.pulse_deviation / beam.step;  // bins in an independent sample
+  const double widest = phase_reach * echo.half_power_reach;
+  const double narrowest = std::min(widest, 0.5 * most_cells * std::max(1.0, cells) * beam.step);
+  double centre = start;
+  PhaseLine line;
+  std::size_t begin = 0, end = 0;
+  for (int pass = 0; pass < 4; ++pass) {
+    std::tie(begin, end) = bins_within(beam, centre, pass < 2 ? widest : narrowest);
+    if (static_cast<double>(end - std::min(begin, end)) < fewest_cells * std::max(1.0, cells)) return {start, infinite};
+    line = first_line(beam, begin, end, centre);
+    for (int step = 0; step < 3; ++step) line = refined(beam, begin, end, line);
+    const double crossing = line.centre - wrapped(line.at_centre) / line.slope;
+    if (!(std::abs(crossing - start) < 2 * echo.half_power_reach)) return {start, infinite};
+    centre = crossing;
+  }
+  const PhaseSums s = sums_about(beam, begin, end, line);
+  const double independent = s.weight * s.weight / s.squares / std::max(1.0, cells);
+  if (!(independent > 2.5)) return {start, infinite};
+  const auto [of_offset, of_slope] = variances_of(beam, begin, end, line, std::max(1.0, cells));
+  const double away = centre - line.centre;
+  const double residual = of_offset + away * away * of_slope;
+  // What theory expects of so many looks, as far as the fit has too few to judge itself; speckle halves `independent`, but
+  // not the precision, since phases are the better known the stronger they are.
+  const double expected = variance_of_looks(beam, echo, line.slope, s.weight / static_cast<double>(end - begin));
+  const double spread = 1 + away * away * s.weight / std::max(s.xx, 1e-30);
+  const double variance = (independent * residual + prior_looks * expected * spread / (2 * independent)) /
+                          (independent + prior_looks) / (line.slope * line.slope);  // (E95)
+  return {centre, std::sqrt(variance)};
+}
+
+}  // namespace insonify

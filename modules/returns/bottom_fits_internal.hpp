@@ -1,0 +1,39 @@
+#pragma once
+#include <cstddef>
+#include <span>
+
+namespace insonify {
+
+/// One beam's samples for bottom detection; all spans have one entry per bin.
+struct BottomBeam {
+  std::span<const double> intensity;    ///< [Pa^2]
+  std::span<const double> compensated;  ///< times r^4 and absorption, noise subtracted; may be negative
+  std::span<const float> phase;         ///< between the halves [rad]; empty: none
+  double noise = 0;                     ///< mean intensity [Pa^2]
+  double first = 0, step = 0;           ///< range of bin 0 and between bins [m]
+
+  double range(std::size_t n) const { return first + static_cast<double>(n) * step; }
+};
+
+/// What is known of the echo of a smooth bottom in a beam.
+struct BottomEcho {
+  double pulse_deviation = 0;      ///< standard deviation of the pulse's intensity in range [m]
+  double footprint_deviation = 0;  ///< of the ranges that the beam sees, weighted by its pattern [m]
+  double half_power_reach = 0;     ///< half the range between the beam's -3 dB directions [m]
+};
+
+/// An estimate of a range with its standard deviation [m]; infinite if there is none.
+struct BottomEstimate {
+  double range = 0, deviation = 0;
+};
+
+/// The centre of gravity near `start` and its predicted deviation (E94). With speckle of a pulse of standard deviation s_p
+/// (in intensity) from a footprint of standard deviation s_f its variance is (s_f^2 / 2) / sqrt(1 + s_f^2 / s_p^2), to
+/// which noise adds.
+BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start);
+
+/// Where the line through the phases near `start`, weighted by intensity, crosses zero, and its deviation from the
+/// residuals of the fit and the coherence of so many looks (E95): infinite with fewer than eight independent samples, or a crossing outside of the beam. Of many samples the last fit takes the 64 nearest, over which a bottom is straight enough.
+BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start);
+
+}  // namespace insonify

@@ -1,0 +1,150 @@
+// Heights of GeoTIFF, BAG, netCDF, GMT and ESRI ASCII grids through GDAL. Without GDAL all are refused, with a remedy.
+#include <cctype>
+#include <cmath>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/geodesy.hpp"
+#include "core/units.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+
+#ifdef INSONIFY_GDAL
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+#endif
+
+namespace insonify {
+
+#ifndef INSONIFY_GDAL
+
+RawCloud read_raster(const std::string& path, const ReadOptions&) {
+  fail(ErrorKind::content, path,
+       ": is a raster, which this build cannot read: GDAL was not found; install libgdal-dev and build again, or "
+       "convert "
+       "it: gdal2xyz.py -csv in.tif out.xyz");
+}
+
+#else
+
+namespace {
+
+constexpr double most_raster_cells = 0x1p28;
+const char* const raster_drivers[] = {"GTiff", "BAG", "netCDF", "GMT", "AAIGrid", "GSBG", "GS7BG", nullptr};
+
+/// Keeps GDAL from printing; its last message is part of ours.
+struct QuietGdal {
+  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
+  ~QuietGdal() { CPLPopErrorHandler(); }
+};
+
+struct CloseGdal {
+  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
+};
+using GdalFile = std::unique_ptr<void, CloseGdal>;
+
+GdalFile open_raster(const std::string& path) {
+  GDALAllRegister();
+  CPLErrorReset();
+  GdalFile file(GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, raster_drivers, nullptr, nullptr));
+  const std::string reason = CPLGetLastErrorMsg();
+  if (!file)
+    fail(ErrorKind::content, path, ": is no raster that GDAL reads, or it is cut off",
+         reason.empty() ? std::string() : " (" + reason + ")", "; it looks like ", what_it_looks_like(path));
+  if (GDALGetRasterCount(file.get()) < 1)
+    fail(ErrorKind::content, path,
+         ": holds several rasters or none; choose one: gdal_translate NETCDF:in.nc:elevation out.tif");
+  const double cells = static_cast<double>(GDALGetRasterXSize(file.get())) * GDALGetRasterYSize(file.get());
+  if (cells > most_raster_cells)
+    fail(ErrorKind::content, path, ": has ", cells,
+         " cells, must be at most 2^28; cut it out: gdal_translate -projwin WEST NORTH EAST SOUTH in.tif out.tif");
+  return file;
+}
+
+/// Metres per unit of the raster's plane. Refuses degrees.
+double metres_of(const std::string& path, GDALDatasetH file, const double (&transform)[6]) {
+  const OGRSpatialReferenceH reference = GDALGetSpatialRef(file);
+  if (!reference) return 1;
+  if (OSRIsGeographic(reference)) {
+    const double x = transform[0] + 0.5 * GDALGetRasterXSize(file) * transform[1];
+    const double y = transform[3] + 0.5 * GDALGetRasterYSize(file) * transform[5];
+    const int code = epsg_code(utm_zone_of({radians(y), radians(x), 0}));
+    fail(ErrorKind::content, path, ": is in degrees, but a scene needs metres in all directions; project it first: ",
+         "gdalwarp -t_srs EPSG:", code, " -r bilinear in.tif out.tif");
+  }
+  return OSRGetLinearUnits(reference, nullptr);
+}
+
+/// Metres per unit of the heights.
+double metres_of_heights(GDALRasterBandH band) {
+  const std::string unit = GDALGetRasterUnitType(band);
+  if (unit == "ft" || unit == "feet" || unit == "foot") return 0.3048;
+  if (unit == "US survey foot" || unit == "us-ft") return 1200.0 / 3937;
+  return 1;
+}
+
+/// x, y and z of the cells with a height, row by row [m].
+std::vector<double> raster_heights(const std::string& path, GDALDatasetH file) {
+  double at[6] = {0, 1, 0, 0, 0, 1};
+  if (GDALGetGeoTransform(file, at) != CE_None)
+    fail(ErrorKind::content, path,
+         ": does not say how large its cells are; give it corners: gdal_translate -a_ullr WEST ",
+         "NORTH EAST SOUTH in.tif out.tif");
+  const double plane = metres_of(path, file, at);
+  const GDALRasterBandH band = GDALGetRasterBand(file, 1);
+  const double unit = metres_of_heights(band);
+  int has_offset = 0, has_scale = 0, has_none = 0;
+  const double offset = GDALGetRasterOffset(band, &has_offset), scale = GDALGetRasterScale(band, &has_scale);
+  const double none = GDALGetRasterNoDataValue(band, &has_none);
+  const int columns = GDALGetRasterXSize(file), rows = GDALGetRasterYSize(file);
+  std::vector<double> numbers, row(static_cast<std::size_t>(columns));
+  for (int r = 0; r < rows; ++r) {
+    if (GDALRasterIO(band, GF_Read, 0, r, columns, 1, row.data(), columns, 1, GDT_Float64, 0, 0) != CE_None)
+      fail(ErrorKind::content, path, ": row ", r, " of ", rows, " cannot be read (", CPLGetLastErrorMsg(),
+           "); copy or export the file again");
+    for (int c = 0; c < columns; ++c) {
+      double z = row[static_cast<std::size_t>(c)];
+      if (!std::isfinite(z) || (has_none && (z == none || static_cast<float>(z) == static_cast<float>(none)))) continue;
+      z = (has_scale ? scale : 1) * z + (has_offset ? offset : 0);
+      numbers.push_back(plane * (at[0] + (c + 0.5) * at[1] + (r + 0.5) * at[2]));
+      numbers.push_back(plane * (at[3] + (c + 0.5) * at[4] + (r + 0.5) * at[5]));
+      numbers.push_back(unit * z);
+    }
+  }
+  if (numbers.empty())
+    fail(ErrorKind::content, path, ": none of its ", static_cast<double>(columns) * rows,
+         " cells has a height: all are no data");
+  return numbers;
+}
+
+}  // namespace
+
+RawCloud read_raster(const std::string& path, const ReadOptions& options) {
+  require_readable(path);
+  const QuietGdal quiet;
+  const GdalFile file = open_raster(path);
+  RawCloud raw;
+  raw.path = path;
+  raw.format = std::string("raster of heights, ") + GDALGetDriverShortName(GDALGetDatasetDriver(file.get()));
+  raw.fields = {{"height", GDALGetDataTypeName(GDALGetRasterDataType(GDALGetRasterBand(file.get(), 1)))}};
+  std::vector<double> numbers = raster_heights(path, file.get());
+  const std::size_t holes = static_cast<std::size_t>(GDALGetRasterXSize(file.get())) *
+                                static_cast<std::size_t>(GDALGetRasterYSize(file.get())) -
+                            numbers.size() / 3;
+  raw.width = numbers.size() / 3;
+  if (holes > 0) raw.notes.push_back(std::to_string(holes) + " cells of the raster have no height and are holes");
+  fill_cloud(raw, table_of_doubles({"x", "y", "z"}, std::move(numbers)), options);
+  return raw;
+}
+
+#endif
+
+RawCloud read_asc(const std::string& path, const ReadOptions& options) {
+  require_readable(path);
+  std::string head = read_beginning(path, 5);
+  for (char& c : head) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return head == "ncols" ? read_raster(path, options) : read_text_cloud(path, options);
+}
+
+}  // namespace insonify

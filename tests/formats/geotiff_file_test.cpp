@@ -1,0 +1,85 @@
+#include "formats/geotiff_file.hpp"
+
+#include <map>
+
+#include "formats/file_cursor.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
+
+/// 2 rows x 3 columns; row 0 is the south.
+std::vector<GeoBand> two_bands() {
+  Grid<float> height = Grid<float>::Zero(2, 3), count = height;
+  height << -20, -21, no_value, -18, -17.5F, -16;
+  count << 1, 2, 0, 4, 5, 6;
+  std::vector<GeoBand> bands(2);
+  bands[0].name = "height [m]", bands[0].values = height;
+  bands[1].name = "soundings", bands[1].values = count;
+  return bands;
+}
+
+/// Numbers of a tag, by TIFF 6.0.
+std::map<int, std::vector<double>> tiff_tags(const std::string& bytes) {
+  decode::Cursor head(bytes);
+  if (head.text(4) != std::string("II*\0", 4)) throw std::runtime_error("no TIFF");
+  decode::Cursor c(bytes, head.unsigned_little(4));
+  std::map<int, std::vector<double>> tags;
+  int last = 0;
+  for (std::uint64_t n = c.unsigned_little(2); n > 0; --n) {
+    const int tag = static_cast<int>(c.unsigned_little(2)), type = static_cast<int>(c.unsigned_little(2));
+    if (tag <= last) throw std::runtime_error("tags out of order");
+    last = tag;
+    const std::uint64_t count = c.unsigned_little(4);
+    const int size = type == 2 ? 1 : type == 3 ? 2 : type == 4 ? 4 : 8;
+    decode::Cursor at(bytes, c.at());
+    if (count * static_cast<std::uint64_t>(size) > 4)
+      at = decode::Cursor(bytes, decode::Cursor(bytes, c.at()).unsigned_little(4));
+    c.text(4);
+    for (std::uint64_t i = 0; i < count; ++i)
+      tags[tag].push_back(type == 12 ? at.float64() : static_cast<double>(at.unsigned_little(size)));
+  }
+  return tags;
+}
+
+}  // namespace
+
+TEST(GeotiffFile, holds_what_its_specifications_say) {
+  const std::string path = own_path("bed.tif");
+  write_geotiff(path, two_bands(), {{33, false}, 565000, 5995000, 0.5});
+  const std::string bytes = file_bytes(path);
+  auto tags = tiff_tags(bytes);
+  EXPECT_EQ(tags[256], std::vector<double>{3});
+  EXPECT_EQ(tags[257], std::vector<double>{2});
+  EXPECT_EQ(tags[258], (std::vector<double>{32, 32}));
+  EXPECT_EQ(tags[339], (std::vector<double>{3, 3}));
+  EXPECT_EQ(tags[284], std::vector<double>{2});
+  EXPECT_EQ(tags[33550], (std::vector<double>{0.5, 0.5, 0}));
+  EXPECT_EQ(tags[33922], (std::vector<double>{0, 0, 0, 565000, 5995001, 0}));  // the north-west corner
+  EXPECT_EQ(tags[34735], (std::vector<double>{1, 1, 1, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32733}));
+  std::string no_data;
+  for (const double c : tags[42113]) no_data.push_back(static_cast<char>(c));
+  EXPECT_EQ(no_data, std::string("nan\0", 4));
+  ASSERT_EQ(tags[273].size(), 2U);
+  decode::Cursor heights(bytes, static_cast<std::size_t>(tags[273][0]));
+  for (const float expected : {-18.0F, -17.5F, -16.0F, -20.0F, -21.0F})
+    EXPECT_EQ(heights.float32(), expected);  // from the north
+  EXPECT_TRUE(std::isnan(heights.float32()));
+  decode::Cursor counts(bytes, static_cast<std::size_t>(tags[273][1]));
+  for (const float expected : {4.0F, 5.0F, 6.0F, 1.0F, 2.0F, 0.0F}) EXPECT_EQ(counts.float32(), expected);
+  EXPECT_EQ(bytes.size(), static_cast<std::size_t>(tags[273][1]) + 24);
+}
+
+TEST(GeotiffFile, refuses_what_is_no_raster) {
+  const GeoGrid grid{{32, true}, 0, 0, 1};
+  EXPECT_THAT(error_of([&] { write_geotiff(own_path("a.tif"), {}, grid); }),
+              HasSubstr("bands = 0, must be at least one"));
+  std::vector<GeoBand> bands = two_bands();
+  bands[1].values = Grid<float>::Zero(1, 3);
+  EXPECT_THAT(error_of([&] { write_geotiff(own_path("a.tif"), bands, grid); }), HasSubstr("the same in all bands"));
+  EXPECT_THAT(error_of([&] {
+                write_geotiff(own_path("a.tif"), two_bands(), {{32, true}, 0, 0, 0});
+              }),
+              HasSubstr("cell = 0 m, must be > 0"));
+}

@@ -1,0 +1,110 @@
+#include "formats/las_file.hpp"
+
+#include "formats/file_cursor.hpp"
+#include "scene_io/load_scene.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+constexpr UtmZone las_zone{32, true};
+const std::vector<LasPoint> las_points = {{{565432.1234, 5995123.4567, -20.0501}, 1777624200.5, 101.25F, 0.0125F, 7, 3},
+                                          {{565400.5, 5995200.25, -18.75}, 1777624201, 133.5F, 0.5F, 70000, 399},
+                                          {{565440, 5995100, -3}, 1777624202, -5, 0.25F, 9, 0}};
+
+std::string las_bytes(const std::string& name) {
+  const std::string path = own_path(name);
+  LasFile file(path, las_zone, las_points[0].position);
+  for (const LasPoint& point : las_points) file.add(point);
+  file.finish();
+  return file_bytes(path);
+}
+
+}  // namespace
+
+// Read by the offsets of ASPRS LAS 1.4 R15, tables 3, 6, 7 and 24.
+TEST(LasFile, holds_what_its_specification_says) {
+  const std::string bytes = las_bytes("points.las");
+  decode::Cursor c(bytes);
+  EXPECT_EQ(c.text(4), "LASF");
+  c.text(2);
+  EXPECT_EQ(c.unsigned_little(2), 0x11U);  // adjusted GPS time; well-known text, as formats from 6 on must have
+  c.text(16);
+  EXPECT_EQ(c.unsigned_little(1), 1U);
+  EXPECT_EQ(c.unsigned_little(1), 4U);
+  c.text(64 + 4);
+  EXPECT_EQ(c.unsigned_little(2), 375U);
+  const std::uint64_t data = c.unsigned_little(4);
+  EXPECT_EQ(c.unsigned_little(4), 2U);
+  EXPECT_EQ(c.unsigned_little(1), 6U);
+  EXPECT_EQ(c.unsigned_little(2), 44U);
+  EXPECT_EQ(c.text(24), std::string(24, '\0'));
+  double scale[3], offset[3];
+  for (double& s : scale) EXPECT_EQ(s = c.float64(), 1e-4);
+  for (double& o : offset) o = c.float64();
+  const double box[6] = {565440, 565400.5, 5995200.25, 5995100, -3, -20.0501};
+  for (const double edge : box) EXPECT_NEAR(c.float64(), edge, 1e-4);
+  c.text(8 + 8 + 4);
+  EXPECT_EQ(c.unsigned_little(8), 3U);
+  EXPECT_EQ(c.unsigned_little(8), 3U);
+  EXPECT_EQ(bytes.size(), data + 3 * 44);
+
+  decode::Cursor record(bytes, 375);
+  record.text(2);
+  EXPECT_EQ(record.text(16), "LASF_Projection" + std::string(1, '\0'));
+  EXPECT_EQ(record.unsigned_little(2), 2112U);
+  const std::string wkt = (record.text(2), decode::Cursor(bytes, 375 + 54)).text(utm_wkt(las_zone).size());
+  EXPECT_EQ(wkt, utm_wkt(las_zone));
+  EXPECT_THAT(
+      wkt, testing::AllOf(HasSubstr("PARAMETER[\"central_meridian\",9]"), HasSubstr("AUTHORITY[\"EPSG\",\"32632\"]")));
+
+  for (std::size_t i = 0; i < 3; ++i) {
+    decode::Cursor point(bytes, data + 44 * i);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(static_cast<double>(point.signed_little(4)) * scale[axis] + offset[axis],
+                  las_points[i].position[axis], 5.1e-5);
+    EXPECT_EQ(point.unsigned_little(2), (std::array{10125U, 13350U, 0U})[i]);
+    EXPECT_EQ(point.unsigned_little(2), 0x11U);
+    EXPECT_EQ(point.unsigned_little(1), 40U);
+    point.text(5);
+    EXPECT_NEAR(point.float64() + 1e9 + 315964800, las_points[i].time, 1e-6);
+    EXPECT_EQ(point.float32(), las_points[i].level_db);
+    EXPECT_EQ(point.float32(), las_points[i].deviation);
+    EXPECT_EQ(point.unsigned_little(4), las_points[i].ping);
+    EXPECT_EQ(point.unsigned_little(2), las_points[i].beam);
+  }
+}
+
+TEST(LasFile, is_read_as_a_scene_in_its_own_coordinates) {
+  const std::string path = own_path("scene.las");
+  LasFile file(path, las_zone, {565400, 5995100, -20});
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i < 400; ++i) {
+    places.emplace_back(565400 + 0.25 * (i % 20), 5995100 + 0.25 * (i / 20), -20 + 0.01 * (i % 7));
+    file.add({places.back(), 1777624200, 100, 0.01F, 1, static_cast<std::uint16_t>(i)});
+  }
+  file.finish();
+  const LoadedScene scene = load_scene(path);
+  ASSERT_EQ(scene.scene.size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    EXPECT_LT((scene.scene.origin + scene.scene.point[i].cast<double>() - places[i]).norm(), 1e-3);
+  const std::string bytes = file_bytes(path);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{300}, std::size_t{1000}, bytes.size() - 1})
+    EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "cut.las", bytes.substr(0, size)),
+                HasSubstr("cut.las"));
+}
+
+TEST(LasFile, refuses_points_that_it_cannot_hold) {
+  LasFile file(own_path("far.las"), las_zone, {0, 0, 0});
+  EXPECT_THAT(error_of(
+                  [&] {
+                    file.add({{3e5, 0, 0}, 0, 0, 0, 12, 0});
+                  },
+                  ErrorKind::content),
+              HasSubstr("300000 m of ping 12"));
+  EXPECT_THAT(error_of(
+                  [&] {
+                    file.add({{0, std::nan(""), 0}, 0, 0, 0, 12, 0});
+                  },
+                  ErrorKind::content),
+              HasSubstr("must be finite"));
+}

@@ -1,0 +1,146 @@
+// What a bathymetric echo sounder finds of beds whose truth is known, and whether its predicted errors are its errors.
+#include "returns/bottom_detection.hpp"
+#include "simulate/simulate_ping.hpp"
+#include "store/sonar_file.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+/// A preset, straight down from the origin.
+SonarHead swath_head(const std::string& name, double min_range, double max_range) {
+  SonarSpec spec = find_sonar(name).spec;
+  spec.min_range = min_range, spec.max_range = max_range;
+  return make_head(spec, sound_speed(Water{}));
+}
+
+/// Surfels of 0.25 m along y from `begin` to `end`, on the line z = height(y) across the x axis.
+void add_bed(SceneCloud& scene, double begin, double end, const Eigen::Vector3d& along, const Eigen::Vector3d& start) {
+  const double s = 0.25;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitX().cross(along);
+  for (double y = begin; y < end - 1e-9; y += s)
+    for (int j = -8; j < 8; ++j)
+      add_surfel(scene, start + (y + 0.5 * s) * along + (j + 0.5) * s * Eigen::Vector3d::UnitX(), up, s * s);
+}
+
+BottomSoundings soundings_of(const SceneCloud& scene, const SonarHead& head, std::int64_t ping, bool noise) {
+  SimulationOptions o;
+  o.seed = 100 + static_cast<std::uint64_t>(ping), o.ping = ping;
+  o.outputs.split_phase = true;
+  o.effects.noise = noise;
+  o.synthesis.tolerance = 1e-3;
+  o.sampling.scatterers_per_cell = 3;
+  const SimulatedPing result =
+      simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 0}, 0, pi / 2, 0), Environment{}, o);
+  const double c = result.medium.sound_speed;
+  return detect_bottom(result.ping, {.sound_speed = c,
+                                     .centre_frequency = head.pulse.centre_frequency,
+                                     .range_resolution = range_resolution(head.pulse, c),
+                                     .absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db});
+}
+
+/// Errors of a flat bed 20 m below, in equal parts of the fan.
+struct FlatBed {
+  std::vector<double> bias;      // mean error of depth [m]
+  std::vector<double> ratio;     // of deviations about the mean of each beam to the predicted ones, root mean square
+  std::vector<double> by_phase;  // share of the soundings
+};
+
+FlatBed measure_flat_bed(const std::string& sonar, double max_range) {
+  const SonarHead head = swath_head(sonar, 18, max_range);
+  SceneCloud scene;
+  add_bed(scene, -60, 60, {0, 1, 0}, {0, 0, -20});
+  constexpr std::size_t parts = 5;
+  constexpr int pings = 4;
+  std::vector<BottomSoundings> found;
+  for (int p = 0; p < pings; ++p) {
+    found.push_back(soundings_of(scene, head, p, true));
+    if (found.back().size() != head.fan.beams()) throw std::runtime_error("a beam has no sounding");
+  }
+  FlatBed bed{std::vector<double>(parts), std::vector<double>(parts), std::vector<double>(parts)};
+  std::vector<double> soundings(parts);
+  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
+    const std::size_t k = b * parts / head.fan.beams();
+    // About the mean of the pings, each with its weight: a beam may change its method.
+    double weights = 0, mean = 0;
+    const auto weight = [&](const BottomSoundings& ping) {
+      return 1 / std::pow(static_cast<double>(ping.deviation[b]), 2);
+    };
+    for (const BottomSoundings& ping : found) weights += weight(ping), mean += weight(ping) * ping.range[b];
+    mean /= weights;
+    for (const BottomSoundings& ping : found) {
+      soundings[k] += 1;
+      bed.bias[k] += ping.position[b].z() + 20;
+      bed.ratio[k] += std::pow(ping.range[b] - mean, 2) * weight(ping) * pings / (pings - 1);
+      bed.by_phase[k] += ping.method[b] == BottomMethod::phase;
+    }
+  }
+  for (std::size_t k = 0; k < parts; ++k) {
+    bed.bias[k] /= soundings[k];
+    bed.ratio[k] = std::sqrt(bed.ratio[k] / soundings[k]);
+    bed.by_phase[k] /= soundings[k];
+  }
+  return bed;
+}
+
+void expect_honest(const FlatBed& bed) {
+  for (std::size_t k = 0; k < bed.bias.size(); ++k) {
+    EXPECT_LT(std::abs(bed.bias[k]), 0.001 * 20) << k;
+    EXPECT_LT(bed.ratio[k], 1.3) << k;
+    EXPECT_GT(bed.ratio[k], 1 / 1.3) << k;
+  }
+  // Amplitude about the specular direction, phase towards the edges.
+  EXPECT_EQ(bed.by_phase.front(), 1);
+  EXPECT_EQ(bed.by_phase.back(), 1);
+  EXPECT_LT(bed.by_phase[bed.by_phase.size() / 2], 0.1);
+}
+
+}  // namespace
+
+// Bias below 0.1 % of the depth.
+TEST(BathymetryLaws, flat_bed_of_an_r2sonic_2024) { expect_honest(measure_flat_bed("r2sonic-2024", 52)); }
+TEST(BathymetryLaws, flat_bed_of_an_em2040) { expect_honest(measure_flat_bed("em2040", 64)); }
+
+// z = -20 + y, from below the head upwards: seen from 20 degrees to starboard to port.
+TEST(BathymetryLaws, slope_of_45_degrees) {
+  const SonarHead head = swath_head("r2sonic-2024", 8, 40);
+  SceneCloud scene;
+  add_bed(scene, -20, 26, Eigen::Vector3d(0, 1, 1).normalized(), {0, 0, -20});
+  const BottomSoundings found = soundings_of(scene, head, 0, true);
+  double sum = 0, squares = 0, predicted = 0, count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found.position[i].y() < -6) continue;  // beyond, the beams run along the slope
+    const double off = (found.position[i].z() + 20 - found.position[i].y()) / std::sqrt(2.0);
+    EXPECT_LT(std::abs(off), 0.1) << found.beam[i];
+    count += 1, sum += off, squares += off * off;
+    predicted += std::pow(static_cast<double>(found.deviation[i]), 2);
+  }
+  EXPECT_GT(count, 150);
+  EXPECT_LT(std::abs(sum / count), 2e-3);
+  EXPECT_LT(std::sqrt(squares / count), 1.5 * std::sqrt(predicted / count));
+}
+
+// A vertical step of 1 m at y = 8 m, 20 m below on the near side: both levels and the face between them are found, and no
+// sounding stands off them by more than a beam.
+TEST(BathymetryLaws, step_of_one_metre) {
+  const SonarHead head = swath_head("r2sonic-2024", 17, 40);
+  SceneCloud scene;
+  add_bed(scene, -10, 8, {0, 1, 0}, {0, 0, -20});
+  add_bed(scene, 0, 1, {0, 0, 1}, {0, 8, -20});
+  add_bed(scene, 8, 26, {0, 1, 0}, {0, 0, -19});
+  const BottomSoundings found = soundings_of(scene, head, 0, true);
+  int low = 0, high = 0, face = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Eigen::Vector3d& p = found.position[i];
+    if (p.y() < -8 || p.y() > 20) continue;
+    if (std::abs(p.z() + 20) < 0.03) ++low;
+    if (std::abs(p.z() + 19) < 0.03) ++high;
+    if (std::abs(p.y() - 8) < 0.03 && p.z() > -19.95 && p.z() < -19.05) ++face;
+    const double off =
+        std::min({std::hypot(std::max(0.0, p.y() - 8), p.z() + 20), std::hypot(std::min(0.0, p.y() - 8), p.z() + 19),
+                  std::hypot(p.y() - 8, std::max({0.0, p.z() + 19, -20 - p.z()}))});
+    EXPECT_LT(off, 0.2) << found.beam[i] << ": " << p.transpose();
+  }
+  EXPECT_GT(low, 80);
+  EXPECT_GT(high, 40);
+  EXPECT_GE(face, 1);
+}

@@ -1,0 +1,164 @@
+#include "returns/bottom_detection.hpp"
+
+#include "acoustics/bend_paths.hpp"
+#include "core/random.hpp"
+#include "support/test.hpp"
+
+using testing::HasSubstr;
+
+namespace {
+
+/// A ping of `beams` beams that look straight down, silent.
+Ping silent_swath(std::size_t beams, double fov_deg = 60, double max_range = 12, double bin = 0.01) {
+  Ping ping;
+  ping.fan = make_fan(beams, radians(fov_deg), radians(1), radians(1));
+  ping.gate = {2, max_range, bin};
+  ping.world_from_head = pose_from_yaw_pitch_roll({100, 50, -1}, 0, pi / 2, 0);
+  ping.pressure = ComplexGridF::Zero(static_cast<Eigen::Index>(beams), static_cast<Eigen::Index>(ping.gate.bins()));
+  return ping;
+}
+
+/// Adds a Gaussian echo of this intensity width [m].
+void add_echo(Ping& ping, std::size_t beam, double range, double amplitude, double width) {
+  for (std::size_t n = 0; n < ping.gate.bins(); ++n) {
+    const double x = (ping.gate.centre(n) - range) / width;
+    ping.pressure(static_cast<Eigen::Index>(beam), static_cast<Eigen::Index>(n)) +=
+        static_cast<float>(amplitude * std::exp(-2 * std::log(2.0) * x * x));
+  }
+}
+
+void add_white_noise(Ping& ping, std::uint64_t number) {
+  for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b)
+    for (Eigen::Index n = 0; n < ping.pressure.cols(); ++n)
+      ping.pressure(b, n) += std::complex<float>(random_complex_normal(
+          3, RandomStage::noise, {number, static_cast<std::uint64_t>(b), static_cast<std::uint64_t>(n)}));
+}
+
+}  // namespace
+
+TEST(DetectBottom, finds_a_short_echo_between_bins) {
+  Ping ping = silent_swath(3);
+  for (std::size_t b = 0; b < 3; ++b) add_echo(ping, b, 7.0034, 0.5, 0.03);
+  const BottomSoundings found = detect_bottom(ping, {.range_resolution = 0.03});
+  ASSERT_EQ(found.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(found.beam[i], i);
+    EXPECT_EQ(found.method[i], BottomMethod::amplitude);
+    EXPECT_NEAR(found.range[i], 7.0034, 2e-4);
+    EXPECT_NEAR(static_cast<double>(found.quality[i]),
+                std::log10(found.range[i] / static_cast<double>(found.deviation[i])), 1e-5);
+    EXPECT_NEAR(static_cast<double>(found.level_db[i]), 20 * std::log10(0.5 / std::sqrt(2.0) / 1e-6), 0.1);
+    // Straight down at 7 m: the world's x axis is ahead, port is +y.
+    const double azimuth = ping.fan.azimuth[i];
+    const Eigen::Vector3d expected(100, 50 + found.range[i] * std::sin(azimuth),
+                                   -1 - found.range[i] * std::cos(azimuth));
+    EXPECT_LT((found.position[i] - expected).norm(), 1e-9);
+  }
+}
+
+// Noise alone: the strongest of all cells of a beam exceeds the threshold with the stated probability, which holds for
+// any level of the noise since it is estimated from the same beam.
+TEST(DetectBottom, false_alarms_of_open_water_come_at_the_stated_rate) {
+  for (const double rate : {1e-1, 1e-2, 1e-3}) {
+    const std::size_t beams = 128;
+    const int pings = rate < 5e-3 ? 120 : 30;
+    double count = 0;
+    for (int p = 0; p < pings; ++p) {
+      Ping ping = silent_swath(beams, 60, 5, 0.01);
+      add_white_noise(ping, static_cast<std::uint64_t>(p));
+      count += static_cast<double>(
+          detect_bottom(ping, {.range_resolution = 0.01, .false_alarm_rate = rate, .side_lobe_margin_db = 1000})
+              .size());
+    }
+    const double expected = rate * beams * pings;
+    EXPECT_NEAR(count, expected, 3 * std::sqrt(expected) + 0.1 * expected) << rate;
+  }
+}
+
+TEST(DetectBottom, gives_several_soundings_of_a_beam_on_request) {
+  Ping ping = silent_swath(1, 1);
+  add_echo(ping, 0, 4, 0.3, 0.03);
+  add_echo(ping, 0, 9, 0.5, 0.03);
+  add_echo(ping, 0, 6, 1e-4, 0.03);
+  EXPECT_NEAR(detect_bottom(ping, {.range_resolution = 0.03}).range.at(0), 9, 1e-3);
+  const BottomSoundings both = detect_bottom(ping, {.range_resolution = 0.03, .per_beam = 3});
+  ASSERT_EQ(both.size(), 2U);  // the third is too weak
+  EXPECT_NEAR(both.range[1], 4, 1e-3);
+}
+
+// The phase of an echo that crosses the beam's axis at 8.5 m, while its strongest part is nearer.
+TEST(DetectBottom, takes_the_zero_of_the_phase_where_the_echo_is_long) {
+  Ping ping = silent_swath(7, 7);
+  ping.world_from_head = pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(30), 0);
+  ping.split_phase = Grid<float>::Zero(7, ping.pressure.cols());
+  const double slope = 60;  // dr/du [m]
+  for (std::size_t b = 0; b < 7; ++b) {
+    const double axis = 8.5 + slope * std::sin(ping.fan.azimuth[b]);
+    for (std::size_t n = 0; n < ping.gate.bins(); ++n) {
+      const double x = ping.gate.centre(n) - axis;
+      const auto xi = random_complex_normal(5, RandomStage::noise, {0, b, n});
+      ping.pressure(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n)) =
+          std::complex<float>(xi * std::exp(-0.5 * std::pow((x + 0.05) / 0.4, 2)));
+      ping.split_phase(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n)) =
+          static_cast<float>(std::remainder(2.0 * x, 2 * pi));
+    }
+  }
+  const BottomSoundings by_phase = detect_bottom(ping, {.centre_frequency = 4e5, .range_resolution = 0.01});
+  ASSERT_EQ(by_phase.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(by_phase.method[i], BottomMethod::phase);
+    EXPECT_NEAR(by_phase.range[i], 8.5 + slope * std::sin(ping.fan.azimuth[i]), 1e-4);
+  }
+  const BottomSoundings by_amplitude = detect_bottom(ping, {.range_resolution = 0.01, .phase = false});
+  double mean = 0;
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(by_amplitude.method[i], BottomMethod::amplitude);
+    mean += (by_amplitude.range[i] - by_phase.range[i]) / 7;
+  }
+  EXPECT_LT(mean, -0.01);
+}
+
+// A sounding at the apparent place of a target stands where the target is: bend_paths puts it there.
+TEST(DetectBottom, unbends_the_ray_of_a_profile) {
+  const SoundSpeedProfile profile{{0, 5, 12, 30}, {1520, 1505, 1480, 1478}};
+  const double head_depth = 1, c = sound_speed_at(profile, head_depth);
+  Ping ping = silent_swath(5, 100, 30);
+  for (std::size_t b = 0; b < 5; ++b) {
+    const Eigen::Vector3d target(100, 50 + 10 * std::tan(ping.fan.azimuth[b]) + 0.3, -15);
+    const double across = target.y() - 50;
+    const Eigenray ray = find_eigenray(profile, head_depth, head_depth + 14, std::abs(across));
+    ping.fan.azimuth[b] = std::copysign(pi / 2 + ray.elevation, across);
+    add_echo(ping, b, c * ray.travel_time, 0.5, 0.03);
+    const BottomSoundings found =
+        detect_bottom(ping, {.sound_speed = c, .range_resolution = 0.03, .profile = profile, .head_depth = head_depth});
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found.beam[i] == b) {
+        EXPECT_LT((found.position[i] - target).norm(), 2e-3) << b;
+      }
+  }
+}
+
+TEST(DetectBottom, does_not_depend_on_threads) {
+  Ping ping = silent_swath(32);
+  add_white_noise(ping, 1);
+  for (std::size_t b = 0; b < 32; ++b) add_echo(ping, b, 7 + 0.01 * static_cast<double>(b), 30, 0.03);
+  const BottomSoundings one = detect_bottom(ping, {.range_resolution = 0.03, .threads = 1});
+  const BottomSoundings many = detect_bottom(ping, {.range_resolution = 0.03, .threads = 7});
+  EXPECT_EQ(one.range, many.range);
+  EXPECT_EQ(one.deviation, many.deviation);
+  EXPECT_EQ(one.size(), 32U);
+}
+
+TEST(DetectBottom, refuses_what_it_cannot_judge) {
+  const Ping ping = silent_swath(2);
+  EXPECT_EQ(detect_bottom(ping, {}).size(), 0U);
+  EXPECT_EQ(error_of([&] { detect_bottom(ping, {.false_alarm_rate = 0}); }),
+            "detect_bottom: false_alarm_rate = 0, must be above 0 and below 1");
+  EXPECT_EQ(error_of([&] { detect_bottom(ping, {.per_beam = 0}); }), "detect_bottom: per_beam = 0, must be >= 1");
+  Ping expected = ping;
+  expected.expected_level = true;
+  EXPECT_THAT(error_of([&] { detect_bottom(expected, {}); }), HasSubstr("is an expected level"));
+  Ping cut = ping;
+  cut.split_phase = Grid<float>::Zero(2, 3);
+  EXPECT_THAT(error_of([&] { detect_bottom(cut, {}); }), HasSubstr("split_phase has 2 x 3 cells"));
+}
