@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "core/sha256.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "store/environment_file.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
@@ -13,6 +12,7 @@
 namespace insonify::tool {
 namespace {
 
+constexpr std::size_t kept_tile_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
 
 SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, std::size_t h) {
@@ -107,7 +107,7 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   const SurveyHead& first = setup.heads.front();
   Bounds box;
   if (is_tiles(setup.file.scene)) {
-    box = TiledScene(setup.file.scene).info().box;
+    box = tiles_.emplace(setup.file.scene, kept_tile_bytes).info().box;
   } else {
     loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
     for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
@@ -134,8 +134,8 @@ SimulatedPing SurveyScene::ping(const SurveySetup& setup, const SurveyPing& ping
   PingOptions alone = head.options;
   alone.common.threads = 1;
   const PingSetup here{place.world_from_head, h, options};
-  if (!loaded_.mesh) {
-    const PingScene part = load_ping_scene(alone, here);
+  if (tiles_) {
+    const PingScene part = load_ping_scene(alone, here, *tiles_);
     return simulate_ping(part.loaded.scene, h.head, place.world_from_head, h.environment, options);
   }
   LoadedScene fine = loaded_;
