@@ -55,8 +55,13 @@ class SurveyScene {
   SurveyScene(const SurveyScene&) = delete;
   SurveyScene& operator=(const SurveyScene&) = delete;
 
-  /// Simulates a ping of the survey; may be called by several threads at once.
-  SimulatedPing ping(const SurveySetup& setup, const SurveyPing& ping) const;
+  /// A ping of the survey, and what it did to each surfel if the mission asks for coverage.
+  struct Made {
+    SimulatedPing ping;
+    std::vector<CoveredSurfel> covered;
+  };
+  /// Simulates a ping; may be called by several threads at once.
+  Made make(const SurveySetup& setup, const SurveyPing& ping) const;
 
  private:
   LoadedScene loaded_;

@@ -91,7 +91,7 @@ SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing&
 }
 
 SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping) {
-  SurveyReturn kept{std::move(simulated.ping), std::move(simulated.soundings), {}};
+  SurveyReturn kept{std::move(simulated.ping), std::move(simulated.soundings), {}, {}};
   kept.ping.number = ping.number;
   if (mission.heads[ping.head].scan) kept.ping.scan = ScanPlace{ping.sweep, ping.scan_angle};
   return kept;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "returns/coverage.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "simulate/survey_pings.hpp"
 
@@ -13,7 +14,8 @@ namespace insonify {
 struct SurveyReturn {
   Ping ping;
   Soundings soundings;
-  std::string failure;  ///< empty: none
+  std::string failure;                   ///< empty: none
+  std::vector<CoveredSurfel> covered{};  ///< if the survey asks for coverage
 };
 
 /// The returns of a block's pings, in their order; absent while a ping is not done.

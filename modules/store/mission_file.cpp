@@ -125,17 +125,19 @@ Anchor read_anchor(const Entry& e) {
 
 /// "2026-05-01T08:30:00Z", perhaps with fractions of the second.
 std::string read_utc(const Entry& e) {
-  const std::string text = e.text(), form = "0000-00-00T00:00:00";
-  const auto fits = [](char c, char f) { return f == '0' ? c >= '0' && c <= '9' : c == f; };
-  const bool good = text.size() > form.size() && text.back() == 'Z' &&
-                    std::equal(form.begin(), form.end(), text.begin(), [&](char f, char c) { return fits(c, f); });
-  if (!good) e.refuse(" = '", text, "', must be a time of UTC like 2026-05-01T08:30:00Z");
+  const std::string text = e.text();
+  try {
+    utc_after(text, 0);
+  } catch (const Error&) {
+    e.refuse(" = '", text, "', must be a time of UTC like 2026-05-01T08:30:00Z");
+  }
   return text;
 }
 
 const std::vector<Key<MissionFile>> survey_keys = {
     {"scene", [](const Entry& e, MissionFile& m) { m.scene = e.file_path(); }},
     {"seed", [](const Entry& e, MissionFile& m) { m.seed = e.seed(); }},
+    {"coverage", [](const Entry& e, MissionFile& m) { m.coverage = e.flag(); }},
     {"environment", [](const Entry& e, MissionFile& m) { m.environment = e.file_path(); }},
     {"profile", [](const Entry& e, MissionFile& m) { m.profile = e.file_path(); }},
     {"start_utc", [](const Entry& e, MissionFile& m) { m.start_utc = read_utc(e); }},

@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/geodesy.hpp"
 #include "simulate/mission.hpp"
 
 namespace insonify {
-
-/// Where the origin of the world is, and which way its x axis points: for products with coordinates of the globe.
-struct Anchor {
-  double latitude_deg = 0, longitude_deg = 0;
-  double heading_deg = 0;  ///< of the world's x axis, clockwise from north
-};
 
 /// Which sonar a head of the mission is.
 struct MissionSonar {
@@ -27,6 +22,7 @@ struct MissionFile {
   std::string scene;                 ///< path
   std::string environment, profile;  ///< paths, or empty
   std::uint64_t seed = 1;
+  bool coverage = false;  ///< the survey keeps what its pings did to each surfel
   std::string start_utc;  ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
   std::optional<Anchor> anchor;
   std::string trajectory;            ///< path, or empty: waypoints

@@ -258,6 +258,43 @@ TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
   EXPECT_EQ(nlohmann::json::parse(read("run/manifest.json"))["failed"][0]["ping"], 1);
 }
 
+TEST_F(Survey, coverage_is_the_same_for_any_shards_and_sums_the_pings) {
+  write("m.toml", replaced(mission, "seed = 7", "seed = 7\ncoverage = true"));
+  const auto covered = [&](const std::string& run) {
+    succeed("merge -q " + run);
+    return sha256_of_file(path(run + "/coverage.ply"));
+  };
+  survey("whole", "-j1");
+  const std::string whole = covered("whole");
+  for (const char* shard : {"2/3", "0/3", "1/3"}) survey("three", std::string("-j2 --shard ") + shard);
+  EXPECT_EQ(covered("three"), whole);
+  const auto manifest = nlohmann::json::parse(read("whole/manifest.json"));
+  EXPECT_EQ(manifest["coverage_sha256"], whole);
+  // A surfel that both heads see is seen by more pings than one of them has.
+  const std::string ply = read("whole/coverage.ply");
+  constexpr std::size_t row = 52;
+  const std::size_t begin = ply.find("end_header\n") + 11, rows = (ply.size() - begin) / row;
+  EXPECT_GT(rows, 40U);
+  EXPECT_LT(rows, 6000U);
+  std::uint32_t most = 0, last = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    std::uint32_t pings = 0, id = 0;
+    std::memcpy(&pings, ply.data() + begin + i * row + 44, 4);
+    std::memcpy(&id, ply.data() + begin + i * row + 48, 4);
+    ASSERT_TRUE(i == 0 || id > last);
+    last = id;
+    most = std::max(most, pings);
+    ASSERT_GE(pings, 1U);
+    ASSERT_LE(pings, 26U);
+  }
+  EXPECT_GT(most, 3U);
+  std::ofstream(path("three/fls/blocks/000001.coverage.ply"), std::ios::app) << "x";
+  expect_refused("merge three", 3, {"three/fls/blocks/000001.coverage.ply: was changed since it was made"});
+  write("wall.obj", "v 0 0 -5\nv 9 0 -5\nv 0 9 -5\nf 1 2 3\n");
+  write("mesh.toml", replaced(read("m.toml"), "harbour.ply", "wall.obj"));
+  expect_refused("survey mesh.toml -o mesh", 3, {"coverage counts the pings of each surfel", "insonify prepare"});
+}
+
 TEST_F(Survey, plans_without_writing_anything) {
   const auto plan = nlohmann::json::parse(succeed("survey m.toml --plan --json -q"));
   EXPECT_EQ(plan["all"]["pings"], 26);
