@@ -16,6 +16,7 @@
 #include "store/survey_run.hpp"
 #include "tool/progress.hpp"
 #include "tool/survey_mosaic.hpp"
+#include "tool/survey_places.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -55,6 +56,43 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   return finished;
 }
 
+/// What joining the blocks of all heads gave.
+struct JoinedHeads {
+  ordered_json heads = ordered_json::array(), failed = ordered_json::array();  ///< for the manifest
+  std::vector<std::string> clouds, coverages;                                  ///< of the blocks
+  std::vector<HeadCubes> cubes;                                                ///< of the blocks
+  std::vector<HeadCube> joined_cubes;
+};
+
+/// Joins the cubes of each head.
+JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const std::vector<Finished>& finished,
+                       bool copy, Progress& progress) {
+  JoinedHeads all;
+  for (const SurveyRunHead& head : run.heads) {
+    progress.step("joining " + head.name);
+    std::vector<std::string>& of_head = all.cubes.emplace_back(HeadCubes{head.name, {}}).cubes;
+    for (const Finished& block : finished) {
+      if (block.head != &head) continue;
+      for (const FailedPing& ping : block.mark.failed)
+        all.failed.push_back({{"head", head.name}, {"ping", ping.number}, {"reason", ping.reason}});
+      if (block.mark.cube_sha256.empty()) continue;
+      of_head.push_back(block.files.cube);
+      all.clouds.push_back(block.files.returns);
+      if (!block.mark.coverage_sha256.empty()) all.coverages.push_back(block.files.coverage);
+    }
+    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
+    if (!of_head.empty()) {
+      join_cubes(cube, of_head, copy);
+      all.joined_cubes.push_back({head.name, cube});
+    }
+    all.heads.push_back({{"name", head.name},
+                         {"pings", head.pings},
+                         {"cube", of_head.empty() ? ordered_json() : ordered_json(head.name + "/cube.h5")},
+                         {"cube_sha256", of_head.empty() ? ordered_json() : ordered_json(sha256_of_file(cube))}});
+  }
+  return all;
+}
+
 }  // namespace
 
 void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common) {
@@ -65,28 +103,8 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
   parallel_for(finished.size(), common.threads,
                [&](std::size_t b) { require_unchanged(finished[b].files, finished[b].mark); });
 
-  ordered_json heads = ordered_json::array(), failed = ordered_json::array();
-  std::vector<std::string> clouds, coverages;
-  std::vector<HeadCubes> cubes;
-  for (const SurveyRunHead& head : run.heads) {
-    progress.step("joining " + head.name);
-    std::vector<std::string>& of_head = cubes.emplace_back(HeadCubes{head.name, {}}).cubes;
-    for (const Finished& block : finished) {
-      if (block.head != &head) continue;
-      for (const FailedPing& ping : block.mark.failed)
-        failed.push_back({{"head", head.name}, {"ping", ping.number}, {"reason", ping.reason}});
-      if (block.mark.cube_sha256.empty()) continue;
-      of_head.push_back(block.files.cube);
-      clouds.push_back(block.files.returns);
-      if (!block.mark.coverage_sha256.empty()) coverages.push_back(block.files.coverage);
-    }
-    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
-    if (!of_head.empty()) join_cubes(cube, of_head, copy);
-    heads.push_back({{"name", head.name},
-                     {"pings", head.pings},
-                     {"cube", of_head.empty() ? ordered_json() : ordered_json(head.name + "/cube.h5")},
-                     {"cube_sha256", of_head.empty() ? ordered_json() : ordered_json(sha256_of_file(cube))}});
-  }
+  const JoinedHeads joined_heads = join_heads(folder, run, finished, copy, progress);
+  const auto& [heads, failed, clouds, coverages, cubes, joined_cubes] = joined_heads;
   progress.step("joining returns");
   const std::string returns = (fs::path(folder) / "returns.ply").string();
   ordered_json manifest = {{"schema", 1},
@@ -94,6 +112,10 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                            {"mission_sha256", run.mission_sha256},
                            {"blocks", finished.size()},
                            {"heads", heads}};
+  const SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
+  manifest.update(frame_json(frame));
+  if (frame.anchor)
+    write_file((fs::path(folder) / "track.geojson").string(), track_geojson(frame, joined_cubes).dump(1) + "\n");
   if (!clouds.empty()) {
     join_clouds(returns, clouds);
     if (mosaic.cell > 0) {

@@ -177,8 +177,9 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   const std::vector<std::string> failures = failures_of(o, s, shard);
   status.write(whole ? "done" : "interrupted");
   if (!whole)
-    throw Interrupted{fmt::format("{} of {} pings of {} are kept; the same command goes on from there",
-                                  todo.done + status.made(), todo.pings, o.output)};
+    throw Interrupted{fmt::format("{} of {} pings of {} are {}; the same command goes on from there",
+                                  todo.done + status.made(), todo.pings, o.output,
+                                  s.file.coverage ? "made, those of whole blocks kept" : "kept")};
   const ordered_json result = {{"folder", o.output},
                                {"pings", todo.pings},
                                {"made", status.made()},

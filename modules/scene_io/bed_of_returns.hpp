@@ -11,4 +11,13 @@ namespace insonify {
 /// returns.
 BedSurface bed_of_returns(const std::string& path, double cell);
 
+/// Returns on a horizontal grid: columns along x, rows along y.
+struct ReturnsMap {
+  double x = 0, y = 0, cell = 1;  ///< corner of cell (0, 0), and size [m]
+  Grid<float> level_db;           ///< highest level + 40 log10(range) in a cell [dB re 1 uPa at 1 m]; NaN: no return
+};
+
+/// The returns of such a file on a grid with `cells` along its longer side; memory and errors as bed_of_returns.
+ReturnsMap map_of_returns(const std::string& path, int cells);
+
 }  // namespace insonify

@@ -25,6 +25,7 @@ using BlockReturns = std::vector<std::optional<SurveyReturn>>;
 SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing& ping, const PingPlace& place);
 
 /// What is kept of a ping: its number is the one among the pings of its head, and of a scanning head it knows the scan.
+/// With navigation errors, its pose and its returns are where the vehicle believes them to be.
 SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
 
 /// How the pings of a survey are made and what becomes of them. `simulate` and `done` are called by several threads at

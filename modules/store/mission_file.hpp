@@ -30,6 +30,15 @@ struct MissionFile {
   std::vector<MissionSonar> sonars;  ///< of each head
 };
 
+/// When and where on the globe a survey is.
+struct SurveyFrame {
+  std::string start_utc;         ///< of time 0, or empty
+  std::optional<Anchor> anchor;  ///< of the world's axes
+};
+
+/// Reads start_utc and anchor of a mission alone; errors as load_mission.
+SurveyFrame load_survey_frame(const std::string& path);
+
 /// Reads a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from
 /// the folder of the file, then from the one above. Unknown keys, wrong types, and whatever require_valid(mission)
 /// refuses are errors with file, line and rule. Throws Error(file) or Error(content).
