@@ -16,7 +16,8 @@ declare -A why=(
 if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
     [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer"
-    [parallel]="shards of a survey")
+    [parallel]="shards of a survey" [slurm-wlm]="shards of a survey as a job array" [munge]="Slurm's keys"
+    [python3-h5py]="cubes as Python reads them")
 fi
 if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
 

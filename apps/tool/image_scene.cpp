@@ -61,6 +61,7 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   Drawing drawing;
   drawing.scene = load(o.common, options, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
+  for (const Ping& sent : cube.pings) drawing.look.track.emplace_back(sent.world_from_head.translation());
   drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
   if (drawing.look.colour == SceneColour::visibility)
     drawing.view = view_of_run(o.run, whole_of(drawing.scene), o.common.threads);

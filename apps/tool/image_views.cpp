@@ -12,6 +12,7 @@
 #include "tool/run_files.hpp"
 #include "tool/scan_image.hpp"
 #include "tool/side_scan.hpp"
+#include "tool/track_image.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/show_image.hpp"
 
@@ -149,6 +150,7 @@ const std::vector<ViewSpec>& all_views() {
        BeamChoice::mean},
       {"panels", "fan, one beam, its pattern and facts", {"--annotate", "--animate"}, draw_panels, max_db_of_image},
       {.name = "scan", .shows = "the sweep of a scanning head", .options = {"--frame"}, .draw = draw_scan},
+      {.name = "track", .shows = "a merged survey from above: ways, and mosaic or returns", .draw_alone = draw_track},
       {.name = "scene",
        .shows = "the scene in 3-D with returns, or as the head sees it",
        .options = {"--scene", "--sonar", "--pose", "--range", "--camera", "--colour", "--normals"},

@@ -1,7 +1,6 @@
 #include "tool/merge_survey.hpp"
 
 #include <filesystem>
-#include <mutex>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,12 +10,13 @@
 #include "core/pending_file.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
-#include "scene_io/returns_mosaic.hpp"
+#include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/join_cubes.hpp"
 #include "store/survey_run.hpp"
 #include "tool/progress.hpp"
-#include "view/save_vtk.hpp"
+#include "tool/survey_mosaic.hpp"
+#include "tool/survey_places.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -56,47 +56,55 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   return finished;
 }
 
-/// Writes the mosaic of the returns beside them.
-void save_mosaic(const std::string& returns, double cell) {
-  const ReturnsMosaic mosaic = mosaic_of_returns(returns, cell);
-  const HorizontalMap map{
-      mosaic.x, mosaic.y, mosaic.cell, {{"level_db", mosaic.level_db}, {"returns", mosaic.returns}}};
-  const std::string stem = fs::path(returns).replace_filename("mosaic").string();
-  constexpr double window_db = 45;
-  save_map_image(stem + ".vti", map);
-  save_map_picture(stem, map, window_db);
+/// What joining the blocks of all heads gave.
+struct JoinedHeads {
+  ordered_json heads = ordered_json::array(), failed = ordered_json::array();  ///< for the manifest
+  std::vector<std::string> clouds, coverages;                                  ///< of the blocks
+  std::vector<HeadCubes> cubes;                                                ///< of the blocks
+  std::vector<HeadCube> joined_cubes;
+};
+
+/// Joins the cubes of each head.
+JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const std::vector<Finished>& finished,
+                       bool copy, Progress& progress) {
+  JoinedHeads all;
+  for (const SurveyRunHead& head : run.heads) {
+    progress.step("joining " + head.name);
+    std::vector<std::string>& of_head = all.cubes.emplace_back(HeadCubes{head.name, {}}).cubes;
+    for (const Finished& block : finished) {
+      if (block.head != &head) continue;
+      for (const FailedPing& ping : block.mark.failed)
+        all.failed.push_back({{"head", head.name}, {"ping", ping.number}, {"reason", ping.reason}});
+      if (block.mark.cube_sha256.empty()) continue;
+      of_head.push_back(block.files.cube);
+      all.clouds.push_back(block.files.returns);
+      if (!block.mark.coverage_sha256.empty()) all.coverages.push_back(block.files.coverage);
+    }
+    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
+    if (!of_head.empty()) {
+      join_cubes(cube, of_head, copy);
+      all.joined_cubes.push_back({head.name, cube});
+    }
+    all.heads.push_back({{"name", head.name},
+                         {"pings", head.pings},
+                         {"cube", of_head.empty() ? ordered_json() : ordered_json(head.name + "/cube.h5")},
+                         {"cube_sha256", of_head.empty() ? ordered_json() : ordered_json(sha256_of_file(cube))}});
+  }
+  return all;
 }
 
 }  // namespace
 
-void merge_survey(const std::string& folder, bool copy, double mosaic, const CommonOptions& common) {
+void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common) {
   const SurveyRun run = load_survey_run(folder);
   const std::vector<Finished> finished = finished_blocks(folder, run);
-  Progress progress(common, 2 + static_cast<int>(run.heads.size()));
+  Progress progress(common, 2 + static_cast<int>(run.heads.size()) + (mosaic.cell > 0));
   progress.step("checking " + folder);
   parallel_for(finished.size(), common.threads,
                [&](std::size_t b) { require_unchanged(finished[b].files, finished[b].mark); });
 
-  ordered_json heads = ordered_json::array(), failed = ordered_json::array();
-  std::vector<std::string> clouds;
-  for (const SurveyRunHead& head : run.heads) {
-    progress.step("joining " + head.name);
-    std::vector<std::string> cubes;
-    for (const Finished& block : finished) {
-      if (block.head != &head) continue;
-      for (const FailedPing& ping : block.mark.failed)
-        failed.push_back({{"head", head.name}, {"ping", ping.number}, {"reason", ping.reason}});
-      if (block.mark.cube_sha256.empty()) continue;
-      cubes.push_back(block.files.cube);
-      clouds.push_back(block.files.returns);
-    }
-    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
-    if (!cubes.empty()) join_cubes(cube, cubes, copy);
-    heads.push_back({{"name", head.name},
-                     {"pings", head.pings},
-                     {"cube", cubes.empty() ? ordered_json() : ordered_json(head.name + "/cube.h5")},
-                     {"cube_sha256", cubes.empty() ? ordered_json() : ordered_json(sha256_of_file(cube))}});
-  }
+  const JoinedHeads joined_heads = join_heads(folder, run, finished, copy, progress);
+  const auto& [heads, failed, clouds, coverages, cubes, joined_cubes] = joined_heads;
   progress.step("joining returns");
   const std::string returns = (fs::path(folder) / "returns.ply").string();
   ordered_json manifest = {{"schema", 1},
@@ -104,10 +112,22 @@ void merge_survey(const std::string& folder, bool copy, double mosaic, const Com
                            {"mission_sha256", run.mission_sha256},
                            {"blocks", finished.size()},
                            {"heads", heads}};
+  const SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
+  manifest.update(frame_json(frame));
+  if (frame.anchor)
+    write_file((fs::path(folder) / "track.geojson").string(), track_geojson(frame, joined_cubes).dump(1) + "\n");
   if (!clouds.empty()) {
     join_clouds(returns, clouds);
-    if (mosaic > 0) save_mosaic(returns, mosaic);
+    if (mosaic.cell > 0) {
+      progress.step("laying the images on the bed");
+      save_mosaic(folder, cubes, returns, mosaic, common.threads);
+    }
     manifest["returns_sha256"] = sha256_of_file(returns);
+  }
+  if (!coverages.empty()) {
+    const std::string coverage = (fs::path(folder) / "coverage.ply").string();
+    join_coverage(coverage, coverages);
+    manifest["coverage_sha256"] = sha256_of_file(coverage);
   }
   manifest["failed"] = failed;
   write_file((fs::path(folder) / "manifest.json").string(), manifest.dump(2) + "\n");

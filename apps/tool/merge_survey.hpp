@@ -5,9 +5,16 @@
 
 namespace insonify::tool {
 
+/// --mosaic and what goes with it.
+struct MosaicOptions {
+  double cell = 0;          ///< [m]; 0: no mosaic
+  std::string bottom;       ///< height of a level bed [m], or empty: the returns' surface
+  std::string by = "mean";  ///< or "best"
+};
+
 /// Joins the blocks of a survey in its folder: NAME/cube.h5 of each head, which refers to the blocks unless `copy`,
-/// returns.ply and manifest.json; of a `mosaic` > 0, the size of its cells [m], also mosaic.vti, .png and .pgw. Throws Error(content) naming blocks that are missing or were changed; SomeFailed,
-/// when all is written, if some pings failed.
-void merge_survey(const std::string& folder, bool copy, double mosaic, const CommonOptions& common);
+/// returns.ply and manifest.json; with a mosaic also mosaic.vti, .png and .pgw. Throws Error(content) naming blocks that
+/// are missing or were changed; SomeFailed, when all is written, if some pings failed.
+void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common);
 
 }  // namespace insonify::tool

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/run_settings.hpp"
@@ -28,9 +27,17 @@ void require_no_loading_options(const SceneOptions& o) {
            " is prepared already; give it to insonify prepare instead");
 }
 
-PingScene load_tiles_of_region(const PingOptions& o, const PingSetup& setup) {
+}  // namespace
+
+bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
+
+void require_free(const std::string& output, bool force) {
+  if (!force && std::filesystem::exists(output))
+    fail(ErrorKind::file, output, ": exists already; choose another name or add --force");
+}
+
+PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup, const TiledScene& tiled) {
   require_no_loading_options(o.scene);
-  const TiledScene tiled(o.scene.path);
   const TiledSceneInfo& info = tiled.info();
   const TileSelection near = tiled.select(
       resolve_ping(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation).region);
@@ -56,17 +63,8 @@ PingScene load_tiles_of_region(const PingOptions& o, const PingSetup& setup) {
   return result;
 }
 
-}  // namespace
-
-bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
-
-void require_free(const std::string& output, bool force) {
-  if (!force && std::filesystem::exists(output))
-    fail(ErrorKind::file, output, ": exists already; choose another name or add --force");
-}
-
 PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup) {
-  if (is_tiles(o.scene.path)) return load_tiles_of_region(o, setup);
+  if (is_tiles(o.scene.path)) return load_ping_scene(o, setup, TiledScene(o.scene.path));
   PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
   result.places = sampled_places(result.loaded.scene, setup.pose);
   require_in_reach(result.places, setup.head.head.gate, o.scene.path);

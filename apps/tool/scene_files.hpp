@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "scene_io/load_scene.hpp"
+#include "scene_io/tiled_scene.hpp"
 #include "tool/options.hpp"
 #include "tool/ping_setup.hpp"
 
@@ -25,5 +26,7 @@ struct PingScene {
 };
 /// Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).
 PingScene load_ping_scene(const PingOptions& options, const PingSetup& setup);
+/// The same of tiles that are open already.
+PingScene load_ping_scene(const PingOptions& options, const PingSetup& setup, const TiledScene& tiles);
 
 }  // namespace insonify::tool

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
+#include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/cube.hpp"
 #include "tool/run_files.hpp"
@@ -50,7 +51,7 @@ bool SurveyBlocks::is_done(const SurveyBlock& block) const {
 BlockReturns SurveyBlocks::resume(const SurveyBlock& block) const {
   const BlockFiles files = files_of(block);
   remove_leftovers(files);
-  for (const std::string& unmarked : {files.cube, files.returns}) fs::remove(unmarked);
+  for (const std::string& unmarked : {files.cube, files.returns, files.coverage}) fs::remove(unmarked);
   BlockReturns returns(block.end - block.begin);
   if (fs::exists(files.partial_cube) && fs::exists(files.partial_returns)) try {
       Cube cube = read_cube(files.partial_cube);
@@ -73,6 +74,7 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockReturns& returns) const {
   std::vector<FailedPing> failed;
   std::vector<double> time;
   Soundings soundings;
+  std::vector<CoveredSurfel> covered;
   bool whole = true;
   for (std::optional<SurveyReturn>& returned : returns) {
     whole &= returned.has_value();
@@ -83,9 +85,13 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockReturns& returns) const {
     }
     append(soundings, returned->soundings, static_cast<std::uint32_t>(returned->ping.number));
     time.resize(soundings.size(), returned->ping.time);
+    add(covered, returned->covered);
+    returned->covered = {};
     pings.push_back(std::move(returned->ping));
   }
+  if (!whole && setup_.file.coverage) return;  // of some pings alone it cannot go on
   if (!pings.empty()) {
+    if (setup_.file.coverage) save_coverage(files.coverage, covered);
     drop_unlike_layers(pings);
     write_cube(whole ? files.cube : files.partial_cube,
                cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head));

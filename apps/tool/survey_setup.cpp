@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "core/sha256.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "store/environment_file.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
@@ -13,7 +12,9 @@
 namespace insonify::tool {
 namespace {
 
+constexpr std::size_t kept_tile_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
+constexpr std::size_t most_covering_pings = 16;  // each lists every surfel that it insonifies
 
 SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, std::size_t h) {
   PingOptions options = load_mission_settings(file.path);
@@ -26,7 +27,9 @@ SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, s
   options.run.environment = file.environment;
   options.run.profile = file.profile;
   options.pose = "0,0,0,0,0,0";  // every ping has its own
-  return {options, set_up_ping(options)};
+  SurveyHead head{options, set_up_ping(options)};
+  head.setup.simulation.outputs.scatterers |= file.coverage;
+  return head;
 }
 
 /// Throws Error(content) "file: head 'name', ping i at t s: ..." about a ping.
@@ -85,8 +88,10 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
     const HeadSetup& head = s.heads.back().setup.head;
     mission.heads[h].listening_time = 2 * head.head.gate.max_range / head.medium.sound_speed;
     const std::size_t fitting = most_block_bytes / pressure_bytes(head.head);
-    per_block.push_back(o.pings_per_block > 0 ? static_cast<std::size_t>(o.pings_per_block)
-                                              : std::clamp<std::size_t>(fitting, 1, most_block_pings));
+    per_block.push_back(
+        o.pings_per_block > 0
+            ? static_cast<std::size_t>(o.pings_per_block)
+            : std::clamp<std::size_t>(fitting, 1, s.file.coverage ? most_covering_pings : most_block_pings));
   }
   try {
     s.pings = survey_pings(mission);
@@ -107,10 +112,14 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   const SurveyHead& first = setup.heads.front();
   Bounds box;
   if (is_tiles(setup.file.scene)) {
-    box = TiledScene(setup.file.scene).info().box;
+    box = tiles_.emplace(setup.file.scene, kept_tile_bytes).info().box;
   } else {
     loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
     for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
+    if (loaded_.mesh && setup.file.coverage)
+      fail(ErrorKind::content, setup.file.path,
+           ": coverage counts the pings of each surfel, but a mesh has other ones in ", "every ping; make surfels of ",
+           setup.file.scene, " by insonify prepare, or leave coverage out");
     if (!loaded_.mesh) prepared_.emplace(loaded_.scene, common.threads);
     box = bounds(loaded_.scene);
   }
@@ -124,23 +133,29 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   }
 }
 
-SimulatedPing SurveyScene::ping(const SurveySetup& setup, const SurveyPing& ping) const {
+SurveyScene::Made SurveyScene::make(const SurveySetup& setup, const SurveyPing& ping) const {
   const SurveyHead& head = setup.heads[ping.head];
   const PingPlace place = place_of(setup.file.mission, ping);
   const SimulationOptions options = options_of(head.setup.simulation, ping, place);
   const HeadSetup& h = head.setup.head;
-  if (prepared_) return simulate_ping(*prepared_, h.head, place.world_from_head, h.environment, options);
+  const auto simulate = [&](const auto& scene, const SceneCloud& cloud) {
+    Made made{simulate_ping(scene, h.head, place.world_from_head, h.environment, options), {}};
+    if (setup.file.coverage)
+      made.covered = coverage_of(cloud, made.ping.scatterers, h.head, made.ping.medium, {.threads = options.threads});
+    return made;
+  };
+  if (prepared_) return simulate(*prepared_, prepared_->scene());
 
   PingOptions alone = head.options;
   alone.common.threads = 1;
   const PingSetup here{place.world_from_head, h, options};
-  if (!loaded_.mesh) {
-    const PingScene part = load_ping_scene(alone, here);
-    return simulate_ping(part.loaded.scene, h.head, place.world_from_head, h.environment, options);
+  if (tiles_) {
+    const PingScene part = load_ping_scene(alone, here, *tiles_);
+    return simulate(part.loaded.scene, part.loaded.scene);
   }
   LoadedScene fine = loaded_;
   sample_for_ping(alone, here, fine);
-  return simulate_ping(fine.scene, h.head, place.world_from_head, h.environment, options);
+  return simulate(fine.scene, fine.scene);
 }
 
 }  // namespace insonify::tool

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene_io/tiled_scene.hpp"
 #include "simulate/simulate_survey.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
@@ -45,7 +46,8 @@ SurveySetup set_up_survey(const SurveyOptions& options);
 /// Bytes of a ping's pressure in the cube.
 std::size_t pressure_bytes(const SonarHead& head);
 
-/// The scene of a survey: loaded and prepared once. Of a mesh or tiles every ping takes what it needs.
+/// The scene of a survey: loaded and prepared once. Of a mesh or tiles every ping takes what it needs; tiles are kept
+/// for the pings after, 256 MiB of them at most.
 class SurveyScene {
  public:
   /// Throws as load_scene, and Error(content) for a head that is farther from the scene than it can listen.
@@ -53,11 +55,17 @@ class SurveyScene {
   SurveyScene(const SurveyScene&) = delete;
   SurveyScene& operator=(const SurveyScene&) = delete;
 
-  /// Simulates a ping of the survey; may be called by several threads at once.
-  SimulatedPing ping(const SurveySetup& setup, const SurveyPing& ping) const;
+  /// A ping of the survey, and what it did to each surfel if the mission asks for coverage.
+  struct Made {
+    SimulatedPing ping;
+    std::vector<CoveredSurfel> covered;
+  };
+  /// Simulates a ping; may be called by several threads at once.
+  Made make(const SurveySetup& setup, const SurveyPing& ping) const;
 
  private:
   LoadedScene loaded_;
+  std::optional<TiledScene> tiles_;
   std::optional<PreparedScene> prepared_;  ///< absent: every ping has a scene of its own
 };
 

@@ -191,6 +191,7 @@ Verb image_verb() {
        "insonify image out --view scene -o scene.png",
        "insonify image survey/port --starboard survey/starboard --view waterfall --altitude 5 -o side-scan.png",
        "insonify image survey/ping360 --view scan --frame world -o sweep.png",
+       "insonify image survey --view track -o track.png",
        "insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o visibility.png"},
       add_options, image);
 }

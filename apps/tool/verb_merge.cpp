@@ -24,7 +24,7 @@ struct MergeOptions {
   std::string output;
   bool force = false;
   bool copy = false;
-  double mosaic = 0;
+  MosaicOptions mosaic;
 };
 
 void add_options(OptionList list, MergeOptions& o) {
@@ -32,8 +32,13 @@ void add_options(OptionList list, MergeOptions& o) {
            {.required = true});
   list.add("-o,--output", &o.output, "run directory to make; a survey is merged in its own folder");
   list.add("--copy", &o.copy, "of a survey: copy the blocks into the cubes, which otherwise refer to them");
-  list.add("--mosaic", &o.mosaic, "of a survey: mean level of the returns on a grid of such cells [m]: .vti and .png",
+  list.add("--mosaic", &o.mosaic.cell,
+           "of a survey: the images of all heads laid on the bed, on a grid of such cells [m]: .vti and .png",
            {.positive = true});
+  list.add("--bottom", &o.mosaic.bottom, "z of a level bed for the mosaic [m]; default: the surface of the returns");
+  list.add("--mosaic-by", &o.mosaic.by,
+           "mean: of all pings that hear a cell; best: of the ping whose beam is narrowest there",
+           {.words = {"mean", "best"}});
   list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common, true);
 }
@@ -67,12 +72,14 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
 }
 
 void merge(const MergeOptions& o) {
+  if (o.mosaic.cell == 0 && (!o.mosaic.bottom.empty() || o.mosaic.by != "mean"))
+    fail(ErrorKind::argument, o.mosaic.bottom.empty() ? "--mosaic-by" : "--bottom", " goes with --mosaic");
   if (o.runs.size() == 1 && is_survey_run(o.runs.front())) {
     if (!o.output.empty()) fail(ErrorKind::argument, "--output: a survey is merged in its own folder; leave it out");
     return merge_survey(o.runs.front(), o.copy, o.mosaic, o.common);
   }
   if (o.output.empty()) fail(ErrorKind::argument, "--output is missing: the run directory to make");
-  if (o.copy || o.mosaic > 0)
+  if (o.copy || o.mosaic.cell > 0)
     fail(ErrorKind::argument, o.copy ? "--copy: " : "--mosaic: ", o.runs.front(),
          " is not the folder of a survey; leave it out");
   Progress progress(o.common, static_cast<int>(o.runs.size()) + 1);

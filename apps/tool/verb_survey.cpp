@@ -65,7 +65,7 @@ ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::s
   for (std::size_t k = 0; k < samples; ++k) {
     progress.check();
     const double begin = cpu_seconds();
-    const SimulatedPing result = scene.ping(s, pings[(2 * k + 1) * pings.size() / (2 * samples)]);
+    const SimulatedPing result = scene.make(s, pings[(2 * k + 1) * pings.size() / (2 * samples)]).ping;
     cpu += cpu_seconds() - begin;
     scatterers += static_cast<double>(result.sampling.scatterers);
     soundings += static_cast<double>(result.soundings.size());
@@ -162,7 +162,12 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
     if (!scene) load();
     progress.step("pinging");
     SurveyWork work;
-    work.simulate = [&](const SurveyPing& ping) { return return_of(scene->ping(s, ping), s.file.mission, ping); };
+    work.simulate = [&](const SurveyPing& ping) {
+      SurveyScene::Made made = scene->make(s, ping);
+      SurveyReturn returned = return_of(std::move(made.ping), s.file.mission, ping);
+      returned.covered = std::move(made.covered);
+      return returned;
+    };
     work.resume = [&](const SurveyBlock& block) { return store.resume(block); };
     work.keep = [&](const SurveyBlock& block, BlockReturns& returns) { store.keep(block, returns); };
     work.done = [&](const SurveyReturn* made) { status.ping_done(made); };
@@ -172,8 +177,9 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   const std::vector<std::string> failures = failures_of(o, s, shard);
   status.write(whole ? "done" : "interrupted");
   if (!whole)
-    throw Interrupted{fmt::format("{} of {} pings of {} are kept; the same command goes on from there",
-                                  todo.done + status.made(), todo.pings, o.output)};
+    throw Interrupted{fmt::format("{} of {} pings of {} are {}; the same command goes on from there",
+                                  todo.done + status.made(), todo.pings, o.output,
+                                  s.file.coverage ? "made, those of whole blocks kept" : "kept")};
   const ordered_json result = {{"folder", o.output},
                                {"pings", todo.pings},
                                {"made", status.made()},

@@ -18,7 +18,8 @@ enum class RandomStage : std::uint64_t {
   micro_relief = 7,       ///< counted by (octave, triad of waves, quantity)
   volume = 8,             ///< reverberation, counted by (ping, range cell, direction cell)
   sea_surface = 9,        ///< reverberation, counted by (ping, range cell, direction cell)
-  flat_bottom = 10        ///< reverberation, counted by (head position, range cell, direction cell)
+  flat_bottom = 10,       ///< reverberation, counted by (head position, range cell, direction cell)
+  navigation = 11         ///< errors of a trajectory, counted by (node, component)
 };
 
 /// Position of a random number in the stream of its stage.

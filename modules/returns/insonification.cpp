@@ -149,18 +149,16 @@ void require_map(const Insonification& map, const SceneCloud& scene) {
            "; give an empty map, or one of this scene");
 }
 
-}  // namespace
-
-void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& scatterers, const SonarHead& head,
-              const Medium& medium, const InsonificationOptions& options) {
-  require_valid(head, "add_ping");
-  require_valid(medium, "add_ping");
-  require_map(map, scene);
-  require(options.min_response_db <= 0, "add_ping", "min_response_db", options.min_response_db, "dB", "<= 0");
+/// What every surfel of a ping contributes, insonified or not.
+std::vector<SurfelContribution> contributions_to(const SceneCloud& scene, const Scatterers& scatterers,
+                                                 const SonarHead& head, const Medium& medium,
+                                                 const InsonificationOptions& options, const char* who) {
+  require_valid(head, who);
+  require_valid(medium, who);
+  require(options.min_response_db <= 0, who, "min_response_db", options.min_response_db, "dB", "<= 0");
   for (const std::uint32_t surfel : scatterers.surfel)
     if (surfel >= scene.size())
-      fail(ErrorKind::argument, "add_ping", ": a scatterer is of surfel ", surfel, ", but the scene has ",
-           scene.size());
+      fail(ErrorKind::argument, who, ": a scatterer is of surfel ", surfel, ", but the scene has ", scene.size());
 
   // A coherent amplitude of 1 is the rms amplitude of every speckle distribution.
   EchoOptions echo_options;
@@ -168,9 +166,27 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
   echo_options.threads = options.threads;
   const Echoes echoes =
       direct_echoes(scatterers, scene.materials, head.pulse, medium, with_patterns(echo_options, head));
-  const double min_response = power_from_db(options.min_response_db);
+  return surfel_contributions(scene, scatterers, echoes, head, medium, power_from_db(options.min_response_db));
+}
+
+float grazing_of(const SurfelContribution& h) { return std::asin(std::min(1.0F, h.cosine)); }
+
+}  // namespace
+
+std::vector<InsonifiedSurfel> insonified_surfels(const SceneCloud& scene, const Scatterers& scatterers,
+                                                 const SonarHead& head, const Medium& medium,
+                                                 const InsonificationOptions& options) {
+  std::vector<InsonifiedSurfel> insonified;
+  for (const SurfelContribution& h : contributions_to(scene, scatterers, head, medium, options, "insonified_surfels"))
+    if (h.hit) insonified.push_back({h.surfel, h.intensity, grazing_of(h), h.range});
+  return insonified;
+}
+
+void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& scatterers, const SonarHead& head,
+              const Medium& medium, const InsonificationOptions& options) {
+  require_map(map, scene);
   const std::vector<SurfelContribution> contributions =
-      surfel_contributions(scene, scatterers, echoes, head, medium, min_response);
+      contributions_to(scene, scatterers, head, medium, options, "add_ping");
 
   // Update the extremes over all pings.
   if (map.hits.empty()) {
@@ -192,7 +208,7 @@ void add_ping(Insonification& map, const SceneCloud& scene, const Scatterers& sc
       raise(map.scattering_db, h.cross_section / h.area);  // (E74)
       raise(map.cell_level_db, h.on_axis / (micropascal * micropascal) * h.cell / h.area);
     }
-    map.grazing_angle[h.surfel] = std::max(map.grazing_angle[h.surfel], std::asin(std::min(1.0F, h.cosine)));
+    map.grazing_angle[h.surfel] = std::max(map.grazing_angle[h.surfel], grazing_of(h));
     map.range[h.surfel] = std::min(map.range[h.surfel], h.range);
   }
 }

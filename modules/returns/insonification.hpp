@@ -33,6 +33,19 @@ struct InsonificationOptions {
   int threads = 0;  ///< 0: all cores
 };
 
+/// A surfel that a ping insonified.
+struct InsonifiedSurfel {
+  std::uint32_t surfel = 0;  ///< index in the scene
+  double intensity = 0;      ///< mean square of the pressure, of its level (E64) [Pa^2]
+  float grazing_angle = 0;   ///< largest over its parts [rad]
+  float range = 0;           ///< least over its parts [m]
+};
+
+/// The surfels that add_ping counts for one ping, in the order of their first scatterers; errors as of that.
+std::vector<InsonifiedSurfel> insonified_surfels(const SceneCloud& scene, const Scatterers& scatterers,
+                                                 const SonarHead& head, const Medium& medium,
+                                                 const InsonificationOptions& options = {});
+
 /// Adds the coverage of one ping. A surfel is insonified if a part of it is among `scatterers` (i.e. visible), inside
 /// the range gate and within a beam. Its level is that of all its parts together, without speckle, in the beam with the
 /// largest response to its first part (E64):

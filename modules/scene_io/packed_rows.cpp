@@ -25,6 +25,20 @@ void add_columns(PackedRows& rows, const std::string& prefix, std::initializer_l
 
 }  // namespace
 
+std::string ply_header(const PackedRows& rows) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : rows.comments) header += "comment " + comment + "\n";
+  header += "element vertex " + std::to_string(rows.rows) + "\n";
+  for (const PackedRows::Column& column : rows.columns) {
+    const char* type = column.type == NumberType::float64   ? "double"
+                       : column.type == NumberType::float32 ? "float"
+                       : column.type == NumberType::uint16  ? "ushort"
+                                                            : "uint";
+    header += std::string("property ") + type + " " + column.name + "\n";
+  }
+  return header + "end_header\n";
+}
+
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who) {
   const std::size_t n = soundings.size();
   PackedRows rows;

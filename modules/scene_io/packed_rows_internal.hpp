@@ -49,6 +49,9 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
 /// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
 PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
 
+/// Header of a binary little-endian PLY of points.
+std::string ply_header(const PackedRows& rows);
+
 /// Header of a binary PCD, including its DATA line (written by PCL); comments become "# " lines.
 std::string pcd_header(const PackedRows& rows);
 

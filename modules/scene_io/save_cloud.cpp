@@ -20,20 +20,6 @@ namespace {
 
 constexpr double farthest_in_pcd = 2000;  ///< [m]; float32 steps are 0.12 mm there
 
-std::string ply_header(const PackedRows& rows) {
-  std::string header = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : rows.comments) header += "comment " + comment + "\n";
-  header += "element vertex " + std::to_string(rows.rows) + "\n";
-  for (const PackedRows::Column& column : rows.columns) {
-    const char* type = column.type == NumberType::float64   ? "double"
-                       : column.type == NumberType::float32 ? "float"
-                       : column.type == NumberType::uint16  ? "ushort"
-                                                            : "uint";
-    header += std::string("property ") + type + " " + column.name + "\n";
-  }
-  return header + "end_header\n";
-}
-
 /// Writes header and rows to a temporary file, then renames it to `path`; leaves nothing behind on failure.
 void write_rows(const std::string& path, const std::string& header, const PackedRows& rows) {
   PendingFile pending(path);

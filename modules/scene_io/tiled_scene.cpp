@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "scene_io/file_probe_internal.hpp"
+#include "scene_io/tile_cache_internal.hpp"
 #include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
@@ -116,8 +117,9 @@ struct TiledScene::State {
   TiledSceneInfo info;
   bool wide = false;
   std::vector<TileEntry> tiles;
+  mutable TileCache cache;
 
-  explicit State(const std::string& path) : file(path, BinaryFile::Mode::read) {
+  State(const std::string& path, std::size_t kept_bytes) : file(path, BinaryFile::Mode::read), cache(kept_bytes) {
     const TileHeader header = read_tile_header(file);
     info = info_of(header, path);
     wide = (header.flags & flag_wide) != 0;
@@ -159,9 +161,9 @@ struct TiledScene::State {
   }
 };
 
-TiledScene::TiledScene(const std::string& path) {
+TiledScene::TiledScene(const std::string& path, std::size_t kept_bytes) {
   require_readable(path);
-  state_ = std::make_unique<State>(path);
+  state_ = std::make_unique<State>(path, kept_bytes);
 }
 
 TiledScene::~TiledScene() = default;
@@ -211,11 +213,14 @@ SceneCloud TiledScene::load(const TileSelection& selection, double memory, int t
   scene.id.resize(first.back());
   parallel_for(selection.tiles.size(), threads, [&](std::size_t k) {
     const std::uint32_t t = selection.tiles[k];
-    unpack(s.tiles[t], s.bytes_of(t), selection.origin - s.info.origin, first[k], scene);
+    const TileCache::Bytes bytes = s.cache.get(t, [&] { return s.bytes_of(t); });
+    unpack(s.tiles[t], *bytes, selection.origin - s.info.origin, first[k], scene);
   });
   sort_by_id(scene);
   return scene;
 }
+
+std::uint64_t TiledScene::tiles_read() const { return state_->cache.reads(); }
 
 std::vector<Vector3d> TiledScene::places() const {
   std::vector<Vector3d> places;

@@ -38,7 +38,7 @@ struct TileSelection {
 ///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels
 ///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
 ///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id, so that the cloud is the
-///             whole scene with the others left out
+///             whole scene with the others left out; tiles may be kept in memory for the next load
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = resolve_ping(tiled.info().whole, head, pose, environment, options).region;
@@ -46,9 +46,10 @@ struct TileSelection {
 ///   simulate_ping(part, head, pose, environment, options);  // the same bytes as of the whole scene
 class TiledScene {
  public:
+  /// kept_bytes   of tiles that were read stay in memory, the least recently used are dropped first; 0: none
   /// Throws Error(file) if the file is missing or unreadable; Error(content) if it is not a .tiles file, truncated,
   /// damaged, incomplete or of a newer version.
-  explicit TiledScene(const std::string& path);
+  explicit TiledScene(const std::string& path, std::size_t kept_bytes = 0);
   ~TiledScene();
   TiledScene(TiledScene&&) noexcept;
 
@@ -65,6 +66,9 @@ class TiledScene {
   /// memory   limit for loading [bytes]; 0: the available memory. Throws Error(runtime) if more is needed, before
   ///          anything is read; Error(content) if a tile is damaged.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;
+
+  /// How many tiles were read from the file so far: kept ones are not read again.
+  std::uint64_t tiles_read() const;
 
   /// Centres of the tiles (world, [m]).
   std::vector<Eigen::Vector3d> places() const;

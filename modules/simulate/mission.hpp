@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acoustics/motion.hpp"
+#include "simulate/navigation_errors.hpp"
 
 namespace insonify {
 
@@ -44,7 +45,8 @@ struct MissionLeg {
 struct Mission {
   Trajectory trajectory;  ///< world_from_vehicle; vehicle axes as head axes: x forward, y port, z up
   std::vector<MissionHead> heads;
-  std::vector<MissionLeg> legs;  ///< in the order of time; empty: one over the whole trajectory
+  std::vector<MissionLeg> legs;   ///< in the order of time; empty: one over the whole trajectory
+  NavigationErrors navigation{};  ///< by which the poses that are stored differ from those of the trajectory
 };
 
 /// Throws Error(argument) unless head `i` can ping: it has a name of letters, digits, '-', '_' and '.' that no head

@@ -91,8 +91,14 @@ SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing&
 }
 
 SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping) {
-  SurveyReturn kept{std::move(simulated.ping), std::move(simulated.soundings), {}};
+  SurveyReturn kept{std::move(simulated.ping), std::move(simulated.soundings), {}, {}};
   kept.ping.number = ping.number;
+  if (!mission.navigation.nodes.empty()) {
+    const Pose believed = believed_place_of(mission, ping);
+    const Pose moved = believed * kept.ping.world_from_head.inverse();
+    for (Eigen::Vector3d& position : kept.soundings.position) position = moved * position;
+    kept.ping.world_from_head = believed;
+  }
   if (mission.heads[ping.head].scan) kept.ping.scan = ScanPlace{ping.sweep, ping.scan_angle};
   return kept;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "returns/coverage.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "simulate/survey_pings.hpp"
 
@@ -13,7 +14,8 @@ namespace insonify {
 struct SurveyReturn {
   Ping ping;
   Soundings soundings;
-  std::string failure;  ///< empty: none
+  std::string failure;                   ///< empty: none
+  std::vector<CoveredSurfel> covered{};  ///< if the survey asks for coverage
 };
 
 /// The returns of a block's pings, in their order; absent while a ping is not done.
@@ -23,6 +25,7 @@ using BlockReturns = std::vector<std::optional<SurveyReturn>>;
 SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing& ping, const PingPlace& place);
 
 /// What is kept of a ping: its number is the one among the pings of its head, and of a scanning head it knows the scan.
+/// With navigation errors, its pose and its returns are where the vehicle believes them to be.
 SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
 
 /// How the pings of a survey are made and what becomes of them. `simulate` and `done` are called by several threads at

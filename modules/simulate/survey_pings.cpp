@@ -99,6 +99,20 @@ void require_apart(const MissionHead& head, const std::vector<SurveyPing>& pings
            " s apart, must be at least 2 max_range / c = ", head.listening_time, " s");
 }
 
+/// The two entries about a time alone: interpolation checks the trajectory that it is given.
+Trajectory entries_about(const Trajectory& t, double time) {
+  const auto after = std::upper_bound(t.time.begin(), t.time.end(), time) - t.time.begin();
+  const auto i =
+      static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, static_cast<std::ptrdiff_t>(t.time.size()) - 1));
+  return {{t.time[i - 1], t.time[i]}, {t.pose[i - 1], t.pose[i]}};
+}
+
+/// Pose of the ping's head on a vehicle.
+Pose on_vehicle(const Mission& mission, const SurveyPing& ping, const Pose& vehicle) {
+  return vehicle * mission.heads.at(ping.head).vehicle_from_head *
+         Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ());
+}
+
 }  // namespace
 
 std::vector<SurveyPing> survey_pings(const Mission& mission) {
@@ -116,18 +130,17 @@ std::vector<SurveyPing> survey_pings(const Mission& mission) {
 }
 
 PingPlace place_of(const Mission& mission, const SurveyPing& ping) {
-  // Only the two entries about the time: interpolation checks the trajectory that it is given.
-  const Trajectory& t = mission.trajectory;
-  const auto after = std::upper_bound(t.time.begin(), t.time.end(), ping.time) - t.time.begin();
-  const auto i =
-      static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, static_cast<std::ptrdiff_t>(t.time.size()) - 1));
-  const Trajectory near{{t.time[i - 1], t.time[i]}, {t.pose[i - 1], t.pose[i]}};
+  const Trajectory near = entries_about(mission.trajectory, ping.time);
   const Pose vehicle = pose_at(near, ping.time);
   Motion motion = motion_at(near, ping.time);
-
   const Pose& mount = mission.heads.at(ping.head).vehicle_from_head;
   motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(vehicle.linear() * mount.translation()));
-  return {vehicle * mount * Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ()), motion};
+  return {on_vehicle(mission, ping, vehicle), motion};
+}
+
+Pose believed_place_of(const Mission& mission, const SurveyPing& ping) {
+  const Pose vehicle = pose_at(entries_about(mission.trajectory, ping.time), ping.time);
+  return on_vehicle(mission, ping, believed_pose(mission.navigation, ping.time, vehicle));
 }
 
 std::int64_t random_number_of(const SurveyPing& ping) {

@@ -30,6 +30,9 @@ struct PingPlace {
 /// angle. Takes time that grows with the logarithm of the trajectory's length. Throws as pose_at.
 PingPlace place_of(const Mission& mission, const SurveyPing& ping);
 
+/// Where the vehicle believes a head to be when it pings: by the mission's navigation errors beside place_of.
+Pose believed_place_of(const Mission& mission, const SurveyPing& ping);
+
 /// Number of the ping by which simulate_ping draws its random numbers: apart for all pings of all heads, and equal to
 /// `number` in its lower 40 bits.
 std::int64_t random_number_of(const SurveyPing& ping);

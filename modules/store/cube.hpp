@@ -37,4 +37,14 @@ void write_cube(const std::string& path, const Cube& cube);
 /// another schema or lacks a dataset or attribute, naming it.
 Cube read_cube(const std::string& path);
 
+/// When and from where a ping was sent.
+struct TrackPoint {
+  std::int64_t number = 0;
+  double time = 0;  ///< [s]
+  Pose world_from_head = Pose::Identity();
+};
+
+/// The pings of a cube without their images; errors as read_cube.
+std::vector<TrackPoint> read_track(const std::string& path);
+
 }  // namespace insonify

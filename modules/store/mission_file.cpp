@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "core/utc.hpp"
+#include "simulate/navigation_errors.hpp"
 #include "simulate/waypoint_trajectory.hpp"
 #include "store/csv_tables.hpp"
+#include "store/mission_table_internal.hpp"
 #include "store/run_directory.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree_internal.hpp"
@@ -21,99 +23,12 @@ using Eigen::Vector3d;
 
 constexpr int mission_schema = 1;
 
-/// A value of the file, with what an error must name.
-struct Entry {
-  const std::string& path;
-  const char* key;
-  const TomlValue& value;
+const std::vector<MissionKey<Anchor>> anchor_keys = {
+    {"latitude_deg", [](const MissionEntry& e, Anchor& a) { a.latitude_deg = e.number(); }},
+    {"longitude_deg", [](const MissionEntry& e, Anchor& a) { a.longitude_deg = e.number(); }},
+    {"heading_deg", [](const MissionEntry& e, Anchor& a) { a.heading_deg = e.number(); }}};
 
-  template <typename... Parts>
-  [[noreturn]] void refuse(const Parts&... parts) const {
-    fail_in_file(path, value.line, key, parts...);
-  }
-  std::string text() const {
-    if (value.kind != Kind::text) refuse(" must be text in quotes");
-    return value.text;
-  }
-  std::string file_path() const { return path_named_in(path, text()); }
-  double number() const {
-    if (!value.is_number()) refuse(" must be a number");
-    return value.number;
-  }
-  double positive() const {
-    if (!(number() > 0 && std::isfinite(number()))) refuse(" = ", number(), ", must be finite and > 0");
-    return number();
-  }
-  double angle() const { return radians(number()); }
-  bool flag() const {
-    if (value.kind != Kind::boolean) refuse(" must be true or false");
-    return value.number != 0;
-  }
-  std::uint64_t seed() const {
-    const bool whole = value.kind == Kind::integer && value.number >= 0 && value.number < 0x1p53;
-    std::uint64_t seed = static_cast<std::uint64_t>(whole ? value.number : 0);
-    if (!whole && !(value.kind == Kind::text && to_number(value.text, seed)))
-      refuse(" must be an integer from 0, in quotes from 2^53");
-    return seed;
-  }
-  /// A list, member by member.
-  template <typename Member>
-  auto list(Member member) const {
-    if (value.kind != Kind::array) refuse(" must be a list");
-    std::vector<std::decay_t<decltype(member(*this))>> members;
-    for (const TomlValue& item : value.items) members.push_back(member(Entry{path, key, item}));
-    return members;
-  }
-  Vector3d vector() const {
-    const std::vector<double> v = list(&Entry::number_of);
-    if (v.size() != 3) refuse(" has ", v.size(), " numbers, must have three");
-    return {v[0], v[1], v[2]};
-  }
-  static double number_of(const Entry& entry) { return entry.number(); }
-  static std::string text_of(const Entry& entry) { return entry.text(); }
-  static Vector3d vector_of(const Entry& entry) { return entry.vector(); }
-
-  /// One of a table of words.
-  template <typename Table>
-  auto word(const Table& table) const {
-    const auto* found = find_named(table, text());
-    if (!found)
-      refuse(" = '", text(), "', must be one of ",
-             joined(table, ", ", [](const auto& row) { return std::string(row.name); }));
-    return *found;
-  }
-};
-
-/// A key of a table and what it sets.
-template <typename Object>
-using Key = std::pair<const char*, std::function<void(const Entry&, Object&)>>;
-
-template <typename Object>
-void read_table(const std::string& path, const TomlValue& table, const std::vector<Key<Object>>& keys, Object& object) {
-  if (table.kind != Kind::table) fail_in_file(path, table.line, "must be a table");
-  std::vector<std::string> known;
-  for (const auto& [name, set] : keys) known.emplace_back(name);
-  require_known_keys(path, table, known);
-  for (const auto& [name, set] : keys)
-    if (const TomlValue* value = table.find(name)) set({path, name, *value}, object);
-}
-
-/// Adds file and line to what `body` refuses.
-template <typename Body>
-void at_line(const std::string& path, int line, const Body& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    fail_in_file(path, line, error.what());
-  }
-}
-
-const std::vector<Key<Anchor>> anchor_keys = {
-    {"latitude_deg", [](const Entry& e, Anchor& a) { a.latitude_deg = e.number(); }},
-    {"longitude_deg", [](const Entry& e, Anchor& a) { a.longitude_deg = e.number(); }},
-    {"heading_deg", [](const Entry& e, Anchor& a) { a.heading_deg = e.number(); }}};
-
-Anchor read_anchor(const Entry& e) {
+Anchor read_anchor(const MissionEntry& e) {
   Anchor anchor;
   read_table(e.path, e.value, anchor_keys, anchor);
   if (!(std::abs(anchor.latitude_deg) <= 90))
@@ -124,22 +39,30 @@ Anchor read_anchor(const Entry& e) {
 }
 
 /// "2026-05-01T08:30:00Z", perhaps with fractions of the second.
-std::string read_utc(const Entry& e) {
-  const std::string text = e.text(), form = "0000-00-00T00:00:00";
-  const auto fits = [](char c, char f) { return f == '0' ? c >= '0' && c <= '9' : c == f; };
-  const bool good = text.size() > form.size() && text.back() == 'Z' &&
-                    std::equal(form.begin(), form.end(), text.begin(), [&](char f, char c) { return fits(c, f); });
-  if (!good) e.refuse(" = '", text, "', must be a time of UTC like 2026-05-01T08:30:00Z");
+std::string read_utc(const MissionEntry& e) {
+  const std::string text = e.text();
+  try {
+    utc_after(text, 0);
+  } catch (const Error&) {
+    e.refuse(" = '", text, "', must be a time of UTC like 2026-05-01T08:30:00Z");
+  }
   return text;
 }
 
-const std::vector<Key<MissionFile>> survey_keys = {
-    {"scene", [](const Entry& e, MissionFile& m) { m.scene = e.file_path(); }},
-    {"seed", [](const Entry& e, MissionFile& m) { m.seed = e.seed(); }},
-    {"environment", [](const Entry& e, MissionFile& m) { m.environment = e.file_path(); }},
-    {"profile", [](const Entry& e, MissionFile& m) { m.profile = e.file_path(); }},
-    {"start_utc", [](const Entry& e, MissionFile& m) { m.start_utc = read_utc(e); }},
-    {"anchor", [](const Entry& e, MissionFile& m) { m.anchor = read_anchor(e); }}};
+const std::vector<MissionKey<MissionFile>> survey_keys = {
+    {"scene", [](const MissionEntry& e, MissionFile& m) { m.scene = e.file_path(); }},
+    {"seed", [](const MissionEntry& e, MissionFile& m) { m.seed = e.seed(); }},
+    {"coverage", [](const MissionEntry& e, MissionFile& m) { m.coverage = e.flag(); }},
+    {"environment", [](const MissionEntry& e, MissionFile& m) { m.environment = e.file_path(); }},
+    {"profile", [](const MissionEntry& e, MissionFile& m) { m.profile = e.file_path(); }},
+    {"start_utc", [](const MissionEntry& e, MissionFile& m) { m.start_utc = read_utc(e); }},
+    {"anchor", [](const MissionEntry& e, MissionFile& m) { m.anchor = read_anchor(e); }}};
+
+const std::vector<MissionKey<NavigationNoise>> noise_keys = {
+    {"position_m", [](const MissionEntry& e, NavigationNoise& n) { n.position = e.number(); }},
+    {"heading_deg", [](const MissionEntry& e, NavigationNoise& n) { n.heading = e.angle(); }},
+    {"attitude_deg", [](const MissionEntry& e, NavigationNoise& n) { n.attitude = e.angle(); }},
+    {"correlation_s", [](const MissionEntry& e, NavigationNoise& n) { n.correlation_time = e.positive(); }}};
 
 /// [trajectory] as it stands in the file.
 struct TrajectoryTable {
@@ -147,18 +70,22 @@ struct TrajectoryTable {
   bool ned = false;
   double time_offset = 0;
   std::optional<Waypoints> waypoints;
+  std::optional<NavigationNoise> noise{};
   Waypoints& of_waypoints() { return waypoints ? *waypoints : waypoints.emplace(); }
 };
 
 constexpr Named<bool> frame_words[] = {{"z-up", false}, {"ned", true}};
 
-const std::vector<Key<TrajectoryTable>> trajectory_keys = {
-    {"file", [](const Entry& e, TrajectoryTable& t) { t.file = e.file_path(); }},
-    {"frame", [](const Entry& e, TrajectoryTable& t) { t.ned = e.word(frame_words); }},
-    {"time_offset_s", [](const Entry& e, TrajectoryTable& t) { t.time_offset = e.number(); }},
-    {"waypoints_m", [](const Entry& e, TrajectoryTable& t) { t.of_waypoints().points = e.list(&Entry::vector_of); }},
-    {"speed_m_s", [](const Entry& e, TrajectoryTable& t) { t.of_waypoints().speed = e.positive(); }},
-    {"turn_radius_m", [](const Entry& e, TrajectoryTable& t) { t.of_waypoints().turn_radius = e.positive(); }}};
+const std::vector<MissionKey<TrajectoryTable>> trajectory_keys = {
+    {"file", [](const MissionEntry& e, TrajectoryTable& t) { t.file = e.file_path(); }},
+    {"frame", [](const MissionEntry& e, TrajectoryTable& t) { t.ned = e.word(frame_words); }},
+    {"time_offset_s", [](const MissionEntry& e, TrajectoryTable& t) { t.time_offset = e.number(); }},
+    {"waypoints_m",
+     [](const MissionEntry& e, TrajectoryTable& t) { t.of_waypoints().points = e.list(&MissionEntry::vector_of); }},
+    {"nav_noise",
+     [](const MissionEntry& e, TrajectoryTable& t) { read_table(e.path, e.value, noise_keys, t.noise.emplace()); }},
+    {"speed_m_s", [](const MissionEntry& e, TrajectoryTable& t) { t.of_waypoints().speed = e.positive(); }},
+    {"turn_radius_m", [](const MissionEntry& e, TrajectoryTable& t) { t.of_waypoints().turn_radius = e.positive(); }}};
 
 /// From north-east-down axes to z-up ones: half a turn about x, on both sides.
 Pose from_ned(const Pose& pose) {
@@ -184,6 +111,8 @@ void read_trajectory(const std::string& path, const TomlValue& table, MissionFil
   if (t.ned)
     for (Pose& pose : trajectory.pose) pose = from_ned(pose);
   at_line(path, table.line, [&] { require_valid(trajectory, "mission"); });
+  if (t.noise)
+    at_line(path, table.line, [&] { m.mission.navigation = navigation_errors(trajectory, *t.noise, m.seed); });
 }
 
 constexpr Named<bool> side_words[] = {{"port", false}, {"starboard", true}};
@@ -200,25 +129,25 @@ struct HeadTable {
   double rate = 0, dwell = 0;
 };
 
-const std::vector<Key<HeadTable>> scan_keys = {
-    {"start_deg", [](const Entry& e, HeadTable& h) { h.head.scan->start = e.angle(); }},
-    {"stop_deg", [](const Entry& e, HeadTable& h) { h.head.scan->stop = e.angle(); }},
-    {"step_deg", [](const Entry& e, HeadTable& h) { h.head.scan->step = e.angle(); }},
-    {"mode", [](const Entry& e, HeadTable& h) { h.head.scan->mode = e.word(scan_words); }},
-    {"dwell_s", [](const Entry& e, HeadTable& h) { h.dwell = e.positive(); }}};
+const std::vector<MissionKey<HeadTable>> scan_keys = {
+    {"start_deg", [](const MissionEntry& e, HeadTable& h) { h.head.scan->start = e.angle(); }},
+    {"stop_deg", [](const MissionEntry& e, HeadTable& h) { h.head.scan->stop = e.angle(); }},
+    {"step_deg", [](const MissionEntry& e, HeadTable& h) { h.head.scan->step = e.angle(); }},
+    {"mode", [](const MissionEntry& e, HeadTable& h) { h.head.scan->mode = e.word(scan_words); }},
+    {"dwell_s", [](const MissionEntry& e, HeadTable& h) { h.dwell = e.positive(); }}};
 
-const std::vector<Key<HeadTable>> head_keys = {
-    {"name", [](const Entry& e, HeadTable& h) { h.head.name = e.text(); }},
-    {"sonar", [](const Entry& e, HeadTable& h) { h.sonar.sonar = e.text(); }},
-    {"range", [](const Entry& e, HeadTable& h) { h.sonar.range = e.text(); }},
-    {"set", [](const Entry& e, HeadTable& h) { h.sonar.settings = e.list(&Entry::text_of); }},
-    {"offset_m", [](const Entry& e, HeadTable& h) { h.offset = e.vector(); }},
-    {"angles_deg", [](const Entry& e, HeadTable& h) { h.angles = e.vector() * radians(1); }},
-    {"side", [](const Entry& e, HeadTable& h) { h.starboard = e.word(side_words); }},
-    {"rate_hz", [](const Entry& e, HeadTable& h) { h.rate = e.positive(); }},
-    {"every_m", [](const Entry& e, HeadTable& h) { h.head.distance = e.positive(); }},
-    {"times_s", [](const Entry& e, HeadTable& h) { h.head.times = e.list(&Entry::number_of); }},
-    {"scan", [](const Entry& e, HeadTable& h) {
+const std::vector<MissionKey<HeadTable>> head_keys = {
+    {"name", [](const MissionEntry& e, HeadTable& h) { h.head.name = e.text(); }},
+    {"sonar", [](const MissionEntry& e, HeadTable& h) { h.sonar.sonar = e.text(); }},
+    {"range", [](const MissionEntry& e, HeadTable& h) { h.sonar.range = e.text(); }},
+    {"set", [](const MissionEntry& e, HeadTable& h) { h.sonar.settings = e.list(&MissionEntry::text_of); }},
+    {"offset_m", [](const MissionEntry& e, HeadTable& h) { h.offset = e.vector(); }},
+    {"angles_deg", [](const MissionEntry& e, HeadTable& h) { h.angles = e.vector() * radians(1); }},
+    {"side", [](const MissionEntry& e, HeadTable& h) { h.starboard = e.word(side_words); }},
+    {"rate_hz", [](const MissionEntry& e, HeadTable& h) { h.rate = e.positive(); }},
+    {"every_m", [](const MissionEntry& e, HeadTable& h) { h.head.distance = e.positive(); }},
+    {"times_s", [](const MissionEntry& e, HeadTable& h) { h.head.times = e.list(&MissionEntry::number_of); }},
+    {"scan", [](const MissionEntry& e, HeadTable& h) {
        h.head.scan = HeadScan{0, 2 * pi, radians(1)};
        read_table(e.path, e.value, scan_keys, h);
      }}};
@@ -239,14 +168,14 @@ void read_head(const std::string& path, const TomlValue& table, MissionFile& m) 
   at_line(path, table.line, [&] { require_valid_head(m.mission, m.mission.heads.size() - 1, "mission"); });
 }
 
-const std::vector<Key<MissionLeg>> leg_keys = {
-    {"name", [](const Entry& e, MissionLeg& l) { l.name = e.text(); }},
-    {"from_s", [](const Entry& e, MissionLeg& l) { l.from = e.number(); }},
-    {"to_s", [](const Entry& e, MissionLeg& l) { l.to = e.number(); }},
-    {"active", [](const Entry& e, MissionLeg& l) { l.active = e.flag(); }},
-    {"heads", [](const Entry& e, MissionLeg& l) { l.heads = e.list(&Entry::text_of); }},
-    {"rate_hz", [](const Entry& e, MissionLeg& l) { l.interval = 1 / e.positive(); }},
-    {"every_m", [](const Entry& e, MissionLeg& l) { l.distance = e.positive(); }}};
+const std::vector<MissionKey<MissionLeg>> leg_keys = {
+    {"name", [](const MissionEntry& e, MissionLeg& l) { l.name = e.text(); }},
+    {"from_s", [](const MissionEntry& e, MissionLeg& l) { l.from = e.number(); }},
+    {"to_s", [](const MissionEntry& e, MissionLeg& l) { l.to = e.number(); }},
+    {"active", [](const MissionEntry& e, MissionLeg& l) { l.active = e.flag(); }},
+    {"heads", [](const MissionEntry& e, MissionLeg& l) { l.heads = e.list(&MissionEntry::text_of); }},
+    {"rate_hz", [](const MissionEntry& e, MissionLeg& l) { l.interval = 1 / e.positive(); }},
+    {"every_m", [](const MissionEntry& e, MissionLeg& l) { l.distance = e.positive(); }}};
 
 void read_leg(const std::string& path, const TomlValue& table, MissionFile& m) {
   MissionLeg leg;
@@ -263,7 +192,7 @@ void read_each(const std::string& path, const TomlValue& document, const char* n
   const TomlValue* tables = document.find(name);
   if (!tables) return;
   if (tables->kind != Kind::array) fail_in_file(path, tables->line, name, " must be a list of tables: [[", name, "]]");
-  for (const TomlValue& table : tables->items) read(table);
+  for (const TomlValue& table : tables->items) read(with_template(path, document, table));
 }
 
 const TomlValue& required_table(const std::string& path, const TomlValue& document, const char* name) {
@@ -274,9 +203,18 @@ const TomlValue& required_table(const std::string& path, const TomlValue& docume
 
 }  // namespace
 
+SurveyFrame load_survey_frame(const std::string& path) {
+  const TomlValue document = load_toml(path);
+  const TomlValue& survey = required_table(path, document, "survey");
+  SurveyFrame frame;
+  if (const TomlValue* start = survey.find("start_utc")) frame.start_utc = read_utc({path, "start_utc", *start});
+  if (const TomlValue* anchor = survey.find("anchor")) frame.anchor = read_anchor({path, "anchor", *anchor});
+  return frame;
+}
+
 MissionFile load_mission(const std::string& path) {
   const TomlValue document = load_toml(path);
-  require_known_keys(path, document, {"schema", "survey", "trajectory", "head", "leg", "scene", "ping"});
+  require_known_keys(path, document, {"schema", "survey", "trajectory", "head", "leg", "template", "scene", "ping"});
   if (const double schema = toml_number(path, document, "schema"); schema != mission_schema)
     fail_in_file(path, document.find("schema")->line, "schema = ", schema, ", this version reads schema ",
                  mission_schema, schema > mission_schema ? "; the mission is of a newer insonify" : "");

@@ -22,12 +22,22 @@ struct MissionFile {
   std::string scene;                 ///< path
   std::string environment, profile;  ///< paths, or empty
   std::uint64_t seed = 1;
+  bool coverage = false;  ///< the survey keeps what its pings did to each surfel
   std::string start_utc;  ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
   std::optional<Anchor> anchor;
   std::string trajectory;            ///< path, or empty: waypoints
   Mission mission;                   ///< listening times are 0: they follow from sonar and water
   std::vector<MissionSonar> sonars;  ///< of each head
 };
+
+/// When and where on the globe a survey is.
+struct SurveyFrame {
+  std::string start_utc;         ///< of time 0, or empty
+  std::optional<Anchor> anchor;  ///< of the world's axes
+};
+
+/// Reads start_utc and anchor of a mission alone; errors as load_mission.
+SurveyFrame load_survey_frame(const std::string& path);
 
 /// Reads a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from
 /// the folder of the file, then from the one above. Unknown keys, wrong types, and whatever require_valid(mission)

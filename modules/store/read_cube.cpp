@@ -133,23 +133,34 @@ void read_scan(const Place& place, hid_t file, std::vector<Ping>& pings) {
   for (std::size_t p = 0; p < pings.size(); ++p) pings[p].scan = ScanPlace{sweep[p], angle[p]};
 }
 
+std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
+  const auto pose = read_all<double>(place, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
+  const auto time = read_all<double>(place, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
+  const auto number = read_all<std::int64_t>(place, file, ping_name, {pings}, H5T_NATIVE_INT64);
+  std::vector<TrackPoint> track(pings);
+  for (std::size_t p = 0; p < track.size(); ++p) {
+    track[p].number = number[p];
+    track[p].time = time[p];
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        track[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
+  }
+  return track;
+}
+
 std::vector<Ping> read_pings(const Place& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
   require_complex(place, dataset, pressure_name.path);
-  const auto pose = read_all<double>(place, file, pose_name, {extent[0], 4, 4}, H5T_NATIVE_DOUBLE);
-  const auto time = read_all<double>(place, file, time_name, {extent[0]}, H5T_NATIVE_DOUBLE);
-  const auto number = read_all<std::int64_t>(place, file, ping_name, {extent[0]}, H5T_NATIVE_INT64);
+  const std::vector<TrackPoint> track = track_of(place, file, extent[0]);
 
   std::vector<Ping> pings(extent[0], read_axes(place, file, extent));
   const bool expected_level = H5Aexists(file, expected_level_attribute) > 0;
   for (std::size_t p = 0; p < pings.size(); ++p) {
-    pings[p].time = time[p];
-    pings[p].number = number[p];
+    pings[p].time = track[p].time;
+    pings[p].number = track[p].number;
+    pings[p].world_from_head = track[p].world_from_head;
     pings[p].expected_level = expected_level;
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column)
-        pings[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
   }
   read_scan(place, file, pings);
   read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings,
@@ -181,6 +192,14 @@ Cube read_cube(const std::string& path) {
   cube.tolerance = read_number(place, file, "tolerance");
   cube.pings = read_pings(place, file);
   return cube;
+}
+
+std::vector<TrackPoint> read_track(const std::string& path) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  require_schema(place, file);
+  return track_of(place, file, extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3)[0]);
 }
 
 }  // namespace insonify

@@ -99,7 +99,8 @@ SurveyRun load_survey_run(const std::string& folder) {
 BlockFiles block_files(const std::string& run_folder, const std::string& head, std::int64_t block) {
   const fs::path folder = fs::path(run_folder) / head / "blocks";
   const std::string stem = (folder / printed("%06lld", static_cast<long long>(block))).string();
-  return {folder.string(), stem + ".h5", stem + ".ply", stem + ".done", stem + ".partial.h5", stem + ".partial.ply"};
+  return {folder.string(), stem + ".h5",         stem + ".ply",        stem + ".coverage.ply",
+          stem + ".done",  stem + ".partial.h5", stem + ".partial.ply"};
 }
 
 void finish_block(const BlockFiles& files, const std::string& mission_sha256, const std::vector<FailedPing>& failed) {
@@ -108,6 +109,10 @@ void finish_block(const BlockFiles& files, const std::string& mission_sha256, co
     for (const std::string& path : {files.cube, files.returns}) sync_to_disk(path);
     text += "cube_sha256 = \"" + sha256_of_file(files.cube) + "\"\nreturns_sha256 = \"" +
             sha256_of_file(files.returns) + "\"\n";
+  }
+  if (fs::exists(files.coverage)) {
+    sync_to_disk(files.coverage);
+    text += "coverage_sha256 = \"" + sha256_of_file(files.coverage) + "\"\n";
   }
   for (const FailedPing& ping : failed)
     text += "\n[[failed]]\nping = " + std::to_string(ping.number) + "\nreason = " + toml_text_of(ping.reason) + "\n";
@@ -130,6 +135,7 @@ std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& m
     mark.cube_sha256 = toml_text(files.mark, document, "cube_sha256");
     mark.returns_sha256 = toml_text(files.mark, document, "returns_sha256");
   }
+  if (document.find("coverage_sha256")) mark.coverage_sha256 = toml_text(files.mark, document, "coverage_sha256");
   if (const TomlValue* failed = document.find("failed"))
     for (const TomlValue& ping : failed->items)
       mark.failed.push_back(
@@ -148,7 +154,8 @@ void remove_leftovers(const BlockFiles& files) {
 
 void require_unchanged(const BlockFiles& files, const BlockMark& mark) {
   for (const auto& [path, digest] :
-       {std::pair(files.cube, mark.cube_sha256), std::pair(files.returns, mark.returns_sha256)})
+       {std::pair(files.cube, mark.cube_sha256), std::pair(files.returns, mark.returns_sha256),
+        std::pair(files.coverage, mark.coverage_sha256)})
     if (!digest.empty() && sha256_of_file(path) != digest)
       fail(ErrorKind::content, path, ": was changed since it was made (its SHA-256 is not that of ", files.mark,
            "); remove the mark and run the survey again");

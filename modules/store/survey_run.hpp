@@ -29,9 +29,9 @@ void open_survey_run(const std::string& folder, const SurveyRun& run);
 /// Throws Error(file) if `folder` is not of a survey, Error(content) if its survey.toml is damaged.
 SurveyRun load_survey_run(const std::string& folder);
 
-/// Files of a block. `partial_...` hold the pings of one that was interrupted.
+/// Files of a block; `coverage` only of surveys that ask for it. `partial_...` hold the pings of one that was interrupted.
 struct BlockFiles {
-  std::string folder, cube, returns, mark, partial_cube, partial_returns;
+  std::string folder, cube, returns, coverage, mark, partial_cube, partial_returns;
 };
 BlockFiles block_files(const std::string& run_folder, const std::string& head, std::int64_t block);
 
@@ -43,7 +43,7 @@ struct FailedPing {
 /// What says that a block is done: written last, and whole or not there. A block of failed pings alone has no files.
 struct BlockMark {
   std::string mission_sha256;
-  std::string cube_sha256, returns_sha256;
+  std::string cube_sha256, returns_sha256, coverage_sha256;  ///< empty: there is no such file
   std::vector<FailedPing> failed;
 };
 

@@ -40,6 +40,9 @@ struct HorizontalMap {
 /// then renamed. Throws Error(argument) unless there is a field and all are of one size, Error(file) if it cannot write.
 void save_map_image(const std::string& path, const HorizontalMap& map);
 
+/// Reads what save_map_image wrote. Throws Error(file) if it is missing, Error(content) if it is not such a map.
+HorizontalMap load_map_image(const std::string& path);
+
 /// Writes the first field as a grey picture, `stem`.png, y up, with the world file `stem`.pgw that says where it is: 0
 /// is NaN, 1 to 255 are the values from `window` below the highest to it. Errors as save_map_image; Error(content) if
 /// no value is finite.

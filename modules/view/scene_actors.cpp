@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t most_moving = 200000;
 
 Colour fan_colour(bool dark) { return dark ? Colour{0.42, 0.72, 1.0} : Colour{0.08, 0.38, 0.75}; }
+constexpr Colour track_colour = {0.95, 0.5, 0.05};
 constexpr Colour highlight_colour = {0.96, 0.05, 0.62};
 constexpr std::array<Colour, 3> axis_colours = {{{0.86, 0.16, 0.14}, {0.16, 0.62, 0.2}, {0.16, 0.33, 0.9}}};
 
@@ -69,6 +70,12 @@ void SceneActors::make_surfels() {
 void SceneActors::make_lines() {
   const Colour blue = fan_colour(options_.dark), line = theme(options_.dark).line;
   outline_ = line_actor(blue, 1.3 * thin());
+  track_ = line_actor(track_colour, 2 * thin());
+  if (look_.track.size() > 1) {
+    Polyline way = look_.track;
+    for (Eigen::Vector3d& place : way) place -= scene_.origin;
+    set_lines(track_, {way});
+  }
   arcs_ = line_actor(blue, 0.8 * thin());
   beams_ = line_actor(blue, 0.8 * thin());
   for (std::size_t i = 0; i < 3; ++i) head_axes_[i] = line_actor(axis_colours[i], 2.5 * thin());

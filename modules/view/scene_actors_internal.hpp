@@ -99,16 +99,15 @@ class SceneActors {
   PointCloudArrays hole_arrays_;
   vtkSmartPointer<vtkActor> holes_, normals_;
 
-  vtkSmartPointer<vtkActor> outline_, arcs_, beams_, body_, floor_, grid_;
+  vtkSmartPointer<vtkActor> outline_, arcs_, beams_, body_, floor_, grid_, track_;
   std::array<vtkSmartPointer<vtkActor>, 3> head_axes_;
   std::vector<vtkSmartPointer<vtkTextActor>> labels_;
   bool axes_shown_ = true;
 
   std::vector<vtkActor*> actors() const {
-    return {still_.Get(),     moving_.Get(),       footprint_.Get(),    marks_.Get(),
-            soundings_.Get(), outline_.Get(),      arcs_.Get(),         beams_.Get(),
-            body_.Get(),      floor_.Get(),        grid_.Get(),         holes_.Get(),
-            normals_.Get(),   head_axes_[0].Get(), head_axes_[1].Get(), head_axes_[2].Get()};
+    return {still_.Get(),   moving_.Get(), footprint_.Get(),    marks_.Get(),        soundings_.Get(),   outline_.Get(),
+            arcs_.Get(),    beams_.Get(),  body_.Get(),         floor_.Get(),        grid_.Get(),        holes_.Get(),
+            normals_.Get(), track_.Get(),  head_axes_[0].Get(), head_axes_[1].Get(), head_axes_[2].Get()};
   }
   double thin() const { return line_width_for(font_size_for(options_)); }
   Eigen::AlignedBox3d box() const;  // of `interest` and of the axes

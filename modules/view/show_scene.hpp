@@ -54,6 +54,7 @@ struct SceneLook {
   std::vector<Visibility> visibility;      ///< per surfel, see find_visibility
   std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, and footprint on the scene;
   ///< drawn with the elevation width, which is narrower than the region of find_visibility
+  std::vector<Eigen::Vector3d> track;      ///< way of the head [m, world]; a line
   Soundings soundings;                     ///< points coloured by level
   std::vector<std::uint32_t> highlighted;  ///< marked surfels, drawn in front of everything
   std::vector<Eigen::Vector3d> holes;      ///< holes of the scan [m, world], see find_holes; red points

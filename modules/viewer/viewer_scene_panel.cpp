@@ -72,6 +72,7 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   look.point_size = state.point_size;
   look.head = head_of(state);
   look.level_unit = "dB re 1 µPa at 1 m, range compensated";
+  for (const Ping& ping : data.pings) look.track.emplace_back(ping.world_from_head.translation());
   if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
   PictureOptions coloured = options;
   coloured.colour_map = state.colour_map;

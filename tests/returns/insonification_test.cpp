@@ -1,6 +1,10 @@
 #include "returns/insonification.hpp"
 
+#include "beamforming/response_table.hpp"
+#include "core/units.hpp"
+#include "returns/coverage.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "support/scenes.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -189,4 +193,80 @@ TEST(Insonification, of_another_scene_is_refused_and_unchanged) {
             "add_ping: a scatterer is of surfel 1, but the scene has 1");
   EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, decibel_medium, {.min_response_db = 3}); }),
             "add_ping: min_response_db = 3 dB, must be <= 0");
+}
+
+namespace {
+
+/// Coverage of a strip of level bed at z = -4 by a head that looks to port, tilted by 30 degrees, from `pings` places
+/// `spacing` apart along x, the middle one at the origin.
+std::vector<CoveredSurfel> line_over_bed(int pings, double spacing, SceneCloud& bed) {
+  bed = empty_scene();
+  for (double y = 1.5; y < 12; y += 0.5) add_surfel(bed, {0, y, -4}, Eigen::Vector3d::UnitZ(), area);
+  SonarHead head = insonifying_head();
+  head.fan = make_fan(1, 0, radians(3), radians(120));
+  std::vector<CoveredSurfel> covered;
+  for (int k = -pings / 2; k <= pings / 2; ++k) {
+    const Pose pose = pose_from_yaw_pitch_roll({k * spacing, 0, 0}, pi / 2, radians(30), 0);
+    add(covered, coverage_of(bed, seen(bed, head, pose), head, decibel_medium));
+  }
+  return covered;
+}
+
+/// Direction cosine at which a beam's intensity is down by 20 dB.
+double edge_of_beam() {
+  const SonarHead head = insonifying_head();
+  const ResponseTable table(head.array, 1500 / head.pulse.centre_frequency);
+  double u = 0;
+  while (table.intensity(u) > 0.01) u += 1e-5;
+  return u;
+}
+
+}  // namespace
+
+// From a way abeam at height h, a surfel y to the side is h / sin(grazing) = hypot(y, h) away, and within the beam for
+// as many pings as their spacing goes into twice r u / sqrt(1 - u^2).
+TEST(Coverage, of_a_level_bed_beside_a_straight_way_is_the_closed_form) {
+  const double spacing = 0.02, u = edge_of_beam(), half_way = u / std::sqrt(1 - u * u);
+  SceneCloud bed;
+  const auto covered = line_over_bed(201, spacing, bed);
+  ASSERT_EQ(covered.size(), bed.size());
+  for (const CoveredSurfel& s : covered) {
+    const double range = std::hypot(s.position.y(), 4);
+    EXPECT_NEAR(s.grazing_angle, std::asin(4 / range), 1e-5);
+    EXPECT_NEAR(s.range, range, 1e-5);
+    EXPECT_NEAR(s.pings, 2 * range * half_way / spacing, 1.001) << s.position.y();
+    EXPECT_EQ(s.position, world(bed, s.id));
+  }
+}
+
+TEST(Coverage, of_twice_as_many_pings_is_3_db_more_insonification) {
+  SceneCloud bed;
+  const auto sparse = line_over_bed(101, 0.04, bed), dense = line_over_bed(201, 0.02, bed);
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    EXPECT_NEAR(dense[i].intensity / sparse[i].intensity, 2, 0.1) << i;
+    EXPECT_GT(dense[i].pings, sparse[i].pings);
+  }
+}
+
+TEST(Coverage, of_one_ping_is_its_insonification) {
+  const SceneCloud scene = target_at(7);
+  const auto covered =
+      coverage_of(scene, seen(scene, insonifying_head(), Pose::Identity()), insonifying_head(), decibel_medium);
+  ASSERT_EQ(covered.size(), 1U);
+  EXPECT_EQ(covered[0].pings, 1U);
+  EXPECT_NEAR(10 * std::log10(covered[0].intensity / (micropascal * micropascal)), sonar_equation(7), 1e-4);
+}
+
+TEST(Coverage, adds_up_by_id_in_any_grouping) {
+  const auto one = [](std::uint32_t id, float angle, double intensity) {
+    return CoveredSurfel{id, 1, {1.0 * id, 2, 3}, angle, 10 - angle, intensity};
+  };
+  std::vector<CoveredSurfel> sum = {one(2, 0.5F, 1), one(7, 0.1F, 2)};
+  add(sum, {one(1, 0.2F, 4), one(7, 0.3F, 8), one(9, 0.4F, 16)});
+  ASSERT_EQ(sum.size(), 4U);
+  EXPECT_EQ(sum[0].id, 1U);
+  EXPECT_EQ(sum[2].pings, 2U);
+  EXPECT_EQ(sum[2].grazing_angle, 0.3F);
+  EXPECT_EQ(sum[2].range, 9.7F);
+  EXPECT_EQ(sum[2].intensity, 10);
 }

@@ -277,3 +277,27 @@ TEST(TileWriter, bad_input_is_refused) {
   writer.finish();
   expect_error(ErrorKind::argument, {"after finish"}, [&] { writer.add(one_point()); });
 }
+
+TEST(TiledScene, keeps_the_tiles_last_used_up_to_a_limit) {
+  const SceneCloud scene = harbour();
+  save_tiles(own_path("a.tiles"), scene, small_tiles());
+  constexpr std::size_t most_per_tile = 200 * surfel_bytes;
+  const TiledScene forgets(own_path("a.tiles")), keeps(own_path("a.tiles"), 3 * most_per_tile);
+  const auto load = [](const TiledScene& tiled, std::vector<std::uint32_t> tiles) {
+    TileSelection selection = tiled.select_all();
+    selection.tiles = std::move(tiles);
+    return tiled.load(selection, 0, 1);
+  };
+  EXPECT_EQ(load(keeps, {0, 1, 2}).point, load(forgets, {0, 1, 2}).point);
+  EXPECT_EQ(keeps.tiles_read(), 3U);
+  EXPECT_EQ(load(keeps, {1, 2, 0}).point, load(forgets, {1, 2, 0}).point);
+  EXPECT_EQ(keeps.tiles_read(), 3U);
+  // A fourth tile takes the place of tile 1, which was not used for longest.
+  load(keeps, {0, 2, 3});
+  EXPECT_EQ(keeps.tiles_read(), 4U);
+  load(keeps, {0, 2, 3});
+  EXPECT_EQ(keeps.tiles_read(), 4U);
+  load(keeps, {1});
+  EXPECT_EQ(keeps.tiles_read(), 5U);
+  EXPECT_EQ(forgets.tiles_read(), 6U);
+}

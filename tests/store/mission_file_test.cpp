@@ -152,3 +152,52 @@ TEST(MissionFile, names_line_key_and_rule) {
   EXPECT_THAT(error_of([] { with_trajectory("file = \"way.csv\""); }, ErrorKind::content),
               HasSubstr("way.csv:3: time_s = -1 s, must be later than the previous line, 0 s"));
 }
+
+TEST(MissionFile, takes_from_a_template_what_a_table_lacks) {
+  const std::string base = R"(schema = 1
+[survey]
+scene = "harbour.ply"
+[trajectory]
+waypoints_m = [[0, 0, -3], [20, 0, -3]]
+speed_m_s = 2
+[template.side]
+sonar = "starfish-450"
+range = "1:30"
+every_m = 0.1
+[[head]]
+template = "side"
+name = "port"
+[[head]]
+template = "side"
+name = "starboard"
+side = "starboard"
+range = "1:20"
+)";
+  const MissionFile m = load_mission(own_file("m.toml", base));
+  ASSERT_EQ(m.sonars.size(), 2U);
+  EXPECT_EQ(m.sonars[0].sonar, "starfish-450");
+  EXPECT_EQ(m.sonars[0].range, "1:30");
+  EXPECT_EQ(m.sonars[1].range, "1:20") << "the head's own keys come first";
+  EXPECT_EQ(m.mission.heads[1].distance, 0.1);
+  EXPECT_FALSE(m.mission.heads[0].vehicle_from_head.isApprox(m.mission.heads[1].vehicle_from_head));
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    return error_of_file(load_mission, "m.toml", replaced(base, from, to));
+  };
+  EXPECT_THAT(refused("template = \"side\"", "template = \"top\""),
+              HasSubstr("m.toml:12: template = 'top': there is no table [template.top]"));
+  EXPECT_THAT(refused("every_m", "evry_m"), HasSubstr("m.toml:10: unknown key 'evry_m'; did you mean 'every_m'?"));
+}
+
+TEST(MissionFile, reads_navigation_noise_and_where_the_survey_is) {
+  const MissionFile m = load_mission(own_file(
+      "m.toml", replaced(whole, "speed_m_s = 2",
+                         "speed_m_s = 2\nnav_noise = { position_m = 0.5, heading_deg = 1, correlation_s = 2 }")));
+  EXPECT_EQ(m.mission.navigation.step, 0.2);
+  EXPECT_GT(m.mission.navigation.nodes.size(), 50U);
+  EXPECT_TRUE(load_mission(own_file("m.toml", whole)).mission.navigation.nodes.empty());
+  EXPECT_THAT(refusal("speed_m_s = 2", "speed_m_s = 2\nnav_noise = { position_m = -1 }"),
+              HasSubstr("position = -1, must be finite and >= 0"));
+  const SurveyFrame frame = load_survey_frame(own_path("m.toml"));
+  EXPECT_EQ(frame.start_utc, "2026-05-01T08:30:00Z");
+  EXPECT_EQ(frame.anchor.value().heading_deg, 30);
+}

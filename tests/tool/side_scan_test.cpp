@@ -2,10 +2,13 @@
 // have.
 #include "tool/side_scan.hpp"
 
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkXMLImageDataReader.h>
+
 #include "core/units.hpp"
-#include "scene_io/load_scene.hpp"
-#include "scene_io/returns_mosaic.hpp"
-#include "scene_io/save_cloud.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -39,7 +42,7 @@ f 8 12 11
 f 8 11 7
 )";
 
-/// A line_mission along x over the bed, with a head of 0.1 m resolution to each side and a swath.
+/// A line along x over the bed, with a head of 0.1 m resolution to each side and a swath.
 const std::string line_mission = R"(schema = 1
 [survey]
 scene = "bed.obj"
@@ -65,8 +68,6 @@ sonar = "em2040"
 range = "1:12"
 set = ["sonar.beams=21", "sonar.field_of_view_deg=105", "sonar.beam_width_deg=3", "sonar.elevation_width_deg=3", "sonar.range_resolution_m=0.1"]
 every_m = 1
-[ping]
-false_alarm_rate = 1
 )";
 
 /// Mean power of the pings at each range.
@@ -98,6 +99,46 @@ class SideScan : public ToolTest {
   }
 };
 
+/// Strengths of a mosaic's cells by their place.
+class LaidImages {
+ public:
+  explicit LaidImages(const std::string& file) {
+    reader_->SetFileName(file.c_str());
+    reader_->Update();
+  }
+  double at(double x, double y) const {
+    vtkImageData* image = reader_->GetOutput();
+    const double* origin = image->GetOrigin();
+    const double cell = image->GetSpacing()[0];
+    const int columns = image->GetDimensions()[0] - 1, rows = image->GetDimensions()[1] - 1;
+    const int i = static_cast<int>(std::floor((x - origin[0]) / cell)),
+              j = static_cast<int>(std::floor((y - origin[1]) / cell));
+    if (i < 0 || j < 0 || i >= columns || j >= rows) return std::nan("");
+    return image->GetCellData()->GetArray("strength_db")->GetComponent(i + vtkIdType{j} * columns, 0);
+  }
+  /// Level of the mean strength between two distances to the side, over the middle of the line, and how many cells are empty.
+  std::pair<double, int> over(double from, double to) const {
+    double sum = 0;
+    int cells = 0, empty = 0;
+    for (double x = -1.375; x < 1.4; x += 0.25)
+      for (double y = from + 0.125; y < to; y += 0.25, ++cells)
+        if (const double strength = at(x, y); std::isnan(strength))
+          ++empty;
+        else
+          sum += power_from_db(strength);
+    return {db_from_power(sum / (cells - empty)), empty};
+  }
+
+ private:
+  vtkNew<vtkXMLImageDataReader> reader_;
+};
+
+/// Backscattering strength of a bed of the default material.
+double lambert_db(double distance) {
+  const double sine = altitude / std::hypot(altitude, distance);
+  return db_from_power(Material{}.lambert_mu * sine * sine);
+}
+
 PingHistory ramp() {
   PingHistory history;
   history.gate = {1, 11, 0.5};
@@ -111,8 +152,8 @@ PingHistory ramp() {
 }  // namespace
 
 TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_height) {
-  succeed("survey line_mission.toml -q -o run");
-  succeed("merge -q run --mosaic 0.5");
+  succeed("survey line.toml -q -o run");
+  succeed("merge -q run");
   const ImageRun port = read_image_run(path("run/port"), "");
   ImageOptions options;
   options.view = "waterfall";
@@ -124,7 +165,7 @@ TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_he
   EXPECT_NEAR(begin, edge, cell);
   EXPECT_NEAR(end - begin, box_height * edge / (altitude - box_height), cell);
 
-  // On the ground it ends where the line_mission over that edge meets the bottom.
+  // On the ground it ends where the line over that edge meets the bottom.
   for (const bool by_pose : {false, true}) {
     ImageOptions ground = options;
     (by_pose ? ground.bottom : ground.altitude) = by_pose ? "-5" : "5";
@@ -153,24 +194,38 @@ TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_he
   succeed("image run/port --starboard run/starboard --view waterfall -o slant.png --size 900x500");
   EXPECT_TRUE(file_exists(path("ground.png")) && file_exists(path("slant.png")));
 
-  // The mosaic has the returns of all heads, and a hole where the shadow is.
-  const ReturnsMosaic mosaic = mosaic_of_returns(path("run/returns.ply"), 0.5);
-  EXPECT_EQ(mosaic.returns.sum(), static_cast<float>(load_soundings(path("run/returns.ply")).size()));
-  const auto column = static_cast<Eigen::Index>(-mosaic.x / 0.5);
-  const auto row = [&](double y) { return static_cast<Eigen::Index>((y - mosaic.y) / 0.5); };
-  EXPECT_TRUE(std::isnan(mosaic.level_db(column, row(10.25))));
-  EXPECT_TRUE(std::isfinite(mosaic.level_db(column, row(12.25))));
-  EXPECT_TRUE(std::isfinite(mosaic.level_db(column, row(-10.25))));
-  EXPECT_EQ(static_cast<unsigned char>(read("run/mosaic.png")[19]), mosaic.returns.rows()) << "width of the picture";
-  EXPECT_TRUE(file_exists(path("run/mosaic.vti")));
-  EXPECT_THAT(read("run/mosaic.pgw"), testing::StartsWith("0.5\n0\n0\n-0.5\n"));
-
   expect_refused("image run/port --altitude 5 -o x.png", 2, {"--altitude goes with --view waterfall, not fan"});
   expect_refused("image run/port --view waterfall --bottom 1 -o x.png", 2,
                  {"--bottom = 1 m puts the head of ping 0 -1 m above the bottom, must be > 0"});
   expect_refused("image run/port --view waterfall --altitude 30 -o x.png", 2, {"must be below the max range of 16 m"});
   expect_refused("image run/port --starboard run/swath --view waterfall -o x.png", 3,
                  {"port has 8 pings of 1 to 16 m"});
+}
+
+TEST_F(SideScan, mosaic_lays_the_images_on_the_bed_without_holes) {
+  succeed("survey line.toml -q -o run");
+  for (const std::string bed : {"", " --bottom -5"}) {
+    succeed("merge -q run --mosaic 0.25" + bed);
+    const LaidImages mosaic(path("run/mosaic.vti"));
+    // About the axis of the beams, which look down by 30 degrees; speckle is a part of a dB, and both ways through the
+    // pattern of 2 degrees hear less than one of its width.
+    for (const auto& [from, to] : {std::pair(-10.0, -7.0), std::pair(-14.0, -11.0)}) {
+      const auto [strength, empty] = mosaic.over(from, to);
+      EXPECT_EQ(empty, 0) << bed << from;
+      EXPECT_NEAR(strength, lambert_db((from + to) / 2), 1.5) << bed << from;
+    }
+    EXPECT_EQ(mosaic.over(-14, 14).second, 0) << bed << ": the swath closes the gap between the sides";
+    const auto [shadow, no] = mosaic.over(9.75, 10.75);
+    EXPECT_LT(shadow, mosaic.over(12, 13).first - 20) << bed;
+    EXPECT_EQ(no, 0);
+  }
+  EXPECT_THAT(read("run/mosaic.pgw"), testing::StartsWith("0.25\n0\n0\n-0.25\n"));
+  const std::string mean = read("run/mosaic.vti");
+  succeed("merge -q run --mosaic 0.25 --bottom -5 --mosaic-by best");
+  EXPECT_TRUE(read("run/mosaic.vti") != mean);
+  EXPECT_EQ(LaidImages(path("run/mosaic.vti")).over(-14, 14).second, 0);
+  expect_refused("merge run --bottom -5", 2, {"--bottom goes with --mosaic"});
+  expect_refused("merge run --mosaic 0.25 --bottom deep", 2, {"--bottom"});
 }
 
 TEST(SideScanHistory, on_a_flat_bottom_takes_each_sample_to_its_ground_range) {
@@ -195,24 +250,4 @@ TEST(SideScanHistory, has_port_to_the_left_and_silence_before_the_first_range) {
   EXPECT_EQ(both.level_db(1, 21), -200);
   EXPECT_EQ(both.level_db(1, 24), 100);
   EXPECT_EQ(both.level_db(1, 43), 119);
-}
-
-TEST(MosaicOfReturns, has_the_mean_intensity_of_each_cell_with_spreading_given_back) {
-  Soundings returns;
-  returns.position = {{0.1, 0.1, -5}, {0.4, 0.3, -5}, {1.1, -0.9, -5}};
-  returns.level_db = {100, 70, 90};
-  returns.range = {1, 100, 10};
-  returns.azimuth = returns.elevation = {0, 0, 0};
-  returns.ping = returns.beam = returns.bin = returns.material = {0, 0, 0};
-  const std::string file = own_folder() + "/returns.ply";
-  save_soundings(file, returns);
-  const ReturnsMosaic mosaic = mosaic_of_returns(file, 0.5);
-  ASSERT_EQ(mosaic.level_db.rows(), 3);
-  ASSERT_EQ(mosaic.level_db.cols(), 3);
-  EXPECT_EQ(mosaic.y, -1);
-  EXPECT_NEAR(mosaic.level_db(0, 2), 10 * std::log10((1e10 + 1e13) / 2), 1e-3) << "100 and 70 + 60 dB";
-  EXPECT_EQ(mosaic.returns(0, 2), 2);
-  EXPECT_NEAR(mosaic.level_db(2, 0), 120, 1e-3);
-  EXPECT_TRUE(std::isnan(mosaic.level_db(1, 1)));
-  EXPECT_THAT(error_of([&] { mosaic_of_returns(file, 1e-6); }), HasSubstr("cells, must be at most 2^26"));
 }

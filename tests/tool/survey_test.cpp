@@ -1,10 +1,15 @@
 // Surveys: one result whatever the shards, threads, order and interruptions.
+#include <chrono>
+#include <random>
+
 #include <nlohmann/json.hpp>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/sha256.hpp"
+#include "core/units.hpp"
+#include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
@@ -78,6 +83,9 @@ class Survey : public ToolTest {
     return names;
   }
 };
+
+/// Surveys that other programs run or read.
+class SurveyEngines : public Survey {};
 
 /// Starts the program itself and ends it by `signal` once `enough()`; returns its exit code, or -1.
 int started_and_ended(const std::string& folder, int signal, const std::function<bool()>& enough) {
@@ -203,7 +211,7 @@ TEST_F(Survey, interrupted_it_keeps_every_finished_ping) {
 }
 
 // The lines of docs/cluster.md, with a task that is killed.
-TEST_F(Survey, under_gnu_parallel_gives_the_same_bytes) {
+TEST_F(SurveyEngines, under_gnu_parallel_gives_the_same_bytes) {
   if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
   const auto whole = expected();
   const std::string line = "cd " + folder_.string() +
@@ -218,6 +226,59 @@ TEST_F(Survey, under_gnu_parallel_gives_the_same_bytes) {
   EXPECT_EQ(std::system(line.c_str()), 0);
   EXPECT_EQ(merged("run"), whole);
   EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
+}
+
+// The job array of docs/cluster.md. The second task is killed in its first run, and put back into the queue.
+TEST_F(SurveyEngines, a_job_array_with_a_requeued_task_gives_the_same_bytes) {
+  if (geteuid() != 0 || std::system("command -v slurmctld munged >/dev/null") != 0)
+    GTEST_SKIP() << "Slurm is not installed, or this is not root";
+  const auto whole = expected();
+  write(
+      "job.sh",
+      R"(#!/bin/sh
+#SBATCH --array=0-3 --cpus-per-task=1 --requeue --output=task-%a.txt
+if [ "$SLURM_ARRAY_TASK_ID" = 1 ] && [ -z "$SLURM_RESTART_COUNT" ]; then
+  timeout -s KILL 0.1 )" INSONIFY_TOOL R"( survey m.toml -o run -q --pings-per-block 3 --shard 1/4
+  scontrol requeue "${SLURM_ARRAY_JOB_ID}_1" && sleep 10
+fi
+exec )" INSONIFY_TOOL
+      R"( survey m.toml -o run -j "$SLURM_CPUS_PER_TASK" -q --pings-per-block 3 --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"
+)");
+  const std::string line = "cd " + folder_.string() + " && timeout 60 " INSONIFY_TESTS "/tool/slurm_node.sh " +
+                           path("slurm.log") + " sbatch --wait job.sh >sbatch.txt 2>&1";
+  EXPECT_EQ(std::system(line.c_str()), 0) << read("sbatch.txt");
+  EXPECT_THAT(read("slurm.log"), HasSubstr("Requeuing"));
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
+}
+
+// Another reader than our own.
+TEST_F(SurveyEngines, a_merged_cube_is_read_by_h5py) {
+  const std::string python = "/usr/bin/python3 -c \"import h5py\" 2>/dev/null";
+  if (std::system(python.c_str()) != 0) GTEST_SKIP() << "h5py is not installed";
+  survey("run");
+  merged("run");
+  write("read.py", R"(import h5py
+with h5py.File("run/fls/cube.h5") as f:
+    p = f["pressure"]
+    print(p.dtype, *p.shape, p.is_virtual, f["time"][5], repr(float(abs(p[5, 3, 4].real))))
+)");
+  const std::string line = "cd " + folder_.string() + " && /usr/bin/python3 read.py >read.txt 2>&1";
+  EXPECT_EQ(std::system(line.c_str()), 0) << read("read.txt");
+  const Cube cube = read_cube(path("run/fls/cube.h5"));
+  std::istringstream words(read("read.txt"));
+  std::string type, is_virtual;
+  std::size_t pings = 0, beams = 0;
+  Eigen::Index bins = 0;
+  double time = 0, real = 0;
+  words >> type >> pings >> beams >> bins >> is_virtual >> time >> real;
+  EXPECT_EQ(type, "complex64");
+  EXPECT_EQ(pings, cube.pings.size());
+  EXPECT_EQ(beams, cube.pings[0].fan.beams());
+  EXPECT_EQ(bins, cube.pings[0].pressure.cols());
+  EXPECT_EQ(is_virtual, "True");
+  EXPECT_EQ(time, 2.5);
+  EXPECT_EQ(static_cast<float>(real), std::abs(cube.pings[5].pressure(3, 4).real()));
 }
 
 // A limit of the size of files refuses to write as a full disk does.
@@ -241,6 +302,52 @@ TEST_F(Survey, names_missing_and_changed_blocks) {
   expect_refused("merge run", 3, {"run/fls/blocks/000001.h5: was changed since it was made"});
 }
 
+TEST_F(Survey, a_block_of_another_mission_is_refused) {
+  survey("run", "--shard 0/2");
+  write("m.toml", mission + "threshold_db = 12\n");
+  survey("other", "--shard 1/2");
+  for (const auto& entry : fs::directory_iterator(path("other/fls/blocks")))
+    fs::copy(entry.path(), path("run/fls/blocks") / entry.path().filename());
+  expect_refused("merge run", 3, {"run/fls/blocks/000001.done: is of another mission", "remove it and its block"});
+  write("m.toml", mission);
+  expect_refused("survey m.toml --pings-per-block 3 -o run", 3, {"run/fls/blocks/000001.done: is of another mission"});
+}
+
+// Three kills; INSONIFY_KILLS says how many in the long form.
+TEST_F(Survey, killed_at_random_times_it_gives_the_same_bytes) {
+  const auto whole = expected();
+  const auto blocks = names_in("whole/fls/blocks");
+  const char* asked = std::getenv("INSONIFY_KILLS");
+  const int kills = asked ? std::atoi(asked) : 3;
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> seconds(0.02, 0.6);
+  std::map<std::string, fs::file_time_type> made;
+  for (int k = 0; k < kills; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> wait(seconds(random));
+    started_and_ended(folder_.string(), SIGKILL, [&] { return std::chrono::steady_clock::now() - begin > wait; });
+    if (!fs::exists(path("run/survey.toml"))) continue;
+    // What was done before the kill is as it was.
+    std::size_t done = 0;
+    for (const std::string head : {"fls", "turning"})
+      for (const std::string& name : names_in("run/" + head + "/blocks")) {
+        if (!name.ends_with(".done")) continue;
+        ++done;
+        const std::string cube = "run/" + head + "/blocks/" + name.substr(0, 6) + ".h5";
+        const auto time = fs::last_write_time(path(cube));
+        const auto [at, is_new] = made.emplace(cube, time);
+        EXPECT_TRUE(is_new || at->second == time) << cube << " is made twice, at kill " << k;
+      }
+    if (done < 10) continue;
+    EXPECT_EQ(merged("run"), whole) << "at kill " << k;
+    fs::remove_all(path("run"));
+    made.clear();
+  }
+  survey("run");
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/fls/blocks"), blocks);
+}
+
 TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
   // Between the second and third entry the vehicle is faster than a hundredth of the sound speed.
   write("way.csv",
@@ -256,6 +363,98 @@ TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
   EXPECT_EQ(joined.exit_code, 5);
   EXPECT_EQ(read_cube(path("run/fls/cube.h5")).pings.size(), 2U);
   EXPECT_EQ(nlohmann::json::parse(read("run/manifest.json"))["failed"][0]["ping"], 1);
+}
+
+TEST_F(Survey, coverage_is_the_same_for_any_shards_and_sums_the_pings) {
+  write("m.toml", replaced(mission, "seed = 7", "seed = 7\ncoverage = true"));
+  const auto covered = [&](const std::string& run) {
+    succeed("merge -q " + run);
+    return sha256_of_file(path(run + "/coverage.ply"));
+  };
+  survey("whole", "-j1");
+  const std::string whole = covered("whole");
+  for (const char* shard : {"2/3", "0/3", "1/3"}) survey("three", std::string("-j2 --shard ") + shard);
+  EXPECT_EQ(covered("three"), whole);
+  const auto manifest = nlohmann::json::parse(read("whole/manifest.json"));
+  EXPECT_EQ(manifest["coverage_sha256"], whole);
+  // A surfel that both heads see is seen by more pings than one of them has.
+  const std::string ply = read("whole/coverage.ply");
+  constexpr std::size_t row = 52;
+  const std::size_t begin = ply.find("end_header\n") + 11, rows = (ply.size() - begin) / row;
+  EXPECT_GT(rows, 40U);
+  EXPECT_LT(rows, 6000U);
+  std::uint32_t most = 0, last = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    std::uint32_t pings = 0, id = 0;
+    std::memcpy(&pings, ply.data() + begin + i * row + 44, 4);
+    std::memcpy(&id, ply.data() + begin + i * row + 48, 4);
+    ASSERT_TRUE(i == 0 || id > last);
+    last = id;
+    most = std::max(most, pings);
+    ASSERT_GE(pings, 1U);
+    ASSERT_LE(pings, 26U);
+  }
+  EXPECT_GT(most, 3U);
+  std::ofstream(path("three/fls/blocks/000001.coverage.ply"), std::ios::app) << "x";
+  expect_refused("merge three", 3, {"three/fls/blocks/000001.coverage.ply: was changed since it was made"});
+  write("wall.obj", "v 0 0 -5\nv 9 0 -5\nv 0 9 -5\nf 1 2 3\n");
+  write("mesh.toml", replaced(read("m.toml"), "harbour.ply", "wall.obj"));
+  expect_refused("survey mesh.toml -o mesh", 3, {"coverage counts the pings of each surfel", "insonify prepare"});
+}
+
+TEST_F(Survey, navigation_noise_moves_what_is_stored_and_not_what_is_heard) {
+  survey("run");
+  merged("run");
+  write("m.toml",
+        replaced(mission, "speed_m_s = 1", "speed_m_s = 1\nnav_noise = { position_m = 0.3, heading_deg = 5 }"));
+  survey("noisy");
+  merged("noisy");
+  const Cube truth = read_cube(path("run/fls/cube.h5")), believed = read_cube(path("noisy/fls/cube.h5"));
+  for (std::size_t p = 0; p < truth.pings.size(); ++p) {
+    EXPECT_TRUE((truth.pings[p].pressure == believed.pings[p].pressure).all());
+    EXPECT_GT((truth.pings[p].world_from_head.translation() - believed.pings[p].world_from_head.translation()).norm(),
+              1e-3);
+  }
+  // Returns stand where they were relative to the head.
+  const Soundings a = load_soundings(path("run/fls/blocks/000000.ply")),
+                  b = load_soundings(path("noisy/fls/blocks/000000.ply"));
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 0U);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Pose &of_a = truth.pings[a.ping[i]].world_from_head, &of_b = believed.pings[b.ping[i]].world_from_head;
+    EXPECT_LT((of_a.inverse() * a.position[i] - of_b.inverse() * b.position[i]).norm(), 1e-9);
+  }
+}
+
+TEST_F(Survey, knows_where_on_the_globe_and_when_it_was) {
+  write("m.toml",
+        replaced(mission, "seed = 7",
+                 "seed = 7\nstart_utc = \"2026-05-01T08:30:00Z\"\nanchor = { latitude_deg = 54, longitude_deg = 8, "
+                 "heading_deg = 90 }"));
+  survey("run");
+  expect_refused("image run --view track -o track.png", 3, {"run: holds no fls/cube.h5; run insonify merge run"});
+  merged("run");
+  const auto manifest = nlohmann::json::parse(read("run/manifest.json"));
+  EXPECT_EQ(manifest["start_utc"], "2026-05-01T08:30:00Z");
+  EXPECT_EQ(manifest["anchor"]["heading_deg"], 90);
+  const auto track = nlohmann::json::parse(read("run/track.geojson"));
+  const auto& fls = track["features"][0];
+  EXPECT_EQ(fls["properties"]["head"], "fls");
+  EXPECT_EQ(fls["properties"]["time"][5], "2026-05-01T08:30:02.500Z");
+  ASSERT_EQ(fls["geometry"]["coordinates"].size(), 13U);
+  // x is east: 2.5 m on, the longitude has grown by that over the radius of the parallel of 54 degrees, 3757214 m.
+  const auto& place = fls["geometry"]["coordinates"][5];
+  EXPECT_NEAR(radians(place[0].get<double>() - 8) * 3757214, 2.5, 1e-3);
+  EXPECT_NEAR(place[1].get<double>(), 54, 1e-8);
+  EXPECT_NEAR(place[2].get<double>(), -3, 1e-3);
+  write("m.toml", mission);
+  survey("plain");
+  merged("plain");
+  EXPECT_FALSE(file_exists(path("plain/track.geojson")));
+  EXPECT_TRUE(nlohmann::json::parse(read("plain/manifest.json"))["anchor"].is_null());
+  succeed("image plain --view track -o track.png --size 500x400");
+  EXPECT_TRUE(file_exists(path("track.png")));
+  expect_refused("image harbour.ply --view track -o x.png", 4, {"harbour.ply: is not the folder of a survey"});
 }
 
 TEST_F(Survey, plans_without_writing_anything) {
@@ -288,6 +487,13 @@ TEST_F(Survey, refuses_what_cannot_be) {
   refuses("noise = true", "nois = true", {"bad.toml:", "unknown key 'nois'; did you mean 'noise'?"});
   refuses("noise = true", "pose = \"0,0,0,0,0,0\"", {"unknown key 'pose'"});
   refuses("schema = 1", "schema = 2", {"bad.toml:1: schema = 2", "newer insonify"});
+  refuses("name = \"turning\"", "name = \"fls\"",
+          {"bad.toml:15: ", "two heads are called 'fls', must have names of their own"});
+  refuses("[ping]", "[[leg]]\nname = \"a\"\nto_s = 4\n[[leg]]\nname = \"b\"\nfrom_s = 3\n[ping]",
+          {"bad.toml:", "leg 'b': begins at 3 s, before leg 'a' ends at 4 s; legs must not overlap"});
+  write("back.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,0,0\n2,2,0,-3,0,0,0\n1,4,0,-3,0,0,0\n");
+  refuses("waypoints_m = [[0, 0, -3], [4, 0, -3], [4, 3, -3]]\nspeed_m_s = 1", "file = \"back.csv\"",
+          {"back.csv:4: ", "time"});
   survey("run", "--shard 0/9");
   write("m.toml", mission + "threshold_db = 12\n");
   expect_refused("survey m.toml --pings-per-block 3 -o run", 3, {"run: holds a survey of another mission"});

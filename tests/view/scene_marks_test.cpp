@@ -54,4 +54,17 @@ TEST_F(SceneMarks, normals_are_lines_only_if_asked_for) {
   EXPECT_NE(show().bytes, with.bytes);
 }
 
+TEST_F(SceneMarks, the_way_of_the_head_is_a_line_where_it_went) {
+  const ReadPicture without = show();
+  // From above the middle of the floor 2 m to the right, a line to x = 2 lies right of the middle.
+  look.track = {scene.origin + Eigen::Vector3d(0, 0, 1), scene.origin + Eigen::Vector3d(2, 0, 1)};
+  const ReadPicture with = show();
+  int left = 0, right = 0;
+  for (int y = 0; y < with.height; ++y)
+    for (int x = 0; x < with.width; ++x)
+      if (colour_difference(with.at(x, y), without.at(x, y)) > 20) ++(x < with.width / 2 - 3 ? left : right);
+  EXPECT_EQ(left, 0);
+  EXPECT_GT(right, 60);
+}
+
 }  // namespace

@@ -1,0 +1,80 @@
+#include "scene_io/bed_of_returns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/error.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
+
+namespace insonify {
+namespace {
+
+RowFile returns_file(const std::string& path) {
+  require_readable(path);
+  std::optional<RowFile> file = find_ply_rows(path);
+  if (!file || file->big_endian || file->rows == 0) fail(ErrorKind::content, path, ": holds no returns");
+  return std::move(*file);
+}
+
+/// Place, level and range of every row, batch after batch.
+template <typename Take>
+void each_return(const RowFile& file, const Take& take) {
+  constexpr std::array<const char*, 5> names = {"x", "y", "z", "scalar_level_db", "scalar_range"};
+  std::array<const RowTable::Column*, 5> columns{};
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto found = std::find_if(file.columns.begin(), file.columns.end(),
+                                    [&](const RowTable::Column& column) { return column.name == names[k]; });
+    if (found == file.columns.end())
+      fail(ErrorKind::content, file.path, ": has no column '", names[k], "', so it holds no returns");
+    columns[k] = &*found;
+  }
+  constexpr std::size_t batch = 1 << 16;
+  for (std::size_t first = 0; first < file.rows; first += batch) {
+    const RowTable rows = read_rows(file, first, std::min(batch, file.rows - first));
+    for (std::size_t i = 0; i < rows.rows; ++i) {
+      const char* row = rows.bytes + i * rows.stride;
+      const auto value = [&](std::size_t k) { return columns[k]->value(row); };
+      take(Eigen::Vector3d(value(0), value(1), value(2)), value(3), value(4));
+    }
+  }
+}
+
+Eigen::AlignedBox2d extent_of(const RowFile& file) {
+  Eigen::AlignedBox2d box;
+  each_return(file,
+              [&](const Eigen::Vector3d& place, double, double) { box.extend(Eigen::Vector2d(place.head<2>())); });
+  return box;
+}
+
+}  // namespace
+
+BedSurface bed_of_returns(const std::string& path, double cell) {
+  const RowFile file = returns_file(path);
+  const Eigen::AlignedBox2d box = extent_of(file);
+  BedPoints points(box.min(), box.max(), cell);
+  each_return(file, [&](const Eigen::Vector3d& place, double, double) { points.add(place); });
+  return points.surface();
+}
+
+ReturnsMap map_of_returns(const std::string& path, int cells) {
+  const RowFile file = returns_file(path);
+  const Eigen::AlignedBox2d box = extent_of(file);
+  ReturnsMap map{box.min().x(), box.min().y(), std::max(1e-3, box.sizes().maxCoeff() / cells), {}};
+  const Eigen::Array2i size = (box.sizes() / map.cell).array().floor().cast<int>() + 1;
+  map.level_db.setConstant(size.x(), size.y(), std::numeric_limits<float>::quiet_NaN());
+  each_return(file, [&](const Eigen::Vector3d& place, double level_db, double range) {
+    const Eigen::Array2i at = ((place.head<2>() - box.min()) / map.cell).array().floor().cast<int>();
+    float& level = map.level_db(at.x(), at.y());
+    level = std::fmax(level, static_cast<float>(level_db + 40 * std::log10(range)));  // of NaN the other
+  });
+  return map;
+}
+
+}  // namespace insonify

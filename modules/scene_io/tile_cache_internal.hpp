@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <vector>
+
+// Private to scene_io: tiles that were read, for the pings after.
+namespace insonify {
+
+/// Bytes of tiles, kept up to a limit; the least recently used are dropped first. May be used by several threads.
+class TileCache {
+ public:
+  using Bytes = std::shared_ptr<const std::vector<char>>;
+
+  /// Keeps at most `most_bytes`; 0: nothing.
+  explicit TileCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  /// The bytes of a tile: kept ones, or those that `read` gives, which throws if it cannot.
+  Bytes get(std::uint32_t tile, const std::function<std::vector<char>()>& read);
+
+  std::uint64_t reads() const;     ///< how often `read` was called
+  std::size_t kept_bytes() const;  ///< at most the limit
+
+ private:
+  struct Kept {
+    std::uint32_t tile;
+    Bytes bytes;
+  };
+  void keep(std::uint32_t tile, const Bytes& bytes);
+
+  mutable std::mutex guard_;
+  std::size_t most_bytes_, kept_bytes_ = 0;
+  std::uint64_t reads_ = 0;
+  std::list<Kept> by_use_;  ///< the last used in front
+  std::unordered_map<std::uint32_t, std::list<Kept>::iterator> place_;
+};
+
+}  // namespace insonify

@@ -1,0 +1,77 @@
+// A survey from above: ways and levels to one scale, x to the right and y up.
+#include "view/show_track.hpp"
+
+#include "support/test.hpp"
+#include "view/save_vtk.hpp"
+#include "view/test_pictures.hpp"
+
+namespace {
+
+class ShowTrack : public PictureTest {
+ protected:
+  /// A way of 20 m along x, 5 m above the middle of a square of 20 m of levels, whose right half is loud.
+  ShowTrack() {
+    map.ways = {{"fls", {{0, 5}, {20, 5}}, {}}};
+    map.x = 0, map.y = -10, map.cell = 1;
+    map.level_db.setConstant(20, 20, 60);
+    map.level_db.bottomRows(10).setConstant(100);
+    options.colour_map = "grey", options.min_db = 50, options.max_db = 100;
+  }
+  TrackMap map;
+};
+
+/// Pixels near a colour: extent and number.
+struct ColouredPixels {
+  int left = 1 << 20, right = -1, low = 1 << 20, high = -1, count = 0;
+};
+ColouredPixels near_colour(const ReadPicture& picture, const Rgb& colour) {
+  ColouredPixels found;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (colour_difference(picture.at(x, y), colour) < 20) {
+        found.left = std::min(found.left, x), found.right = std::max(found.right, x);
+        found.low = std::min(found.low, y), found.high = std::max(found.high, y);
+        ++found.count;
+      }
+  return found;
+}
+
+}  // namespace
+
+TEST_F(ShowTrack, draws_the_way_to_the_scale_of_the_levels) {
+  show_track(map, options, path);
+  const ReadPicture picture = read_png(path);
+  const ColouredPixels way = near_colour(picture, {26, 191, 242});
+  ASSERT_GT(way.count, 100);
+  // The way of 20 m is as long as the square is wide: its loud half is half as long, and lies under the right half of it.
+  const int length = way.right - way.left, middle = (way.left + way.right) / 2,
+            below = (way.low + way.high) / 2 - length / 8;
+  EXPECT_LT(colour_difference(picture.at(middle + length / 4, below), {255, 255, 255}), 20);
+  EXPECT_GT(colour_difference(picture.at(middle - length / 4, below), {255, 255, 255}), 60);
+  // A quarter of its length from the top of the square, three quarters from the bottom.
+  EXPECT_LT(colour_difference(picture.at(middle + length / 4, way.low - 0.7 * length), {255, 255, 255}), 20);
+}
+
+TEST_F(ShowTrack, draws_ways_without_levels_and_refuses_nothing_at_all) {
+  map.level_db.resize(0, 0);
+  show_track(map, options, path);
+  EXPECT_GT(near_colour(read_png(path), {26, 191, 242}).count, 100);
+  map.ways.clear();
+  EXPECT_THAT(error_of([&] { show_track(map, options, path); }), HasSubstr("no way has a place"));
+}
+
+TEST_F(ShowTrack, maps_are_read_as_they_were_written) {
+  HorizontalMap written{-3, 7, 0.5, {{"strength_db", Grid<float>::Random(5, 3)}, {"samples", Grid<float>::Ones(5, 3)}}};
+  written.fields[0].values(2, 1) = std::numeric_limits<float>::quiet_NaN();
+  save_map_image(own_path("map.vti"), written);
+  const HorizontalMap back = load_map_image(own_path("map.vti"));
+  EXPECT_EQ(back.x, -3);
+  EXPECT_EQ(back.y, 7);
+  EXPECT_EQ(back.cell, 0.5);
+  ASSERT_EQ(back.fields.size(), 2U);
+  EXPECT_EQ(back.fields[0].name, "strength_db");
+  EXPECT_TRUE(std::isnan(back.fields[0].values(2, 1)));
+  EXPECT_EQ(back.fields[0].values(4, 2), written.fields[0].values(4, 2));
+  EXPECT_EQ(back.fields[0].values(4, 0), written.fields[0].values(4, 0));
+  expect_error(ErrorKind::file, {"none.vti", "no such file"}, [] { load_map_image(own_path("none.vti")); });
+}
