@@ -64,6 +64,7 @@ struct PingOptions {
   double accuracy_db = 0.1;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
   double time = 0;         ///< of transmission [s]
+  int ping = -1;           ///< number of the ping; -1: time in milliseconds
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = 11.4;

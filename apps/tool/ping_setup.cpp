@@ -107,6 +107,7 @@ PingSetup set_up_ping(const PingOptions& o) {
   PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
   if (!o.trajectory.empty()) setup.simulation.effects.motion = track.motion;
   setup.simulation.time = o.time;
+  setup.simulation.ping = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
   for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
   for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
   require_boundaries(o, setup.head.environment);

@@ -16,6 +16,7 @@ const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonif
                           .one_each = true,
                           .comma_separated = true};
 const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
+const OptionRules ping_numbers{.within = std::pair(-1, 1000000000), .shown_as = "INT"};
 const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
 const OptionRules absorption_orders{.within = std::pair(-1, 2), .shown_as = "INT"};
 
@@ -63,6 +64,9 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "trajectory", "--trajectory", &o.trajectory,
        "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg", file, true},
       {"ping", "time", "--time", &o.time, "of transmission on the trajectory [s]"},
+      {"ping", "ping", "--ping", &o.ping,
+       "number of the ping: noise, waves and water are drawn anew for each; -1: the time in milliseconds",
+       ping_numbers},
       {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", worlds},
       {"ping", "accuracy_db", "--accuracy-db", &o.accuracy_db,
        "[dB] budget of all that is left out as not needed; `insonify plan` shows what that is"},
@@ -113,8 +117,8 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
 
 std::vector<RunSetting> mission_settings(PingOptions& o) {
   // What the mission says in its own tables, and what is kept of a single ping alone.
-  const std::vector<std::string> others = {"path",     "pose",      "trajectory", "time",        "world",
-                                           "velocity", "turn_rate", "keep",       "contributors"};
+  const std::vector<std::string> others = {"path",  "pose",     "trajectory", "time", "ping",
+                                           "world", "velocity", "turn_rate",  "keep", "contributors"};
   std::vector<RunSetting> all;
   for (auto& group : {scene_settings(o.scene), synthesis_settings(o.run), ping_settings(o)})
     for (RunSetting setting : group) {

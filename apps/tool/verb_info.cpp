@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -57,8 +59,12 @@ void print_cloud(const FileDescription& d) {
   fmt::print("\n  not finite {}\n  duplicates {}\n  fields    ", d.not_finite, d.duplicates);
   for (const auto& f : d.fields) fmt::print(" {}:{}", f.name, f.type);
   const Eigen::Vector3d size = d.max - d.min;
-  fmt::print("\n  bounds     x {:g}..{:g}  y {:g}..{:g}  z {:g}..{:g}\n  size       {:.4g} x {:.4g} x {:.4g}\n",
-             d.min.x(), d.max.x(), d.min.y(), d.max.y(), d.min.z(), d.max.z(), size.x(), size.y(), size.z());
+  // To a tenth of the spacing, in plain digits: a northing has seven before the point.
+  const int digits =
+      d.median_spacing > 0 ? std::clamp(static_cast<int>(std::ceil(1 - std::log10(d.median_spacing))), 0, 9) : 3;
+  fmt::print("\n  bounds     x {:.{}f}..{:.{}f}  y {:.{}f}..{:.{}f}  z {:.{}f}..{:.{}f}\n", d.min.x(), digits,
+             d.max.x(), digits, d.min.y(), digits, d.max.y(), digits, d.min.z(), digits, d.max.z(), digits);
+  fmt::print("  size       {:.4g} x {:.4g} x {:.4g}\n", size.x(), size.y(), size.z());
   fmt::print("  spacing    {:.4g} (median)\n  normals    {}\n  area       {}\n  materials  {}\n", d.median_spacing,
              d.has_normals ? "yes" : "no", d.has_area ? "yes" : "no", d.has_materials ? "yes" : "no");
   if (d.viewpoint) fmt::print("  viewpoint  {:g}, {:g}, {:g}\n", d.viewpoint->x(), d.viewpoint->y(), d.viewpoint->z());

@@ -82,8 +82,8 @@ void require_valid(const SonarSpec& s, const char* who) {
   require(s.source_level_db >= -400 && s.source_level_db <= 260, who, "source_level_db", s.source_level_db, "dB",
           "within -400 and 260");
   require(s.beams >= 1 && s.beams <= 65536, who, "beams", static_cast<double>(s.beams), "", "within 1 and 65536");
-  require(s.beams == 1 || !s.azimuths.empty() || within(s.field_of_view, 0, 2 * pi), who, "field_of_view_deg",
-          degrees(s.field_of_view), "deg", "> 0 and at most 360");
+  require(s.beams == 1 || !s.azimuths.empty() || within(s.field_of_view, 0, pi), who, "field_of_view_deg",
+          degrees(s.field_of_view), "deg", "> 0 and at most 180: a line array cannot tell ahead from astern");
   require(within(s.beam_width, 0, pi), who, "beam_width_deg", degrees(s.beam_width), "deg", "> 0 and at most 180");
   require(within(s.elevation_width, 0, pi), who, "elevation_width_deg", degrees(s.elevation_width), "deg",
           "> 0 and at most 180");

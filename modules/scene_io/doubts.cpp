@@ -23,8 +23,11 @@ std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, doubl
   const double diagonal = extent.norm();
 
   // A scan in millimetres read as metres has a spacing of metres and the size of a city, but is not flat, whereas the
-  // height of surveys of that size is a few per cent of their width. Coarse surveys in metres get a milder note.
-  if (spacing > 0.5 && diagonal > 100) {
+  // height of surveys of that size is a few per cent of their width. Coarse surveys in metres get a milder note, and
+  // coordinates of a map grid, far from zero compared with the scene, are in metres.
+  const double nearest = raw.box.max.cwiseAbs().cwiseMin(raw.box.min.cwiseAbs()).maxCoeff();
+  const bool on_map_grid = nearest > 1e5 && nearest > 10 * diagonal;
+  if (spacing > 0.5 && diagonal > 100 && !on_map_grid) {
     const bool flat = extent.minCoeff() < 0.05 * diagonal;
     doubts.push_back(
         sentence("typical spacing ", spacing, " m in a box of ", extent.x(), " x ", extent.y(), " x ", extent.z(),

@@ -67,4 +67,16 @@ TEST(DescribeFile, millimetres_are_suspected) {
   EXPECT_TRUE(has_problem(describe_file(own_file("a.xyz", text)), "looks like millimetres"));
 }
 
+TEST(DescribeFile, a_coarse_survey_on_a_map_grid_is_in_metres) {
+  // A slope of 1 : 2, 4 m between its points, at easting 451 km and northing 5 411 km.
+  std::ostringstream local, grid;
+  for (int i = 0; i < 60; ++i)
+    for (int j = 0; j < 60; ++j) {
+      local << 4 * i << ' ' << 4 * j << ' ' << 2 * i << '\n';
+      grid << 451000 + 4 * i << ' ' << 5411000 + 4 * j << ' ' << 2 * i << '\n';
+    }
+  EXPECT_TRUE(has_problem(describe_file(own_file("local.xyz", local.str())), "millimetres"));
+  EXPECT_FALSE(has_problem(describe_file(own_file("grid.xyz", grid.str())), "millimetres"));
+}
+
 }  // namespace

@@ -307,6 +307,9 @@ TEST(SonarFile, refuses_widths_and_rows_that_make_no_array) {
   refuses_sonar(plain + "transmit_width_deg = 400\n",
                 "12: transmit_width_deg = 400 deg, must be > 0 and at most 360; leave it out for a transmitter "
                 "that fills the fan evenly");
+  refuses_sonar(replaced(plain, "field_of_view_deg = 90", "field_of_view_deg = 360"),
+                "7: field_of_view_deg = 360 deg, must be > 0 and at most 180: a line array cannot tell ahead from "
+                "astern");
   std::string rows = "elevations_deg = [0";
   for (int r = 0; r < 512; ++r) rows += ", 1";
   refuses_sonar(plain + rows + "]\n", "12: elevations_deg = 513 rows of 128 beams, must be at most 65536 beams in all");

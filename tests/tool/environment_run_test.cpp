@@ -126,6 +126,20 @@ TEST_F(EnvironmentRun, trajectory_at_rest_gives_the_pressure_of_its_pose) {
   EXPECT_EQ((ping("late").pressure - ping("pose").pressure).abs().maxCoeff(), 0);
 }
 
+TEST_F(EnvironmentRun, noise_is_drawn_anew_for_each_time_and_number_of_a_ping) {
+  write("still.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,0,0,-3,0,10,0\n");
+  const auto noisy = [&](const std::string& name, const std::string& options) {
+    succeed("ping harbour.ply --noise --trajectory still.csv -o " + name + options + sonar);
+    return ping(name);
+  };
+  const Ping at_0 = noisy("at-0", " --time 0"), at_7 = noisy("at-7", " --time 7.5"),
+             numbered = noisy("number", " --time 0 --ping 7500"), zero = noisy("zero", " --time 7.5 --ping 0");
+  EXPECT_GT((at_7.pressure - at_0.pressure).abs().maxCoeff(), 0);
+  EXPECT_EQ((numbered.pressure - at_7.pressure).abs().maxCoeff(), 0);
+  EXPECT_EQ((zero.pressure - at_0.pressure).abs().maxCoeff(), 0);
+  EXPECT_EQ(at_7.number, 7500);
+}
+
 TEST_F(EnvironmentRun, trajectory_is_the_pose_and_motion_between_its_entries) {
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,20,0,-3,40,10,0\n");
   write("straight.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,-2,0,-3,0,10,0\n2,2,0,-3,0,10,0\n");

@@ -183,6 +183,8 @@ TEST_F(PingRun, info_tells_machines_what_it_tells_people) {
   EXPECT_TRUE(cloud["normals"].get<bool>());
   EXPECT_LE(cloud["bounds"]["max"][2].get<double>(), 1e-3);
   EXPECT_THAT(succeed("info harbour.ply"), HasSubstr("bounds"));
+  write("grid.xyz", "451000.25 5411030.5 -20\n451000.75 5411030.5 -20\n451000.25 5411031.0 -20\n");
+  EXPECT_THAT(succeed("info grid.xyz"), HasSubstr("y 5411030.50..5411031.00"));
   succeed("ping harbour.ply -o out --no-picture -q" + harbour_head);
   EXPECT_EQ(nlohmann::json::parse(succeed("info out --json"))["beams"], 32);
 }
