@@ -75,7 +75,7 @@ void WidebandRoom::grid_alike(const Echoes& echoes, List list) {
 void WidebandRoom::grid_gaussians(const Echoes& echoes, List list) {
   const WidebandPlan& plan = plan_;
   // Amplitudes and places, gathered; directions are counted from the beginning of the period.
-  std::array<double, 11 * wideband_batch> numbers;
+  std::array<double, 12 * wideband_batch> numbers;
   const auto array = [&](std::size_t k) { return numbers.data() + k * wideband_batch; };
   double *delay = array(0), *u = array(1), *re = array(2), *im = array(3), *doppler = array(4);
   double latest = 0;
@@ -107,7 +107,7 @@ void WidebandRoom::grid_gaussians(const Echoes& echoes, List list) {
   std::array<std::uint32_t, wideband_batch> row, column;
   std::array<float, wideband_batch> column_offset;
   const kernels::GaussianPlaces<float> places{row.data(), column.data(), column_offset.data()};
-  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10)};
+  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10), array(11)};
   kernels::place_gaussians({delay, u, re, im, doppler}, list.size(), grid, state, places);
   const auto rows = static_cast<std::size_t>(std::floor(2 * plan.reach / plan.fine_step)) + 1;
   for (std::size_t k = 0; k < list.size(); ++k) touch(row[k], rows);
