@@ -8,11 +8,10 @@ namespace {
 
 using kernels::brick_columns;
 using kernels::brick_stride;
-using kernels::rows_at_once;
 
-constexpr std::size_t rows_at_a_time = 48;          // of beams that are formed together; a multiple of rows_at_once
+constexpr std::size_t rows_at_a_time = 48;  // of beams that are formed together; a multiple of kernels::rows_at_once
 constexpr std::size_t brick_flush_interval = 2048;  // echoes added to a brick before its sums are flushed
-static_assert(rows_at_a_time % rows_at_once == 0);
+static_assert(rows_at_a_time % kernels::rows_at_once == 0);
 
 template <typename Real>
 kernels::Pieces<Real> pieces_of(const PolynomialPieces<Real>& p) {
@@ -88,9 +87,10 @@ double PlanarTile<Real>::add(const GriddingInput& input, std::span<const std::ui
 template <typename Real>
 void PlanarTile<Real>::weigh_rows(std::size_t first) {
   const std::size_t bins = plan_.across.tile_bins, stride = blocks_ * brick_columns;
-  const std::size_t groups = (std::min(rows_at_a_time, plan_.rows.size() - first) + rows_at_once - 1) / rows_at_once;
+  const std::size_t groups =
+      (std::min(rows_at_a_time, plan_.rows.size() - first) + kernels::rows_at_once - 1) / kernels::rows_at_once;
   std::vector<Real*> sums;
-  std::vector<Real> weight;  // groups x bricks x rows_at_once
+  std::vector<Real> weight;  // groups x bricks x kernels::rows_at_once
   for (std::size_t block = 0; block < blocks_; ++block) {
     // The bricks of this block, and behind them those of the one before.
     sums.clear();
@@ -99,18 +99,18 @@ void PlanarTile<Real>::weigh_rows(std::size_t first) {
     for (const std::size_t b : {block, block - 1})
       if (b < blocks_)
         for (Brick* brick : of_block_[b]) sums.push_back(brick->sum.data()), line.push_back(brick->line);
-    weight.assign(groups * sums.size() * rows_at_once, 0);
-    for (std::size_t r = 0; r < groups * rows_at_once && first + r < plan_.rows.size(); ++r)
+    weight.assign(groups * sums.size() * kernels::rows_at_once, 0);
+    for (std::size_t r = 0; r < groups * kernels::rows_at_once && first + r < plan_.rows.size(); ++r)
       for (std::size_t k = 0; k < sums.size(); ++k)
-        weight[(r / rows_at_once * sums.size() + k) * rows_at_once + r % rows_at_once] =
+        weight[(r / kernels::rows_at_once * sums.size() + k) * kernels::rows_at_once + r % kernels::rows_at_once] =
             plan_.weight[(first + r) * plan_.lines + line[k]];
     for (std::size_t n = 0; n < bins; ++n)
       for (std::size_t g = 0; g < groups; ++g) {
-        const Real* own = weight.data() + g * sums.size() * rows_at_once;
+        const Real* own = weight.data() + g * sums.size() * kernels::rows_at_once;
         const kernels::BrickColumn<Real> bricks{sums.data(),        owns, sums.data() + owns,
-                                                sums.size() - owns, own,  own + owns * rows_at_once};
+                                                sums.size() - owns, own,  own + owns * kernels::rows_at_once};
         const std::size_t from = (plan_.across.margin + n) * brick_stride,
-                          to = (g * rows_at_once * bins + n) * stride + block * brick_columns;
+                          to = (g * kernels::rows_at_once * bins + n) * stride + block * brick_columns;
         kernels::weigh_bricks(bricks, from, re_.data() + to, bins * stride);
         kernels::weigh_bricks(bricks, plane_ + from, im_.data() + to, bins * stride);
       }

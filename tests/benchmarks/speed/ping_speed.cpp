@@ -37,12 +37,13 @@ PingTime time_ping(const PreparedScene& scene, const SonarHead& head, const Pose
   return time;
 }
 
-/// Median by wall time, after one ping that is not counted; of one ping only if that took more than a second.
+/// Median by wall time, after one ping that is not counted; one ping only if it takes more than a second.
 PingTime median_ping(int repeats, const PreparedScene& scene, const SonarHead& head, const Pose& pose,
                      const SimulationOptions& options = {}) {
   const PingTime first = time_ping(scene, head, pose, options);
+  if (first.wall > 1) return first;
   std::vector<PingTime> times;
-  for (int k = 0; k < (first.wall > 1 ? 1 : repeats); ++k) times.push_back(time_ping(scene, head, pose, options));
+  for (int k = 0; k < repeats; ++k) times.push_back(time_ping(scene, head, pose, options));
   std::sort(times.begin(), times.end(), [](const PingTime& a, const PingTime& b) { return a.wall < b.wall; });
   return times[times.size() / 2];
 }
