@@ -121,7 +121,7 @@ TEST(PlanarSynthesizer, gives_the_same_bytes_for_any_threads_stored_or_in_chunks
   EXPECT_TRUE((image == other.pressure(echoes)).all());
   EXPECT_TRUE((image == one.pressure(echoes)).all()) << "working memory is used again";
   EXPECT_TRUE((image == other.pressure_of(in_chunks(echoes))).all());
-  EXPECT_TRUE((image == synthesize(in_chunks(echoes), head, c.medium(), {1e-4, 2})).all());
+  EXPECT_TRUE((image == synthesize(in_chunks(echoes), head, c.medium(), SynthesisMethod::gridded, {1e-4, 2})).all());
 }
 
 TEST(PlanarSynthesizer, adds_a_hundred_thousand_echoes_of_one_place_in_single_precision) {

@@ -10,6 +10,7 @@
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
