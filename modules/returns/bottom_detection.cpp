@@ -18,8 +18,9 @@ namespace {
 
 constexpr const char* bottom_call = "detect_bottom";
 constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
-constexpr double steepest_view = 1.3;  // [rad] from the vertical, of the footprint that is assumed at first
-constexpr int neighbours = 3;          // beams on either side whose ranges give dr/du
+constexpr double steepest_view = 1.3;          // [rad] from the vertical, of the footprint that is assumed at first
+constexpr int neighbours = 3;                  // beams on either side whose ranges give dr/du
+constexpr double half_power_of_line = 0.8859;  // length of a uniform line in wavelengths times its -3 dB width [rad]
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 /// A found echo of a beam.
@@ -42,6 +43,8 @@ class BottomPing {
 
  private:
   std::size_t reach_of(std::size_t beam, double range) const;
+  /// Intensity at each range below which a sample is a side lobe.
+  Eigen::Array<double, 1, Eigen::Dynamic> side_lobe_floor() const;
 
   const Ping& ping_;
   const BottomOptions& options_;
@@ -58,6 +61,20 @@ double noise_of(std::vector<double> values) {
   std::nth_element(values.begin(), last, values.end());
   const double sum = std::accumulate(values.begin(), last + 1, 0.0);
   return (sum + static_cast<double>(values.size() - used) * *last) / static_cast<double>(used);
+}
+
+Eigen::Array<double, 1, Eigen::Dynamic> BottomPing::side_lobe_floor() const {
+  const Eigen::Array<double, 1, Eigen::Dynamic> strongest = intensity_.colwise().maxCoeff();
+  // Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier and later: by L / 2 in range.
+  const double wavelength = options_.centre_frequency > 0 ? options_.sound_speed / options_.centre_frequency : 0;
+  const double half_array = 0.5 * half_power_of_line * wavelength / ping_.fan.beam_width;
+  const auto reach = static_cast<Eigen::Index>(std::ceil(half_array / ping_.gate.bin_size));
+  Eigen::Array<double, 1, Eigen::Dynamic> floor(strongest.size());
+  for (Eigen::Index n = 0; n < floor.size(); ++n) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, n - reach);
+    floor[n] = strongest.segment(first, std::min(floor.size() - 1, n + reach) - first + 1).maxCoeff();
+  }
+  return floor * power_from_db(-options_.side_lobe_margin_db);
 }
 
 BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
@@ -78,9 +95,7 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
     const double r = ping.gate.centre(static_cast<std::size_t>(n));
     gain[n] = std::pow(r, 4) * power_from_db(2 * options.absorption_db_per_m * r);
   }
-  // What is so far below the strongest beam at its range is a side lobe of that. (E19)
-  const Eigen::Array<double, 1, Eigen::Dynamic> floor =
-      intensity_.colwise().maxCoeff() * power_from_db(-options.side_lobe_margin_db);
+  const Eigen::Array<double, 1, Eigen::Dynamic> floor = side_lobe_floor();
   for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
     const auto row = static_cast<Eigen::Index>(b);
     noise_.push_back(noise_of({intensity_.row(row).begin(), intensity_.row(row).end()}));

@@ -33,7 +33,7 @@ struct BottomOptions {
   double range_resolution = 0;      ///< intensity width of the pulse [m]; 0: a bin
   double absorption_db_per_m = 0;   ///< compensated before centres of gravity are taken
   double false_alarm_rate = 1e-3;   ///< probability that noise alone gives a sounding in a beam, within 0 and 1
-  double side_lobe_margin_db = 25;  ///< samples so far below the strongest beam at the same range are side lobes (E19)
+  double side_lobe_margin_db = 25;  ///< samples so far below the strongest beam about their range are side lobes (E19)
   int per_beam = 1;                 ///< so many soundings at most
   double least_energy_db = -20;     ///< of a further sounding, against the first one of its beam
   bool phase = true;                ///< use Ping::split_phase if there is one
@@ -47,7 +47,7 @@ struct BottomOptions {
 ///
 ///   1. noise of each beam from the smallest quarter of its intensities; the echo is where range-compensated energy within
 ///      the length of a beam's footprint is greatest, and holds a sample that noise exceeds in one of 1 / rate beams (E78);
-///      samples that side lobes may explain are left out (E19)
+///      samples that side lobes of an echo up to half an array's length nearer or farther may explain are left out (E19)
 ///   2. dr/du of the bottom: median of the slopes between the ranges of seven neighbouring beams
 ///   3. amplitude: centre of gravity of the intensity above noise within three standard deviations, with the error (E94)
 ///   4. phase: line fitted to the phase between the halves of the array within the main lobe, which crosses zero at the

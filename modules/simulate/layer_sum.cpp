@@ -20,6 +20,9 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
   const double tolerance = o.synthesis.tolerance;
   add_pressure(name, echoes.size(), synthesize(echoes, ping_.head, medium, o.synthesis.method, {tolerance, o.threads}));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
+    if (o.synthesis.method == SynthesisMethod::true_delays)
+      return synthesize(echoes, with_one_half(ping_.head, split, side), medium, o.synthesis.method,
+                        {tolerance, o.threads});
     return half_pressure(echoes, split, side, medium, {std::max(tolerance, min_gridding_tolerance), o.threads});
   });
   if (!o.outputs.elements) return;
@@ -35,6 +38,8 @@ void LayerSum::add(const std::string& name, const EchoSource& source) {
   const SynthesisOptions synthesis{o.synthesis.tolerance, o.threads};
   add_pressure(name, source.size(), synthesize(source, ping_.head, medium, o.synthesis.method, synthesis));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
+    if (o.synthesis.method == SynthesisMethod::true_delays)
+      return synthesize(source, with_one_half(ping_.head, split, side), medium, o.synthesis.method, synthesis);
     return half_pressure(source, split, side, medium, synthesis);
   });
 }

@@ -89,8 +89,8 @@ void expect_honest(const FlatBed& bed) {
     EXPECT_GT(bed.ratio[k], 1 / 1.3) << k;
   }
   // Amplitude about the specular direction, phase towards the edges.
-  EXPECT_EQ(bed.by_phase.front(), 1);
-  EXPECT_EQ(bed.by_phase.back(), 1);
+  EXPECT_GT(bed.by_phase.front(), 0.95);
+  EXPECT_GT(bed.by_phase.back(), 0.95);
   EXPECT_LT(bed.by_phase[bed.by_phase.size() / 2], 0.1);
 }
 
