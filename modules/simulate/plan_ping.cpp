@@ -64,11 +64,11 @@ SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
 
 /// One stage, judged: open ones by the budget, which sets `settled`.
 PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& settled) {
-  auto [included, why, bound, seconds] = stage.judge(facts);
+  auto [included, why, bound, seconds, only_if_forced] = stage.judge(facts);
   if (stage.by == DecidedBy::budget) {
     const Choice asked = stage.asked(facts.ping.options);
     if (asked != Choice::as_needed) why = asked == Choice::always ? "asked for" : "off by the options";
-    included = asked == Choice::always || (asked == Choice::as_needed && bound > share);
+    included = asked == Choice::always || (asked == Choice::as_needed && bound > share && !only_if_forced);
     Environment unchanged = facts.ping.environment;
     if (asked == Choice::as_needed) stage.force(included, unchanged, settled);
   }

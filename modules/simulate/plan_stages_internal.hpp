@@ -43,8 +43,9 @@ double changed_bound(const PlanFacts& facts, const Change& change) {
 struct StageVerdict {
   bool included;  ///< counts unless the budget decides
   std::string why;
-  double bound;        ///< relative error of the image without it
-  double seconds = 0;  ///< what it costs on one core
+  double bound;                 ///< relative error of the image without it
+  double seconds = 0;           ///< what it costs on one core
+  bool only_if_forced = false;  ///< whatever the budget
 };
 
 struct PlanStage {

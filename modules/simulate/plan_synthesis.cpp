@@ -125,8 +125,11 @@ double narrow_band_bound(const PlanFacts& facts) {
 StageVerdict judge_true_delays(const PlanFacts& facts) {
   if (facts.ping.options.synthesis.method == SynthesisMethod::incoherent)
     return {false, "intensities have no delays across the array", 0};
-  return {false, "elements receive wide bands and near echoes at other times: one pattern does not hold",
-          narrow_band_bound(facts), seconds_of_true_delays(facts)};
+  const bool planar = facts.ping.head.column.has_value();
+  return {false,
+          planar ? "a planar array is summed row by row for them, which takes a minute: --with true-delays"
+                 : "elements receive wide bands and near echoes at other times: one pattern does not hold",
+          narrow_band_bound(facts), seconds_of_true_delays(facts), planar};
 }
 
 /// What the plan does where the narrow-band image is not good enough.

@@ -39,7 +39,8 @@ struct SynthesisSettings {
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
-  /// Whether method gridded gives way to true_delays; as_needed: where the narrow-band image's error exceeds its share.
+  /// Whether method gridded gives way to true_delays; as_needed: where the narrow-band image's error exceeds its share,
+  /// but not for a planar array, whose rows are then summed one by one.
   /// For a tolerance finer than that of true_delays it gives way to element_exact, which is slow.
   Choice true_delays = Choice::as_needed;
 };

@@ -248,6 +248,24 @@ TEST(PlanPing, budget_decides_what_is_left_open) {
 }
 
 // A ping of open options is the ping of its plan, to the byte.
+TEST(PlanPing, leaves_true_delays_of_a_planar_array_to_its_user) {
+  Situation s = situation(1);
+  SonarSpec spec =
+      small_sonar({.beams = 8, .field_of_view_deg = 40, .beam_width_deg = 4, .min_range = 3, .max_range = 6});
+  spec.elevations = {radians(-4), 0, radians(4)};
+  spec.column_beam_width = radians(4);
+  s.head = make_head(spec, sound_speed(s.environment.water));
+  s.options.synthesis.true_delays = Choice::as_needed;
+  const PingPlan plan = plan_ping(s.scene, s.head, s.pose, s.environment, s.options);
+  const PlannedStage& out = stage(plan, "true-delays");
+  EXPECT_FALSE(out.included);
+  EXPECT_THAT(out.why, HasSubstr("--with true-delays"));
+  EXPECT_GT(out.bound_relative, plan.share_relative);
+  EXPECT_GE(plan.left_out_db, out.bound_db);
+  force_stage("true-delays", true, s.environment, s.options);
+  EXPECT_TRUE(stage(plan_ping(s.scene, s.head, s.pose, s.environment, s.options), "true-delays").included);
+}
+
 TEST(PlanPing, is_what_a_ping_does) {
   Situation s = situation(5);
   s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
