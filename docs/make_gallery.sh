@@ -78,9 +78,11 @@ printf '\n`insonify image track --animate -o frames` draws every ping with a com
 chapter "A side-scan line" "Port and starboard on the ground of a flat bottom: the wreck, pipe and boulders with their shadows, to starboard the pilings; right below, the bed is deeper than assumed. [More on surveys](survey.md)."
 steps "insonify make-mission lawnmower --scene harbour.ply --sonar starfish-450 --range 1:20 --centre 23,-5,-3.5 --size 20,0 --rate 2 -o line.toml" \
   "sed -i 's/^range/set = [\"sonar.bandwidth_hz=15000\"]\\n&/' line.toml" \
-  "insonify survey line.toml -o line" "insonify merge line"
+  "insonify survey line.toml -o line" "insonify merge line --mosaic 0.1"
 picture side-scan "A side-scan line along the wreck." \
   "insonify image line/port --starboard line/starboard --view waterfall --altitude 4.5 --size 1000x600 -o side-scan.png"
+picture track "The same line from above: the way over the mosaic of both sides." \
+  "insonify image line --view track --size 900x700 -o track.png"
 
 chapter "The head itself" "The directional response of its array."
 picture pattern "Beam pattern." "insonify beampattern p900-45 --steer=-20 --size 900x500 -o pattern.png"
