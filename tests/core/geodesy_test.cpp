@@ -40,20 +40,20 @@ TEST(Geodesy, earth_centred_coordinates_of_known_places) {
 }
 
 TEST(Geodesy, the_world_lies_along_the_anchors_heading) {
-  // x axis to the north-east: 100 m ahead are 70.7 m north and 70.7 m east; y is to the left of it, north-west.
-  const Anchor anchor{54.1, 7.9, 45};
+  // x axis 30 degrees east of north: 100 m ahead are 86.6 m north and 50 m east; y is to the left of it.
+  const Anchor anchor{54.1, 7.9, 30};
   const GeoPlace ahead = geo_from_world(anchor, {100, 0, 0}), port = geo_from_world(anchor, {0, 100, 0});
   const double m_per_deg_north = (meridian_arc(radians(54.6)) - meridian_arc(radians(53.6)));
   const double m_per_deg_east = Vector3d(ecef_of({radians(54.1), radians(7.9), 0})).head<2>().norm() * radians(1);
-  const double leg = 100 / std::sqrt(2.0);
-  EXPECT_NEAR((degrees(ahead.latitude) - 54.1) * m_per_deg_north, leg, 2e-3);
-  EXPECT_NEAR((degrees(ahead.longitude) - 7.9) * m_per_deg_east, leg, 2e-3);
-  EXPECT_NEAR((degrees(port.latitude) - 54.1) * m_per_deg_north, leg, 2e-3);
-  EXPECT_NEAR((degrees(port.longitude) - 7.9) * m_per_deg_east, -leg, 2e-3);
+  const double long_leg = 50 * std::sqrt(3.0), short_leg = 50;
+  EXPECT_NEAR((degrees(ahead.latitude) - 54.1) * m_per_deg_north, long_leg, 2e-3);
+  EXPECT_NEAR((degrees(ahead.longitude) - 7.9) * m_per_deg_east, short_leg, 2e-3);
+  EXPECT_NEAR((degrees(port.latitude) - 54.1) * m_per_deg_north, short_leg, 2e-3);
+  EXPECT_NEAR((degrees(port.longitude) - 7.9) * m_per_deg_east, -long_leg, 2e-3);
   EXPECT_NEAR(geo_from_world(anchor, {0, 0, -20}).height, -20, 1e-9);
   // A tangent plane leaves the ellipsoid as d^2 / 2R.
   EXPECT_NEAR(geo_from_world(anchor, {1000, 0, 0}).height, 1e6 / (2 * 6.38e6), 3e-4);
-  EXPECT_NEAR(degrees(heading_of({{}, anchor}, {3, 4, -5}, {0, -1, 0})), 135, 1e-4);
+  EXPECT_NEAR(degrees(heading_of({{}, anchor}, {3, 4, -5}, {0, -1, 0})), 120, 1e-4);
   for (const Vector3d& p : {Vector3d(1, 2, 3), Vector3d(-5000, 800, -60), Vector3d(20000, 20000, 0)})
     EXPECT_LT((world_from_geo(anchor, geo_from_world(anchor, p)) - p).norm(), 2e-8);
 }
