@@ -105,7 +105,7 @@ TEST(Raster, is_not_seen_in_clouds_off_a_grid_with_noise_or_with_two_heights_at_
   const std::string noisy = changed(raster(), all, [&](Eigen::Vector3d& p) { p.z() += 2 * spacing * uniform(random); });
   EXPECT_FALSE(loaded_from(noisy).mesh);
   EXPECT_FALSE(loaded_from(raster() + changed(raster(), all, [](Eigen::Vector3d& p) { p.z() += 5; })).mesh);
-  const auto lifted = [](Eigen::Vector3d& p) { p.z() += 1e-6; };  // by less than noise is told from
+  const auto lifted = [](Eigen::Vector3d& p) { p.z() += 1e-6; };  // below what counts as noise
   EXPECT_FALSE(loaded_from(raster() + changed(raster(), all, lifted)).mesh);
   LoadOptions even;
   even.mesh_spacing = spacing;
