@@ -127,7 +127,7 @@ StageVerdict judge_true_delays(const PlanFacts& facts) {
     return {false, "intensities have no delays across the array", 0};
   const bool planar = facts.ping.head.column.has_value();
   return {false,
-          planar ? "a planar array is summed row by row for them, which takes a minute: --with true-delays"
+          planar ? "a planar array is summed row by row for them, at that cost: only by --with true-delays"
                  : "elements receive wide bands and near echoes at other times: one pattern does not hold",
           narrow_band_bound(facts), seconds_of_true_delays(facts), planar};
 }
