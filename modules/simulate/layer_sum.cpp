@@ -3,6 +3,8 @@
 #include <numbers>
 #include <utility>
 
+#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/split_aperture.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"
 #include "simulate/layer_sum_internal.hpp"
