@@ -67,7 +67,7 @@ plan "harbour, oculus-m750d" "$work/harbour.ply" --sonar oculus-m750d --pose=0,0
 plan "harbour and surface, p900-45" "$work/harbour.ply" --sonar p900-45 --pose=0,0,-3,0,5,0 --range 2:30 --set surface.height_m=0
 plan "plane, p900-45" "$work/plane.ply" --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:12
 plan "plane, oculus-m750d" "$work/plane.ply" --sonar oculus-m750d --pose=0,0,3,0,15,0 --range 1:12
-plan "deep water, em2040" "$work/deep.ply" --sonar em2040 --pose=40,0,25,0,90,0 --range 20:40 --set water.depth_m=1000 --set water.temperature_c=3
+plan "deep water, em2040" "$work/deep.ply" --sonar em2040 --pose=40,0,25,0,0,0 --range 20:40 --set water.depth_m=1000 --set water.temperature_c=3
 cat <<TEXT
 
 ## Time and memory

@@ -129,7 +129,7 @@ std::string views_with(const std::string& option);
 
 /// --beam: a number, the word of the view, or empty: the view's default, of one beam the middle one. Throws
 /// Error(argument).
-ChosenBeam choose_beam(const ImageOptions& options, std::size_t beams);
+ChosenBeam choose_beam(const ImageOptions& options, const BeamFan& fan);
 
 /// The chosen beam in words, with its bearing.
 std::string chosen_beam_text(const ViewJob& job);

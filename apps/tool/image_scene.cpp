@@ -107,7 +107,7 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
     run.range = o.range;
     setup = set_up_head(o.common, run);
     const SonarHead& head = setup->head;
-    drawing.look.head = SceneHead{parse_pose(o.pose, o.world), head.fan, head.gate};
+    drawing.look.head = SceneHead{parse_pose(o.pose, o.world) * setup->mount, head.fan, head.gate};
     drawing.title = head.name + " before " + drawing.title;
   }
   if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);

@@ -28,7 +28,7 @@ void draw_fan(const ViewJob& job) { show_fan(levels_of(job), job.picture, job.pa
 void draw_rect(const ViewJob& job) { show_rect(levels_of(job), job.picture, job.path); }
 
 void draw_ascan(const ViewJob& job) {
-  const std::size_t beam = choose_beam(job.options, fan_of(job).beams()).beam;
+  const std::size_t beam = choose_beam(job.options, fan_of(job)).beam;
   show_ascan(levels_of(job), beam, job.picture, job.path);
 }
 
@@ -54,7 +54,7 @@ std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
 /// Spectrum of the chosen beams, and the spectrum of the pulse scaled to the same power.
 std::vector<SpectrumLine> spectrum_lines(const ImageRun& run, const ImageOptions& o, std::size_t number) {
   const Ping& ping = run.cube.pings[number];
-  const ChosenBeam chosen = choose_beam(o, ping.fan.beams());
+  const ChosenBeam chosen = choose_beam(o, ping.fan);
   std::vector<std::size_t> beams{chosen.beam};
   if (chosen.choice == BeamChoice::mean) {
     beams.resize(ping.fan.beams());
@@ -84,7 +84,7 @@ Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number)
   Panels panels;
   panels.image = levels_of(run, o, number);
   const BeamFan& fan = panels.image.fan;
-  panels.beam = choose_beam(o, fan.beams()).beam;
+  panels.beam = choose_beam(o, fan).beam;
   panels.facts = facts_of(run.cube, number);
   const double steering = fan.azimuth[panels.beam];
   if (!run.head || std::abs(steering) > pi / 2) return panels;
@@ -117,7 +117,7 @@ double max_db_of_image(const ImageRun& run, const ImageOptions& o, std::size_t p
 
 double max_db_of_ascan(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
   const LevelImage levels = levels_of(run, o, ping);
-  return next_five(levels.level_db.row(static_cast<Eigen::Index>(choose_beam(o, levels.fan.beams()).beam)).maxCoeff());
+  return next_five(levels.level_db.row(static_cast<Eigen::Index>(choose_beam(o, levels.fan).beam)).maxCoeff());
 }
 
 double max_db_of_spectrum(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
@@ -162,7 +162,7 @@ const std::vector<ViewSpec>& all_views() {
 
 std::string chosen_beam_text(const ViewJob& job) {
   const BeamFan& fan = fan_of(job);
-  return beam_text(choose_beam(job.options, fan.beams()), fan);
+  return beam_text(choose_beam(job.options, fan), fan);
 }
 
 const ViewSpec& view_of(const ImageOptions& o) {
@@ -180,9 +180,10 @@ std::string views_with(const std::string& option) {
   return names.empty() ? last : joined(names) + " or " + last;
 }
 
-ChosenBeam choose_beam(const ImageOptions& o, std::size_t beams) {
+ChosenBeam choose_beam(const ImageOptions& o, const BeamFan& fan) {
   const ViewSpec& view = view_of(o);
-  if (o.beam.empty()) return {view.default_choice, beams / 2};
+  const std::size_t beams = fan.beams();
+  if (o.beam.empty()) return {view.default_choice, middle_beam(fan)};
   if (o.beam == view.beam_word) return {view.beam_choice};
   const double beam = parse_number("--beam", o.beam);
   if (!(beam >= 0 && beam == std::floor(beam)))

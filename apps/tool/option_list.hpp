@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -7,6 +8,8 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "tool/command_text.hpp"
 
 namespace CLI {
 class App;
@@ -37,13 +40,14 @@ struct OptionRules {
 /// ("-o,--output"), others are positional.
 class OptionList {
  public:
-  explicit OptionList(CLI::App* app) : app_(app) {}
+  OptionList(CLI::App* app, CommandText* text) : app_(app), text_(text) {}
   void add(const std::string& name, const OptionValue& value, const std::string& help, const OptionRules& rules = {});
   /// Makes a required option optional.
   void release(const std::string& name);
 
  private:
   CLI::App* app_;
+  CommandText* text_;
 };
 
 /// The command line of a program, with or without verbs. Only option_list.cpp includes CLI11.
@@ -64,9 +68,14 @@ class CommandLine {
   std::optional<int> parse(int argc, char** argv);
   /// The verb that was named.
   std::string verb() const;
+  /// What --help says of the program and of its verbs, in the order in which they were added.
+  const CommandText& text() const { return text_; }
+  const std::deque<CommandText>& verb_texts() const { return verb_texts_; }
 
  private:
   std::unique_ptr<CLI::App> app_;
+  CommandText text_;
+  std::deque<CommandText> verb_texts_;  // OptionLists point to its entries
 };
 
 }  // namespace insonify::tool

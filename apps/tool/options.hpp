@@ -46,7 +46,8 @@ struct PingOptions {
   CommonOptions common;
   SceneOptions scene;
   RunOptions run;
-  std::string pose;
+  std::string pose;   ///< of the vehicle
+  std::string mount;  ///< of the head on the vehicle, or empty: as the sonar's file says
   std::string world = "z-up";
   std::string sampling = "surfels";
   std::string amplitude = "speckle";

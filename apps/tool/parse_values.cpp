@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 
 namespace insonify::tool {
@@ -49,9 +50,9 @@ Eigen::Vector3d parse_vector(const std::string& option, const std::string& text,
   return {v[0], v[1], v[2]};
 }
 
-Pose parse_pose(const std::string& text, const std::string& world) {
-  const auto v =
-      parse_numbers("--pose", text, 6, "x,y,z,yaw,pitch,roll in metres and degrees, e.g. --pose=0,0,-3,0,10,0");
+Pose parse_pose(const std::string& text, const std::string& world, const char* option) {
+  const auto v = parse_numbers(
+      option, text, 6, printed("x,y,z,yaw,pitch,roll in metres and degrees, e.g. %s=0,0,-3,0,10,0", option).c_str());
   const auto pose = world == "ned" ? pose_from_ned : pose_from_yaw_pitch_roll;
   return pose({v[0], v[1], v[2]}, radians(v[3]), radians(v[4]), radians(v[5]));
 }

@@ -41,7 +41,7 @@ Eigen::Vector3d parse_vector(const std::string& option, const std::string& text,
 
 /// "x,y,z,yaw,pitch,roll" in metres and degrees; world "z-up" (pitch positive nose down) or "ned" (z down, pitch
 /// positive nose up, yaw clockwise).
-Pose parse_pose(const std::string& text, const std::string& world);
+Pose parse_pose(const std::string& text, const std::string& world, const char* option = "--pose");
 
 /// "min:max" in metres, 0 < min < max.
 std::pair<double, double> parse_range(const std::string& text);

@@ -60,7 +60,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   return s;
 }
 
-/// Pose of the head, and its motion if it follows a trajectory.
+/// Pose of the vehicle, and its motion if it follows a trajectory.
 struct Track {
   Pose pose;
   Motion motion;
@@ -105,7 +105,14 @@ bool keeps(const PingOptions& options, const std::string& what) {
 PingSetup set_up_ping(const PingOptions& o) {
   const Track track = track_of(o);
   PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
-  if (!o.trajectory.empty()) setup.simulation.effects.motion = track.motion;
+  Motion& motion = setup.simulation.effects.motion;
+  if (!o.trajectory.empty()) motion = track.motion;
+  if (!o.mount.empty()) {
+    // A head away from the vehicle's centre moves as the vehicle turns.
+    const Pose mount = parse_pose(o.mount, "z-up", "--mount");
+    motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
+    setup.pose = track.pose * mount;
+  }
   setup.simulation.time = o.time;
   setup.simulation.ping = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
   for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
@@ -142,6 +149,7 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
   HeadSetup setup;
   const SonarFile file = find_sonar(run.sonar);
   setup.spec = file.spec;
+  setup.mount = pose_from_yaw_pitch_roll({0, 0, 0}, file.mounting.x(), file.mounting.y(), file.mounting.z());
   for (const SonarNumber& n : file.numbers)
     if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
   if (!run.environment.empty()) setup.environment = load_environment(run.environment);

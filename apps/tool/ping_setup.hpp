@@ -21,6 +21,7 @@ struct HeadSetup {
   SonarHead head;
   Environment environment;
   Medium medium;
+  Pose mount = Pose::Identity();      ///< on a vehicle, as the sonar's file says
   std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
@@ -43,7 +44,7 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
 
 /// Everything that a ping needs except the scene.
 struct PingSetup {
-  Pose pose;
+  Pose pose;  ///< of the head
   HeadSetup head;
   SimulationOptions simulation;
 };

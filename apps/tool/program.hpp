@@ -9,9 +9,9 @@
 
 namespace insonify::tool {
 
-/// Thrown at the next step after Ctrl-C.
+/// Thrown by a verb that ends by itself after Ctrl-C, keeping what is done.
 struct Interrupted {
-  std::string kept = "nothing was written";
+  std::string kept;
 };
 
 /// Thrown when some pings of a survey failed and all others are kept: exit code 5.

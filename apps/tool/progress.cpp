@@ -3,20 +3,55 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
+#include <thread>
 
 #include <unistd.h>
 
+#include "core/pending_path.hpp"
+
 namespace insonify::tool {
 namespace {
+
+constexpr const char* nothing_kept = "nothing was written";
 std::atomic<bool> interrupted{false};
+std::atomic<const char*> kept_at_once{nothing_kept};
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Signals that ask for an end, but for those that the caller has the program ignore, as nohup does.
+sigset_t interrupts() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) sigaddset(&set, signal);
+  }
+  return set;
+}
+
+// Waits for interrupts, in a thread of its own, so that libraries which take long or never return do not matter.
+void wait_for_interrupts() {
+  const sigset_t set = interrupts();
+  int signal = 0;
+  while (sigwait(&set, &signal) != 0) {
+  }
+  interrupted = true;
+  if (kept_at_once.load() != nothing_kept)
+    while (sigwait(&set, &signal) != 0) {
+    }
+  discard_pending_paths();
+  std::fprintf(stderr, "%sinsonify: interrupted; %s\n", isatty(STDERR_FILENO) ? "\r\033[K" : "", kept_at_once.load());
+  _exit(130);
+}
+
 }  // namespace
 
-void catch_interrupts() {
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+void end_on_interrupt() {
+  const sigset_t set = interrupts();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::thread(wait_for_interrupts).detach();
 }
+
+void finish_on_interrupt(const char* kept) { kept_at_once = kept; }
 
 bool is_interrupted() { return interrupted; }
 
@@ -33,12 +68,7 @@ void Progress::clear_bar() {
   bar_shown_ = false;
 }
 
-void Progress::check() const {
-  if (interrupted) throw Interrupted{};
-}
-
 void Progress::step(const std::string& what) {
-  check();
   if (verbose_) std::fprintf(stderr, "[%d/%d] %s\n", done_ + 1, steps_, what.c_str());
   show(static_cast<double>(done_) / steps_, what);
   ++done_;

@@ -6,10 +6,15 @@
 
 namespace insonify::tool {
 
-/// Defers Ctrl-C and SIGTERM to the end of a step, so that nothing is left half-written.
-void catch_interrupts();
+/// Ends the program at once on Ctrl-C, SIGTERM or SIGHUP, whatever it is doing, with exit code 130 and nothing left of
+/// what was not complete. To be called before the first thread is started.
+void end_on_interrupt();
 
-/// Whether Ctrl-C or SIGTERM was caught.
+/// From here on the first interrupt is only noted: for a verb that looks at is_interrupted() and ends by itself, keeping
+/// what is done. The second one ends the program at once; `kept` says what is left then.
+void finish_on_interrupt(const char* kept);
+
+/// Whether an interrupt was noted.
 bool is_interrupted();
 
 /// Prints a result on stdout: as JSON with --json, else by `print`.
@@ -29,12 +34,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Starts the next step. Throws Interrupted after Ctrl-C.
+  /// Starts the next step.
   void step(const std::string& what);
   /// Moves the bar of a terminal to `part` (0 to 1) of the whole work; else nothing.
   void show(double part, const std::string& what);
-  /// Throws Interrupted after Ctrl-C: for steps that take long.
-  void check() const;
   /// Shows a sentence unless quiet.
   void note(const std::string& sentence);
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -122,7 +123,10 @@ const TomlValue& table_of(const TomlValue& document, const std::string& section)
 
 }  // namespace
 
-std::string toml_text(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string toml_text(const std::string& text) {
+  // JSON's escapes are TOML's, but for DEL, which TOML does not take as it is.
+  return boost::replace_all_copy(nlohmann::json(text).dump(), "\x7f", "\\u007f");
+}
 
 std::string settings_as_toml(const std::vector<RunSetting>& settings) {
   std::string text, section;

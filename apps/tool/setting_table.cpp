@@ -61,6 +61,10 @@ RunSetting seed_setting(CommonOptions& o) {
 std::vector<RunSetting> ping_settings(PingOptions& o) {
   return {
       {"ping", "pose", "--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down"},
+      {"ping", "mount", "--mount", &o.mount,
+       "x,y,z,yaw,pitch,roll [m, deg] of the head on the vehicle, whose pose --pose is then; default: as the sonar's "
+       "file "
+       "says (mounting_deg), straight down for swaths, else at the pose itself"},
       {"ping", "trajectory", "--trajectory", &o.trajectory,
        "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg", file, true},
       {"ping", "time", "--time", &o.time, "of transmission on the trajectory [s]"},
@@ -117,8 +121,8 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
 
 std::vector<RunSetting> mission_settings(PingOptions& o) {
   // What the mission says in its own tables, and what is kept of a single ping alone.
-  const std::vector<std::string> others = {"path",  "pose",     "trajectory", "time", "ping",
-                                           "world", "velocity", "turn_rate",  "keep", "contributors"};
+  const std::vector<std::string> others = {"path",  "pose",     "mount",     "trajectory", "time",        "ping",
+                                           "world", "velocity", "turn_rate", "keep",       "contributors"};
   std::vector<RunSetting> all;
   for (auto& group : {scene_settings(o.scene), synthesis_settings(o.run), ping_settings(o)})
     for (RunSetting setting : group) {

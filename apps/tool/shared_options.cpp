@@ -1,5 +1,9 @@
 #include "tool/shared_options.hpp"
 
+#include <fmt/format.h>
+
+#include "core/units.hpp"
+#include "store/sonar_file.hpp"
 #include "tool/run_settings.hpp"
 
 namespace insonify::tool {
@@ -63,8 +67,22 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
   add_work(list, o.common);
 }
 
+namespace {
+
+/// The mounting that the file of a sonar names, as --mount takes it; empty if it is none.
+std::string mounting_text(const SonarFile& sonar) {
+  if (sonar.mounting.isZero()) return "";
+  const Eigen::Vector3d angles = sonar.mounting * degrees(1);
+  return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
+}
+
+}  // namespace
+
 PingOptions settled_options(const PingCommand& command) {
   PingOptions o = command.options;
+  // A run records its mounting, since its own file of the sonar does not hold it.
+  const bool other_sonar = !command.of_run || o.run.sonar != command.of_run->run.sonar;
+  if (o.mount.empty() && other_sonar) o.mount = mounting_text(find_sonar(o.run.sonar));
   if (!command.of_run) return o;
   const PingOptions &run = *command.of_run, defaults;
   const bool new_pose = o.pose != run.pose, new_trajectory = o.trajectory != run.trajectory;

@@ -33,7 +33,7 @@ PingHistory beam_history(const ImageRun& run, const ImageOptions& o) {
   const std::vector<Ping>& pings = run.cube.pings;
   if (pings.size() < 2)
     fail(ErrorKind::content, run.path, ": holds one ping, a waterfall needs several; join runs with insonify merge");
-  const ChosenBeam chosen = choose_beam(o, pings.front().fan.beams());
+  const ChosenBeam chosen = choose_beam(o, pings.front().fan);
   PingHistory history;
   history.gate = pings.front().gate;
   history.level_db.resize(static_cast<Eigen::Index>(pings.size()), static_cast<Eigen::Index>(history.gate.bins()));

@@ -82,6 +82,7 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
   if (o.run.sonar.empty() || o.pose.empty())
     fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
   PingSetup setup{parse_pose(o.pose, o.world), set_up_head(o.common, o.run), {}};
+  setup.pose = setup.pose * setup.head.mount;
   setup.simulation.seed = o.common.seed;
   setup.simulation.threads = o.common.threads;
   const LoadOptions loading = load_options(o.common, o.scene);
@@ -102,10 +103,7 @@ std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const
   for (const AccuracyStep& step : steps) {
     progress.step(step.what);
     const AccuracyBench bench(step.sweep, step.make(), measure);
-    for (const AccuracyRun& run : step.runs) {
-      progress.check();
-      rows.push_back(run.measure(bench));
-    }
+    for (const AccuracyRun& run : step.runs) rows.push_back(run.measure(bench));
   }
   return rows;
 }

@@ -172,7 +172,7 @@ void image(const ImageOptions& o) {
   const std::size_t pings = run.cube.pings.size();
   if (o.ping >= pings)
     fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", pings, ", the number of pings in ", o.run);
-  choose_beam(o, run.cube.pings.front().fan.beams());
+  choose_beam(o, run.cube.pings.front().fan);
 
   Progress progress(o.common, o.animate ? static_cast<int>(pings) : 1);
   if (o.animate) return animate(run, o, picture, annotation, progress);

@@ -41,12 +41,8 @@ void add_options(OptionList list, MakeSceneOptions& o) {
 void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {
   TileWriterOptions options;
   options.materials = empty_built_in_scene(o.name, built_in).materials;
-  options.progress = [&](double) { progress.check(); };
   TileWriter writer(o.output, options);
-  make_built_in_scene_in_batches(o.name, built_in, batch_surfels, [&](const SceneCloud& batch) {
-    progress.check();
-    writer.add(batch);
-  });
+  make_built_in_scene_in_batches(o.name, built_in, batch_surfels, [&](const SceneCloud& batch) { writer.add(batch); });
   progress.step("writing " + o.output);
   const TileReport report = writer.finish();
   fmt::print("{}: {} surfels in {} tiles, {} materials\n", o.output, report.surfels, report.tiles,

@@ -45,7 +45,7 @@ void prepare_as_tiles(const PrepareOptions& o) {
   progress.step("preparing " + o.output);
   PrepareTilesOptions options;
   options.load = load_options(o.common, o.scene);
-  options.progress = [&](double) { progress.check(); };
+  options.progress = [&](double part) { progress.show(part, "preparing " + o.output); };
   const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
   const auto notes = loading_notes(prepared.report);
   for (const std::string& note : notes) progress.note(note);

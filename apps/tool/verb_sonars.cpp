@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.hpp"
+#include "store/run_directory.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
@@ -15,10 +16,12 @@ using nlohmann::ordered_json;
 struct SonarsOptions {
   CommonOptions common;
   std::string name;
+  bool toml = false;
 };
 
 void add_options(OptionList list, SonarsOptions& o) {
   list.add("NAME", &o.name, "preset or .toml file");
+  list.add("--toml", &o.toml, "print the file itself, to begin one of your own with");
   add_common(list, o.common, true);
 }
 
@@ -51,6 +54,12 @@ void print_table(const std::vector<SonarFile>& files) {
 }
 
 void sonars(const SonarsOptions& o) {
+  if (o.toml) {
+    if (o.name.empty())
+      fail(ErrorKind::argument, "--toml needs the name of a sonar, e.g. insonify sonars p900-45 --toml");
+    std::fputs(read_text_file(find_sonar(o.name).path).c_str(), stdout);
+    return;
+  }
   if (!o.name.empty()) {
     const SonarFile file = find_sonar(o.name);
     return print_result(o.common, sonar_json(file), [&] { print_one(file); });
@@ -64,8 +73,10 @@ void sonars(const SonarsOptions& o) {
 }  // namespace
 
 Verb sonars_verb() {
-  return make_verb<SonarsOptions>("sonars", "the presets; with a name, every number with its source",
-                                  {"insonify sonars", "insonify sonars oculus-m750d"}, add_options, sonars);
+  return make_verb<SonarsOptions>(
+      "sonars", "the presets; with a name, every number with its source",
+      {"insonify sonars", "insonify sonars oculus-m750d", "insonify sonars oculus-m750d --toml > my-sonar.toml"},
+      add_options, sonars);
 }
 
 }  // namespace insonify::tool

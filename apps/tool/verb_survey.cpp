@@ -54,7 +54,7 @@ Shard parse_shard(const std::string& text) {
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Cost of the pings of one head, from a few of them, evenly spaced.
-ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::size_t h, Progress& progress) {
+ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::size_t h) {
   constexpr std::size_t tried = 5;
   std::vector<SurveyPing> pings;
   for (const SurveyPing& ping : s.pings)
@@ -63,7 +63,6 @@ ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::s
   double scatterers = 0, soundings = 0;
   double cpu = 0;
   for (std::size_t k = 0; k < samples; ++k) {
-    progress.check();
     const double begin = cpu_seconds();
     const SimulatedPing result = scene.make(s, pings[(2 * k + 1) * pings.size() / (2 * samples)]).ping;
     cpu += cpu_seconds() - begin;
@@ -94,9 +93,9 @@ void print_plan(const ordered_json& plan) {
              plan["hours"].get<double>(), plan["cores"].get<int>());
 }
 
-void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, Progress& progress) {
+void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene) {
   ordered_json heads = ordered_json::array(), all = {{"name", "all"}};
-  for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, scene, h, progress));
+  for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, scene, h));
   for (const char* key : {"pings", "echoes", "returns", "bytes", "cpu_hours"}) {
     double sum = 0;
     for (const auto& head : heads) sum += head[key].get<double>();
@@ -172,6 +171,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
     work.keep = [&](const SurveyBlock& block, BlockReturns& returns) { store.keep(block, returns); };
     work.done = [&](const SurveyReturn* made) { status.ping_done(made); };
     work.stop = is_interrupted;
+    finish_on_interrupt("finished pings are kept; the same command goes on from there");
     whole = simulate_survey(s.pings, todo.blocks, o.common.threads, work);
   }
   const std::vector<std::string> failures = failures_of(o, s, shard);
@@ -205,7 +205,7 @@ void survey(const SurveyOptions& o) {
   progress.step("loading " + s.file.scene);
   const SurveyScene scene(s, o.common, progress);
   progress.step("planning");
-  plan_survey(o, s, scene, progress);
+  plan_survey(o, s, scene);
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
   LoadedView view;
   const tool::HeadSetup setup = tool::set_up_head(command.common, command.run);
   view.start.mode = ViewerMode::inspect;
-  view.start.head = head_place(tool::parse_pose(command.pose, command.world));
+  view.start.head = head_place(tool::parse_pose(command.pose, command.world) * setup.mount);
   view.start.scene_colour = SceneColour::visibility;
   view.data.fan = setup.head.fan;
   view.data.gate = setup.head.gate;

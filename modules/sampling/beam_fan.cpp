@@ -77,6 +77,15 @@ std::vector<FanRow> fan_rows(const BeamFan& fan) {
   return rows;
 }
 
+std::size_t middle_beam(const BeamFan& fan) {
+  const std::vector<FanRow> rows = fan_rows(fan);
+  std::vector<std::size_t> beams = rows[rows.size() / 2].beams;
+  const auto middle = beams.begin() + static_cast<std::ptrdiff_t>(beams.size() / 2);
+  std::nth_element(beams.begin(), middle, beams.end(),
+                   [&](std::size_t a, std::size_t b) { return fan.azimuth[a] < fan.azimuth[b]; });
+  return *middle;
+}
+
 double cone_azimuth(const Vector3d& p) {
   return std::atan2(p.y(), std::copysign(std::sqrt(p.x() * p.x() + p.z() * p.z()), p.x()));
 }

@@ -40,6 +40,9 @@ struct FanRow {
 /// with all elevations different has as many rows as beams.
 std::vector<FanRow> fan_rows(const BeamFan& fan);
 
+/// The beam in the middle: of the beams of the middle row the one of middle bearing.
+std::size_t middle_beam(const BeamFan& fan);
+
 /// A line array resolves u = cos(elevation) sin(azimuth) alone: what it hears in a beam is a cone about
 /// its own axis. This is the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the
 /// array, pi - asin(u) astern (x < 0) [rad].

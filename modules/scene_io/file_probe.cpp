@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
@@ -14,11 +15,7 @@ std::string extension_of(const std::string& path) {
 }
 
 void require_readable(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) fail(ErrorKind::file, path, ": no such file; check the path");
-  if (std::filesystem::is_directory(status))
-    fail(ErrorKind::file, path, ": is a folder, expected a cloud or mesh file; name a file in it");
+  require_regular_file(path);
   if (!std::ifstream(path, std::ios::binary))
     fail(ErrorKind::file, path, ": cannot be opened for reading; check its permissions");
   if (file_size_of(path) == 0) fail(ErrorKind::content, path, ": the file is empty (0 bytes); write or copy it again");

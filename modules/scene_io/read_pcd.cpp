@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <sstream>
 
 #include <pcl/io/pcd_io.h>
 
@@ -170,14 +171,25 @@ void check_data(const Header& header) {
   }
 }
 
-pcl::PCLPointCloud2 read_data(const Header& header) {
+// PCL gets the bytes in memory: it would map the file, and die if another program cuts that off meanwhile.
+pcl::PCLPointCloud2 read_data(const Header& header, std::size_t checked_bytes) {
   const QuietPcl quiet;
   pcl::PCLPointCloud2 cloud;
   Eigen::Vector4f origin;
   Eigen::Quaternionf orientation;
-  int version = 0, result = -1;
+  int version = 0, result = -1, type = 0;
+  unsigned int begin = 0;
+  const std::string bytes = read_whole_file(header.path);
+  if (bytes.size() != checked_bytes)
+    fail(ErrorKind::content, header.path, ": changed while it was read; wait until it is complete");
+  pcl::PCDReader reader;
   try {
-    result = pcl::PCDReader().read(header.path, cloud, origin, orientation, version);
+    std::istringstream stream(bytes);
+    result = reader.readHeader(stream, cloud, origin, orientation, version, type, begin);
+    if (result == 0 && type == 0) result = reader.readBodyASCII(stream, cloud, version);
+    if (result == 0 && type != 0)
+      result =
+          reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), cloud, version, type == 2, begin);
   } catch (const std::exception&) {
     result = -1;
   }
@@ -200,13 +212,14 @@ std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   const Header header = read_pcd_header(path);
+  const std::size_t bytes = file_size_of(path);
   check_data(header);
   RawCloud raw;
   raw.path = path;
   raw.format = "PCD " + header.data;
   raw.tags = header.tags;
   raw.viewpoint = viewpoint_of(header);
-  const pcl::PCLPointCloud2 cloud = read_data(header);
+  const pcl::PCLPointCloud2 cloud = read_data(header, bytes);
   fill_cloud(raw, table_of(cloud, raw), options);
   return raw;
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 
 namespace insonify {
 
@@ -42,52 +43,44 @@ void require_free(const std::string& target, bool force) {
          "replace it; remove it yourself, or give another name");
 }
 
+// `path` without a slash at its end, if a run may get this name.
+std::string free_name(const std::string& path, bool force) {
+  const std::string target = without_trailing_slash(path);
+  if (target.empty() || target == "." || target == "/" || fs::path(target).filename() == "..")
+    fail(ErrorKind::file, "\"", path, "\": is not a valid name for a new folder");
+  const fs::path parent = fs::path(target).parent_path();
+  std::error_code ignored;
+  if (!parent.empty() && !fs::is_directory(parent, ignored))
+    fail(ErrorKind::file, target, ": folder ", parent.string(), " does not exist; create it first");
+  require_free(target, force);
+  return target;
+}
+
 }  // namespace
 
-RunDirectory::RunDirectory(const std::string& path, bool force) : target_(without_trailing_slash(path)), force_(force) {
-  if (target_.empty() || target_ == "." || target_ == "/" || fs::path(target_).filename() == "..")
-    fail(ErrorKind::file, "\"", path, "\": is not a valid name for a new folder");
-  require_free(target_, force);
-  const fs::path parent = fs::path(target_).parent_path();
+RunDirectory::RunDirectory(const std::string& path, bool force) : path_(free_name(path, force)), force_(force) {
   std::error_code error;
-  if (!parent.empty() && !fs::is_directory(parent, error))
-    fail(ErrorKind::file, target_, ": folder ", parent.string(), " does not exist; create it first");
-  temporary_ = sibling_name(target_, "tmp");
-  fs::remove_all(temporary_, error);
-  if (!fs::create_directory(temporary_, error))
-    fail(ErrorKind::file, target_, ": cannot be created: ", error.message());
+  fs::remove_all(path_.temporary(), error);
+  if (!fs::create_directory(path_.temporary(), error))
+    fail(ErrorKind::file, path_.target(), ": cannot be created: ", error.message());
 }
 
-RunDirectory::~RunDirectory() {
-  std::error_code ignored;
-  if (!committed_) fs::remove_all(temporary_, ignored);
-}
-
-std::string RunDirectory::file(const std::string& name) const { return (fs::path(temporary_) / name).string(); }
+std::string RunDirectory::file(const std::string& name) const { return (fs::path(path_.temporary()) / name).string(); }
 
 void RunDirectory::commit() {
-  if (committed_) fail(ErrorKind::runtime, "RunDirectory::commit: ", target_, " is committed already");
-  require_free(target_, force_);
-  std::error_code error, ignored;
-  const std::string old = sibling_name(target_, "old");
-  const bool replace = fs::exists(target_, ignored);
-  if (replace) {
-    fs::rename(target_, old, error);
-    if (error) fail(ErrorKind::file, target_, ": cannot be replaced: ", error.message());
-  }
-  fs::rename(temporary_, target_, error);
-  if (error) {
-    if (replace) fs::rename(old, target_, ignored);
-    fail(ErrorKind::file, target_, ": cannot be created: ", error.message());
-  }
+  const std::string& target = path_.target();
+  if (committed_) fail(ErrorKind::runtime, "RunDirectory::commit: ", target, " is committed already");
+  require_free(target, force_);
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(target, ignored)))
+    path_.commit_in_place_of_folder();
+  else
+    path_.commit();
   committed_ = true;
-  if (replace) fs::remove_all(old, ignored);
 }
 
 std::string read_text_file(const std::string& path) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) fail(ErrorKind::file, path, ": no such file");
-  if (fs::is_directory(path, ignored)) fail(ErrorKind::file, path, ": is a folder, must be a file");
+  require_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();

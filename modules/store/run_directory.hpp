@@ -2,29 +2,31 @@
 #include <string>
 
 #include "core/pending_file.hpp"
+#include "core/pending_path.hpp"
 
 namespace insonify {
 
 /// An output folder created atomically: files are written into a temporary folder beside it, which commit() renames.
-/// If commit() is never called (an error, Ctrl-C), the destructor removes the temporary folder.
+/// If commit() is never called (an error, Ctrl-C), the temporary folder is removed; if the process was killed, by the next
+/// RunDirectory of the same name.
 class RunDirectory {
  public:
   /// Throws Error(file) if `path` exists and `force` is false, or its parent is missing or not writable.
   /// With force, an existing folder must be empty or an earlier run (it holds manifest.json, run.toml, cube.h5 or
   /// sweep.csv), so that a mistyped --force deletes nothing else.
   RunDirectory(const std::string& path, bool force);
-  ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   /// Path of a file while the run is being written.
   std::string file(const std::string& name) const;
-  /// Renames the folder to its final name; with force it replaces an old one, which is kept until then.
+  /// Waits until the disk holds all files, and renames the folder to its final name; with force it takes the place of an old
+  /// one in one step.
   /// Throws Error(file) if that fails, or if another program has created `path` and `force` is false.
   void commit();
 
  private:
-  std::string target_, temporary_;
+  PendingPath path_;
   bool force_ = false, committed_ = false;
 };
 

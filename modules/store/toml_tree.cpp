@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include <toml++/toml.h>
 
@@ -47,6 +48,18 @@ const TomlValue& required(const std::string& path, const TomlValue& table, const
   return *value;
 }
 
+/// Throws Error(content) for a key of very many parts: the parser calls itself for each.
+void require_shallow_keys(const std::string& path, const std::string& text) {
+  constexpr std::ptrdiff_t most = 64;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto end = std::find(line.begin(), line.end(), '=');
+    if (std::count(line.begin(), end, '.') > most && line.find_first_of("\"'#") == std::string::npos)
+      fail_in_file(path, number, "key of more than ", most, " parts");
+  }
+}
+
 }  // namespace
 
 const TomlValue* TomlValue::find(const std::string& key) const {
@@ -57,6 +70,7 @@ const TomlValue* TomlValue::find(const std::string& key) const {
 
 TomlValue load_toml(const std::string& path) {
   const std::string text = read_text_file(path);
+  require_shallow_keys(path, text);
   try {
     return copied(toml::parse(text));
   } catch (const toml::parse_error& error) {

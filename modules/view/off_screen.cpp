@@ -5,6 +5,7 @@
 // clang-format on
 
 #include <algorithm>
+#include <filesystem>
 
 #include <EGL/eglext.h>
 #include <vtkErrorCode.h>
@@ -16,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
+#include "core/text.hpp"
 
 namespace insonify {
 namespace {
@@ -143,6 +145,8 @@ void VtkMessages::throw_first_error(const char* who) const {
 }
 
 void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who) {
+  if (lower_case(std::filesystem::path(path).extension().string()) != ".png")
+    fail(ErrorKind::argument, path, ": pictures are written as PNG; the name must end with .png");
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* png = writer->GetResult();

@@ -56,7 +56,7 @@ class VtkMessages {
 };
 
 /// Writes the window's back buffer as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK
-/// reported an error, Error(file) if the file cannot be written.
+/// reported an error, Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
 void save_window(vtkRenderWindow* window, const std::string& path, const VtkMessages& messages, const char* who);
 
 /// The same for the input of `writer`.

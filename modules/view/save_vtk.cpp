@@ -24,6 +24,7 @@
 #include <vtkXMLWriter.h>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
 #include "view/drawn_cells_internal.hpp"
@@ -91,34 +92,61 @@ LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>&
   return part;
 }
 
-/// Corners of the cells, ranges varying fastest, then bearings.
-vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, double elevation, const RangeGate& gate,
-                                   const Pose& world_from_head) {
+/// Corners of the cells, ranges varying fastest, then bearings, then elevations.
+vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, const std::vector<double>& elevations,
+                                   const RangeGate& gate, const Pose& world_from_head) {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();
-  points->Allocate(static_cast<vtkIdType>(bearing_edges.size() * (gate.bins() + 1)));
-  for (const double bearing : bearing_edges) {
-    const Eigen::Vector3d direction = unit_vector({-bearing, elevation});
-    for (std::size_t n = 0; n <= gate.bins(); ++n) {
-      const double range = gate.min_range + static_cast<double>(n) * gate.bin_size;
-      const Eigen::Vector3d corner = world_from_head * Eigen::Vector3d(range * direction);
-      points->InsertNextPoint(corner.data());
+  points->Allocate(static_cast<vtkIdType>(elevations.size() * bearing_edges.size() * (gate.bins() + 1)));
+  for (const double elevation : elevations)
+    for (const double bearing : bearing_edges) {
+      const Eigen::Vector3d direction = unit_vector({-bearing, elevation});
+      for (std::size_t n = 0; n <= gate.bins(); ++n) {
+        const double range = gate.min_range + static_cast<double>(n) * gate.bin_size;
+        const Eigen::Vector3d corner = world_from_head * Eigen::Vector3d(range * direction);
+        points->InsertNextPoint(corner.data());
+      }
     }
-  }
   return points;
 }
 
-void save_row(const std::string& path, const BeamFan& fan, const RangeGate& gate,
-              const std::vector<SampleField>& fields, const Pose& world_from_head, const FanRow& row) {
+/// Elevations between the cells of rows, halfway from row to row, and beyond the outermost by half a step; of one row, its
+/// own.
+std::vector<double> elevation_edges(const std::vector<FanRow>& rows) {
+  if (rows.size() == 1) return {rows.front().elevation};
+  std::vector<double> edges{1.5 * rows[0].elevation - 0.5 * rows[1].elevation};
+  for (std::size_t r = 0; r + 1 < rows.size(); ++r) edges.push_back(0.5 * (rows[r].elevation + rows[r + 1].elevation));
+  edges.push_back(1.5 * rows.back().elevation - 0.5 * rows[rows.size() - 2].elevation);
+  return edges;
+}
+
+/// Whether the beams of all rows have the same bearings, so that rows are the layers of a volume.
+bool rows_are_alike(const BeamFan& fan, const std::vector<FanRow>& rows) {
+  const auto bearing_of = [&](const FanRow& row, std::size_t b) { return fan.azimuth[row.beams[b]]; };
+  for (const FanRow& row : rows) {
+    if (row.beams.size() != rows.front().beams.size()) return false;
+    for (std::size_t b = 0; b < row.beams.size(); ++b)
+      if (bearing_of(row, b) != bearing_of(rows.front(), b)) return false;
+  }
+  return true;
+}
+
+/// One grid of rows of the same bearings: a surface for one row, a volume for several.
+void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gate,
+               const std::vector<SampleField>& fields, const Pose& world_from_head, const std::vector<FanRow>& rows) {
   vtkNew<vtkStructuredGrid> grid;
+  const std::vector<double> elevations = elevation_edges(rows);
   for (const SampleField& field : fields) {
-    const BeamCells cells = order_beams(part_of(fan, gate, field.values, row));
-    if (grid->GetNumberOfPoints() == 0) {
-      grid->SetDimensions(static_cast<int>(gate.bins()) + 1, static_cast<int>(cells.edges.size()), 1);
-      grid->SetPoints(corners(cells.edges, row.elevation, gate, world_from_head));
+    std::vector<float> values;
+    for (const FanRow& row : rows) {
+      const BeamCells cells = order_beams(part_of(fan, gate, field.values, row));
+      values.insert(values.end(), cells.level_db.data(), cells.level_db.data() + cells.level_db.size());
+      if (grid->GetNumberOfPoints() > 0) continue;
+      grid->SetDimensions(static_cast<int>(gate.bins()) + 1, static_cast<int>(cells.edges.size()),
+                          static_cast<int>(elevations.size()));
+      grid->SetPoints(corners(cells.edges, elevations, gate, world_from_head));
     }
-    grid->GetCellData()->AddArray(
-        cell_array(field.name, cells.level_db.data(), static_cast<std::size_t>(cells.level_db.size())));
+    grid->GetCellData()->AddArray(cell_array(field.name, values.data(), values.size()));
   }
   grid->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLStructuredGridWriter> writer;
@@ -142,11 +170,15 @@ std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& f
                                        const std::vector<SampleField>& fields, const Pose& world_from_head) {
   require_fields(fan, gate, fields, "save_fan_grid");
   const std::vector<FanRow> rows = fan_rows(fan);
+  if (rows_are_alike(fan, rows)) {
+    save_rows(path, fan, gate, fields, world_from_head, rows);
+    return {path};
+  }
   std::vector<std::string> files;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::filesystem::path file = path;
-    if (rows.size() > 1) file.replace_filename(file.stem().string() + printed("_row_%03zu.vts", r));
-    save_row(file.string(), fan, gate, fields, world_from_head, rows[r]);
+    file.replace_filename(file.stem().string() + printed("_row_%03zu.vts", r));
+    save_rows(file.string(), fan, gate, fields, world_from_head, {rows[r]});
     files.push_back(file.string());
   }
   return files;
@@ -187,7 +219,7 @@ void save_map_image(const std::string& path, const HorizontalMap& map) {
 }
 
 HorizontalMap load_map_image(const std::string& path) {
-  if (!std::filesystem::exists(path)) fail(ErrorKind::file, path, ": no such file");
+  require_regular_file(path);
   const VtkMessages messages;
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(path.c_str());

@@ -17,8 +17,9 @@ struct SampleField {
 
 /// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges
 /// of its beam (halfway to its neighbours, as in show_fan) and of its bin, at the elevation of its row, with corners in
-/// the world [m, double]. A fan of several elevations gives one file per row, by ascending elevation: path.vts becomes
-/// path_row_000.vts, path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value
+/// the world [m, double]. Rows of beams of the same bearings are the layers of one volume, between elevations halfway from
+/// row to row; rows that differ give one file each, by ascending elevation: path.vts becomes path_row_000.vts,
+/// path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value
 /// of each field. Returns the names of the files, which are written under temporary names and renamed. Throws
 /// Error(argument) for an invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name;
 /// Error(file) if it cannot write.

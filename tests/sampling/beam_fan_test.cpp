@@ -140,6 +140,18 @@ TEST(Sector, of_several_rows_reaches_beyond_the_lowest_and_the_highest) {
   EXPECT_DOUBLE_EQ(s.max_elevation, 0.25);
 }
 
+TEST(MiddleBeam, looks_along_the_axis_of_a_fan_of_any_order_and_of_many_rows) {
+  EXPECT_EQ(middle_beam(make_fan(8, 1, 0.1, 0.2)), 4U);
+  EXPECT_EQ(middle_beam(make_fan(1, 0, 0.1, 0.2)), 0U);
+  BeamFan fan{{}, {}, 0.1, 0.2, 0.1};
+  for (const double elevation : {0.3, -0.3, 0.0})
+    for (const double azimuth : {0.0, 0.4, -0.4}) {
+      fan.azimuth.push_back(azimuth);
+      fan.elevation.push_back(elevation);
+    }
+  EXPECT_EQ(middle_beam(fan), 6U);
+}
+
 TEST(FanRows, gather_beams_of_one_elevation_by_ascending_elevation) {
   const BeamFan fan{{0, 0.1, 0.2, 0.3, 0.4}, {0.5, -0.1, 0.5, -0.1, 0.2}, 0.1, 0.2};
   const std::vector<FanRow> rows = fan_rows(fan);

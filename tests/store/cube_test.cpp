@@ -364,7 +364,7 @@ TEST(Cube, refuses_foreign_missing_and_truncated_files) {
   const std::string empty = own_file("empty.h5", "");
   EXPECT_EQ(error_with_kind([&] { read_cube(empty); }), "content: " + empty + ": is not an HDF5 file");
   const std::string missing = own_path("missing.h5");
-  EXPECT_EQ(error_with_kind([&] { read_cube(missing); }), "file: " + missing + ": no such file");
+  EXPECT_EQ(error_with_kind([&] { read_cube(missing); }), "file: " + missing + ": no such file; check the path");
   const std::string whole = read_text_file(write(make_cube()));
   const std::string cut = own_file("cut.h5", whole.substr(0, whole.size() / 2));
   EXPECT_NE(

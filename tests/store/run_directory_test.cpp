@@ -106,7 +106,7 @@ TEST(TextFile, comes_back_as_written_and_replaces_an_old_one) {
 
 TEST(TextFile, errors_name_the_path) {
   const std::string missing = own_path("no/a.txt");
-  EXPECT_EQ(error_with_kind([&] { read_text_file(missing); }), "file: " + missing + ": no such file");
+  EXPECT_EQ(error_with_kind([&] { read_text_file(missing); }), "file: " + missing + ": no such file; check the path");
   EXPECT_EQ(error_with_kind([&] { write_file(missing, "x"); }),
             "file: " + missing + ": folder " + own_path("no") + " does not exist; create it first");
   const std::string folder = fs::path(own_path("x")).parent_path().string();

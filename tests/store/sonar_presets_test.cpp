@@ -155,7 +155,7 @@ TEST(FindSonar, suggests_names_that_contain_the_word_or_resemble_it) {
 
 TEST(FindSonar, reads_a_path_that_ends_in_toml) {
   EXPECT_EQ(find_sonar(INSONIFY_DATA "/sonars/micron.toml").spec.name, "micron");
-  EXPECT_EQ(error_with_kind([] { find_sonar("no/such.toml"); }), "file: no/such.toml: no such file");
+  EXPECT_EQ(error_with_kind([] { find_sonar("no/such.toml"); }), "file: no/such.toml: no such file; check the path");
 }
 
 TEST(DataFolder, is_found_without_help_and_holds_the_data) {

@@ -122,7 +122,7 @@ TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
 TEST_F(AccuracyVerb, samples_a_mesh_as_a_ping_does) {
   write("bed.obj", "v -200 -200 0\nv 200 -200 0\nv 200 200 0\nv -200 200 0\nf 1 2 3 4\n");
   succeed(
-      "accuracy --quick -q --no-picture --scene bed.obj --sonar em2040 --set sonar.beams=16 --pose=0,0,20,0,90,0 "
+      "accuracy --quick -q --no-picture --scene bed.obj --sonar em2040 --set sonar.beams=16 --pose=0,0,20,0,0,0 "
       "--range 19:21 --methods gridded --tolerances 1e-3 --repeats 1 -o run");
   EXPECT_GT(number(rows_of("run/sweep.csv").at(0)["scatterers"]), 1000);
 }

@@ -34,7 +34,7 @@ class ExportProducts : public ToolTest {
     const Eigen::Vector3d at = pose.translation();
     std::ostringstream command;
     command.precision(12);
-    command << "ping ball.ply --sonar r2sonic-2024 --set sonar.beams=65 --range 8:14 --split --noise --no-picture -q "
+    command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --split --noise --no-picture -q "
                "--pose="
             << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o out";
     succeed(command.str());

@@ -10,7 +10,7 @@ using namespace insonify;
 namespace {
 
 const std::string swath =
-    "ping bed.obj --no-picture -q --sonar em2040 --set sonar.beams=64 --pose=0,0,20,0,90,0 --range 18:26";
+    "ping bed.obj --no-picture -q --sonar em2040 --set sonar.beams=64 --pose=0,0,20,0,0,0 --range 18:26";
 
 class MeshRun : public ToolTest {
  protected:

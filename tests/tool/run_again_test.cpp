@@ -1,4 +1,5 @@
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
+#include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/tool_runner.hpp"
@@ -135,4 +136,20 @@ TEST_F(RunAgain, refuses_what_is_no_setting) {
   refused("scatterers = \"rays.csv\"\n", {"run.toml: is not the run.toml of a ping"});
   expect_refused("ping --run absent.toml -o again", 4, {"absent.toml"});
   expect_refused("ping -o again", 2, {"SCENE is required"});
+}
+
+TEST_F(RunAgain, head_stands_on_the_vehicle_as_its_file_or_the_option_says) {
+  const std::string swath = "ping harbour.ply --no-picture -q --sonar em2040 --set sonar.beams=16 --range 2:9";
+  succeed(swath + " --pose=0,0,-3,0,0,0 -o down");
+  succeed(swath + " --pose=0,0,-3,0,90,0 --mount=0,0,0,0,0,0 -o turned");
+  succeed("ping --run down/run.toml --no-picture -q -o again");
+  expect_same("down", "turned");
+  expect_same("down", "again");
+
+  succeed(again_head + gate + " --pose=1,2,-3,90,0,0 --mount=1,0,0.5,0,10,0 --turn-rate=0,0,90 -o offset");
+  const insonify::Ping ping = insonify::read_cube(path("offset/cube.h5")).pings.front();
+  EXPECT_TRUE(ping.world_from_head.isApprox(
+      insonify::pose_from_yaw_pitch_roll({1, 3, -2.5}, insonify::radians(90), insonify::radians(10), 0), 1e-12));
+  expect_refused(again_head + gate + " --pose=0,0,-3,0,10,0 --mount=1,0 -o bad", 2,
+                 {"--mount", "x,y,z,yaw,pitch,roll"});
 }

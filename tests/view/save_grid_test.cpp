@@ -64,11 +64,36 @@ TEST(SavedForVtk, every_cell_of_a_fan_stands_where_its_sample_does_in_the_world_
   }
 }
 
-TEST(SavedForVtk, rows_of_a_fan_become_files_by_ascending_elevation) {
+/// Three beams at 10 degrees above and `beams` as far below.
+BeamFan two_rows(std::size_t beams) {
   BeamFan fan = make_fan(3, radians(30), radians(10), radians(20), radians(10));
-  const BeamFan low = make_fan(3, radians(30), radians(10), radians(20), radians(-10));
+  const BeamFan low = make_fan(beams, radians(30), radians(10), radians(20), radians(-10));
   fan.azimuth.insert(fan.azimuth.end(), low.azimuth.begin(), low.azimuth.end());
   fan.elevation.insert(fan.elevation.end(), low.elevation.begin(), low.elevation.end());
+  return fan;
+}
+
+TEST(SavedForVtk, rows_of_the_same_bearings_are_the_layers_of_a_volume) {
+  const BeamFan fan = two_rows(3);
+  const Pose pose = pose_from_yaw_pitch_roll({1, 2, 3}, radians(30), radians(10), radians(5));
+  const auto files = save_fan_grid(own_path("fan.vts"), fan, gate, {counted(fan)}, pose);
+  ASSERT_EQ(files, std::vector<std::string>{own_path("fan.vts")});
+  vtkNew<vtkXMLStructuredGridReader> reader;
+  read(*reader, files.front());
+  vtkStructuredGrid* grid = reader->GetOutput();
+  auto* values = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("level_db"));
+  ASSERT_NE(values, nullptr);
+  ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(fan.beams() * gate.bins()));
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    const Direction direction = direction_of(pose.inverse() * middle_of(grid, cell));
+    const auto number = static_cast<int>(values->GetValue(cell));
+    EXPECT_NEAR(direction.azimuth, fan.azimuth[number / 100], 0.002) << "beam " << number / 100;
+    EXPECT_NEAR(direction.elevation, fan.elevation[number / 100], 0.002) << "beam " << number / 100;
+  }
+}
+
+TEST(SavedForVtk, rows_of_other_bearings_become_files_by_ascending_elevation) {
+  const BeamFan fan = two_rows(4);
   const auto files = save_fan_grid(own_path("fan.vts"), fan, gate, {counted(fan)}, Pose::Identity());
 
   ASSERT_EQ(files.size(), 2u);

@@ -225,14 +225,14 @@ TEST_F(ShowFan, that_cannot_be_written_leaves_nothing_behind) {
   const std::string folder = own_path("folder.png");
   std::filesystem::create_directories(folder + "/full");
   EXPECT_THAT(message_of(image, options, folder, ErrorKind::file), HasSubstr(folder + ": is not a valid name"));
-  EXPECT_FALSE(file_exists(sibling_name(folder, "tmp")));
+  EXPECT_FALSE(file_exists(sibling_name(folder)));
   std::filesystem::remove_all(folder);
 
   // /dev/full behaves like a full disk.
   if (file_exists("/dev/full")) {
-    std::filesystem::create_symlink("/dev/full", sibling_name(path, "tmp"));
+    std::filesystem::create_symlink("/dev/full", sibling_name(path));
     EXPECT_THAT(message_of(image, options, path, ErrorKind::file), HasSubstr("is the disk full"));
-    EXPECT_FALSE(std::filesystem::is_symlink(sibling_name(path, "tmp")));
+    EXPECT_FALSE(std::filesystem::is_symlink(sibling_name(path)));
     EXPECT_FALSE(file_exists(path));
   }
 }

@@ -1,0 +1,173 @@
+#include "core/pending_path.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+
+namespace insonify {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Temporary names of this process. The guard is held while an output gets its name.
+struct PendingNames {
+  std::mutex guard;
+  std::set<std::string> names;
+};
+
+PendingNames& pending_names() {
+  static PendingNames names;
+  return names;
+}
+
+std::string host_name() {
+  char name[65] = {};
+  if (gethostname(name, sizeof name - 1) != 0) return "localhost";
+  return std::string(name).substr(0, 60);
+}
+
+// ".out." of "runs/out", short enough that a suffix fits into a file name of 255 bytes.
+std::string hidden_prefix(const fs::path& target) { return "." + target.filename().string().substr(0, 140) + "."; }
+
+fs::path beside(const fs::path& target, const std::string& name) { return target.parent_path() / name; }
+
+// Process that wrote `name` = <prefix><kind>-<process>[.<count>]@<host>; 0 if the name is not of this form and host.
+pid_t writer_of(const std::string& name, const std::string& prefix, const std::string& kind) {
+  const std::string start = prefix + kind + "-", end = "@" + host_name();
+  if (!name.starts_with(start) || !name.ends_with(end)) return 0;
+  return static_cast<pid_t>(std::strtol(name.c_str() + start.size(), nullptr, 10));
+}
+
+bool has_ended(pid_t process) { return process > 0 && kill(process, 0) != 0 && errno == ESRCH; }
+
+// Removes or restores what writers that have ended left beside `target`.
+void clear_leftovers(const fs::path& target) {
+  const std::string prefix = hidden_prefix(target);
+  std::error_code ignored;
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix)) continue;
+    if (has_ended(writer_of(name, prefix, "tmp"))) fs::remove_all(entry.path(), ignored);
+    if (!has_ended(writer_of(name, prefix, "old"))) continue;
+    if (fs::exists(fs::symlink_status(target, ignored)))
+      fs::remove_all(entry.path(), ignored);
+    else
+      fs::rename(entry.path(), target, ignored);
+  }
+}
+
+[[noreturn]] void fail_to_write(const std::string& target, int reason) {
+  const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
+  fail(ErrorKind::file, target, ": cannot be written: ", std::generic_category().message(reason),
+       full ? "; make space on the disk, and run again" : "");
+}
+
+// Waits until a file or folder is on the disk. What cannot be synchronised, a pipe for instance, is left alone.
+void synchronise(const std::string& path, const std::string& target) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) fail_to_write(target, errno);
+  const int reason = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  if (reason == EIO || reason == ENOSPC || reason == EDQUOT) fail_to_write(target, reason);
+}
+
+void synchronise_all(const std::string& path, const std::string& target) {
+  std::error_code ignored;
+  if (fs::is_directory(fs::symlink_status(path, ignored)))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path, ignored))
+      if (entry.is_regular_file(ignored) || entry.is_directory(ignored)) synchronise(entry.path().string(), target);
+  if (!fs::is_symlink(path, ignored)) synchronise(path, target);
+}
+
+void synchronise_folder_of(const std::string& target) {
+  const fs::path folder = fs::path(target).parent_path();
+  synchronise(folder.empty() ? "." : folder.string(), target);
+}
+
+}  // namespace
+
+PendingPath::PendingPath(const std::string& target) : target_(target) {
+  std::error_code error;
+  static_cast<void>(fs::symlink_status(target, error));
+  if (error.value() == ENAMETOOLONG) fail_to_write(target, ENAMETOOLONG);
+  clear_leftovers(target);
+  PendingNames& pending = pending_names();
+  const std::scoped_lock lock(pending.guard);
+  // Two threads that write the same output have names of their own.
+  for (int count = 0; temporary_.empty() || !pending.names.insert(temporary_).second; ++count)
+    temporary_ = sibling_name(target, "tmp", count);
+}
+
+PendingPath::~PendingPath() {
+  PendingNames& pending = pending_names();
+  const std::scoped_lock lock(pending.guard);
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+  pending.names.erase(temporary_);
+}
+
+void PendingPath::commit() {
+  synchronise_all(temporary_, target_);
+  {
+    const std::scoped_lock lock(pending_names().guard);
+    std::error_code ignored;
+    const unsigned flags = fs::is_directory(temporary_, ignored) ? RENAME_NOREPLACE : 0;
+    int failed = renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags);
+    if (failed && flags && (errno == EINVAL || errno == ENOSYS))
+      failed = std::rename(temporary_.c_str(), target_.c_str());
+    if (failed) fail_to_write(target_, errno);
+  }
+  synchronise_folder_of(target_);
+}
+
+void PendingPath::commit_in_place_of_folder() {
+  synchronise_all(temporary_, target_);
+  {
+    const std::scoped_lock lock(pending_names().guard);
+    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
+      if (errno != EINVAL && errno != ENOSYS) fail_to_write(target_, errno);
+      // A file system without exchange: clear_leftovers() of the next run undoes the first step if only that was done.
+      const std::string old = sibling_name(target_, "old", 0);
+      if (std::rename(target_.c_str(), old.c_str()) != 0) fail_to_write(target_, errno);
+      if (std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+        const int reason = errno;
+        std::rename(old.c_str(), target_.c_str());
+        fail_to_write(target_, reason);
+      }
+      std::rename(old.c_str(), temporary_.c_str());
+    }
+  }
+  synchronise_folder_of(target_);
+}
+
+std::string sibling_name(const std::string& target, const char* kind, int count) {
+  std::string name = hidden_prefix(target).append(kind).append("-").append(std::to_string(getpid()));
+  if (count > 0) name.append(".").append(std::to_string(count));
+  return beside(target, name.append("@").append(host_name())).string();
+}
+
+void discard_pending_paths() {
+  PendingNames& pending = pending_names();
+  pending.guard.lock();  // for ever
+  // A thread may still write a file into a folder that is being removed.
+  constexpr int attempts = 50;
+  for (const std::string& name : pending.names) {
+    std::error_code ignored;
+    for (int attempt = 0; attempt < attempts && fs::exists(fs::symlink_status(name, ignored)); ++attempt)
+      fs::remove_all(name, ignored);
+  }
+}
+
+}  // namespace insonify

@@ -1,0 +1,117 @@
+// --help, man pages and completions of shells come from one description of the options.
+#include <algorithm>
+#include <regex>
+
+#include "tool/tool_runner.hpp"
+
+using namespace insonify;
+
+namespace {
+
+class Help : public ToolTest {
+ protected:
+  std::vector<std::string> verbs() const {
+    std::vector<std::string> names;
+    const std::string text = succeed("--help");
+    const std::regex line("\n  ([a-z-]+) ");
+    for (std::sregex_iterator
+             i(text.begin() + static_cast<std::ptrdiff_t>(text.find("Subcommands:")), text.end(), line),
+         end;
+         i != end; ++i)
+      names.push_back((*i)[1]);
+    return names;
+  }
+
+  // Long names of the options in a help text.
+  static std::set<std::string> options_in(const std::string& help) {
+    std::set<std::string> names;
+    const std::regex option("\n  (?:-[a-z],)?(--[a-z-]+)");
+    for (std::sregex_iterator i(help.begin(), help.end(), option), end; i != end; ++i) names.insert((*i)[1]);
+    return names;
+  }
+
+  // What bash proposes for the last word of a line.
+  std::string proposed(const std::string& words, int count) const {
+    const std::string script = "source <(" INSONIFY_TOOL " completion bash); COMP_WORDS=(" + words +
+                               "); COMP_CWORD=" + std::to_string(count) + "; _insonify; echo \"${COMPREPLY[*]}\"";
+    write("complete.sh", script);
+    EXPECT_EQ(std::system(("bash '" + path("complete.sh") + "' > '" + path("proposed") + "'").c_str()), 0);
+    return read("proposed");
+  }
+};
+
+std::string without(std::string text, char unwanted) {
+  std::erase(text, unwanted);
+  return text;
+}
+
+}  // namespace
+
+TEST_F(Help, man_pages_and_completions_name_every_option) {
+  const std::string bash = succeed("completion bash"), zsh = succeed("completion zsh"),
+                    fish = succeed("completion fish");
+  ASSERT_GT(verbs().size(), 12u);
+  for (const std::string& verb : verbs()) {
+    EXPECT_THAT(bash, HasSubstr(" " + verb + " "));
+    EXPECT_THAT(zsh, HasSubstr("'" + verb + ":"));
+    EXPECT_THAT(fish, HasSubstr("-a " + verb + " "));
+    if (verb == "view") continue;  // the viewer parses its own options
+    const std::string help = succeed(verb + " --help"), page = without(succeed("man " + verb), '\\');
+    for (const std::string& option : options_in(help)) {
+      if (option == "--help") continue;
+      EXPECT_THAT(page, HasSubstr(option)) << verb;
+      EXPECT_THAT(bash, HasSubstr(option)) << verb;
+      EXPECT_THAT(zsh, HasSubstr("'*" + option + "[")) << verb;
+      EXPECT_THAT(fish, HasSubstr(" -l " + option.substr(2))) << verb;
+    }
+  }
+}
+
+TEST_F(Help, fits_the_terminal_and_shows_defaults_units_and_ranges) {
+  setenv("COLUMNS", "90", 1);
+  for (const std::string& verb : verbs()) {
+    if (verb == "view") continue;
+    std::istringstream help(succeed(verb + " --help"));
+    bool examples = false;
+    for (std::string line; std::getline(help, line);) {
+      examples = examples || line.starts_with("Examples:");
+      if (!examples && !line.starts_with("Usage:")) EXPECT_LE(line.size(), 90u) << verb << ": " << line;
+    }
+  }
+  const std::string help = std::regex_replace(succeed("ping --help"), std::regex("\\s+"), " ");
+  for (const char* text : {"--accuracy-db FLOAT", "; default 0.1", "(0 to 1024)", "--seed UINT"})
+    EXPECT_THAT(help, HasSubstr(text));
+}
+
+TEST_F(Help, is_a_verb_too_and_unknown_verbs_are_corrected) {
+  EXPECT_EQ(succeed("help ping"), succeed("ping --help"));
+  EXPECT_EQ(succeed("help"), succeed("--help"));
+  expect_refused("pnig", 2, {"unknown verb 'pnig'; did you mean 'ping'?", "insonify --help"});
+  expect_refused("bogus --help", 2, {"unknown verb 'bogus'"});
+  expect_refused("help bogus", 2, {"unknown verb 'bogus'"});
+  EXPECT_THAT(run("man pign").err, HasSubstr("unknown verb 'pign'; did you mean 'ping'?"));
+  EXPECT_EQ(run("completion csh").exit_code, 2);
+}
+
+TEST_F(Help, bash_completes_verbs_options_and_words) {
+  EXPECT_EQ(proposed("insonify pi", 1), "ping\n");
+  EXPECT_EQ(proposed("insonify ping --accuracy", 2), "--accuracy-db\n");
+  EXPECT_EQ(proposed("insonify ping --world n", 3), "ned\n");
+  EXPECT_EQ(proposed("insonify completion z", 2), "zsh\n");
+}
+
+TEST_F(Help, seeds_have_no_sign_and_pictures_are_png) {
+  expect_refused("make-scene plane -o plane.ply --seed -1", 2, {"--seed", "-1 must be 0 or more"});
+  expect_refused("beampattern p900-45 -o pattern.jpg", 2, {"pattern.jpg", "must end with .png"});
+}
+
+TEST_F(Help, standard_output_that_cannot_be_written_is_an_error) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const auto exit_code = [](const std::string& line) {
+    const int status = std::system(("bash -c '" + line + "' 2>/dev/null").c_str());
+    return WEXITSTATUS(status);
+  };
+  EXPECT_EQ(exit_code(INSONIFY_TOOL " sonars >/dev/full"), 4);
+  EXPECT_EQ(exit_code(INSONIFY_TOOL " sonars | true; exit ${PIPESTATUS[0]}"), 128 + SIGPIPE);
+  EXPECT_EQ(exit_code(INSONIFY_TOOL " sonars | head -1"), 0);
+}

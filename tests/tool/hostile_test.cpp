@@ -1,0 +1,95 @@
+// Files and disks that mean no good: one line, the right exit code, and nothing half-written.
+#include <hdf5.h>
+#include <sys/stat.h>
+
+#include "tool/tool_runner.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Hostile : public ToolTest {
+ protected:
+  // The tool in a process whose files may hold no more than `kib`, as on a full disk.
+  ToolResult with_small_files(int kib, const std::string& arguments) const {
+    const std::string line = "cd '" + folder_.string() + "' && ulimit -f " + std::to_string(kib) +
+                             " && trap '' XFSZ && exec " INSONIFY_TOOL " " + arguments + " 2>'" + path("../err") +
+                             "' >/dev/null";
+    write("line.sh", line);
+    const int status = std::system(("bash '" + path("line.sh") + "'").c_str());
+    fs::remove(path("line.sh"));
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), "", insonify::file_bytes(path("../err"))};
+  }
+  std::set<std::string> names() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.insert(entry.path().string());
+    return names;
+  }
+};
+
+const std::string small_ping = "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0";
+
+}  // namespace
+
+TEST_F(Hostile, full_disk_is_one_line_and_leaves_the_old_run) {
+  have("harbour.ply", "make-scene harbour --points 20000");
+  succeed(small_ping + " --range 2:9 -o out");
+  const std::string cube = read("out/cube.h5");
+  const auto before = names();
+  for (const int kib : {1, 16, 64, 128, 256})
+    for (const std::string& command :
+         {small_ping + " --range 2:20 --layers -o out --force", std::string("merge out out -o both"),
+          std::string("export out -o vtk"), std::string("prepare harbour.ply -o again.ply"),
+          std::string("prepare harbour.ply -o again.tiles")}) {
+      const ToolResult result = with_small_files(kib, command);
+      if (result.exit_code == 0) {
+        for (const char* made : {"both", "vtk", "again.ply", "again.tiles"}) fs::remove_all(path(made));
+        if (command.starts_with("ping")) ADD_FAILURE() << "the cube fits into " << kib << " KiB";
+        continue;
+      }
+      EXPECT_EQ(result.exit_code, 4) << command << " with " << kib << " KiB: " << result.err;
+      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      EXPECT_EQ(names(), before) << command << " with " << kib << " KiB";
+      EXPECT_TRUE(read("out/cube.h5") == cube);
+    }
+}
+
+TEST_F(Hostile, pipes_and_devices_are_no_input) {
+  ASSERT_EQ(mkfifo(path("pipe.ply").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(path("pipe.toml").c_str(), 0600), 0);
+  for (const char* arguments :
+       {"info pipe.ply", "info /dev/zero", "prepare pipe.ply -o x.ply", "sonars pipe.toml", "survey pipe.toml -o run"})
+    expect_refused(arguments, 4, {"is a pipe or a device, must be a regular file"});
+}
+
+TEST_F(Hostile, keys_of_very_many_parts_are_refused) {
+  std::string key = "a";
+  for (int i = 0; i < 100000; ++i) key += ".a";
+  write("deep.toml", "schema = 1\n" + key + " = 1\n");
+  write("table.toml", "schema = 1\n[" + key + "]\n");
+  for (const char* file : {"deep.toml", "table.toml"})
+    expect_refused(std::string("sonars ") + file, 3, {file, ":2", "key of more than 64 parts"});
+}
+
+TEST_F(Hostile, names_that_no_other_program_can_read_are_refused_before_the_work) {
+  have("harbour.ply", "make-scene harbour --points 2000");
+  const ToolResult result = run(small_ping + " --range 2:9 -o r\xffn");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("not UTF-8"));
+  succeed("make-scene harbour --points 2000 -o 'd\x7fl.ply'");
+  succeed("ping 'd\x7fl.ply' --no-picture -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,-3,0,10,0 --range 2:9 -o out");
+  succeed("ping --run out/run.toml --no-picture -q -o again");
+  EXPECT_TRUE(read("out/cube.h5") == read("again/cube.h5"));
+}
+
+TEST_F(Hostile, cubes_do_not_read_files_elsewhere) {
+  have("harbour.ply", "make-scene harbour --points 2000");
+  succeed(small_ping + " --range 2:5 -o out");
+  fs::copy_file(path("out/cube.h5"), path("secret.h5"));
+  const hid_t file = H5Fopen(path("out/cube.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  ASSERT_GE(H5Ldelete(file, "/pressure", H5P_DEFAULT), 0);
+  ASSERT_GE(H5Lcreate_external("../secret.h5", "/pressure", file, "/pressure", H5P_DEFAULT, H5P_DEFAULT), 0);
+  H5Fclose(file);
+  expect_refused("image out -o x.png", 3, {"cube.h5", "/pressure is a link to elsewhere"});
+}
