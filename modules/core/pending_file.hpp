@@ -17,6 +17,7 @@ class PendingFile {
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
 
+  /// Returns the path to write to until commit().
   const std::string& temporary() const { return temporary_; }
   /// Throws Error(file) if the file cannot be renamed.
   void commit();
