@@ -24,14 +24,16 @@ struct Contributors {
   std::vector<std::uint16_t> material;  ///< index into the scene's materials; `no_material` if unused
   std::vector<PathKind> path;
 
+  /// Returns true if contributors were not asked for.
   bool empty() const { return surfel.empty(); }
+  /// Returns the index of the k-th strongest contributor of a pixel into the arrays.
   std::size_t at(std::size_t beam, std::size_t bin, std::size_t k = 0) const {
     return (beam * bins + bin) * per_pixel + k;
   }
 };
 
-/// Throws Error(argument) naming `who` unless every array has beams x bins x per_pixel entries and per_pixel is in 1 ..
-/// 255.
+/// Throws Error(argument) naming `who` unless every array has beams x bins x per_pixel entries and per_pixel is within 1
+/// and 255.
 void require_valid(const Contributors& contributors, const char* who);
 
 /// Returns the material of the strongest contributor of every pixel, beams x bins; no_material where there is none.
