@@ -48,7 +48,7 @@ double wasserstein_1(std::vector<double> a, std::vector<double> b) {
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     const double end_a = static_cast<double>(i + 1) / na, end_b = static_cast<double>(j + 1) / nb;
     const double end = std::min(end_a, end_b);
-    sum += (end - share) * std::abs(a[i] - b[j]);
+    sum += (end - share) * std::abs(a[i] - b[j]);  // (E121)
     share = end;
     if (end_a <= end) ++i;
     if (end_b <= end) ++j;

@@ -86,7 +86,7 @@ ImageSimilarity analytic_floor(const GreyWindow& window, const FloorOptions& o) 
 
 TwoSeedFloor two_seed_floor(const Grid<float>& level_db, const GreyWindow& window, const FloorOptions& options) {
   const Grid<double> intensity = level_db.cast<double>().unaryExpr([](double level) { return power_from_db(level); });
-  const Grid<double> known = options.expected ? intensity : local_mean(intensity, {4, 7});
+  const Grid<double> known = options.expected ? intensity : local_mean(intensity, {2, 3});
   const Grid<double> expected = level_db.isNaN().select(std::numeric_limits<double>::quiet_NaN(), known);
   const Eigen::Index beams = level_db.rows(), bins = level_db.cols();
   const auto draw = [&](double looks, std::uint64_t number) {

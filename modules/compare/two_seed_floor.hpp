@@ -20,7 +20,7 @@ struct FloorOptions {
   std::uint64_t seed = 1;
 };
 
-/// Draws the floor about an image: its intensity averaged over 9 beams x 15 bins, or the image itself if that is an
+/// Draws the floor about an image: its intensity averaged over 5 beams x 7 bins, or the image itself if that is an
 /// expected level, times the intensity of complex Gaussian noise of the given correlation widths, averaged over looks. Throws as
 /// image_similarity.
 TwoSeedFloor two_seed_floor(const Grid<float>& level_db, const GreyWindow& window, const FloorOptions& options);

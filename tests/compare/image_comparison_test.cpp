@@ -21,7 +21,7 @@ TEST(ImageComparison, of_two_seeds_is_their_floor) {
   EXPECT_NEAR(found.psnr_db, c.floor.drawn.psnr_db, 0.15);
   EXPECT_NEAR(found.psnr_db, c.floor.analytic.psnr_db, 0.2);
   EXPECT_NEAR(c.floor.analytic.psnr_db, 20 * std::log10(60 / 7.877), 0.01);
-  EXPECT_NEAR(found.ssim, c.floor.drawn.ssim, 0.01);
+  EXPECT_NEAR(found.ssim, c.floor.drawn.ssim, 0.03);  // the draws share what speckle the average leaves
   EXPECT_NEAR(found.ssim, c.floor.analytic.ssim, 0.02);
   EXPECT_LT(c.wasserstein_db, 0.15);
   EXPECT_GT(c.samples.probability, 0.01);
