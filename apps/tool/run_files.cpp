@@ -112,8 +112,9 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json write_contributors(const RunDirectory& directory, const SceneCloud& scene, const Contributors& found) {
-  NamedContributors named{found, {}};
+ordered_json write_contributors(const RunDirectory& directory, const SceneCloud& scene, const SimulatedPing& ping) {
+  const Contributors& found = ping.contributors;
+  NamedContributors named{found, {}, ping.ping.labels};
   for (const Material& material : scene.materials) named.materials.push_back(material.name);
   write_contributor_file(directory.file("contributors.h5"), named);
   std::size_t pixels = 0;
@@ -150,8 +151,7 @@ ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths)
 
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {
-  if (setup.simulation.outputs.contributors > 0)
-    manifest["contributors"] = write_contributors(directory, scene, ping.contributors);
+  if (setup.simulation.outputs.contributors > 0) manifest["contributors"] = write_contributors(directory, scene, ping);
   if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.paths);
   if (keeps(options, "insonification"))
     manifest["insonification"] = write_insonification(directory, scene, setup, ping);

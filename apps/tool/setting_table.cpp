@@ -120,13 +120,14 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
 }
 
 std::vector<RunSetting> mission_settings(PingOptions& o) {
-  // What the mission says in its own tables, and what is kept of a single ping alone.
-  const std::vector<std::string> others = {"path",  "pose",     "mount",     "trajectory", "time",        "ping",
-                                           "world", "velocity", "turn_rate", "keep",       "contributors"};
+  // All but what the mission says in its own tables; some outputs are of a single ping alone.
+  const std::vector<std::string> others = {"path", "pose",  "mount",    "trajectory", "time",
+                                           "ping", "world", "velocity", "turn_rate"};
   std::vector<RunSetting> all;
   for (auto& group : {scene_settings(o.scene), synthesis_settings(o.run), ping_settings(o)})
     for (RunSetting setting : group) {
       if (*setting.section == '\0') setting.section = "ping";
+      if (std::string_view(setting.key) == "keep") setting.rules.words = {"contributors", "mask"};
       if (std::find(others.begin(), others.end(), setting.key) == others.end()) all.push_back(setting);
     }
   return all;

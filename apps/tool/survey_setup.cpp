@@ -99,6 +99,11 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
     fail(ErrorKind::content, s.file.path, ": ", error.what());
   }
   require_in_water(s);
+  for (const SurveyHead& head : s.heads)
+    if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
+      fail(ErrorKind::content, s.file.path,
+           ": [randomise] noise_db changes the noise of platform and electronics: give ",
+           "noise = true in [ping] and self_noise_db in the environment, or leave it out");
   s.blocks = survey_blocks(s.pings, per_block);
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
     const auto count = std::count_if(s.pings.begin(), s.pings.end(), [h](const SurveyPing& p) { return p.head == h; });
@@ -135,9 +140,12 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
 
 SurveyScene::Made SurveyScene::make(const SurveySetup& setup, const SurveyPing& ping) const {
   const SurveyHead& head = setup.heads[ping.head];
-  const PingPlace place = place_of(setup.file.mission, ping);
+  PingPlace place = place_of(setup.file.mission, ping);
+  const RandomisedPing by = randomised(setup.file.randomise, setup.file.seed, ping);
+  if (setup.file.randomise.any()) place.world_from_head = moved_by(by, place.world_from_head);
   const SimulationOptions options = options_of(head.setup.simulation, ping, place);
-  const HeadSetup& h = head.setup.head;
+  HeadSetup h = head.setup.head;
+  apply(by, h.head, h.environment);
   const auto simulate = [&](const auto& scene, const SceneCloud& cloud) {
     Made made{simulate_ping(scene, h.head, place.world_from_head, h.environment, options), {}};
     if (setup.file.coverage)

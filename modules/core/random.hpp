@@ -19,7 +19,9 @@ enum class RandomStage : std::uint64_t {
   volume = 8,             ///< reverberation, counted by (ping, range cell, direction cell)
   sea_surface = 9,        ///< reverberation, counted by (ping, range cell, direction cell)
   flat_bottom = 10,       ///< reverberation, counted by (head position, range cell, direction cell)
-  navigation = 11         ///< errors of a trajectory, counted by (node, component)
+  navigation = 11,        ///< errors of a trajectory, counted by (node, component)
+  comparison = 12,        ///< draws of a perfect simulator, counted by (pixel, draw, look), or by (point, 0, 1)
+  randomise = 13          ///< what varies from ping to ping of a survey, counted by (head, ping, group)
 };
 
 /// Position of a random number in the stream of its stage.

@@ -6,6 +6,7 @@
 
 #include "core/grid.hpp"
 #include "core/pose.hpp"
+#include "returns/pixel_labels.hpp"
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
 
@@ -38,7 +39,8 @@ struct Ping {
   Grid<float> level_error_db{};  ///< sampling error, beams x bins [dB] (E66), NaN where not judged; or empty
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
   Grid<float>
-      split_phase{};  ///< between the halves of the array [rad], beams x bins, positive towards port (E92); or empty
+      split_phase{};     ///< between the halves of the array [rad], beams x bins, positive towards port (E92); or empty
+  PixelLabels labels{};  ///< surface of every pixel, if contributors were kept; or empty
   std::optional<ScanPlace> scan{};  ///< of a scanning head; its turn is part of world_from_head
 };
 

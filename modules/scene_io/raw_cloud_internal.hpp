@@ -46,6 +46,7 @@ struct RawCloud {
   std::vector<std::uint16_t> label;  ///< no_label where the number is not an index, or in no interval
   std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;
+  std::vector<double> extra;  ///< of ReadOptions::extra_field, if the file has it
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<std::array<std::uint32_t, 3>> raster;  ///< triangles between the points, if they are a raster of heights
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
@@ -86,6 +87,7 @@ struct ReadOptions {
   double unit = 1;  ///< metres per unit of the file
   int threads = 0;
   MaterialField material_field{};  ///< source of the labels
+  std::string extra_field{};       ///< a column that is read as it is, or empty
   std::optional<Eigen::Vector3d>
       origin{};  ///< [m], of the whole cloud if this is a batch, which may then hold no usable point
 };

@@ -203,6 +203,9 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
     raw.label.resize(table.rows);
     raw.label_field = found.label->name;
   }
+  const auto extra = std::find_if(table.columns.begin(), table.columns.end(),
+                                  [&](const RowTable::Column& c) { return c.name == options.extra_field; });
+  if (extra != table.columns.end()) raw.extra.resize(table.rows);
   const bool ids = found.id && holds_ids(table, *found.id, options.threads);
   if (ids) raw.id.resize(table.rows);
   if (found.id && !ids)
@@ -218,6 +221,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
       if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
       if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * options.unit);
       if (found.label) raw.label[first + i] = label_from(number(*found.label), options.material_field.intervals);
+      if (extra != table.columns.end()) raw.extra[first + i] = number(*extra);
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
     }
   });

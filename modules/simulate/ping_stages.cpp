@@ -3,6 +3,7 @@
 #include "acoustics/reverberation_echoes.hpp"
 #include "core/stop_watch.hpp"
 #include "returns/find_contributors.hpp"
+#include "returns/label_pixels.hpp"
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
 #include "simulate/converge_sampling_internal.hpp"
@@ -83,6 +84,9 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (wanted.contributors > 0) {
     StopWatch watch;
     result.contributors = contributors_of(scene, ping, parts, patches);
+    result.ping.labels =
+        label_pixels(scene, result.contributors,
+                     {ping.head.fan, ping.head.gate, ping.view.world_from_head, ping.view.sampling.range_resolution});
     result.seconds.contributors = watch.lap();
   }
   if (wanted.paths > 0) result.paths = paths_of(scene, ping, parts, patches);

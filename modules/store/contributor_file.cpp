@@ -65,6 +65,11 @@ void require_ours(const Place& place, hid_t file) {
 
 void require_named(const NamedContributors& named, const std::string& path) {
   require_valid(named.contributors, "write_contributor_file");
+  const PixelLabels& labels = named.labels;
+  if (!labels.empty() && (static_cast<std::size_t>(labels.material.rows()) != named.contributors.beams ||
+                          static_cast<std::size_t>(labels.material.cols()) != named.contributors.bins))
+    fail(ErrorKind::argument, "write_contributor_file: ", path, ": labels of ", labels.material.rows(), " x ",
+         labels.material.cols(), " pixels, must be of ", named.contributors.beams, " x ", named.contributors.bins);
   for (const std::uint16_t m : named.contributors.material)
     if (m != Contributors::no_material && m >= named.materials.size())
       fail(ErrorKind::argument, "write_contributor_file: ", path, ": material ", m, " has no name, there are ",
@@ -88,8 +93,11 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
     write_numbers(place, file, material_name, lists, c.material.data());
     static_assert(sizeof(PathKind) == 1);
     write_numbers(place, file, path_name, lists, reinterpret_cast<const std::uint8_t*>(c.path.data()));
-    write_numbers(place, file, material_image_name, image, material_image(c).data());
-    write_numbers(place, file, instance_image_name, image, instance_image(c).data());
+    const bool labelled = !named.labels.empty();
+    write_numbers(place, file, material_image_name, image,
+                  (labelled ? material_image(named.labels) : material_image(c)).data());
+    write_numbers(place, file, instance_image_name, image,
+                  (labelled ? instance_image(named.labels) : instance_image(c)).data());
     write_names(place, file, named.materials);
   });
 }

@@ -31,7 +31,9 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// /elevation [rad], /pose (pings x 4 x 4, world_from_head, row-major), /time [s], /ping (numbers) and the root
 /// attributes schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad],
 /// min_range, max_range, bin_size [m]. Layers are written as /layers/NAME with the extent of /pressure; so are, if the
-/// pings have them, /intensity [Pa^2], /level_error_db (float32), /unknown (uint8) and /split_phase [rad] (float32). The attribute expected_level marks expected levels.
+/// pings have them, /intensity [Pa^2], /level_error_db (float32), /unknown (uint8) and /split_phase [rad] (float32), and of pings with
+/// labels /label_material (uint16), /label_id (uint32), /label_share (float32) and the attribute label_names, one name a line.
+/// The attribute expected_level marks expected levels.
 /// Pings of a scanning head add /scan_angle [rad] and /sweep (pings), /beam_time [s] (pings x beams) and /beam_pose
 /// (pings x beams x 4 x 4).
 /// Byte-identical for identical input (no timestamps). Written to a temporary name, then renamed. Throws

@@ -19,6 +19,11 @@ constexpr DatasetName intensity_name{"/intensity", "Pa^2"};
 constexpr DatasetName level_error_name{"/level_error_db", "dB"};
 constexpr DatasetName unknown_name{"/unknown", ""};
 constexpr DatasetName split_phase_name{"/split_phase", "rad"};
+constexpr DatasetName label_material_name{"/label_material", ""};
+constexpr DatasetName label_id_name{"/label_id", ""};
+constexpr DatasetName label_share_name{"/label_share", ""};
+/// Root attribute: names of the materials of /label_material, one a line.
+constexpr const char* label_names_attribute = "label_names";
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.
 constexpr const char* expected_level_attribute = "expected_level";
 constexpr const char* expected_level_text = "expected level, no speckle";

@@ -64,6 +64,19 @@ const std::vector<MissionKey<NavigationNoise>> noise_keys = {
     {"attitude_deg", [](const MissionEntry& e, NavigationNoise& n) { n.attitude = e.angle(); }},
     {"correlation_s", [](const MissionEntry& e, NavigationNoise& n) { n.correlation_time = e.positive(); }}};
 
+const std::vector<MissionKey<Randomisation>> randomise_keys = {
+    {"source_level_db", [](const MissionEntry& e, Randomisation& r) { r.source_level_db = e.not_negative(); }},
+    {"noise_db", [](const MissionEntry& e, Randomisation& r) { r.noise_db = e.not_negative(); }},
+    {"temperature_c", [](const MissionEntry& e, Randomisation& r) { r.temperature_c = e.not_negative(); }},
+    {"salinity_psu", [](const MissionEntry& e, Randomisation& r) { r.salinity_psu = e.not_negative(); }},
+    {"position_m", [](const MissionEntry& e, Randomisation& r) { r.position = e.not_negative(); }},
+    {"heading_deg", [](const MissionEntry& e, Randomisation& r) { r.heading = radians(e.not_negative()); }},
+    {"attitude_deg", [](const MissionEntry& e, Randomisation& r) { r.attitude = radians(e.not_negative()); }}};
+
+void read_randomise(const std::string& path, const TomlValue& document, Randomisation& spread) {
+  if (const TomlValue* table = document.find("randomise")) read_table(path, *table, randomise_keys, spread);
+}
+
 /// [trajectory] as it stands in the file.
 struct TrajectoryTable {
   std::string file;
@@ -212,9 +225,19 @@ SurveyFrame load_survey_frame(const std::string& path) {
   return frame;
 }
 
+SurveyRandomisation load_survey_randomisation(const std::string& path) {
+  const TomlValue document = load_toml(path);
+  const TomlValue& survey = required_table(path, document, "survey");
+  SurveyRandomisation found;
+  if (const TomlValue* seed = survey.find("seed")) found.seed = MissionEntry{path, "seed", *seed}.seed();
+  read_randomise(path, document, found.spread);
+  return found;
+}
+
 MissionFile load_mission(const std::string& path) {
   const TomlValue document = load_toml(path);
-  require_known_keys(path, document, {"schema", "survey", "trajectory", "head", "leg", "template", "scene", "ping"});
+  require_known_keys(path, document,
+                     {"schema", "survey", "trajectory", "head", "leg", "template", "scene", "ping", "randomise"});
   if (const double schema = toml_number(path, document, "schema"); schema != mission_schema)
     fail_in_file(path, document.find("schema")->line, "schema = ", schema, ", this version reads schema ",
                  mission_schema, schema > mission_schema ? "; the mission is of a newer insonify" : "");
@@ -224,6 +247,7 @@ MissionFile load_mission(const std::string& path) {
   const TomlValue& survey = required_table(path, document, "survey");
   read_table(path, survey, survey_keys, m);
   if (m.scene.empty()) fail_in_file(path, survey.line, "missing key 'scene'");
+  read_randomise(path, document, m.randomise);
   read_trajectory(path, required_table(path, document, "trajectory"), m);
   read_each(path, document, "head", [&](const TomlValue& table) { read_head(path, table, m); });
   if (m.mission.heads.empty()) fail_in_file(path, document.line, "missing table [[head]]");

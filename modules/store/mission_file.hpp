@@ -6,6 +6,7 @@
 
 #include "core/geodesy.hpp"
 #include "simulate/mission.hpp"
+#include "simulate/randomise.hpp"
 
 namespace insonify {
 
@@ -22,8 +23,9 @@ struct MissionFile {
   std::string scene;                 ///< path
   std::string environment, profile;  ///< paths, or empty
   std::uint64_t seed = 1;
-  bool coverage = false;  ///< the survey keeps what its pings did to each surfel
-  std::string start_utc;  ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
+  Randomisation randomise{};  ///< of the table [randomise]: by how much pings differ
+  bool coverage = false;      ///< the survey keeps what its pings did to each surfel
+  std::string start_utc;      ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
   std::optional<Anchor> anchor;
   std::string trajectory;            ///< path, or empty: waypoints
   Mission mission;                   ///< listening times are 0: they follow from sonar and water
@@ -38,6 +40,15 @@ struct SurveyFrame {
 
 /// Reads start_utc and anchor of a mission alone; errors as load_mission.
 SurveyFrame load_survey_frame(const std::string& path);
+
+/// What the pings of a survey differ by.
+struct SurveyRandomisation {
+  Randomisation spread;
+  std::uint64_t seed = 1;
+};
+
+/// Reads seed and [randomise] of a mission alone; errors as load_mission.
+SurveyRandomisation load_survey_randomisation(const std::string& path);
 
 /// Reads a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from
 /// the folder of the file, then from the one above. Unknown keys, wrong types, and whatever require_valid(mission)

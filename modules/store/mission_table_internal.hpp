@@ -40,6 +40,10 @@ struct MissionEntry {
     if (!(number() > 0 && std::isfinite(number()))) refuse(" = ", number(), ", must be finite and > 0");
     return number();
   }
+  double not_negative() const {
+    if (!(number() >= 0 && std::isfinite(number()))) refuse(" = ", number(), ", must be finite and at least 0");
+    return number();
+  }
   double angle() const { return radians(number()); }
   bool flag() const {
     if (value.kind != TomlValue::Kind::boolean) refuse(" must be true or false");

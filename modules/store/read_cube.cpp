@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <functional>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "store/cube.hpp"
@@ -112,18 +114,35 @@ void read_layers(const Place& place, hid_t file, const Extent& extent, std::vect
   }
 }
 
-// Reads an optional map into a member of each ping.
+// Reads an optional map into what `map` gives of each ping.
 template <typename Map>
 void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-              std::vector<Ping>& pings, Map Ping::*map) {
+              std::vector<Ping>& pings, const Map& map) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return;
   const Handle dataset = open_dataset(place, file, name);
   require_extent(place, dataset, name.path, extent);
   const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
   if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
-    fail(place.kind, place.path, ": ", name.path, " must be of ",
-         H5Tget_class(type) == H5T_FLOAT ? "float32" : "uint8");
-  read_images(place, dataset, name.path, type, pings, [map](Ping& ping) -> Map& { return ping.*map; });
+    fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
+         8 * H5Tget_size(type));
+  read_images(
+      place, dataset, name.path, type, pings, [&map](Ping & ping) -> auto& { return std::invoke(map, ping); });
+}
+
+void read_labels(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
+  if (H5Lexists(file, label_material_name.path, H5P_DEFAULT) <= 0) return;
+  const auto read = [&](const DatasetName& name, hid_t type, auto label) {
+    open_dataset(place, file, name);  // all three, or none
+    read_map(
+        place, file, name, type, extent, pings, [label](Ping & ping) -> auto& { return ping.labels.*label; });
+  };
+  read(label_material_name, H5T_NATIVE_UINT16, &PixelLabels::material);
+  read(label_id_name, H5T_NATIVE_UINT32, &PixelLabels::id);
+  read(label_share_name, H5T_NATIVE_FLOAT, &PixelLabels::share);
+  std::istringstream lines(read_text(place, file, label_names_attribute));
+  std::vector<std::string> names;
+  for (std::string name; std::getline(lines, name);) names.push_back(name);
+  for (Ping& ping : pings) ping.labels.names = names;
 }
 
 void read_scan(const Place& place, hid_t file, std::vector<Ping>& pings) {
@@ -170,6 +189,7 @@ std::vector<Ping> read_pings(const Place& place, hid_t file) {
   read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::level_error_db);
   read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, &Ping::unknown);
   read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::split_phase);
+  read_labels(place, file, extent, pings);
   return pings;
 }
 

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "store/cube.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
@@ -38,6 +39,9 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   require(ping.level_error_db, first.level_error_db, "level_error_db");
   require(ping.unknown, first.unknown, "unknown");
   require(ping.split_phase, first.split_phase, "split_phase");
+  require(ping.labels.material, first.labels.material, "labels");
+  require(ping.labels.id, first.labels.material, "label ids");
+  require(ping.labels.share, first.labels.material, "label shares");
   if (ping.scan.has_value() != first.scan.has_value())
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
          " is of a scanning head; write it to a cube of its own");
@@ -121,6 +125,16 @@ void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) 
   write(level_error_name, &Ping::level_error_db);
   write(unknown_name, &Ping::unknown);
   write(split_phase_name, &Ping::split_phase);
+  const PixelLabels& first = pings.front().labels;
+  if (first.empty()) return;
+  const auto write_label = [&](const DatasetName& name, auto label) {
+    write_images(
+        place, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; });
+  };
+  write_label(label_material_name, &PixelLabels::material);
+  write_label(label_id_name, &PixelLabels::id);
+  write_label(label_share_name, &PixelLabels::share);
+  write_attribute(place, file, label_names_attribute, joined(first.names, "\n"));
 }
 
 void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {

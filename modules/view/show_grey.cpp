@@ -11,22 +11,13 @@
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
 #include "view/off_screen_internal.hpp"
+#include "view/picture_grid.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr const char* show_grey_name = "show_grey";
-
-// The beams from port to starboard.
-std::vector<Eigen::Index> columns_of(const BeamFan& fan) {
-  std::vector<Eigen::Index> beams(fan.beams());
-  std::iota(beams.begin(), beams.end(), 0);
-  std::stable_sort(beams.begin(), beams.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return fan.azimuth[static_cast<std::size_t>(a)] > fan.azimuth[static_cast<std::size_t>(b)];
-  });
-  return beams;
-}
 
 // Row 0 is the nearest bin: VTK's origin is the lower left corner.
 template <typename Grey>
@@ -65,9 +56,9 @@ void write_grey(const Grid<Grey>& grey, const BeamFan& fan, const std::string& p
          " bins for a fan of ", fan.beams(), " beams, must have as many and one bin at least");
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (ending == ".png")
-    write_png(grey, columns_of(fan), path);
+    write_png(grey, columns_from_port(fan), path);
   else if (ending == ".pgm")
-    write_pgm(grey, columns_of(fan), path);
+    write_pgm(grey, columns_from_port(fan), path);
   else
     fail(ErrorKind::argument, show_grey_name, ": ", path, " must end with .png or .pgm");
 }

@@ -3,7 +3,7 @@
 # (scene_io/pcl_bridge.hpp is the exception: it is the in-memory door for users of PCL).
 cmake_minimum_required(VERSION 3.25)
 
-set(WALK core scene sampling acoustics beamforming returns simulate accuracy)
+set(WALK core scene sampling acoustics beamforming returns compare simulate accuracy)
 set(SIDE_DOORS scene_io store formats view viewer)
 
 set(door_flann scene)

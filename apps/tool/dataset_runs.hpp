@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "simulate/randomise.hpp"
+#include "store/cube.hpp"
+#include "store/mission_file.hpp"
+
+/// What `dataset` reads.
+namespace insonify::tool {
+
+/// Cubes of one head of a run or survey, read one after the other.
+struct DatasetSource {
+  std::string run, head;       ///< head: of a survey; else empty
+  std::size_t head_index = 0;  ///< in the mission
+  std::vector<std::string> cubes;
+  std::string scene;         ///< path, or empty: unknown
+  std::string scene_digest;  ///< of the file; of a run without its scene that of the run's name
+  std::string split;         ///< train, val or test
+  std::optional<SurveyRandomisation> randomisation{};  ///< of a mission
+  std::unordered_map<std::uint32_t, std::uint32_t>
+      instance{};  ///< of ids of the scene + 1, if its cloud has a field `instance`
+};
+
+/// The heads of runs, surveys and cubes. Throws Error(file) for one that is not there, Error(content) for a survey that is
+/// not whole.
+std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs);
+
+/// Gives whole scenes to train, val and test, in the order of their digests: shares are those of scenes, the first one
+/// trains. Sets the split of every source.
+void split_by_scene(std::vector<DatasetSource>& sources, const std::vector<double>& shares);
+
+/// Calls `body` for every ping of a source, a cube in memory at a time. Throws Error(content) for pings without labels.
+void for_each_labelled_ping(const DatasetSource& source, const std::function<void(const Cube&, const Ping&)>& body);
+
+}  // namespace insonify::tool

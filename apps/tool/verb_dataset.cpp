@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/peak_memory.hpp"
+#include "tool/compared_files.hpp"
+#include "tool/dataset_writer.hpp"
+#include "tool/parse_values.hpp"
+#include "tool/progress.hpp"
+#include "tool/shared_options.hpp"
+#include "tool/verb.hpp"
+
+namespace insonify::tool {
+namespace {
+
+void add_options(OptionList list, DatasetOptions& o) {
+  list.add("RUN", &o.runs,
+           "runs, surveys or cubes made with --keep contributors (missions: keep = [\"contributors\"] under [ping])",
+           {.required = true});
+  list.add("-o,--output", &o.output, "folder to make", {.required = true});
+  list.add("--window", &o.window,
+           "MIN:MAX [dB] of black and white in all images; default: 60 dB below the top of the first one");
+  list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption");
+  list.add("--raw", &o.raw, "levels as received, without --tvg", {.excludes = "--tvg", .shown_as = " "});
+  list.add("--share", &o.share,
+           "of a pixel's energy that must be of one material in the pixel's own cell, for that class");
+  list.add("--least-pixels", &o.least_pixels, "of an object, in the polar image",
+           {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
+  list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
+  list.add("--stuff", &o.stuff, "materials that have no boxes, e.g. sand; several with commas",
+           {.comma_separated = true});
+  list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of the scenes");
+  list.add("--force", &o.force, "replace an existing data set");
+  add_common(list, o.common, true);
+}
+
+std::vector<double> parse_split(const std::string& text) {
+  std::string commas = text;
+  std::replace(commas.begin(), commas.end(), ':', ',');
+  const std::vector<double> shares = parse_numbers("--split", commas, 3, "TRAIN:VAL:TEST");
+  if (!(shares[0] > 0 && shares[1] >= 0 && shares[2] >= 0))
+    fail(ErrorKind::argument, "--split = ", text, ", must be three shares, the first > 0, e.g. 80:10:10");
+  return shares;
+}
+
+/// All classes in the order of the sources, and the window of the first ping.
+struct DatasetPlan {
+  std::vector<std::string> classes{"nothing", "shadow"};
+  GreyWindow window;
+};
+
+DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
+  DatasetPlan plan;
+  if (!o.window.empty()) plan.window = parse_window("--window", o.window);
+  for (const DatasetSource& source : sources) {
+    if (source.cubes.empty()) continue;
+    DatasetSource first = source;
+    first.cubes.resize(1);
+    bool begun = false;
+    for_each_labelled_ping(first, [&](const Cube& cube, const Ping& ping) {
+      if (begun) return;
+      begun = true;
+      for (const std::string& name : ping.labels.names)
+        if (std::find(plan.classes.begin(), plan.classes.end(), name) == plan.classes.end())
+          plan.classes.push_back(name);
+      if (plan.window.max_db > plan.window.min_db) return;
+      const Grid<float> level = dataset_levels(cube, ping, o);
+      std::vector<float> sorted(level.data(), level.data() + level.size());
+      const auto top = sorted.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sorted.size() - 1));
+      std::nth_element(sorted.begin(), top, sorted.end());
+      const double max_db = 5 * std::ceil(static_cast<double>(*top) / 5);
+      plan.window = {max_db - 60, max_db};
+    });
+  }
+  for (const std::string& name : o.stuff)
+    if (std::find(plan.classes.begin() + 2, plan.classes.end(), name) == plan.classes.end())
+      fail(ErrorKind::argument, "--stuff = ", name, " is no material of the runs; they have ",
+           joined(std::vector<std::string>(plan.classes.begin() + 2, plan.classes.end())));
+  return plan;
+}
+
+void dataset(const DatasetOptions& o) {
+  if (!(o.share > 0 && o.share <= 1)) fail(ErrorKind::argument, "--share = ", o.share, ", must be > 0 and at most 1");
+  const std::vector<double> shares = parse_split(o.split);
+  std::vector<DatasetSource> sources = dataset_sources(o.runs);
+  split_by_scene(sources, shares);
+  Progress progress(o.common, static_cast<int>(sources.size()) + 2);
+  progress.step("reading");
+  const DatasetPlan plan = plan_of(sources, o);
+  RunDirectory directory(o.output, o.force);
+  DatasetWriter writer(directory, o, plan.classes, plan.window);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const DatasetSource& source = sources[s];
+    progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
+    for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping) {
+      progress.check();
+      writer.add(source, cube, ping, fmt::format("{:03}_{:06}", s, ping.number));
+    });
+  }
+  progress.step("listing");
+  writer.finish();
+  directory.commit();
+  const nlohmann::ordered_json result = {{"folder", o.output},
+                                         {"images", writer.images()},
+                                         {"annotations", writer.annotations()},
+                                         {"classes", plan.classes},
+                                         {"window_db", {plan.window.min_db, plan.window.max_db}},
+                                         {"peak_memory_mib", peak_memory_mib()}};
+  print_result(o.common, result, [&] {
+    fmt::print("{}: {} images with {} boxes; classes {}\n", o.output, writer.images(), writer.annotations(),
+               joined(plan.classes));
+  });
+}
+
+}  // namespace
+
+Verb dataset_verb() {
+  return make_verb<DatasetOptions>("dataset", "images with labels to learn from: COCO, YOLO, masks",
+                                   {"insonify dataset survey -o dataset --stuff sand",
+                                    "insonify dataset reef wreck harbour -o dataset --split 70:15:15"},
+                                   add_options, dataset);
+}
+
+}  // namespace insonify::tool

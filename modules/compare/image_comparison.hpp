@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/image_shift.hpp"
+#include "compare/image_similarity.hpp"
+#include "compare/level_statistics.hpp"
+#include "compare/resample_image.hpp"
+#include "compare/speckle_statistics.hpp"
+#include "compare/two_seed_floor.hpp"
+
+namespace insonify {
+
+struct ComparisonOptions {
+  std::optional<GreyWindow>
+      window{};            ///< declared span; nothing: 60 dB below the 99.9 % quantile of B, in multiples of 5
+  std::uint64_t seed = 1;  ///< of the drawn floor
+};
+
+/// Similarity after something was fitted to image A.
+struct FittedSimilarity {
+  std::string fitted;  ///< nothing | gain | gain and TVG | gain, TVG and map
+  ImageSimilarity similarity;
+};
+
+/// What one image is like by itself.
+struct ImageCharacter {
+  SpeckleStatistics speckle;
+  KolmogorovSmirnov exponential;  ///< of intensities, one for each resolution cell, against speckle of one look
+  double shadow_contrast_db = 0;
+  double mean_level_db = 0;  ///< of the mean intensity
+  double clipped = 0;        ///< share of pixels at the ends of the scale, or silent
+};
+
+/// How image A differs from image B. Pixels that are not measured or clipped in either are left out of all but the
+/// similarity, which has them clamped to the window.
+struct ImageComparison {
+  GreyWindow window;
+  std::size_t pixels = 0;
+  double bias_db = 0, deviation_db = 0;  ///< of A - B, pixel by pixel
+  double power_bias_db = 0;              ///< of the mean intensities
+  double wasserstein_db = 0;             ///< of the levels
+  double wasserstein_after_gain_db = 0;  ///< after their means are made equal
+  double tvg_slope_db = 0;               ///< of A - B per decade of range; NaN without ranges
+  KolmogorovSmirnov samples;             ///< of intensities over their local means, one for each resolution cell
+  LevelMap map;                          ///< from A, after the line of gain and TVG, to B
+  double map_slope = 0;                  ///< of the map between its quarters: dB of B per dB of A
+  std::vector<FittedSimilarity> similarity;
+  TwoSeedFloor floor;
+  ImageShift shift;
+  ImageCharacter a, b;
+};
+
+/// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ, or if no pixel
+/// has a level in both.
+ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage& b,
+                                     const ComparisonOptions& options = {});
+
+}  // namespace insonify

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace insonify {
+
+/// Returns Spearman's rank correlation: that of the ranks, equal numbers sharing their mean rank (E122). NaN if one list is
+/// constant. Throws Error(argument) unless both have the same length of two at least.
+double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Levels predicted at points against levels measured there.
+struct PointComparison {
+  std::size_t points = 0;
+  double bias_db = 0, deviation_db = 0;           ///< of predicted - measured
+  double predicted_slope_db = 0;                  ///< per decade of range
+  double measured_slope_db = 0;                   ///< per decade of range
+  double rank = 0, rank_without_trend = 0;        ///< correlation before and after removing both lines of log10(range)
+  double deviation_without_trend_db = 0;          ///< of the difference after it
+  double ceiling = 0, ceiling_without_trend = 0;  ///< of one-look speckle about the prediction itself (E122)
+};
+
+/// Compares levels point by point; `seed` draws the ceiling. Throws Error(argument) unless all lists have the same length
+/// of three at least, all numbers are finite and ranges > 0.
+PointComparison compare_points(const std::vector<double>& predicted_db, const std::vector<double>& measured_db,
+                               const std::vector<double>& range, std::uint64_t seed);
+
+/// What is left of levels after the line over log10(range) is taken off.
+std::vector<double> without_range_trend(const std::vector<double>& level_db, const std::vector<double>& range);
+
+}  // namespace insonify

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/grid.hpp"
+#include "returns/quantise.hpp"
+#include "sampling/beam_fan.hpp"
+#include "sampling/range_gate.hpp"
+
+namespace insonify {
+
+/// Levels of a grey value of 0 and of 255 in an ARIS recording, linear between: dB re an unknown reference.
+inline constexpr GreyWindow aris_scale{0, 80};
+
+/// One frame of an ARIS recording.
+struct ArisFrame {
+  Grid<std::uint8_t> grey;   ///< beams x samples
+  BeamFan fan;               ///< azimuths to 0.2 degrees, from the lens of the model; widths are the mean spacing
+  RangeGate gate;            ///< samples are bins
+  std::size_t frames = 0;    ///< in the file
+  double time = 0;           ///< UTC, seconds since 1970
+  double sound_speed = 0;    ///< [m/s]
+  double temperature_c = 0;  ///< of the water
+  double pulse_length = 0;   ///< [s]
+  double receiver_gain_db = 0;
+  std::string model;  ///< ARIS 1200, 1800 or 3000
+};
+
+/// Reads frame `number` of a recording (.aris, version DDF_05): a header of 1024 bytes, then frames, each a header of 1024
+/// bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. Layout after the public headers of
+/// SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read; Error(content) if it is no such recording,
+/// is of the other byte order, is truncated, lacks the geometry (sound speed, sample period), or has samples that are not in
+/// order; Error(argument) unless number < frames.
+ArisFrame read_aris_frame(const std::string& path, std::size_t number);
+
+/// Levels of a frame [dB re unknown], beams x samples.
+Grid<float> level_db(const ArisFrame& frame);
+
+}  // namespace insonify

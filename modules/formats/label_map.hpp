@@ -1,0 +1,37 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/grid.hpp"
+
+namespace insonify {
+
+/// What every pixel of a picture shows: rows from the top.
+struct LabelMap {
+  Grid<std::uint8_t> category;   ///< 0: nothing
+  Grid<std::uint16_t> instance;  ///< number of the object, from 1; 0: of none
+};
+
+/// An object in a picture, as COCO describes it.
+struct Annotation {
+  std::uint16_t instance = 0;
+  std::uint8_t category = 0;
+  std::size_t area = 0;                          ///< [pixels]
+  int left = 0, top = 0, width = 0, height = 0;  ///< of the box [pixels]
+  std::vector<std::uint32_t>
+      counts;  ///< run lengths of the mask, column by column, beginning with pixels that are not of it
+};
+
+/// Numbers the parts of a picture that are of one key and connected by sides or corners, from 1 in the order of their
+/// first pixels; pixels of key 0 and parts of less than `least_pixels` get 0. Throws Error(content) for more than 65535.
+Grid<std::uint16_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t least_pixels);
+
+/// Numbers the keys of a picture from 1 in their order; keys of less than `least_pixels` get 0, as does key 0.
+Grid<std::uint16_t> numbered_keys(const Grid<std::uint32_t>& key, std::size_t least_pixels);
+
+/// The objects of a picture by ascending instance: those that have a pixel in it. Throws Error(argument) if the maps differ in
+/// size, or if an instance has pixels of two categories.
+std::vector<Annotation> annotations_of(const LabelMap& map);
+
+}  // namespace insonify

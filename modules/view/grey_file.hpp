@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "core/grid.hpp"
+
+namespace insonify {
+
+/// A grey picture as it is in its file: rows from the top.
+struct GreyPicture {
+  int bits = 8;               ///< 8 or 16
+  Grid<std::uint16_t> value;  ///< rows x columns
+};
+
+/// Reads a PNG of one channel of 8 or 16 bits. Throws Error(file) if it cannot be read, Error(content) if it is no PNG, is
+/// truncated or damaged, or is in colours.
+GreyPicture load_grey_png(const std::string& path);
+
+/// Writes grey values as a PNG, rows from the top; 8 or 16 bits by their type. Written to a temporary name, then renamed.
+/// Throws Error(argument) for an empty picture, Error(file) if it cannot write.
+void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
+void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey);
+
+/// Writes colours as a PNG: three bytes for each pixel, `colours` has three columns for each of the picture. Errors as save_grey_png.
+void save_colour_png(const std::string& path, const Grid<std::uint8_t>& colours);
+
+}  // namespace insonify

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "sampling/beam_fan.hpp"
+#include "sampling/range_gate.hpp"
+
+namespace insonify {
+
+/// The beams from port to starboard: the columns of a picture of beams x range. Beams of equal azimuth stay in order.
+std::vector<Eigen::Index> columns_from_port(const BeamFan& fan);
+
+/// Values of samples (beams x bins) as rows and columns of a picture: a column per beam from port to starboard, the first
+/// row is the farthest bin, as show_grey draws them.
+template <typename Value>
+Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
+  const std::vector<Eigen::Index> columns = columns_from_port(fan);
+  Grid<Value> picture(samples.cols(), samples.rows());
+  for (Eigen::Index n = 0; n < samples.cols(); ++n)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      picture(samples.cols() - 1 - n, static_cast<Eigen::Index>(k)) = samples(columns[k], n);
+  return picture;
+}
+
+/// Which sample every pixel of a picture in true geometry shows: forward up, starboard right.
+struct FanRaster {
+  Grid<std::int32_t> beam, bin;  ///< rows from the top; -1 outside the fan
+  double metres_per_pixel = 0;
+  double head_column = 0, head_row = 0;  ///< where the head is [pixels], from the corner of the first pixel
+};
+
+/// The sample nearest to each pixel's centre, in a picture of so many columns that holds the fan; rows follow. Throws
+/// Error(argument) for a fan of several elevations, one that looks astern, or columns not within 16 and 8192.
+FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns);
+
+/// Values of samples at the pixels of a raster, `outside` beside the fan.
+template <typename Value>
+Grid<Value> fan_picture(const Grid<Value>& samples, const FanRaster& raster, Value outside) {
+  Grid<Value> picture(raster.beam.rows(), raster.beam.cols());
+  for (Eigen::Index i = 0; i < picture.size(); ++i)
+    picture(i) = raster.beam(i) < 0 ? outside : samples(raster.beam(i), raster.bin(i));
+  return picture;
+}
+
+}  // namespace insonify

@@ -1,0 +1,74 @@
+// Objects in pictures, checked by an independent decoder of run lengths.
+#include "formats/label_map.hpp"
+
+#include "support/test.hpp"
+
+namespace {
+
+Grid<std::uint32_t> two_parts() {
+  Grid<std::uint32_t> key(4, 5);
+  key << 0, 2, 2, 0, 3,  //
+      0, 2, 0, 3, 0,     //
+      0, 0, 0, 0, 0,     //
+      2, 2, 0, 0, 2;
+  return key;
+}
+
+}  // namespace
+
+TEST(LabelMap, parts_are_connected_by_sides_and_corners) {
+  Grid<std::uint16_t> expected(4, 5);
+  expected << 0, 1, 1, 0, 2,  //
+      0, 1, 0, 2, 0,          //
+      0, 0, 0, 0, 0,          //
+      3, 3, 0, 0, 4;
+  EXPECT_TRUE((connected_parts(two_parts(), 1) == expected).all());
+  const Grid<std::uint16_t> large = connected_parts(two_parts(), 2);
+  EXPECT_EQ(large.maxCoeff(), 3);
+  EXPECT_EQ(large(3, 4), 0);
+  EXPECT_EQ(large(3, 0), 3);
+}
+
+TEST(LabelMap, keys_are_numbered_in_their_order) {
+  const Grid<std::uint16_t> number = numbered_keys(two_parts() * 100, 1);
+  EXPECT_EQ(number(0, 1), 1);
+  EXPECT_EQ(number(3, 4), 1);
+  EXPECT_EQ(number(0, 4), 2);
+  EXPECT_EQ(numbered_keys(two_parts(), 3).maxCoeff(), 1);  // key 3 has two pixels
+}
+
+TEST(LabelMap, annotations_hold_box_area_and_every_pixel) {
+  const Grid<std::uint32_t> key = two_parts();
+  const LabelMap map{key.cast<std::uint8_t>(), connected_parts(key, 1)};
+  const std::vector<Annotation> annotations = annotations_of(map);
+  ASSERT_EQ(annotations.size(), 4U);
+  const Annotation& corner = annotations[1];
+  EXPECT_EQ(corner.category, 3);
+  EXPECT_EQ(corner.area, 2U);
+  EXPECT_EQ(corner.left, 3);
+  EXPECT_EQ(corner.top, 0);
+  EXPECT_EQ(corner.width, 2);
+  EXPECT_EQ(corner.height, 2);
+  for (const Annotation& a : annotations) {  // down the columns, beginning with pixels that are not of it
+    std::vector<bool> mask;
+    for (std::size_t k = 0; k < a.counts.size(); ++k) mask.insert(mask.end(), a.counts[k], k % 2 == 1);
+    ASSERT_EQ(mask.size(), 20U);
+    for (Eigen::Index row = 0; row < 4; ++row)
+      for (Eigen::Index column = 0; column < 5; ++column)
+        EXPECT_EQ(mask[static_cast<std::size_t>(4 * column + row)], map.instance(row, column) == a.instance);
+  }
+}
+
+TEST(LabelMap, empty_ones_have_no_annotations) {
+  const LabelMap map{Grid<std::uint8_t>::Zero(4, 5), Grid<std::uint16_t>::Zero(4, 5)};
+  EXPECT_TRUE(annotations_of(map).empty());
+}
+
+TEST(LabelMap, refuses_maps_that_do_not_fit) {
+  expect_error(ErrorKind::argument, {"annotations_of", "one size"}, [] {
+    annotations_of({Grid<std::uint8_t>::Zero(4, 5), Grid<std::uint16_t>::Zero(5, 4)});
+  });
+  expect_error(ErrorKind::argument, {"instance 1 has pixels of categories"}, [] {
+    annotations_of({two_parts().cast<std::uint8_t>(), Grid<std::uint16_t>::Ones(4, 5)});
+  });
+}

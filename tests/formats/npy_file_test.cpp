@@ -1,0 +1,67 @@
+// Arrays of numpy, written here byte by byte.
+#include "formats/npy_file.hpp"
+
+#include "support/test.hpp"
+
+namespace {
+
+/// A .npy file of format 1, as numpy.save writes it.
+template <typename Number>
+std::string made_npy(const std::string& type, const std::string& shape, bool fortran,
+                     const std::vector<Number>& numbers) {
+  std::string header =
+      "{'descr': '" + type + "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': (" + shape + "), }";
+  header.append(63 - (10 + header.size()) % 64, ' ');
+  header += '\n';
+  std::string bytes = "\x93NUMPY";
+  bytes += '\1', bytes += '\0', bytes += static_cast<char>(header.size()), bytes += '\0';
+  return bytes + header + std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+}
+const std::vector<float> six{1, 2, 3, 4, 5, 6};
+std::string npy_refusal(const std::string& bytes) {
+  return error_of_file([](const std::string& path) { read_npy(path); }, "a.npy", bytes);
+}
+
+}  // namespace
+
+TEST(NpyFile, reads_the_orders_of_c_and_fortran) {
+  const Grid<double> c = read_npy(own_file("c.npy", made_npy("<f4", "2, 3", false, six))).real;
+  ASSERT_EQ(c.rows(), 2);
+  EXPECT_EQ(c(0, 1), 2);
+  EXPECT_EQ(c(1, 0), 4);
+  const Grid<double> f = read_npy(own_file("f.npy", made_npy("<f4", "2, 3", true, six))).real;
+  EXPECT_EQ(f(0, 1), 3);
+  EXPECT_EQ(f(1, 0), 2);
+}
+
+TEST(NpyFile, reads_complex_numbers_and_grey_values) {
+  const NpyArray z = read_npy(own_file("z.npy", made_npy("<c8", "1, 3", false, six)));
+  EXPECT_EQ(z.real(0, 1), 3);
+  EXPECT_EQ(z.imaginary(0, 1), 4);
+  const NpyArray g = read_npy(own_file("g.npy", made_npy<std::uint16_t>("<u2", "1, 2", false, {7, 65535})));
+  EXPECT_EQ(g.unsigned_bits, 16);
+  EXPECT_EQ(g.real(0, 1), 65535);
+  EXPECT_EQ(read_npy(own_file("b.npy", made_npy<std::uint8_t>("|u1", "2, 1", false, {7, 9}))).unsigned_bits, 8);
+}
+
+TEST(NpyFile, reads_what_it_writes) {
+  Grid<float> a(2, 3);
+  a << 1, 2, 3, 4, 5, 6;
+  write_npy(own_path("w.npy"), a);
+  EXPECT_TRUE((read_npy(own_path("w.npy")).real == a.cast<double>()).all());
+  EXPECT_EQ(file_bytes(own_path("w.npy")), made_npy("<f4", "2, 3", false, six));
+}
+
+TEST(NpyFile, refuses_what_it_cannot_be) {
+  EXPECT_THAT(npy_refusal("PK"), HasSubstr("content: a.npy: does not begin as a .npy file"));
+  const std::string whole = made_npy("<f4", "2, 3", false, six);
+  EXPECT_THAT(npy_refusal(whole.substr(0, 20)), HasSubstr("ends within its header"));
+  EXPECT_THAT(npy_refusal(whole.substr(0, whole.size() - 3)),
+              HasSubstr("has 21 bytes of numbers, must have 24 for 2 x 3 of '<f4'; the file is truncated"));
+  EXPECT_THAT(npy_refusal(made_npy(">f4", "2, 3", false, six)),
+              HasSubstr("big-endian numbers ('>f4'), must be little-endian: save a.astype('<f4')"));
+  EXPECT_THAT(npy_refusal(made_npy("<f4", "6,", false, six)), HasSubstr("has shape (6,), must have two dimensions"));
+  EXPECT_THAT(npy_refusal(made_npy("<f4", "1, 2, 3", false, six)), HasSubstr("must have two dimensions"));
+  EXPECT_THAT(npy_refusal(made_npy("<f4", "0, 3", false, six)), HasSubstr("none of them 0"));
+  EXPECT_THAT(npy_refusal(made_npy("<i4", "2, 3", false, six)), HasSubstr("numbers of type '<i4'"));
+}

@@ -1,0 +1,258 @@
+// Data sets to learn from, opened by readers of their own: the formats as their definitions have them.
+#include <nlohmann/json.hpp>
+
+#include "core/sha256.hpp"
+#include "support/test.hpp"
+#include "tool/tool_runner.hpp"
+#include "view/grey_file.hpp"
+
+namespace {
+
+/// A mask of COCO: run lengths down the columns, the first of pixels outside.
+Grid<std::uint8_t> decoded_mask(const nlohmann::json& segmentation) {
+  const auto rows = segmentation["size"][0].get<Eigen::Index>(), columns = segmentation["size"][1].get<Eigen::Index>();
+  Grid<std::uint8_t> mask = Grid<std::uint8_t>::Zero(rows, columns);
+  Eigen::Index at = 0;
+  std::uint8_t value = 0;
+  for (const auto& count : segmentation["counts"]) {
+    for (Eigen::Index end = at + count.get<Eigen::Index>(); at < end; ++at) mask(at % rows, at / rows) = value;
+    value ^= 1;
+  }
+  EXPECT_EQ(at, rows * columns);
+  return mask;
+}
+
+}  // namespace
+
+class DatasetRun : public ToolTest {
+ protected:
+  void SetUp() override {
+    have("harbour.ply", "make-scene harbour --points 30000");
+    write("mission.toml", mission());
+    if (!file_exists(path("survey"))) succeed("survey mission.toml -o survey -q");
+  }
+  static std::string mission(const std::string& keep = "keep = [\"contributors\"]\n") {
+    return "schema = 1\n[survey]\nscene = \"harbour.ply\"\nseed = 4\n[trajectory]\nwaypoints_m = [[0, 0, -3], [4, 0, "
+           "-3]]\n"
+           "speed_m_s = 1\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=48\"]\nrange = "
+           "\"2:15\"\n"
+           "angles_deg = [0, 10, 0]\nrate_hz = 1\n[randomise]\nsource_level_db = 3\ntemperature_c = 4\nposition_m = "
+           "0.2\n"
+           "heading_deg = 5\n[ping]\n" +
+           keep;
+  }
+  nlohmann::json coco(const std::string& form) const {
+    return nlohmann::json::parse(read("set/" + form + "/annotations/instances_train.json"));
+  }
+  GreyPicture png(const std::string& name) const { return load_grey_png(path("set/" + name)); }
+};
+
+TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
+  succeed("dataset survey -o set --stuff sand");
+  const nlohmann::json manifest = nlohmann::json::parse(read("set/manifest.json"));
+  const auto classes = manifest["classes"].get<std::vector<std::string>>();
+  EXPECT_EQ(classes[0], "nothing");
+  EXPECT_EQ(classes[1], "shadow");
+  std::set<int> annotation_ids;
+  for (const std::string form : {"polar", "fan"}) {
+    const nlohmann::json c = coco(form);
+    ASSERT_EQ(c["images"].size(), 5U);
+    EXPECT_EQ(c["categories"].size(), classes.size() - 1);
+    std::map<int, std::string> name_of;
+    std::size_t areas = 0;
+    for (const auto& image : c["images"]) {
+      const std::string name = image["file_name"];
+      name_of[image["id"]] = name;
+      const GreyPicture picture = png(form + "/images/" + name);
+      EXPECT_EQ(picture.bits, form == "polar" ? 16 : 8);
+      EXPECT_EQ(picture.value.cols(), image["width"].get<Eigen::Index>());
+      EXPECT_EQ(picture.value.rows(), image["height"].get<Eigen::Index>());
+      EXPECT_EQ(png(form + "/masks/" + name).value.rows(), picture.value.rows());
+    }
+    for (const auto& a : c["annotations"]) {
+      EXPECT_TRUE(annotation_ids.insert(a["id"]).second);
+      const std::string name = name_of.at(a["image_id"]);
+      const Grid<std::uint8_t> mask = decoded_mask(a["segmentation"]);
+      const Grid<std::uint16_t> category = png(form + "/masks/" + name).value,
+                                instance = png(form + "/instances/" + name).value;
+      EXPECT_NE(classes.at(a["category_id"]), "sand");
+      // Area, box and both masks say the same.
+      const auto number = a["instance"].get<std::uint16_t>();
+      EXPECT_TRUE(((mask == 1) == (instance == number)).all());
+      EXPECT_EQ(mask.cast<int>().sum(), a["area"].get<int>());
+      EXPECT_TRUE((mask == 0 || category == a["category_id"].get<std::uint16_t>()).all());
+      const auto box = a["bbox"].get<std::vector<Eigen::Index>>();
+      EXPECT_EQ(mask.block(box[1], box[0], box[3], box[2]).cast<int>().sum(), a["area"].get<int>());
+      EXPECT_GT(mask.row(box[1]).maxCoeff(), 0);
+      EXPECT_GT(mask.col(box[0] + box[2] - 1).maxCoeff(), 0);
+      areas += a["area"].get<std::size_t>();
+    }
+    // Classes add up: what has an instance is in an annotation.
+    std::size_t instances = 0;
+    for (const auto& [id, name] : name_of)
+      instances += static_cast<std::size_t>((png(form + "/instances/" + name).value > 0).count());
+    EXPECT_EQ(areas, instances) << form;
+    EXPECT_GT(areas, 0U);
+  }
+}
+
+TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
+  succeed("dataset survey -o set");
+  const nlohmann::json c = coco("fan");
+  std::map<std::string, std::vector<std::vector<double>>> expected;
+  std::map<int, nlohmann::json> image_of;
+  for (const auto& image : c["images"]) image_of[image["id"]] = image;
+  for (const auto& a : c["annotations"]) {
+    const nlohmann::json& image = image_of.at(a["image_id"]);
+    const double w = image["width"], h = image["height"], x = a["bbox"][0], y = a["bbox"][1], bw = a["bbox"][2],
+                 bh = a["bbox"][3];
+    expected[image["file_name"]].push_back(
+        {a["category_id"].get<double>() - 1, (x + bw / 2) / w, (y + bh / 2) / h, bw / w, bh / h});
+  }
+  ASSERT_FALSE(expected.empty());
+  for (const auto& [name, boxes] : expected) {
+    std::istringstream lines(read("set/fan/labels/" + name.substr(0, name.size() - 4) + ".txt"));
+    for (const auto& box : boxes)
+      for (const double number : box) {
+        double read_number = -1;
+        lines >> read_number;
+        EXPECT_NEAR(read_number, number, 1e-6);
+      }
+  }
+  EXPECT_THAT(read("set/fan/data.yaml"), HasSubstr("train: train.txt\nnames:\n  0: \"shadow\"\n"));
+  EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000004.png\n"));
+}
+
+TEST_F(DatasetRun, shadows_are_shadows_and_water_is_nothing) {
+  succeed("dataset survey -o set");
+  for (const auto& image : coco("polar")["images"]) {
+    const std::string name = image["file_name"];
+    const GreyPicture picture = png("polar/images/" + name);
+    const Grid<std::uint16_t> mask = png("polar/masks/" + name).value;
+    const auto median = [&](const auto& where) {
+      std::vector<int> grey;
+      for (Eigen::Index i = 0; i < mask.size(); ++i)
+        if (where(mask(i))) grey.push_back(picture.value(i));
+      if (grey.empty()) return -1;
+      std::nth_element(grey.begin(), grey.begin() + static_cast<std::ptrdiff_t>(grey.size() / 2), grey.end());
+      return grey[grey.size() / 2];
+    };
+    const int shadow = median([](int m) { return m == 1; }), surface = median([](int m) { return m > 1; });
+    ASSERT_GT(shadow, -1) << name;
+    EXPECT_LT(shadow + 65536 * 6 / 60, surface) << name;    // 6 dB of 60 darker than surface at least
+    EXPECT_TRUE((mask.bottomRows(20) == 0).all()) << name;  // water before the first echo
+  }
+}
+
+TEST_F(DatasetRun, meta_says_pose_seed_mapping_and_what_was_randomised) {
+  succeed("dataset survey -o set --window 80:140");
+  std::istringstream lines(read("set/meta.jsonl"));
+  std::set<double> levels;
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const nlohmann::json meta = nlohmann::json::parse(line);
+    EXPECT_EQ(meta["ping"], count);
+    EXPECT_EQ(meta["split"], "train");
+    EXPECT_EQ(meta["seed"], 4);
+    EXPECT_EQ(meta["mapping"]["min_db"], 80);
+    EXPECT_EQ(meta["scene"], "harbour.ply");
+    const double along = meta["world_from_head"][0][3], moved = meta["randomised"]["position_m"][0];
+    EXPECT_NEAR(along, count + moved, 1e-9);  // of 1 m/s and 1 Hz, and the draw
+    EXPECT_LE(std::abs(moved), 0.2);
+    EXPECT_LE(std::abs(meta["randomised"]["source_level_db"].get<double>()), 3);
+    levels.insert(meta["randomised"]["source_level_db"].get<double>());
+  }
+  EXPECT_EQ(count, 5);
+  EXPECT_EQ(levels.size(), 5U);
+  EXPECT_THAT(read("set/README.md"), HasSubstr("| 1 | shadow |"));
+}
+
+TEST_F(DatasetRun, sums_check_every_file_and_repeat) {
+  succeed("dataset survey -o set");
+  std::istringstream lines(read("set/SHA256SUMS"));
+  std::size_t files = 0;
+  for (std::string line; std::getline(lines, line); ++files)
+    EXPECT_EQ(sha256_of_file(path("set/" + line.substr(66))), line.substr(0, 64)) << line;
+  std::size_t there = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("set"))) there += entry.is_regular_file();
+  EXPECT_EQ(files + 1, there);
+  const std::string before = read("set/SHA256SUMS");
+  succeed("dataset survey -o set --force");
+  EXPECT_EQ(read("set/SHA256SUMS"), before);
+  succeed("survey mission.toml -o again -j1 -q");
+  succeed("dataset again -o other");
+  EXPECT_EQ(read("other/SHA256SUMS").substr(0, 64), before.substr(0, 64));
+  EXPECT_EQ(read("other/polar/images/000_000003.png"), read("set/polar/images/000_000003.png"));
+}
+
+TEST_F(DatasetRun, splits_by_scene) {
+  have("plane.ply", "make-scene plane --size 20,20 --points 20000");
+  for (const std::string scene : {"plane", "harbour"})
+    succeed("ping " + scene +
+            ".ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,3,0,15,0 --range 2:15 --no-picture -q --keep "
+            "contributors -o " +
+            scene);
+  succeed("dataset plane harbour survey -o set --split 50:50:0");
+  std::map<std::string, std::set<std::string>> splits_of;
+  std::istringstream lines(read("set/meta.jsonl"));
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json meta = nlohmann::json::parse(line);
+    splits_of[meta["scene"]].insert(meta["split"].get<std::string>());
+  }
+  EXPECT_EQ(splits_of.size(), 2U);
+  EXPECT_EQ(splits_of["plane.ply"].size(), 1U);
+  EXPECT_NE(splits_of["plane.ply"], splits_of["harbour.ply"]);
+}
+
+TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
+  // Two spheres of one material beside each other on a plane: by the field, each is an object.
+  std::string rows = "x,y,z,nx,ny,nz,area,material,instance\n";
+  for (int i = -60; i <= 60; ++i)
+    for (int j = -60; j <= 60; ++j)
+      rows += std::to_string(6 + 0.05 * i) + "," + std::to_string(0.05 * j) + ",-1,0,0,1,0.0025,0,-1\n";
+  for (int s = 0; s < 2; ++s)
+    for (int k = 0; k < 4000; ++k) {
+      const double z = 1 - (k + 0.5) / 2000, turn = 2.399963 * k, r = std::sqrt(1 - z * z);
+      const Eigen::Vector3d n(r * std::cos(turn), r * std::sin(turn), z),
+          p = Eigen::Vector3d(6, s ? 0.35 : -0.35, -0.7) + 0.34 * n;
+      std::ostringstream line;
+      line << p.x() << "," << p.y() << "," << p.z() << "," << n.x() << "," << n.y() << "," << n.z() << ","
+           << 4 * pi * 0.34 * 0.34 / 4000 << ",1," << s << "\n";
+      rows += line.str();
+    }
+  write("balls.csv", rows);
+  succeed(
+      "ping balls.csv --sonar p900-45 --set sonar.beams=64 --pose=0,0,0,0,8,0 --range 3:9 --no-picture -q --keep "
+      "contributors -o balls");
+  succeed("dataset balls -o set --least-pixels 30");
+  std::map<int, std::set<int>> of_category;
+  for (const auto& a : coco("polar")["annotations"]) of_category[a["category_id"]].insert(a["instance"].get<int>());
+  const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
+  ASSERT_EQ(classes.size(), 4U);
+  EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
+}
+
+TEST_F(DatasetRun, refuses_runs_without_labels_and_wrong_options) {
+  succeed(
+      "ping harbour.ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,10,0 --range 2:15 --no-picture -q -o "
+      "bare");
+  expect_refused("dataset bare -o set", 3, {"bare/cube.h5", "ping", "no labels", "--keep contributors"});
+  expect_refused("dataset none -o set", 4, {"none"});
+  expect_refused("dataset survey -o set --share 0", 2, {"--share = 0"});
+  expect_refused("dataset survey -o set --share 1.5", 2, {"--share = 1.5"});
+  expect_refused("dataset survey -o set --split 80:20", 2, {"--split"});
+  expect_refused("dataset survey -o set --stuff gold", 2, {"--stuff = gold", "sand"});
+  expect_refused("dataset survey -o set --columns 3", 2, {"--columns"});
+  expect_refused("dataset survey -o harbour.ply", 4, {"harbour.ply"});
+  // Looking away: masks are empty.
+  succeed(
+      "ping harbour.ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,-89,0 --range 0.3:0.8 --no-picture -q "
+      "--keep contributors -o away");
+  expect_refused("dataset away -o set", 3, {"no pixel of 1 images shows a surface"});
+  write("bad.toml", mission("keep = [\"paths\"]\n"));
+  expect_refused("survey bad.toml -o bad", 3, {"bad.toml", "keep", "paths"});
+  write("noise.toml", replaced(mission(), "source_level_db = 3", "noise_db = 3"));
+  expect_refused("survey noise.toml -o noise", 3, {"noise.toml", "noise_db", "self_noise_db"});
+  write("less.toml", replaced(mission(), "source_level_db = 3", "source_level_db = -3"));
+  expect_refused("survey less.toml -o less", 3, {"less.toml:", "source_level_db = -3", "at least 0"});
+}
