@@ -105,7 +105,10 @@ bool keeps(const PingOptions& options, const std::string& what) {
 PingSetup set_up_ping(const PingOptions& o) {
   const Track track = track_of(o);
   PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
-  if (!o.trajectory.empty()) setup.simulation.effects.motion = track.motion;
+  if (!o.trajectory.empty()) {
+    setup.simulation.effects.motion = track.motion;
+    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
+  }
   setup.simulation.time = o.time;
   setup.simulation.ping = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
   for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
