@@ -106,7 +106,10 @@ PingSetup set_up_ping(const PingOptions& o) {
   const Track track = track_of(o);
   PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
   Motion& motion = setup.simulation.effects.motion;
-  if (!o.trajectory.empty()) motion = track.motion;
+  if (!o.trajectory.empty()) {
+    motion = track.motion;
+    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
+  }
   if (!o.mount.empty()) {
     // A head away from the vehicle's centre moves as the vehicle turns.
     const Pose mount = parse_pose(o.mount, "z-up", "--mount");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "beamforming/head_patterns.hpp"
 #include "returns/image_mosaic.hpp"
 #include "scene_io/bed_of_returns.hpp"
 #include "store/cube.hpp"
@@ -66,8 +67,11 @@ void save_mosaic(const std::string& folder, const std::vector<HeadCubes>& heads,
     HeadStrips strips(mosaic, bed, threads);
     for (const std::string& path : head.cubes) {
       Cube cube = read_cube(path);
-      const MosaicSource source{cube.source_level_db, cube.absorption_db_per_m,
-                                range_resolution(make_head(sonar, cube.sound_speed).pulse, cube.sound_speed)};
+      const SonarHead own = make_head(sonar, cube.sound_speed);
+      const EchoOptions patterns = with_patterns({}, own);
+      const MosaicSource source{
+          cube.source_level_db,     cube.absorption_db_per_m, range_resolution(own.pulse, cube.sound_speed),
+          patterns.elevation_shape, patterns.elevation_width, patterns.elevation_centre};
       for (Ping& ping : cube.pings) strips.add(std::move(ping), source);
     }
     strips.finish();

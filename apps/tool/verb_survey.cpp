@@ -8,6 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/survey_blocks.hpp"
@@ -201,6 +203,8 @@ void survey(const SurveyOptions& o) {
   const SurveySetup s = set_up_survey(o);
   for (const SurveyHead& head : s.heads)
     for (const std::string& note : head.setup.head.notes) progress.note(note);
+  if (lower_case(s.file.trajectory).ends_with(".csv"))
+    for (const std::string& note : trajectory_notes(s.file.trajectory)) progress.note(note);
   if (!o.plan) return make_pings(o, s, shard, progress);
   progress.step("loading " + s.file.scene);
   const SurveyScene scene(s, o.common, progress);

@@ -4,14 +4,19 @@
 #include <filesystem>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
+#include "store/survey_run.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/shared_options.hpp"
+#include "viewer/survey_pings.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify::viewer {
@@ -22,14 +27,16 @@ std::string footer() {
          viewer_help(ViewerMode::inspect) +
          "\nExamples:\n"
          "  insonify view out                                    a run: fan, 3-D, A-scan, explanation of samples\n"
+         "  insonify view survey --head port --ping 100          a survey: plays, seeks, shows its way\n"
          "  insonify view harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0   visibility from a head, without a ping\n"
          "  insonify view out --screenshot viewer.png            the same picture without a display\n"
          "\nExit codes: 0 ok, 1 run-time failure (no display), 2 usage, 3 bad content, 4 file missing or unwritable.";
 }
 
 void add_options(tool::OptionList list, ViewerCommand& c) {
-  list.add("TARGET", &c.target, "run directory, cube.h5, or a scene to inspect: " + scene_extensions(),
+  list.add("TARGET", &c.target, "run directory, survey, cube.h5, or a scene to inspect: " + scene_extensions(),
            {.required = true});
+  list.add("--head", &c.head, "of a survey: the head to show; default: the first of its mission");
   list.add("--ping", &c.ping, "which ping to begin with, from 0");
   list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");
   list.add("--colormap", &c.colour_map, "copper, viridis, amber, grey or jet");
@@ -68,6 +75,14 @@ std::string finished_cube(const std::string& target) {
   return cube.string();
 }
 
+// Takes title and absorption from the first ping, and the pings as they are shown.
+void open_cubes(const std::vector<CubeOfPings>& cubes, LoadedView& view) {
+  const Cube first = read_cube(cubes.front().cube, 0, 1);
+  view.data.title = first.sonar;
+  view.data.absorption_db_per_m = first.absorption_db_per_m;
+  view.data.pings = reel_of(cubes);
+}
+
 // True if the ids of the contributors match the scene.
 bool belong_together(const Contributors& list, const SceneCloud& scene) {
   const std::size_t step = 1 + list.surfel.size() / 10000;
@@ -78,9 +93,9 @@ bool belong_together(const Contributors& list, const SceneCloud& scene) {
   return true;
 }
 
-void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
+void load_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
   if (command.no_scene) return;
-  tool::SceneOptions options = tool::scene_of_run(command.target);
+  tool::SceneOptions options = tool::scene_of_run(run_folder);
   if (!command.scene.path.empty()) {
     const std::string path = command.scene.path;
     options = command.scene;
@@ -94,7 +109,7 @@ void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
   LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
   for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
   if (loaded.mesh && !view.data.contributors.empty()) {
-    const tool::PingOptions run = tool::load_ping_settings((fs::path(command.target) / "run.toml").string());
+    const tool::PingOptions run = tool::load_ping_settings((fs::path(run_folder) / "run.toml").string());
     tool::sample_for_ping(run, tool::set_up_ping(run), loaded);
   }
   for (const Contributors& list : view.data.contributors)
@@ -103,13 +118,12 @@ void load_scene_of_run(const ViewerCommand& command, LoadedView& view) {
       return;
     }
   view.data.scene = std::move(loaded.scene);
-  view.data.view = tool::view_of_run(command.target, whole_of(view.data.scene), command.common.threads);
+  view.data.view = tool::view_of_run(run_folder, whole_of(view.data.scene), command.common.threads);
 }
 
 // The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
 PixelPlace loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
-  const Ping& ping = data.pings[ping_index];
-  const Grid<float> level = range_compensated_level_db(ping, data.absorption_db_per_m);
+  const Grid<float> level = range_compensated_level_db(*data.pings.ping(ping_index), data.absorption_db_per_m);
   Eigen::Index bin = 0;
   level.row(static_cast<Eigen::Index>(beam)).maxCoeff(&bin);
   return {beam, static_cast<std::size_t>(bin)};
@@ -153,10 +167,21 @@ LoadedView load_run(const ViewerCommand& command) {
     fail(ErrorKind::argument, command.target,
          " is a run, whose sonar and poses are known; leave --sonar and --pose out");
   LoadedView view;
-  Cube cube = read_cube(finished_cube(command.target));
-  view.data.title = cube.sonar;
-  view.data.absorption_db_per_m = cube.absorption_db_per_m;
-  view.data.pings = std::move(cube.pings);
+  if (const auto head = find_survey_head(command.target, command.head)) {
+    open_cubes(head->cubes, view);
+    view.data.title = head->name + ", " + view.data.title;
+    if (head->done < head->blocks)
+      view.notes.push_back(fmt::format("{} of {} blocks of {} are not done yet: their pings are missing here",
+                                       head->blocks - head->done, head->blocks, head->name));
+    if (!head->others.empty() && command.head.empty() && is_survey_run(command.target))
+      view.notes.push_back("the survey has other heads too: --head " + joined(head->others, ", --head "));
+    load_scene_of_run(command, head->folder, view);
+    choose_start(command, view);
+    return view;
+  }
+  if (!command.head.empty())
+    fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no survey; leave --head out");
+  open_cubes({{finished_cube(command.target), ""}}, view);
   const fs::path run(command.target), contributors = run / "contributors.h5", returns = run / "returns.ply";
   if (fs::is_directory(run) && fs::exists(contributors) && view.data.pings.size() == 1) {
     NamedContributors named = read_contributor_file(contributors.string());
@@ -164,12 +189,14 @@ LoadedView load_run(const ViewerCommand& command) {
     view.data.material_names = std::move(named.materials);
   }
   if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());
-  load_scene_of_run(command, view);
+  load_scene_of_run(command, command.target, view);
   choose_start(command, view);
   return view;
 }
 
 LoadedView load_inspection(const ViewerCommand& command) {
+  if (!command.head.empty())
+    fail(ErrorKind::argument, "--head = '", command.head, "' is of a survey, ", command.target, " is a scene");
   if (command.run.sonar.empty())
     fail(ErrorKind::argument, "--sonar must be given to inspect a scene, e.g. --sonar p900-45; see insonify sonars");
   if (command.pose.empty())

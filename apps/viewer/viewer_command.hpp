@@ -17,6 +17,7 @@ struct ViewerCommand {
   std::string target;        ///< run directory, cube.h5, or scene
   std::string pose;
   std::string world = "z-up";
+  std::string head;  ///< of a survey; empty: its first
   std::uint64_t ping = 0;
   std::string beam;  ///< number, or empty: nothing is selected
   std::string colour_map = "copper";
@@ -39,8 +40,9 @@ struct LoadedView {
 /// True if the target is a run directory or a cube rather than a scene.
 bool is_run(const std::string& target);
 
-/// Reads a run: its cube, and contributors, returns and scene if they exist. Throws Error(file) if there is no
-/// such run, Error(content) if it is unfinished or damaged, Error(argument) for options that do not fit it.
+/// Opens a run: its cube, whose pings are read as they are shown, and contributors, returns and scene if they exist. Of
+/// a survey one head, merged or as far as its blocks are done. Throws Error(file) if there is no such run,
+/// Error(content) if it is unfinished or damaged, Error(argument) for options that do not fit it.
 LoadedView load_run(const ViewerCommand& command);
 
 /// Reads a scene to inspect. Throws as load_scene and find_sonar; Error(argument) without --sonar or --pose.

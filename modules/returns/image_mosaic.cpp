@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double most_mosaic_cells = 0x1p26;
 // Equivalent width over full width at half maximum of a Gaussian, and nearly of other pulses and main lobes (E74).
 const double equivalent = std::sqrt(pi / (4 * std::log(2)));
+constexpr double resolved_cells = 4;
+constexpr double faintest_gain = 0.01;                        // of the elevation pattern, -20 dB
 constexpr double level_unit = 2 * micropascal * micropascal;  // of an intensity, re 1 uPa rms
 
 /// What a ping heard from a place.
@@ -113,10 +115,25 @@ class PingEar {
     return cone >= at->low && cone <= at->high ? &*at : nullptr;
   }
 
+  /// Two-way intensity response in elevation towards a place in head axes (E14), of a head whose ranges tell elevations
+  /// apart: across the pattern the range of a level bed changes by several resolution cells. Of other heads, such as
+  /// swaths, a sample holds the whole beam whatever the cell: 1.
+  double elevation_gain(const Vector3d& p, double range) const {
+    if (!(source_.elevation_width > 0)) return 1;
+    const Vector3d ahead = p / range, up = head_from_world_.linear().col(2);
+    const Vector3d rising = (Vector3d::UnitZ() - ahead.z() * ahead).normalized();
+    const double change = range * std::abs(up.dot(rising)) * source_.elevation_width;  // over the cosine of incidence
+    if (!(change > resolved_cells * source_.range_resolution * std::abs(up.dot(ahead)))) return 1;
+    const double off = std::asin(std::clamp(ahead.z(), -1.0, 1.0)) - source_.elevation_centre;
+    return std::pow(elevation_response(source_.elevation_shape, source_.elevation_width, off), 2);
+  }
+
   /// Adds the samples of a beam that the cell, or the resolution cell about its middle, holds.
   void add_samples(const Vector3d& p, double range, const MosaicBeam& beam, Heard& heard) const {
     const Vector3d up = head_from_world_.linear().col(2);
     const double cosine = std::min(1.0, std::abs(up.dot(p)) / range), sine = std::sqrt(1 - cosine * cosine);
+    const double pattern = elevation_gain(p, range);
+    if (pattern < faintest_gain) return;
     const double half = std::max(source_.range_resolution, cell_ * sine) / 2;
     const RangeGate& gate = ping_.gate;
     const double first = (range - half - gate.min_range) / gate.bin_size, last = first + 2 * half / gate.bin_size;
@@ -127,7 +144,7 @@ class PingEar {
     const double area = std::min(dr / std::max(sine, 1e-9), 2 * std::sqrt(2 * range * dr)) * range * width;  // (E96)
     const double gain = std::pow(range, 4) *
                         power_from_db(2 * source_.absorption_db_per_m * range - source_.source_level_db) /
-                        (level_unit * area);
+                        (level_unit * area * pattern);
     for (Eigen::Index n = begin; n < end; ++n, ++heard.samples) heard.strength += gain * intensity(beam.beam, n);
     heard.width = range * width;
   }

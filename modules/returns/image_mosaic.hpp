@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "acoustics/elevation_pattern.hpp"
 #include "core/grid.hpp"
 #include "returns/bed_surface.hpp"
 #include "returns/ping.hpp"
@@ -22,6 +23,9 @@ struct MosaicSource {
   double source_level_db = 0;      ///< dB re 1 uPa at 1 m
   double absorption_db_per_m = 0;  ///< at the centre frequency
   double range_resolution = 0;     ///< full width of the pulse's intensity at half its peak [m]
+  /// Elevation pattern of the head (E14), which is taken out of the levels.
+  ElevationShape elevation_shape = ElevationShape::gaussian;
+  double elevation_width = 0, elevation_centre = 0;  ///< [rad]; width 0: none
 };
 
 /// A finished mosaic: columns along x, rows along y, cells aligned to multiples of their size.
@@ -40,8 +44,9 @@ struct MosaicMap {
 ///
 ///   level - source level + 40 log10 r + 2 a r - 10 log10(min(dr / sin(incidence), 2 sqrt(2 r dr)) r w)
 ///
-/// of a level bed, with the equivalent widths dr and w of pulse and beam, 1.064 times those at -3 dB, the latter over the
-/// cosine of the cone. The elevation pattern is not compensated. What rises above the bed is drawn where the bed has the same range.
+/// less 20 log10 of the elevation pattern at the elevation of the cell (E14), if ranges tell elevations apart; samples
+/// where it is below -20 dB do not count. Of a level bed, with the equivalent widths dr and w of pulse and beam, 1.064 times those at -3 dB, the latter
+/// over the cosine of the cone. What rises above the bed is drawn where the bed has the same range.
 class ImageMosaic {
  public:
   /// Throws Error(argument) unless cell > 0.

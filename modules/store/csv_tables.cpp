@@ -152,6 +152,30 @@ Trajectory load_trajectory(const std::string& path) {
   return trajectory;
 }
 
+std::vector<std::string> trajectory_notes(const std::string& path) {
+  std::vector<double> last;
+  std::string first;
+  std::size_t found = 0;
+  read_csv(path, trajectory_layouts, [&](std::size_t layout) {
+    return [&, layout](Row row, const FilePlace& place) {
+      for (std::size_t i = 4; i < row.size() && layout == 1 && !last.empty(); ++i) {
+        const double change = row[i] - last[i];
+        if (std::abs(change) < 180) continue;
+        ++found;
+        if (first.empty())
+          first = path + ":" + std::to_string(place.line) + ": " + trajectory_layouts[1][i] +
+                  printed(
+                      " goes from %g to %g, taken as the shortest turn, %g degrees; for a longer one give entries less "
+                      "than half a turn apart",
+                      last[i], row[i], std::remainder(change, 360));
+      }
+      last.assign(row.begin(), row.end());
+    };
+  });
+  if (found > 1) first += " (and " + std::to_string(found - 1) + " more)";
+  return found > 0 ? std::vector{first} : std::vector<std::string>{};
+}
+
 Trajectory load_tum_trajectory(const std::string& path) {
   const CsvColumns& columns = trajectory_layouts[0];
   Trajectory trajectory;

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,15 +43,21 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// Error(file) if it cannot write.
 void write_cube(const std::string& path, const Cube& cube);
 
-/// Reads what write_cube wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not a cube, has
+/// Reads what write_cube wrote, bit for bit; of its pings at most `count`, from the `first` on. Throws Error(file) if missing, Error(content) if it is not a cube, has
 /// another schema or lacks a dataset or attribute, naming it.
-Cube read_cube(const std::string& path);
+Cube read_cube(const std::string& path, std::size_t first = 0,
+               std::size_t count = std::numeric_limits<std::size_t>::max());
+
+/// The pressure of one beam in `count` pings from the `first` on (by their order in the cube), pings x bins [Pa],
+/// without reading the other beams. Errors as read_cube; Error(argument) for pings or a beam that the cube lacks.
+ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam);
 
 /// When and from where a ping was sent.
 struct TrackPoint {
   std::int64_t number = 0;
   double time = 0;  ///< [s]
   Pose world_from_head = Pose::Identity();
+  std::optional<ScanPlace> scan{};  ///< of a scanning head
 };
 
 /// The pings of a cube without their images; errors as read_cube.

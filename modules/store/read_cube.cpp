@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "store/cube.hpp"
@@ -74,18 +76,23 @@ void require_sources(const Place& place, hid_t dataset, const std::string& name)
   }
 }
 
+// Some of the pings of a cube, from `first` on.
+struct PingsRead {
+  hsize_t first = 0;
+  std::vector<Ping> pings;
+};
+
 // Reads one image per ping, with values of `type`, into the member selected by `part`.
 template <typename Part>
-void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::vector<Ping>& pings,
-                 Part part) {
+void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, PingsRead& read, Part part) {
   require_sources(place, dataset, name);
   const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    auto& image = part(pings[p]);
+  for (std::size_t p = 0; p < read.pings.size(); ++p) {
+    auto& image = part(read.pings[p]);
     image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
-    const Handle row = select_row(place, dataset, extent, p);
+    const Handle row = select_row(place, dataset, extent, read.first + p);
     place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read");
   }
 }
@@ -101,15 +108,15 @@ void require_extent(const Place& place, hid_t dataset, const std::string& name, 
     fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
 }
 
-void read_layers(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
+void read_layers(const Place& place, hid_t file, const Extent& extent, PingsRead& read) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   for (const std::string& layer : names_in(place, file, layers_group)) {
     const std::string path = std::string(layers_group) + "/" + layer;
     const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
     require_extent(place, dataset, path, extent);
     require_complex(place, dataset, path);
-    for (Ping& ping : pings) ping.layers.push_back({layer, {}});
-    read_images(place, dataset, path, type, pings,
+    for (Ping& ping : read.pings) ping.layers.push_back({layer, {}});
+    read_images(place, dataset, path, type, read,
                 [](Ping& ping) -> ComplexGridF& { return ping.layers.back().pressure; });
   }
 }
@@ -117,7 +124,7 @@ void read_layers(const Place& place, hid_t file, const Extent& extent, std::vect
 // Reads an optional map into what `map` gives of each ping.
 template <typename Map>
 void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-              std::vector<Ping>& pings, const Map& map) {
+              PingsRead& read, const Map& map) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return;
   const Handle dataset = open_dataset(place, file, name);
   require_extent(place, dataset, name.path, extent);
@@ -126,40 +133,41 @@ void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t typ
     fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
          8 * H5Tget_size(type));
   read_images(
-      place, dataset, name.path, type, pings, [&map](Ping & ping) -> auto& { return std::invoke(map, ping); });
+      place, dataset, name.path, type, read, [&map](Ping & ping) -> auto& { return std::invoke(map, ping); });
 }
 
-void read_labels(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
+void read_labels(const Place& place, hid_t file, const Extent& extent, PingsRead& read) {
   if (H5Lexists(file, label_material_name.path, H5P_DEFAULT) <= 0) return;
-  const auto read = [&](const DatasetName& name, hid_t type, auto label) {
+  const auto read_part = [&](const DatasetName& name, hid_t type, auto label) {
     open_dataset(place, file, name);  // all three, or none
     read_map(
-        place, file, name, type, extent, pings, [label](Ping & ping) -> auto& { return ping.labels.*label; });
+        place, file, name, type, extent, read, [label](Ping & ping) -> auto& { return ping.labels.*label; });
   };
-  read(label_material_name, H5T_NATIVE_UINT16, &PixelLabels::material);
-  read(label_id_name, H5T_NATIVE_UINT32, &PixelLabels::id);
-  read(label_share_name, H5T_NATIVE_FLOAT, &PixelLabels::share);
+  read_part(label_material_name, H5T_NATIVE_UINT16, &PixelLabels::material);
+  read_part(label_id_name, H5T_NATIVE_UINT32, &PixelLabels::id);
+  read_part(label_share_name, H5T_NATIVE_FLOAT, &PixelLabels::share);
   std::istringstream lines(read_text(place, file, label_names_attribute));
   std::vector<std::string> names;
   for (std::string name; std::getline(lines, name);) names.push_back(name);
-  for (Ping& ping : pings) ping.labels.names = names;
-}
-
-void read_scan(const Place& place, hid_t file, std::vector<Ping>& pings) {
-  if (H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) <= 0) return;
-  const auto angle = read_all<double>(place, file, scan_angle_name, {pings.size()}, H5T_NATIVE_DOUBLE);
-  const auto sweep = read_all<std::int64_t>(place, file, sweep_name, {pings.size()}, H5T_NATIVE_INT64);
-  for (std::size_t p = 0; p < pings.size(); ++p) pings[p].scan = ScanPlace{sweep[p], angle[p]};
+  for (Ping& ping : read.pings) ping.labels.names = names;
 }
 
 std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
   const auto pose = read_all<double>(place, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
   const auto time = read_all<double>(place, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
   const auto number = read_all<std::int64_t>(place, file, ping_name, {pings}, H5T_NATIVE_INT64);
+  const bool scans = H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) > 0;
+  std::vector<double> angle;
+  std::vector<std::int64_t> sweep;
+  if (scans) {
+    angle = read_all<double>(place, file, scan_angle_name, {pings}, H5T_NATIVE_DOUBLE);
+    sweep = read_all<std::int64_t>(place, file, sweep_name, {pings}, H5T_NATIVE_INT64);
+  }
   std::vector<TrackPoint> track(pings);
   for (std::size_t p = 0; p < track.size(); ++p) {
     track[p].number = number[p];
     track[p].time = time[p];
+    if (scans) track[p].scan = ScanPlace{sweep[p], angle[p]};
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
         track[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
@@ -167,35 +175,38 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
   return track;
 }
 
-std::vector<Ping> read_pings(const Place& place, hid_t file) {
+// The pings from `first` on, at most `count` of them.
+std::vector<Ping> read_pings(const Place& place, hid_t file, hsize_t first, hsize_t count) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
   require_complex(place, dataset, pressure_name.path);
   const std::vector<TrackPoint> track = track_of(place, file, extent[0]);
 
-  std::vector<Ping> pings(extent[0], read_axes(place, file, extent));
+  first = std::min(first, extent[0]);
+  PingsRead read{first, std::vector<Ping>(std::min(count, extent[0] - first), read_axes(place, file, extent))};
   const bool expected_level = H5Aexists(file, expected_level_attribute) > 0;
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    pings[p].time = track[p].time;
-    pings[p].number = track[p].number;
-    pings[p].world_from_head = track[p].world_from_head;
-    pings[p].expected_level = expected_level;
+  for (std::size_t p = 0; p < read.pings.size(); ++p) {
+    const TrackPoint& at = track[first + p];
+    read.pings[p].time = at.time;
+    read.pings[p].number = at.number;
+    read.pings[p].world_from_head = at.world_from_head;
+    read.pings[p].scan = at.scan;
+    read.pings[p].expected_level = expected_level;
   }
-  read_scan(place, file, pings);
-  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings,
+  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), read,
               [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
-  read_layers(place, file, extent, pings);
-  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::intensity);
-  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::level_error_db);
-  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, &Ping::unknown);
-  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::split_phase);
-  read_labels(place, file, extent, pings);
-  return pings;
+  read_layers(place, file, extent, read);
+  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, read, &Ping::intensity);
+  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, read, &Ping::level_error_db);
+  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, read, &Ping::unknown);
+  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, read, &Ping::split_phase);
+  read_labels(place, file, extent, read);
+  return std::move(read.pings);
 }
 
 }  // namespace
 
-Cube read_cube(const std::string& path) {
+Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
   const QuietErrors quiet;
   const Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
@@ -210,8 +221,31 @@ Cube read_cube(const std::string& path) {
   cube.source_level_db = read_number(place, file, "source_level_db");
   cube.seed = read_unsigned(place, file, "seed");
   cube.tolerance = read_number(place, file, "tolerance");
-  cube.pings = read_pings(place, file);
+  cube.pings = read_pings(place, file, first, count);
   return cube;
+}
+
+ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  require_schema(place, file);
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
+  require_complex(place, dataset, pressure_name.path);
+  require_sources(place, dataset, pressure_name.path);
+  if (beam >= extent[1] || first + count > extent[0])
+    fail(ErrorKind::argument, "read_beam: pings ", first, " to ", first + count, ", beam ", beam, ", must be within ",
+         extent[0], " and ", extent[1]);
+  ComplexGridF rows(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(extent[2]));
+  if (count == 0) return rows;
+  const Extent start{first, beam, 0}, size{count, 1, extent[2]};
+  const Handle space(place.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
+  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
+  const Handle memory(place.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
+  place.checked(H5Dread(dataset, complex_type(place, H5T_NATIVE_FLOAT), memory, space, H5P_DEFAULT, rows.data()),
+                "/pressure cannot be read");
+  return rows;
 }
 
 std::vector<TrackPoint> read_track(const std::string& path) {

@@ -21,7 +21,7 @@ namespace insonify {
 /// their layout relative to the origin.
 FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions& options);
 void draw_rect(Canvas& canvas, const LevelImage& image, const PictureOptions& options);
-void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOptions& options);
+Axes draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOptions& options);
 Axes draw_ascan(Canvas& canvas, const LevelImage& image, std::size_t beam, const PictureOptions& options);
 void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std::vector<double>& level_db,
                   const PictureOptions& options);

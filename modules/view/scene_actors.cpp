@@ -119,6 +119,18 @@ SceneActors::SceneActors(const SceneCloud& scene, SceneLook look, const PictureO
   show_normals(look_.normals);
 }
 
+std::vector<LegendEntry> SceneActors::line_key() const {
+  const auto rgb = [](const Colour& colour) {
+    Rgb bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(std::lround(255 * colour[i]));
+    return bytes;
+  };
+  std::vector<LegendEntry> key;
+  if (look_.head) key.push_back({"fan, footprint", rgb(fan_colour(options_.dark))});
+  if (look_.track.size() > 1) key.push_back({"way of the head", rgb(track_colour)});
+  return key;
+}
+
 void SceneActors::add_to(vtkRenderer* renderer) {
   for (vtkActor* actor : actors()) renderer->AddActor(actor);
 }

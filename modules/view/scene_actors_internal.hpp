@@ -77,6 +77,7 @@ class SceneActors {
   const SceneLook& look() const { return look_; }
   const SceneKey& key() const { return key_; }    ///< for the surfels' colours
   std::optional<SceneKey> soundings_key() const;  ///< for the soundings, if their colours differ
+  std::vector<LegendEntry> line_key() const;      ///< for the lines of head and track
 
  private:
   const SceneCloud& scene_;

@@ -35,7 +35,7 @@ struct SceneHead {
 
 /// Predefined camera positions.
 enum class ScenePreset {
-  automatic,  ///< `behind` if there is a head, else `iso`
+  automatic,  ///< `behind` if there is a head, looking down more steeply where that fills the picture; else `iso`
   behind,     ///< behind the head and above it, along its heading; port is on the left
   top,        ///< from above, world x to the right and y up
   side,       ///< from starboard of the head, forward to the right; without a head along world y, x to the right

@@ -54,7 +54,7 @@ std::string ping_title(const PingHistory& history) {
 
 }  // namespace
 
-void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOptions& options) {
+Axes draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOptions& options) {
   const ColourScale scale = colour_scale(history.level_db, options, canvas.who());
   const int font = font_size_for(options);
   const auto pings = static_cast<double>(history.level_db.rows());
@@ -76,6 +76,7 @@ void draw_waterfall(Canvas& canvas, const PingHistory& history, const PictureOpt
       rect_patch(rows, history.gate, box.height(), box.width()), rows.edges, scale,
       [&](double ping, double range) { return frame.axes.at(range, ping); }, pings);
   draw_cell_frame(canvas, frame, scale);
+  return frame.axes;
 }
 
 void show_waterfall(const PingHistory& history, const PictureOptions& options, const std::string& png_path) {

@@ -11,9 +11,7 @@
 
 #include "view/canvas_internal.hpp"
 #include "viewer/viewer_controls_internal.hpp"
-#include "viewer/viewer_window_internal.hpp"
 
-// Picking in a ViewerWindow: what a click selects.
 namespace insonify {
 namespace {
 
@@ -23,12 +21,12 @@ vtkSliderRepresentation2D* shape_of(vtkSliderWidget* slider) {
   return vtkSliderRepresentation2D::SafeDownCast(slider->GetRepresentation());
 }
 
-vtkSmartPointer<vtkSliderWidget> make_slider(const char* title, double low, double high) {
+vtkSmartPointer<vtkSliderWidget> make_slider(const char* title, const char* label, double low, double high) {
   vtkNew<vtkSliderRepresentation2D> shape;
   shape->SetMinimumValue(low);
   shape->SetMaximumValue(high);
   shape->SetTitleText(title);
-  shape->SetLabelFormat("%.0f dB");
+  shape->SetLabelFormat(label);
   const Theme colours = theme(true);
   shape->GetTubeProperty()->SetColor(colours.line[0], colours.line[1], colours.line[2]);
   shape->GetCapProperty()->SetColor(colours.line[0], colours.line[1], colours.line[2]);
@@ -128,11 +126,12 @@ std::string key_name(const std::string& symbol, bool shift) {
   return std::string(1, static_cast<char>(std::tolower(static_cast<unsigned char>(symbol[0]))));
 }
 
-ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor* interactor,
-                             std::function<void(double, double)> moved)
+ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor* interactor, std::size_t pings,
+                             std::function<void(double, double, double)> moved)
     : renderer_(vtkSmartPointer<vtkRenderer>::New()),
-      slider_{make_slider("Gain", -40, 40), make_slider("Window", 5, 150)},
+      slider_{make_slider("Gain", "%.0f dB", -40, 40), make_slider("Window", "%.0f dB", 5, 150)},
       moved_(std::move(moved)) {
+  if (pings > 1) slider_.push_back(make_slider("", "%.0f", 0, static_cast<double>(pings - 1)));
   renderer_->SetLayer(1);
   renderer_->InteractiveOff();
   renderer_->GetActiveCamera();  // creates it; window coordinates are computed through it
@@ -144,107 +143,37 @@ ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor*
     slider->EnabledOn();
     slider->AddObserver(vtkCommand::InteractionEvent, this, &ViewerSliders::notify);
   }
+  if (pings > 1) shape_of(slider_[2])->ShowSliderLabelOff();  // the status line says it
 }
 
-void ViewerSliders::place(const Box& room, const int window_size[2], int font_size) {
+void ViewerSliders::place(const Box& room, const Box& timeline, const int window_size[2], int font_size) {
   const double width = window_size[0], height = window_size[1];
   for (std::size_t i = 0; i < slider_.size(); ++i) {
     vtkSliderRepresentation2D* shape = shape_of(slider_[i]);
-    const double y = room.bottom + (i == 0 ? 0.75 : 0.25) * room.height();
+    const bool of_pings = i == 2;
+    const double left = of_pings ? timeline.left + 2 * font_size : room.left;
+    const double right = of_pings ? timeline.right - 2 * font_size : room.right;
+    const double y =
+        of_pings ? (timeline.bottom + timeline.top) / 2 : room.bottom + (i == 0 ? 0.75 : 0.25) * room.height();
     shape->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
     shape->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
-    shape->GetPoint1Coordinate()->SetValue(room.left / width, y / height);
-    shape->GetPoint2Coordinate()->SetValue(room.right / width, y / height);
+    shape->GetPoint1Coordinate()->SetValue(left / width, y / height);
+    shape->GetPoint2Coordinate()->SetValue(right / width, y / height);
     // Letter heights are fractions of the window.
     shape->SetTitleHeight(font_size / height);
     shape->SetLabelHeight(font_size / height);
   }
 }
 
-void ViewerSliders::set(double gain_db, double window_db) {
+void ViewerSliders::set(double gain_db, double window_db, double ping) {
   shape_of(slider_[0])->SetValue(gain_db);
   shape_of(slider_[1])->SetValue(window_db);
+  if (slider_.size() > 2) shape_of(slider_[2])->SetValue(ping);
 }
 
-void ViewerSliders::notify() { moved_(shape_of(slider_[0])->GetValue(), shape_of(slider_[1])->GetValue()); }
-
-Point2 ViewerWindow::on_panel(const Box& box, Point2 place) const { return {place.x - box.left, place.y - box.bottom}; }
-
-// Converts a place in the window to the fan's plane, since its camera may have moved.
-Point2 ViewerWindow::on_fan(Point2 place) const {
-  const Point2 own = on_panel(layout_.fan, place);
-  vtkCamera* camera = fan_.content->GetActiveCamera();
-  const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
-  const double* focus = camera->GetFocalPoint();
-  return {focus[0] + (own.x - layout_.fan.width() / 2) * per_pixel,
-          focus[1] + (own.y - layout_.fan.height() / 2) * per_pixel};
-}
-
-Point2 ViewerWindow::pixel_of(PixelPlace place) const {
-  const Point2 at = fan_layout_.at(-image_->fan.azimuth[place.beam], image_->gate.centre(place.bin));
-  vtkCamera* camera = fan_.content->GetActiveCamera();
-  const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
-  const double* focus = camera->GetFocalPoint();
-  return {layout_.fan.left + layout_.fan.width() / 2 + (at.x - focus[0]) / per_pixel,
-          layout_.fan.bottom + layout_.fan.height() / 2 + (at.y - focus[1]) / per_pixel};
-}
-
-std::optional<Point2> ViewerWindow::pixel_of_point(const Eigen::Vector3d& world) const {
-  if (!scene_) return {};
-  return scene_->pixel_of(world);
-}
-
-PanelMotion ViewerWindow::motion_at(Point2 place) const {
-  const auto panel = panel_at(layout_, place);
-  if (panel == ViewerPanelName::scene) return PanelMotion::turn;
-  return panel == ViewerPanelName::fan ? PanelMotion::slide : PanelMotion::none;
-}
-
-void ViewerWindow::click(Point2 place) {
-  const auto panel = panel_at(layout_, place);
-  if (panel == ViewerPanelName::fan) click_fan(place);
-  if (panel == ViewerPanelName::scene) click_scene(place);
-  if (panel == ViewerPanelName::ascan) click_ascan(place);
-}
-
-void ViewerWindow::click_fan(Point2 place) {
-  const FanPlace at = fan_place(fan_layout_, on_fan(place));
-  if (const auto pixel = pixel_at(*image_, at)) select(*pixel, metres_on_fan(at));
-}
-
-void ViewerWindow::click_scene(Point2 place) {
-  if (state_.mode == ViewerMode::inspect) {
-    ViewerState next = state_;
-    next.surfel = scene_->surfel_at(place);
-    change(next);
-    if (state_.surfel) say(explanation_);
-    return;
-  }
-  const auto world = scene_->world_at(place);
-  if (!world) return;
-  const auto pixel = place_of(data_.pings[state_.ping], *world);
-  if (!pixel) {
-    notice_ = "this point lies outside fan and range gate";
-    return draw();
-  }
-  const double bearing = -image_->fan.azimuth[pixel->beam];
-  select(*pixel, metres_on_fan({bearing, image_->gate.centre(pixel->bin)}));
-}
-
-void ViewerWindow::click_ascan(Point2 place) {
-  const auto bin = bin_at(*image_, ascan_axes_, on_panel(layout_.ascan, place));
-  if (!bin) return;
-  ViewerState next = state_;
-  next.selected = PixelPlace{shown_place().beam, *bin};
-  change(next);
-  say(explanation_);
-}
-
-void ViewerWindow::select(PixelPlace place, const Eigen::Vector2d& at) {
-  const bool measures = state_.measure.active;
-  notice_.clear();
-  change(select_pixel(state_, place, at, extent_));
-  if (!measures) say(explanation_);
+void ViewerSliders::notify() {
+  moved_(shape_of(slider_[0])->GetValue(), shape_of(slider_[1])->GetValue(),
+         slider_.size() > 2 ? shape_of(slider_[2])->GetValue() : 0);
 }
 
 }  // namespace insonify

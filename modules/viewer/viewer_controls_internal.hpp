@@ -1,7 +1,8 @@
 #pragma once
-#include <array>
+#include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkRenderWindow.h>
@@ -54,22 +55,22 @@ class ViewerStyle : public vtkInteractorStyleTrackballCamera {
 /// The name of a key press for apply_key.
 std::string key_name(const std::string& symbol, bool shift);
 
-/// Two sliders, gain and window of the levels, over everything else.
+/// Sliders over everything else: gain and window of the levels, and of several pings their number.
 class ViewerSliders {
  public:
-  /// `moved` is called with gain and window [dB] when the user moves a slider.
-  ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor* interactor,
-                std::function<void(double gain_db, double window_db)> moved);
+  /// `moved` is called with gain and window [dB] and the ping (from 0) when the user moves a slider.
+  ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor* interactor, std::size_t pings,
+                std::function<void(double gain_db, double window_db, double ping)> moved);
 
-  void place(const Box& room, const int window_size[2], int font_size);
-  void set(double gain_db, double window_db);
+  void place(const Box& room, const Box& timeline, const int window_size[2], int font_size);
+  void set(double gain_db, double window_db, double ping);
 
  private:
   void notify();
 
   vtkSmartPointer<vtkRenderer> renderer_;
-  std::array<vtkSmartPointer<vtkSliderWidget>, 2> slider_;
-  std::function<void(double, double)> moved_;
+  std::vector<vtkSmartPointer<vtkSliderWidget>> slider_;
+  std::function<void(double, double, double)> moved_;
 };
 
 }  // namespace insonify

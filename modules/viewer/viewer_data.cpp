@@ -14,20 +14,12 @@ void require_one_each(const std::vector<PerPing>& list, const ViewerData& data, 
 
 void require_pings(const ViewerData& data) {
   if (data.pings.empty()) fail(ErrorKind::content, viewer_caller, ": no pings to show");
-  const Ping& first = data.pings.front();
-  for (const Ping& ping : data.pings) {
-    require_valid(ping.fan, viewer_caller);
-    require_valid(ping.gate, viewer_caller);
-    const auto beams = static_cast<std::size_t>(ping.pressure.rows());
-    const auto bins = static_cast<std::size_t>(ping.pressure.cols());
-    if (beams != first.fan.beams() || bins != first.gate.bins())
-      fail(ErrorKind::content, viewer_caller, ": ping ", ping.number, " has ", beams, " x ", bins,
-           " samples, must be beams x bins = ", first.fan.beams(), " x ", first.gate.bins());
-  }
+  const BeamFan& fan = data.pings.fan();
+  const RangeGate& gate = data.pings.gate();
   for (const Contributors& list : data.contributors)
-    if (!list.empty() && (list.beams != first.fan.beams() || list.bins != first.gate.bins()))
+    if (!list.empty() && (list.beams != fan.beams() || list.bins != gate.bins()))
       fail(ErrorKind::content, viewer_caller, ": contributors of ", list.beams, " x ", list.bins,
-           " samples, must be beams x bins = ", first.fan.beams(), " x ", first.gate.bins());
+           " samples, must be beams x bins = ", fan.beams(), " x ", gate.bins());
 }
 
 }  // namespace
@@ -49,9 +41,14 @@ View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const
   return {pose, fan, data.view->gate, data.view->sampling};
 }
 
+ViewerPicture picture_of(const ViewerData& data) {
+  if (data.pings.size() < 2 || data.pings.fan().beams() > 1) return ViewerPicture::fan;
+  return data.pings.place(0).scan ? ViewerPicture::sweep : ViewerPicture::waterfall;
+}
+
 ViewerExtent extent_of(const ViewerData& data) {
   if (data.pings.empty()) return {};
-  return {data.pings.size(), data.pings[0].fan.beams(), data.pings[0].gate.bins()};
+  return {data.pings.size(), data.pings.fan().beams(), data.pings.gate().bins()};
 }
 
 }  // namespace insonify

@@ -5,11 +5,11 @@
 
 #include "acoustics/multipath_echoes.hpp"
 #include "returns/contributors.hpp"
-#include "returns/ping.hpp"
 #include "returns/soundings.hpp"
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
 #include "scene/scene_cloud.hpp"
+#include "viewer/ping_reel.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify {
@@ -20,11 +20,11 @@ inline constexpr const char* viewer_caller = "show_viewer";
 /// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
 struct ViewerData {
   std::string title;
-  std::vector<Ping> pings;                  ///< all with the same fan and gate
+  PingReel pings;                           ///< all with the same fan and gate
   double absorption_db_per_m = 0;           ///< for range compensation
   std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
-  Soundings returns;                        ///< of all pings
+  Soundings returns;                        ///< of all pings; unused if `pings` has returns of its own
   SceneCloud scene;                         ///< may be empty
   BeamFan fan;                              ///< to inspect
   RangeGate gate;                           ///< to inspect
@@ -32,8 +32,16 @@ struct ViewerData {
                              ///< none: by fan and gate alone
 };
 
-/// Throws Error(content) unless all pings have the same fan and gate, matching their samples, per-ping lists have one
-/// element per ping, and a scene to inspect has surfels.
+/// What the first panel shows of a run.
+enum class ViewerPicture {
+  fan,       ///< the ping in true geometry
+  sweep,     ///< of a scanning head of one beam: what its display shows, every bearing as it was heard last
+  waterfall  ///< of another head of one beam: ping after ping
+};
+ViewerPicture picture_of(const ViewerData& data);
+
+/// Throws Error(content) unless there are pings, the first is valid, per-ping lists have one element per ping, and a
+/// scene to inspect has surfels.
 void require_viewable(const ViewerData& data, ViewerMode mode);
 
 /// Returns where a head at `pose` with this fan and gate looks in the scene.

@@ -1,5 +1,8 @@
 // Drawing of a ViewerWindow's state, restricted to what has changed.
 
+#include <algorithm>
+#include <cmath>
+
 #include "view/axes_internal.hpp"
 #include "view/off_screen_internal.hpp"
 #include "viewer/viewer_data.hpp"
@@ -10,25 +13,20 @@ namespace {
 
 constexpr double slider_rows = 13;  // lines of text that the sliders occupy
 
-bool same_levels(const ViewerState& a, const ViewerState& b) {
-  return a.ping == b.ping && a.tvg == b.tvg && a.gain_db == b.gain_db && a.window_db == b.window_db &&
-         a.colour_map == b.colour_map;
+bool same_colours(const ViewerState& a, const ViewerState& b) {
+  return a.tvg == b.tvg && a.gain_db == b.gain_db && a.window_db == b.window_db && a.colour_map == b.colour_map;
 }
 
-// Draws the table of keys on a plate in the middle.
-void draw_help(Canvas& canvas, ViewerMode mode, const Box& room, int font) {
-  const std::vector<ViewerKey> keys = viewer_keys(mode);
-  const double row = 1.6 * font, height = row * static_cast<double>(keys.size() + 3), width = 46.0 * font;
-  const double left = (room.width() - width) / 2, top = (room.height() + height) / 2;
-  canvas.add_plate({left, left + width, top - height, top}, canvas.colours().background, 0.94);
-  canvas.add_text({"Keys", {left + width / 2, top - row}, (5 * font) / 4});
-  double middle = top - 2.5 * row;
-  for (const ViewerKey& key : keys) {
-    add_text_lines(canvas, key.keys, {left + 1.5 * font, left + 16 * font, middle - row, middle + 0.73 * font}, font);
-    add_text_lines(canvas, key.action, {left + 16 * font, left + width - font, middle - row, middle + 0.73 * font},
-                   font);
-    middle -= row;
-  }
+bool same_levels(const ViewerState& a, const ViewerState& b) { return a.ping == b.ping && same_colours(a, b); }
+
+// The beam that is shown first: the middle one, of a head with rows of beams that of the middle row.
+std::size_t middle_beam(const BeamFan& fan) {
+  if (fan.row_width == 0) return fan.beams() / 2;
+  const auto off = [&](std::size_t b) { return std::hypot(fan.azimuth[b], fan.elevation[b]); };
+  std::size_t middle = 0;
+  for (std::size_t b = 1; b < fan.beams(); ++b)
+    if (off(b) < off(middle)) middle = b;
+  return middle;
 }
 
 }  // namespace
@@ -47,7 +45,7 @@ PictureOptions ViewerWindow::options_for(const Box& box) const {
 // The sample whose beam and range the charts show: the selected one, else the strongest of the middle beam.
 PixelPlace ViewerWindow::shown_place() const {
   if (state_.selected) return *state_.selected;
-  PixelPlace place{extent_.beams / 2, 0};
+  PixelPlace place{middle_beam(image_->fan), 0};
   Eigen::Index bin = 0;
   image_->level_db.row(static_cast<Eigen::Index>(place.beam)).maxCoeff(&bin);
   place.bin = static_cast<std::size_t>(bin);
@@ -68,8 +66,8 @@ void ViewerWindow::update_data() {
   if (!image_ || new_ping || drawn_->tvg != state_.tvg) image_ = levels_of(data_, state_.ping, state_.tvg);
   if (new_ping) head_view_.reset();
   if (state_.scene_colour == SceneColour::visibility && !head_view_ && data_.scene.size() > 0)
-    head_view_ =
-        look_from(data_.scene, view_at(data_, data_.pings[state_.ping].world_from_head, image_->fan, image_->gate));
+    head_view_ = look_from(data_.scene, view_at(data_, data_.pings.place(state_.ping).world_from_head,
+                                                data_.pings.fan(), data_.pings.gate()));
   if (!new_ping && drawn_->selected == state_.selected) return;
   facts_.reset();
   explanation_.clear();
@@ -79,33 +77,79 @@ void ViewerWindow::update_data() {
 }
 
 void ViewerWindow::draw() {
+  if (drawn_ && drawn_->show_colour_bars != state_.show_colour_bars) lay_out();
+  buttons_.clear();
   update_data();
   if (state_.mode == ViewerMode::run) {
-    if (!drawn_ || !same_levels(*drawn_, state_)) draw_levels(drawn_.has_value());
-    draw_selection();
+    draw_picture(drawn_.has_value());
+    mark_picture();
+    draw_charts();
   }
   draw_scene();
   draw_words();
-  if (sliders_) sliders_->set(state_.gain_db, state_.window_db);
+  if (sliders_) sliders_->set(state_.gain_db, state_.window_db, static_cast<double>(state_.ping));
   drawn_ = state_;
   window_->Render();
 }
 
-void ViewerWindow::draw_levels(bool keep_camera) {
+// The first panel: fan or sweep of the ping, or the waterfall that it is in.
+void ViewerWindow::draw_picture(bool keep_camera) {
   PictureOptions options = options_for(layout_.fan);
-  options.title = data_.title + (extent_.pings > 1 ? ", ping " + std::to_string(data_.pings[state_.ping].number) : "");
-  fan_layout_ = draw_fan_panel(fan_, *image_, options, keep_camera);
+  options.title = data_.title;
+  if (picture_ == ViewerPicture::waterfall) {
+    const PageOfPings page = page_of(data_.pings, state_.ping);
+    const bool stays = drawn_ && same_colours(*drawn_, state_) && page.first == picture_page_.first;
+    turn_page(picture_page_, data_.pings, page.first, page.count, 0);
+    if (!stays)
+      picture_axes_ = draw_waterfall_panel(fan_, history_of(data_, picture_page_, state_.tvg), options, keep_camera);
+    return;
+  }
+  if (drawn_ && same_levels(*drawn_, state_)) return;
+  if (extent_.pings > 1) options.title += ", ping " + std::to_string(data_.pings.place(state_.ping).number);
+  if (picture_ == ViewerPicture::sweep) sweep_ = sweep_at(data_, state_.ping, state_.tvg, picture_page_);
+  fan_layout_ = draw_fan_panel(fan_, picture_ == ViewerPicture::sweep ? sweep_.image : *image_, options, keep_camera);
 }
 
-void ViewerWindow::draw_selection() {
+void ViewerWindow::mark_picture() {
+  const PictureOptions options = options_for(layout_.fan);
+  std::optional<double> range;
+  if (state_.selected) range = image_->gate.centre(state_.selected->bin);
+  if (picture_ == ViewerPicture::waterfall)
+    return mark_waterfall(fan_, picture_axes_, static_cast<double>(state_.ping - picture_page_.first), range, options,
+                          true);
+  FanMarks marks{{}, range, state_.measure};
+  if (picture_ == ViewerPicture::sweep) marks.bearing = -image_->fan.azimuth[0];
+  if (state_.selected) marks.bearing = -image_->fan.azimuth[state_.selected->beam];
+  mark_fan(fan_, fan_layout_, marks, options);
+}
+
+void ViewerWindow::draw_charts() {
   const bool levels_stay = drawn_ && same_levels(*drawn_, state_);
-  mark_fan(fan_, *image_, fan_layout_, state_, options_for(layout_.fan));
   const PixelPlace place = shown_place();
-  if (!levels_stay || drawn_->selected != state_.selected) {
+  if (!levels_stay || drawn_->selected != state_.selected)
     ascan_axes_ = draw_ascan_panel(ascan_, *image_, place.beam, options_for(layout_.ascan));
-    draw_history_panel(history_, data_, *image_, place, state_.tvg, options_for(layout_.history));
-  }
   mark_ascan(ascan_, *image_, ascan_axes_, place, options_for(layout_.ascan));
+  if (parts().history) draw_history(place, levels_stay);
+}
+
+// One beam ping after ping with the row of the ping; of a single ping the levels across its beams.
+void ViewerWindow::draw_history(PixelPlace place, bool levels_stay) {
+  PictureOptions options = options_for(layout_.history);
+  if (extent_.pings < 2) {
+    if (!levels_stay || drawn_->selected != state_.selected) draw_bearing_panel(history_, *image_, place, options);
+    return;
+  }
+  const PageOfPings page = page_of(data_.pings, state_.ping);
+  const bool stays =
+      drawn_ && same_colours(*drawn_, state_) && page.first == history_page_.first && place.beam == history_page_.beam;
+  turn_page(history_page_, data_.pings, page.first, page.count, place.beam);
+  options.title = "Beam " + std::to_string(place.beam) + ", ping after ping";
+  if (!stays)
+    history_axes_ = draw_waterfall_panel(history_, history_of(data_, history_page_, state_.tvg), options, false);
+  std::optional<double> range;
+  if (state_.selected) range = image_->gate.centre(place.bin);
+  mark_waterfall(history_, history_axes_, static_cast<double>(state_.ping - history_page_.first), range, options,
+                 false);
 }
 
 void ViewerWindow::draw_scene() {
@@ -117,14 +161,17 @@ void ViewerWindow::draw_scene() {
     scene_->highlight({*state_.surfel});
   else
     scene_->highlight({});
-  scene_->draw_key(options_for(layout_.scene), state_);
+  scene_->draw_key(options_for(layout_.scene), layout_.scene_view.width(), state_);
 }
 
 std::string ViewerWindow::status_text() const {
   if (!notice_.empty()) return notice_;
   if (state_.mode == ViewerMode::inspect)
     return pose_option(state_.head) + "   p prints it   arrows, PageUp, PageDown move, with shift they turn   h help";
+  const ReelPlace& place = data_.pings.place(state_.ping);
   std::string text = "ping " + std::to_string(state_.ping + 1) + " of " + std::to_string(extent_.pings);
+  if (extent_.pings > 1) text += " at " + number_text(place.time, 0.01) + " s";
+  if (place.scan) text += ", sweep " + std::to_string(place.scan->sweep);
   if (state_.playing) text += ", playing " + number_text(state_.pings_per_second, 0.01) + " a second";
   text += "   gain " + number_text(state_.gain_db, 1) + " dB   window " + number_text(state_.window_db, 1) + " dB";
   text += state_.tvg ? "   range compensated" : "   as received";
@@ -135,28 +182,46 @@ std::string ViewerWindow::status_text() const {
 
 void ViewerWindow::draw_words() {
   const int font = layout_.font_size;
-  const PictureOptions facts_options = panel_options(layout_.facts, font);
-  Canvas facts = fresh_canvas(facts_panel_.content, facts_options, false);
-  const double below = sliders_ ? slider_rows * font : font;
-  std::string words = explanation_;
-  if (words.empty())
-    words = "Click a sample in the fan,\na point in 3-D or a range\non the A-scan: it is\nexplained here.";
-  add_text_lines(facts, words, {font * 1.0, facts_options.width - 0.5 * font, below, facts_options.height - 0.8 * font},
-                 font);
-
+  draw_facts();
   const PictureOptions status_options = panel_options(layout_.status, font);
   Canvas status = fresh_canvas(status_.content, status_options, false);
   add_text_lines(status, status_text(),
                  {font * 1.0, status_options.width - 1.0 * font, 0, status_options.height - 0.25 * font}, font);
 
+  if (parts().timeline) fresh_canvas(timeline_.content, panel_options(layout_.timeline, font), false);
+
   // On top of everything: help, or the borders of the panels.
   const Box whole{0, layout_.facts.right, 0, layout_.facts.top};
   Canvas over = fresh_canvas(help_.content, panel_options(whole, font), false);
-  if (state_.show_help) return draw_help(over, state_.mode, whole, font);
-  for (const Box& box : {layout_.fan, layout_.scene, layout_.ascan, layout_.history, layout_.facts})
-    if (box.width() > 0)
+  if (state_.show_help) {
+    buttons_ = draw_help(over, state_.mode, whole, font);
+    return;
+  }
+  for (const Box& box : {layout_.fan, layout_.scene, layout_.ascan, layout_.history, layout_.timeline, layout_.facts})
+    if (box.width() > 0 && box.height() > 0)
       over.add_lines({{{box.left, box.top}, {box.left, box.bottom}, {box.right, box.bottom}}}, 1, over.colours().line,
                      0.35);
+}
+
+// The explanation, and below it a button for every key as far as there is room.
+void ViewerWindow::draw_facts() {
+  const int font = layout_.font_size, small = std::max(9, (9 * font) / 10);
+  const PictureOptions options = panel_options(layout_.facts, font);
+  Canvas facts = fresh_canvas(facts_panel_.content, options, false);
+  const double below = sliders_ ? slider_rows * font : font, top = options.height - 0.8 * font;
+  std::string words = explanation_;
+  if (words.empty())
+    words = "Click a sample in the picture,\na point in 3-D or a range\non the A-scan: it is\nexplained here.";
+  add_text_lines(facts, words, {font * 1.0, options.width - 0.5 * font, below, top}, font);
+
+  const double lines = static_cast<double>(std::count(words.begin(), words.end(), '\n') + 2);
+  const Box room{font * 1.0, options.width - 0.5 * font, below, top - 1.45 * font * lines};
+  if (room.height() < 3.0 * font) return;
+  for (PlacedButton& button : draw_key_rows(facts, viewer_keys(state_.mode), room, small, false)) {
+    button.box.left += layout_.facts.left, button.box.right += layout_.facts.left;
+    button.box.bottom += layout_.facts.bottom, button.box.top += layout_.facts.bottom;
+    buttons_.push_back(button);
+  }
 }
 
 void ViewerWindow::save_png(const std::string& path) {

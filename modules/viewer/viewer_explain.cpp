@@ -159,13 +159,15 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
   if (ping_index >= extent.pings || place.beam >= extent.beams || place.bin >= extent.bins)
     fail(ErrorKind::argument, "find_pixel_facts: ping ", ping_index, ", beam ", place.beam, ", bin ", place.bin,
          ", must be below ", extent.pings, ", ", extent.beams, ", ", extent.bins);
-  const Ping& ping = data.pings[ping_index];
+  const auto shown = data.pings.ping(ping_index);
+  const Ping& ping = *shown;
   PixelFacts facts;
   facts.place = place;
   facts.ping_number = ping.number;
   facts.range = ping.gate.centre(place.bin);
   facts.azimuth = ping.fan.azimuth[place.beam];
   facts.elevation = ping.fan.elevation[place.beam];
+  if (ping.scan) facts.scan_angle = ping.scan->angle;
   const auto row = static_cast<Eigen::Index>(place.beam), column = static_cast<Eigen::Index>(place.bin);
   facts.level_db = pressure_level_db(static_cast<double>(std::abs(ping.pressure(row, column))));  // (E6)
   facts.compensated_level_db =
@@ -187,7 +189,9 @@ std::string explain_pixel(const PixelFacts& facts) {
   std::string text = printed("Ping %lld, beam %zu, bin %zu\n", static_cast<long long>(facts.ping_number),
                              facts.place.beam, facts.place.bin);
   text += printed("Range %.3f m\n", facts.range);
-  text += "Bearing " + bearing_words(facts.azimuth) + "\n";
+  text += "Bearing " + bearing_words(std::remainder(facts.azimuth + facts.scan_angle.value_or(0), 2 * pi)) + "\n";
+  if (facts.scan_angle)
+    text += "  of which the head turned " + bearing_words(std::remainder(*facts.scan_angle, 2 * pi)) + "\n";
   text += printed("Elevation %+.2f° of the beam\n", degrees(facts.elevation));
   if (std::isfinite(facts.level_db)) {
     text += printed("Level %.1f dB re 1 µPa\n", facts.level_db);

@@ -39,6 +39,7 @@ struct PixelFacts {
   std::int64_t ping_number = 0;
   double range = 0;                         ///< of the bin's centre [m]
   double azimuth = 0;                       ///< of the beam [rad], positive to port
+  std::optional<double> scan_angle;         ///< of a scanning head [rad], positive to port
   double elevation = 0;                     ///< of the beam [rad]
   double level_db = 0;                      ///< dB re 1 uPa
   double compensated_level_db = 0;          ///< dB re 1 uPa at 1 m, range compensated (E20)

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/units.hpp"
 #include "returns/looks.hpp"
@@ -13,41 +12,22 @@ namespace insonify {
 namespace {
 
 constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
-constexpr std::size_t sampled_pings = 16;     // for the common scale
-constexpr std::size_t longest_history = 600;  // pings in the waterfall
+constexpr std::size_t sampled_pings = 16;  // for the common scale
 
-// The levels of one beam over the pings, ending with the current one if there are too many.
-PingHistory history_of(const ViewerData& data, std::size_t beam, bool tvg, const std::string& unit) {
-  const std::size_t count = std::min(data.pings.size(), longest_history);
-  PingHistory history;
-  history.gate = data.pings[0].gate;
-  history.unit = unit;
-  history.level_db.resize(static_cast<Eigen::Index>(count), data.pings[0].pressure.cols());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Ping& ping = data.pings[data.pings.size() - count + i];
-    history.number.push_back(ping.number);
-    history.time.push_back(ping.time);
-    for (Eigen::Index bin = 0; bin < ping.pressure.cols(); ++bin) {
-      const double magnitude = std::abs(ping.pressure(static_cast<Eigen::Index>(beam), bin));
-      history.level_db(static_cast<Eigen::Index>(i), bin) =
-          static_cast<float>(std::max(-200.0, pressure_level_db(magnitude)));
-    }
-  }
-  if (tvg) history.level_db = apply_tvg(std::move(history.level_db), history.gate, {40, data.absorption_db_per_m});
-  return history;
-}
-
-// Levels of all beams at one range, by bearing.
-LineChart bearing_chart(const LevelImage& image, std::size_t bin, const PictureOptions& options) {
-  std::vector<std::size_t> order(image.fan.beams());
-  std::iota(order.begin(), order.end(), 0);
+// Levels of the beams at one range, by bearing; of a head with rows of beams, those of the row.
+LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options) {
+  constexpr double same_row = 1e-6;  // [rad]
+  std::vector<std::size_t> order;
+  for (std::size_t b = 0; b < image.fan.beams(); ++b)
+    if (image.fan.row_width == 0 || std::abs(image.fan.elevation[b] - image.fan.elevation[place.beam]) < same_row)
+      order.push_back(b);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return image.fan.azimuth[a] > image.fan.azimuth[b]; });
   LineChart chart;
   ChartLine& line = chart.lines[0];
   double highest = -200;
   for (const std::size_t b : order) {
-    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(bin));
+    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(place.bin));
     line.x.push_back(-degrees(image.fan.azimuth[b]));
     line.y.push_back(std::isfinite(level) ? level : -200);
     highest = std::max(highest, line.y.back());
@@ -57,7 +37,9 @@ LineChart bearing_chart(const LevelImage& image, std::size_t bin, const PictureO
   chart.high_y = 5 * std::floor(highest / 5) + 5;
   chart.low_y = chart.high_y - options.window_db;
   for (double& y : line.y) y = std::max(y, chart.low_y - options.window_db);
-  chart.title = "Across the beams at " + number_text(image.gate.centre(bin), 0.01) + " m";
+  chart.title = "Across the beams at " + number_text(image.gate.centre(place.bin), 0.01) + " m";
+  if (image.fan.row_width > 0)
+    chart.title += ", row at " + bearing_text(degrees(image.fan.elevation[place.beam]), 0.1) + " elevation";
   chart.x_title = "Bearing [°], positive to starboard";
   chart.y_title = "Level, " + image.unit;
   return chart;
@@ -116,17 +98,21 @@ std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing,
 }  // namespace
 
 LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
-  const Ping& ping = data.pings[ping_index];
-  if (!tvg) return {ping.fan, ping.gate, shown_level_db(ping), "dB re 1 µPa"};
-  return {ping.fan, ping.gate, apply_tvg(shown_level_db(ping), ping.gate, {40, data.absorption_db_per_m}),
-          "dB re 1 µPa at 1 m, range compensated"};
+  const auto shown = data.pings.ping(ping_index);
+  const Ping& ping = *shown;
+  LevelImage image{ping.fan, ping.gate, shown_level_db(ping), level_unit(tvg)};
+  if (ping.scan)
+    for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping.scan->angle, 2 * pi);
+  if (tvg) image.level_db = apply_tvg(std::move(image.level_db), ping.gate, {40, data.absorption_db_per_m});
+  return image;
 }
 
-double common_max_db(const ViewerData& data, bool tvg) {
-  const std::size_t step = std::max<std::size_t>(1, data.pings.size() / sampled_pings);
-  double highest = -1e300;
+std::array<double, 2> common_max_db(const ViewerData& data) {
+  const std::size_t step = (data.pings.size() + sampled_pings - 1) / sampled_pings;
+  std::array<double, 2> highest = {-1e300, -1e300};
   for (std::size_t i = 0; i < data.pings.size(); i += step)
-    highest = std::max(highest, colour_scale(levels_of(data, i, tvg).level_db, {}, "show_viewer").max_db);
+    for (const bool tvg : {false, true})
+      highest[tvg] = std::max(highest[tvg], colour_scale(levels_of(data, i, tvg).level_db, {}, "show_viewer").max_db);
   return highest;
 }
 
@@ -142,30 +128,38 @@ Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t b
   return draw_ascan(canvas, image, beam, own);
 }
 
-void draw_history_panel(ViewerPanel& panel, const ViewerData& data, const LevelImage& image, PixelPlace place, bool tvg,
-                        const PictureOptions& options) {
+void draw_bearing_panel(ViewerPanel& panel, const LevelImage& image, PixelPlace place, const PictureOptions& options) {
   Canvas canvas = fresh_canvas(panel.content, options, false);
-  if (data.pings.size() < 2) {
-    draw_line_chart(canvas, bearing_chart(image, place.bin, options), options);
-    return;
-  }
-  PictureOptions titled = options;
-  titled.title = "Beam " + std::to_string(place.beam) + ", ping after ping";
-  draw_waterfall(canvas, history_of(data, place.beam, tvg, image.unit), titled);
+  draw_line_chart(canvas, bearing_chart(image, place, options), options);
 }
 
-void mark_fan(ViewerPanel& panel, const LevelImage& image, const FanLayout& layout, const ViewerState& state,
-              const PictureOptions& options) {
+Axes draw_waterfall_panel(ViewerPanel& panel, const PingHistory& history, const PictureOptions& options,
+                          bool keep_camera) {
+  Canvas canvas = fresh_canvas(panel.content, options, keep_camera);
+  return draw_waterfall(canvas, history, options);
+}
+
+void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks, const PictureOptions& options) {
   Canvas canvas = fresh_canvas(panel.marks, options, true);
-  if (state.selected) {
-    const double bearing = -image.fan.azimuth[state.selected->beam], range = image.gate.centre(state.selected->bin);
-    const Point2 at = layout.at(bearing, range);
-    canvas.add_lines(
-        {arc_of(layout, range), {layout.at(bearing, layout.min_range), layout.at(bearing, layout.max_range)}}, 1,
-        mark_colour, 0.45);
-    canvas.add_lines({ring(at, 0.55 * options.font_size)}, 2, mark_colour, 1);
+  if (marks.bearing)
+    canvas.add_lines({{layout.at(*marks.bearing, layout.min_range), layout.at(*marks.bearing, layout.max_range)}}, 1,
+                     mark_colour, 0.45);
+  if (marks.bearing && marks.range) {
+    canvas.add_lines({arc_of(layout, *marks.range)}, 1, mark_colour, 0.45);
+    canvas.add_lines({ring(layout.at(*marks.bearing, *marks.range), 0.55 * options.font_size)}, 2, mark_colour, 1);
   }
-  mark_measure(canvas, layout, state.measure, options.font_size);
+  mark_measure(canvas, layout, marks.measure, options.font_size);
+}
+
+void mark_waterfall(ViewerPanel& panel, const Axes& axes, double row, std::optional<double> range,
+                    const PictureOptions& options, bool keep_camera) {
+  Canvas canvas = fresh_canvas(panel.marks, options, keep_camera);
+  const double y = axes.at(axes.low_x, row + 0.5).y;
+  canvas.add_lines({{{axes.frame.left, y}, {axes.frame.right, y}}}, 1, mark_colour, 0.6);
+  if (!range) return;
+  const double x = axes.at(*range, axes.low_y).x;
+  canvas.add_lines({{{x, axes.frame.bottom}, {x, axes.frame.top}}}, 1, mark_colour, 0.35);
+  canvas.add_lines({ring({x, y}, 0.55 * options.font_size)}, 2, mark_colour, 1);
 }
 
 void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
@@ -193,13 +187,28 @@ std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place) {
   return PixelPlace{*beam, static_cast<std::size_t>(bin)};
 }
 
+namespace {
+
+bool within(const Box& frame, Point2 place) {
+  return place.x >= frame.left && place.x <= frame.right && place.y >= frame.bottom && place.y <= frame.top;
+}
+
+}  // namespace
+
 std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place) {
   const Box& frame = axes.frame;
-  if (place.x < frame.left || place.x > frame.right || place.y < frame.bottom || place.y > frame.top) return {};
+  if (!within(frame, place)) return {};
   const double range = axes.low_x + (axes.high_x - axes.low_x) * (place.x - frame.left) / frame.width();
   const double bin = std::floor((range - image.gate.min_range) / image.gate.bin_size);
   if (!(bin >= 0 && bin < static_cast<double>(image.level_db.cols()))) return {};
   return static_cast<std::size_t>(bin);
+}
+
+std::optional<std::size_t> row_at(const Axes& axes, Point2 place) {
+  const Box& frame = axes.frame;
+  if (!within(frame, place)) return {};
+  const double row = axes.low_y + (axes.high_y - axes.low_y) * (place.y - frame.bottom) / frame.height();
+  return static_cast<std::size_t>(std::clamp(std::floor(row), 0.0, std::max(0.0, axes.high_y - 1)));
 }
 
 }  // namespace insonify

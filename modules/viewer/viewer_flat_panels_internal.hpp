@@ -1,33 +1,48 @@
 #pragma once
+#include <array>
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
 #include "view/axes_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/picture.hpp"
+#include "view/show_image.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_panel_internal.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify {
 
-/// Levels of one ping, range compensated if `tvg`.
+/// Unit of levels, range compensated if `tvg`.
+inline std::string level_unit(bool tvg) { return tvg ? "dB re 1 µPa at 1 m, range compensated" : "dB re 1 µPa"; }
+
+/// Levels of one ping, range compensated if `tvg`; bearings of a scanning head include its turn.
 LevelImage levels_of(const ViewerData& data, std::size_t ping, bool tvg);
 
-/// Highest level of the automatic colour scale, common to all pings of a run so that playing does not flicker.
-double common_max_db(const ViewerData& data, bool tvg);
+/// Highest level of the automatic colour scale, raw and range compensated, common to all pings of a run so that playing
+/// does not flicker; by at most 16 of them.
+std::array<double, 2> common_max_db(const ViewerData& data);
 
 /// Draw into emptied panels; fan and chart return their layout. `options` gives size, colours and limits.
 FanLayout draw_fan_panel(ViewerPanel& panel, const LevelImage& image, const PictureOptions& options, bool keep_camera);
 Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t beam, const PictureOptions& options);
-/// Draws a waterfall of the beam, or, for a single ping, the levels across the beams at the bin.
-void draw_history_panel(ViewerPanel& panel, const ViewerData& data, const LevelImage& image, PixelPlace place, bool tvg,
-                        const PictureOptions& options);
+/// Draws the levels across the beams at the range of a sample; of a head with rows of beams, along its row.
+void draw_bearing_panel(ViewerPanel& panel, const LevelImage& image, PixelPlace place, const PictureOptions& options);
+/// Draws one beam ping after ping; the axes have ranges across and rows upwards, row r from r to r + 1.
+Axes draw_waterfall_panel(ViewerPanel& panel, const PingHistory& history, const PictureOptions& options,
+                          bool keep_camera);
 
-/// Marks the selected sample by a ring, its bearing line and range arc, and the measured distance with its length.
-void mark_fan(ViewerPanel& panel, const LevelImage& image, const FanLayout& layout, const ViewerState& state,
-              const PictureOptions& options);
+/// What is marked on a fan.
+struct FanMarks {
+  std::optional<double> bearing, range;  ///< [rad] to starboard, [m]: a line; with both also an arc, and a ring
+  Measure measure;                       ///< the measured distance with its length
+};
+void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks, const PictureOptions& options);
+/// Marks the row of a ping, and on it the sample at a range [m].
+void mark_waterfall(ViewerPanel& panel, const Axes& axes, double row, std::optional<double> range,
+                    const PictureOptions& options, bool keep_camera);
 /// Draws a vertical line at the range of the selected bin.
 void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
                 const PictureOptions& options);
@@ -44,6 +59,9 @@ Eigen::Vector2d metres_on_fan(FanPlace place);
 /// The sample drawn at a place: the nearest beam in azimuth and the bin; of beams that share a cell the strongest,
 /// which is the one drawn. None outside the fan.
 std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place);
+
+/// The row at a place on a waterfall; none outside its frame.
+std::optional<std::size_t> row_at(const Axes& axes, Point2 place);
 
 /// The bin at a place on a chart of levels against range; none outside its frame.
 std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place);

@@ -15,8 +15,10 @@ namespace {
 
 constexpr int min_width = 800, min_height = 600, largest = 8192;
 constexpr double facts_share = 0.19, lower_share = 0.36;
+constexpr double key_letters = 12;  // width of the scene's key in sizes of its letters
 constexpr ViewerPanelName all_panels[] = {ViewerPanelName::fan,     ViewerPanelName::scene, ViewerPanelName::ascan,
-                                          ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::status};
+                                          ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::timeline,
+                                          ViewerPanelName::status};
 
 }  // namespace
 
@@ -31,6 +33,7 @@ ViewerPanel add_panel(vtkRenderWindow* window) {
 
 void place_panel(ViewerPanel& panel, const Box& box, const int window_size[2]) {
   const bool shown = box.width() > 0 && box.height() > 0;
+  panel.content->SetInteractive(shown && panel.content->GetLayer() == 0);  // a hidden one still covers the window
   for (vtkRenderer* renderer : {panel.content.Get(), panel.marks.Get()}) {
     renderer->SetDraw(shown);
     if (shown)
@@ -73,11 +76,12 @@ void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int
 
 const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
   constexpr Box ViewerLayout::*boxes[] = {&ViewerLayout::fan,     &ViewerLayout::scene, &ViewerLayout::ascan,
-                                          &ViewerLayout::history, &ViewerLayout::facts, &ViewerLayout::status};
+                                          &ViewerLayout::history, &ViewerLayout::facts, &ViewerLayout::timeline,
+                                          &ViewerLayout::status};
   return layout.*boxes[static_cast<std::size_t>(name)];
 }
 
-ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, bool with_scene) {
+ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerParts& parts) {
   if (width < min_width || height < min_height || width > largest || height > largest)
     fail(ErrorKind::argument, "show_viewer: window of ", width, " x ", height, " pixels, must be ", min_width, " x ",
          min_height, " to ", largest, " either way");
@@ -87,15 +91,22 @@ ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, bool with_sc
   const double facts = std::round(right - std::max(facts_share * width, 19.0 * layout.font_size));
   layout.status = {0, right, 0, status};
   layout.facts = {facts, right, status, top};
+  const auto place_scene = [&](const Box& box) {
+    layout.scene = layout.scene_view = box;
+    if (parts.scene_key) layout.scene_view.right -= std::round(key_letters * layout.font_size);
+  };
   if (mode == ViewerMode::inspect) {
-    layout.scene = {0, facts, status, top};
+    place_scene({0, facts, status, top});
     return layout;
   }
-  const double half = std::round(facts / 2), lower = std::round(status + lower_share * (top - status));
-  layout.ascan = {0, half, status, lower};
-  layout.history = {half, facts, status, lower};
-  layout.fan = {0, with_scene ? half : facts, lower, top};
-  if (with_scene) layout.scene = {half, facts, lower, top};
+  const double bottom = parts.timeline ? std::round(status + 2.2 * layout.font_size) : status;
+  layout.timeline = {0, facts, status, bottom};
+  // Without a history the A-scan takes its room.
+  const double half = std::round(facts / 2), lower = std::round(bottom + lower_share * (top - bottom));
+  layout.ascan = {0, parts.history ? half : facts, bottom, lower};
+  layout.history = {layout.ascan.right, facts, bottom, lower};
+  layout.fan = {0, parts.scene ? half : facts, lower, top};
+  if (parts.scene) place_scene({half, facts, lower, top});
   return layout;
 }
 

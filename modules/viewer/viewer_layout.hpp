@@ -10,22 +10,31 @@ namespace insonify {
 /// the window.
 struct ViewerLayout {
   int font_size = 0;
-  Box fan;      ///< the ping in true geometry
-  Box scene;    ///< 3-D
-  Box ascan;    ///< levels of one beam
-  Box history;  ///< waterfall of one beam, or levels across all beams
-  Box facts;    ///< explanation, sliders
-  Box status;   ///< one line
+  Box fan;       ///< the ping in true geometry, the sweep, or the waterfall of a head of one beam
+  Box scene;     ///< 3-D, with its key
+  Box ascan;     ///< levels of one beam
+  Box history;   ///< waterfall of one beam, or levels across all beams
+  Box facts;     ///< explanation, keys, sliders
+  Box timeline;  ///< slider of the pings
+  Box status;    ///< one line
+
+  Box scene_view;  ///< the part of `scene` that the scene itself fills
 };
 
 /// Names of the panels in scripts.
-enum class ViewerPanelName { fan, scene, ascan, history, facts, status };
+enum class ViewerPanelName { fan, scene, ascan, history, facts, timeline, status };
 /// Returns the box of a panel.
 const Box& box_of(const ViewerLayout& layout, ViewerPanelName name);
 
-/// Layout of a window of width x height pixels; `with_scene` adds the 3-D panel. Throws Error(argument) for a window
+/// Which panels a window has, besides those that every one of its mode has.
+struct ViewerParts {
+  bool scene = true, history = true, timeline = false;
+  bool scene_key = true;  ///< colour bars and legend beside the scene
+};
+
+/// Layout of a window of width x height pixels. Throws Error(argument) for a window
 /// smaller than 800 x 600 or larger than 8192 pixels in either direction.
-ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, bool with_scene);
+ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerParts& parts);
 
 /// The panel at a place in the window.
 std::optional<ViewerPanelName> panel_at(const ViewerLayout& layout, Point2 place);

@@ -23,9 +23,9 @@ SceneCloud scene_of_returns(const Soundings& returns) {
 
 // The returns of one ping, range compensated (E20). Pings are matched by number, or, if none matches, by their index.
 Soundings returns_of(const ViewerData& data, std::size_t ping) {
-  const Soundings& all = data.returns;
+  const Soundings all = data.pings.has_returns() ? data.pings.returns(ping) : data.returns;
   const auto count_of = [&](std::int64_t number) { return std::count(all.ping.begin(), all.ping.end(), number); };
-  const std::int64_t number = data.pings[ping].number;
+  const std::int64_t number = data.pings.place(ping).number;
   const auto wanted = static_cast<std::uint32_t>(count_of(number) > 0 ? number : static_cast<std::int64_t>(ping));
   Soundings own;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -43,21 +43,20 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
 constexpr const char* colour_texts[] = {"height", "material",      "visibility",
                                         "level",  "grazing angle", "angle of incidence"};
 
-// Draws a square of each colour and its name on a plate, from the top left corner downwards.
-void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double top, int font) {
-  const double row = 1.5 * font, left = font;
-  double widest = 0;
-  for (const LegendEntry& entry : legend) widest = std::max(widest, text_size(entry.text, font).width);
-  const double height = row * static_cast<double>(legend.size());
-  canvas.add_plate({left - 0.5 * font, left + 2 * font + widest, top - height - 0.3 * font, top + 0.3 * font},
-                   canvas.colours().background, 0.7);
+// Draws a square of each colour and its name from the top left corner downwards; returns where they end.
+double draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double left, double right, double top,
+                   int font) {
+  const double row = 1.5 * font;
   double middle = top - row / 2;
   for (const LegendEntry& entry : legend) {
     const Colour colour = {entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0};
+    const FittedText fitted = fit_text(entry.text, font, right - left - 1.6 * font);
+    const double width = text_size(fitted.text, fitted.font_size).width;
     canvas.add_lines({{{left, middle}, {left + font, middle}}}, font, colour, 1);
-    canvas.add_text({entry.text, {left + 1.6 * font + text_size(entry.text, font).width / 2, middle}, font});
+    canvas.add_text({fitted.text, {left + 1.6 * font + width / 2, middle}, fitted.font_size});
     middle -= row;
   }
+  return middle + row / 2;
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   look.point_size = state.point_size;
   look.head = head_of(state);
   look.level_unit = "dB re 1 µPa at 1 m, range compensated";
-  for (const Ping& ping : data.pings) look.track.emplace_back(ping.world_from_head.translation());
+  for (const ReelPlace& place : data.pings.places()) look.track.emplace_back(place.world_from_head.translation());
   if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
   PictureOptions coloured = options;
   coloured.colour_map = state.colour_map;
@@ -85,12 +84,23 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
 
 SceneHead ViewerScene::head_of(const ViewerState& state) const {
   if (state.mode == ViewerMode::inspect) return {pose_of(state.head), data_.fan, data_.gate};
-  const Ping& ping = data_.pings[state.ping];
-  return {ping.world_from_head, ping.fan, ping.gate};
+  return {data_.pings.place(state.ping).world_from_head, data_.pings.fan(), data_.pings.gate()};
+}
+
+// Moves the camera as the head has moved.
+void ViewerScene::follow_head(const ViewerState& state) {
+  const Eigen::Vector3d by =
+      head_of(state).world_from_head.translation() - head_of(drawn_).world_from_head.translation();
+  vtkCamera* camera = panel_.content->GetActiveCamera();
+  Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(camera->GetPosition()) + by;
+  Eigen::Vector3d focus = Eigen::Map<const Eigen::Vector3d>(camera->GetFocalPoint()) + by;
+  camera->SetPosition(position.data());
+  camera->SetFocalPoint(focus.data());
 }
 
 void ViewerScene::update(const ViewerState& state, const HeadView* view, double max_db) {
   const SceneHead head = head_of(state);
+  if (state.follow && state.ping != drawn_.ping) follow_head(state);
   if (state.mode == ViewerMode::inspect || state.ping != drawn_.ping) {
     actors_->show_head(head.world_from_head, head.fan, head.gate);
     has_visibility_ = false;
@@ -120,32 +130,38 @@ void ViewerScene::highlight(const std::vector<std::uint32_t>& surfels) {
   actors_->highlight(known);
 }
 
-void ViewerScene::draw_key(const PictureOptions& options, const ViewerState& state) {
+void ViewerScene::draw_key(const PictureOptions& options, double scene_width, const ViewerState& state) {
   Canvas canvas = fresh_canvas(panel_.marks, options, false);
   const int font = options.font_size;
+  const bool has_returns = data_.returns.size() > 0 || data_.pings.has_returns();
   PictureOptions titled = options;
   titled.title = std::string(own_ ? "Returns (scene missing)" : "Scene") + " by " +
                  colour_texts[static_cast<std::size_t>(actors_->look().colour)] +
-                 (data_.returns.size() > 0 && !own_ ? ", returns by level" : "");
-  const auto title = place_title(titled);
+                 (has_returns && !own_ ? ", returns by level" : "");
+  auto title = place_title(titled);
+  if (title) title->on_plate = true;
+  if (scene_width < options.width)
+    canvas.add_plate({scene_width, 1.0 * options.width, 0, 1.0 * options.height}, canvas.colours().background, 1);
   if (title) canvas.add_text(*title);
   if (!state.show_colour_bars) return;
-  const double top = (title ? title->box().bottom : options.height) - font;
+
+  // From the top: the legend with what is drawn besides the surfels, then the colour bars.
   const SceneKey& key = actors_->key();
-  if (!key.legend.empty()) draw_legend(canvas, key.legend, top, font);
+  std::vector<LegendEntry> legend = key.legend;
+  for (const LegendEntry& entry : actors_->line_key()) legend.push_back(entry);
+  const double left = scene_width + 0.8 * font, top = (title ? title->box().bottom : options.height) - font;
+  const double below = draw_legend(canvas, legend, left, options.width - 0.4 * font, top, font) - font;
   const double thin = line_width_for(font);
-  double right = options.width - font;
+  double right = options.width - 0.4 * font;
   const auto add_bar = [&](const ColourScale& scale, const std::string& unit) {
-    const ColourBar bar = upright_colour_bar(scale, unit, font, right, 0.2 * options.height, 0.8 * top);
-    canvas.add_plate({bar.outer().left - 0.4 * font, bar.outer().right + 0.4 * font, bar.outer().bottom - 0.4 * font,
-                      bar.outer().top + 0.4 * font},
-                     canvas.colours().background, 0.7);
+    const ColourBar bar = upright_colour_bar(scale, unit, font, right, 0.03 * options.height, below);
+    if (bar.outer().left < scene_width) return;  // no room for a second one
     canvas.add_colour_bar(bar, scale, thin);
-    right = bar.outer().left - 1.5 * font;
+    right = bar.outer().left - 0.6 * font;
   };
-  if (key.scale) add_bar(*key.scale, key.unit);
   if (const auto soundings = actors_->soundings_key(); soundings && soundings->scale)
     add_bar(*soundings->scale, soundings->unit);
+  if (key.scale) add_bar(*key.scale, key.unit);
 }
 
 void ViewerScene::reset_camera() {

@@ -21,8 +21,9 @@ class ViewerScene {
   /// comparable.
   void update(const ViewerState& state, const HeadView* view, double max_db);
   void highlight(const std::vector<std::uint32_t>& surfels);
-  /// Draws title and colour key on an emptied upper layer.
-  void draw_key(const PictureOptions& options, const ViewerState& state);
+  /// Draws title, legend and colour bars on an emptied upper layer; legend and bars beside the scene, which fills the
+  /// first `scene_width` pixels.
+  void draw_key(const PictureOptions& options, double scene_width, const ViewerState& state);
   void reset_camera();
   void set_moving(bool moving);
   void follow_camera();  ///< call before drawing if the camera has moved
@@ -38,6 +39,7 @@ class ViewerScene {
  private:
   const SceneCloud& shown() const { return own_ ? *own_ : data_.scene; }
   SceneHead head_of(const ViewerState& state) const;
+  void follow_head(const ViewerState& state);
 
   const ViewerData& data_;
   ViewerPanel& panel_;

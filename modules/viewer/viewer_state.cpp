@@ -76,11 +76,16 @@ void apply_common_key(KeyAnswer& answer, const std::string& key) {
   if (const auto colour = colour_of_digit(key)) s.scene_colour = *colour;
 }
 
+// Of a run.
 void apply_run_key(ViewerState& s, const std::string& key, const ViewerExtent& extent) {
   if (key == "Left" || key == "comma") step_ping(s, -1, extent);
   if (key == "Right" || key == "period") step_ping(s, 1, extent);
   if (key == "Home") step_ping(s, -static_cast<int>(extent.pings), extent);
   if (key == "End") step_ping(s, static_cast<int>(extent.pings), extent);
+  const int tenth = std::max(1, static_cast<int>(extent.pings / 10));
+  if (key == "Prior") step_ping(s, -tenth, extent);
+  if (key == "Next") step_ping(s, tenth, extent);
+  if (key == "f") s.follow = !s.follow;
   if (key == "space") s.playing = !s.playing && extent.pings > 1;
   if (key == "less") s.pings_per_second = std::max(slowest, s.pings_per_second / 2);
   if (key == "greater") s.pings_per_second = std::min(fastest, s.pings_per_second * 2);
@@ -137,36 +142,43 @@ std::string pose_option(const HeadPlace& head) {
 }
 
 std::vector<ViewerKey> viewer_keys(ViewerMode mode) {
-  const std::vector<ViewerKey> run = {{"click", "select a sample: fan, 3-D or A-scan"},
-                                      {"left right  , .", "previous, next ping"},
-                                      {"Home End", "first, last ping"},
-                                      {"space", "play, pause"},
-                                      {"< >", "play slower, faster"},
-                                      {"up down", "gain: brighter, darker"},
-                                      {"[ ]", "dB window: narrower, wider"},
-                                      {"t", "range compensation (TVG) on, off"},
-                                      {"m", "next colour map"},
-                                      {"d", "measure a distance: two clicks in the fan"},
-                                      {"shift + arrows", "next beam, next bin"},
-                                      {"Escape", "clear selection and measure"}};
-  const std::vector<ViewerKey> inspect = {{"arrows", "move the head: forward, back, port, starboard"},
-                                          {"PageUp PageDown", "move the head up, down"},
-                                          {"shift + left right", "turn the head: yaw"},
-                                          {"shift + up down", "turn the head: nose up, nose down"},
-                                          {"shift + PageUp PageDown", "roll the head"},
-                                          {", .", "shorter, longer steps"},
-                                          {"p", "print the pose as option --pose"}};
+  const std::vector<ViewerKey> run = {
+      {"click", "select a sample: fan, 3-D, A-scan or waterfall"},
+      {"space", "play, pause", {{"space", "space"}}},
+      {"left right  , .", "previous, next ping", {{"left", "Left"}, {"right", "Right"}}},
+      {"PageUp PageDown", "back, forward by a tenth", {{"PageUp", "Prior"}, {"PageDown", "Next"}}},
+      {"Home End", "first, last ping", {{"Home", "Home"}, {"End", "End"}}},
+      {"< >", "play slower, faster", {{"<", "less"}, {">", "greater"}}},
+      {"up down", "gain: brighter, darker", {{"up", "Up"}, {"down", "Down"}}},
+      {"[ ]", "dB window: narrower, wider", {{"[", "bracketleft"}, {"]", "bracketright"}}},
+      {"t", "range compensation (TVG)", {{"t", "t"}}},
+      {"m", "next colour map", {{"m", "m"}}},
+      {"d", "measure: two clicks in the fan", {{"d", "d"}}},
+      {"shift + left right", "next beam", {{"shift+left", "shift+Left"}, {"shift+right", "shift+Right"}}},
+      {"shift + up down", "next bin", {{"shift+up", "shift+Up"}, {"shift+down", "shift+Down"}}},
+      {"Escape", "clear selection and measure", {{"Escape", "Escape"}}},
+      {"f", "3-D follows the head", {{"f", "f"}}}};
+  const std::vector<ViewerKey> inspect = {
+      {"up down", "move the head: forward, back", {{"up", "Up"}, {"down", "Down"}}},
+      {"left right", "move it to port, starboard", {{"left", "Left"}, {"right", "Right"}}},
+      {"PageUp PageDown", "move it up, down", {{"PageUp", "Prior"}, {"PageDown", "Next"}}},
+      {"shift + left right", "turn it: yaw", {{"shift+left", "shift+Left"}, {"shift+right", "shift+Right"}}},
+      {"shift + up down", "nose up, nose down", {{"shift+up", "shift+Up"}, {"shift+down", "shift+Down"}}},
+      {"shift + PageUp PageDown", "roll it", {{"shift+PgUp", "shift+Prior"}, {"shift+PgDn", "shift+Next"}}},
+      {", .", "shorter, longer steps", {{",", "comma"}, {".", "period"}}},
+      {"p", "print the pose as option --pose", {{"p", "p"}}}};
   std::vector<ViewerKey> keys = mode == ViewerMode::run ? run : inspect;
-  keys.insert(keys.end(), {{"drag, wheel", "3-D: turn, zoom; fan: pan, zoom"},
-                           {"1 2 3 4 5", "colour by height, material, visibility, grazing angle, incidence"},
-                           {"+ -", "point size"},
-                           {"g", "axes of the 3-D panel on, off"},
-                           {"n", "normals of the scene on, off"},
-                           {"u", "colour bars on, off"},
-                           {"r", "reset the cameras"},
-                           {"j", "screenshot"},
-                           {"h", "this help"},
-                           {"q e", "quit"}});
+  keys.insert(keys.end(), {{"1 2 3", "colour: height, material, visibility", {{"1", "1"}, {"2", "2"}, {"3", "3"}}},
+                           {"4 5", "colour: angle of grazing, incidence", {{"4", "4"}, {"5", "5"}}},
+                           {"+ -", "point size", {{"+", "plus"}, {"-", "minus"}}},
+                           {"g", "axes of the 3-D panel", {{"g", "g"}}},
+                           {"n", "normals of the scene", {{"n", "n"}}},
+                           {"u", "colour bars", {{"u", "u"}}},
+                           {"r", "reset the cameras", {{"r", "r"}}},
+                           {"j", "screenshot", {{"j", "j"}}},
+                           {"h", "this help", {{"h", "h"}}},
+                           {"q e", "quit", {{"q", "q"}}},
+                           {"drag, wheel", "3-D: turn, zoom; fan: pan, zoom"}});
   return keys;
 }
 
@@ -196,8 +208,16 @@ ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vecto
     state.selected = place;
     return state;
   }
-  if (state.measure.points.size() >= 2) state.measure.points.clear();
   state.measure.points.push_back(at);
+  state.measure.active = state.measure.points.size() < 2;
+  return state;
+}
+
+ViewerState select_ping(ViewerState state, std::size_t ping, PixelPlace place, const ViewerExtent& extent) {
+  if (ping >= extent.pings || place.beam >= extent.beams || place.bin >= extent.bins) return state;
+  state.playing = false;
+  state.ping = ping;
+  state.selected = place;
   return state;
 }
 

@@ -57,6 +57,7 @@ struct ViewerState {
   double point_size = 1;                                              ///< side of a surfel in units of its spacing
   bool show_help = false, show_colour_bars = true, show_grid = true;  ///< the grid: axes of the scene
   bool show_normals = false;                                          ///< of the scene
+  bool follow = false;                                                ///< the camera of the scene goes with the head
 
   HeadPlace head;       ///< to inspect
   double stride = 0.5;  ///< step of the head per key [m]; turns are 10 degrees per metre of it
@@ -71,9 +72,14 @@ struct KeyAnswer {
   ViewerRequest request = ViewerRequest::none;
 };
 
-/// A row of the table of keys.
+/// A button that presses a key.
+struct ViewerButton {
+  std::string label, key;  ///< `key`: as apply_key takes it
+};
+/// A row of the table of keys. A row without buttons is about the mouse.
 struct ViewerKey {
   std::string keys, action;
+  std::vector<ViewerButton> buttons{};
 };
 /// The table shown as help.
 std::vector<ViewerKey> viewer_keys(ViewerMode mode);
@@ -84,9 +90,13 @@ std::string viewer_help(ViewerMode mode);
 /// keys other than characters. Keys of pcl_viewer have the same meaning as there. Unknown keys change nothing.
 KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExtent& extent);
 
-/// Selects a sample, or adds a point to an active measurement; a third point starts a new one.
-/// Places outside `extent` change nothing. `at` is the same place on the fan [m], starboard and forward.
+/// Selects a sample, or adds a point to an active measurement, which ends with the second one: its length stays until
+/// the next measurement or Escape. Places outside `extent` change nothing. `at` is the same place on the fan [m], starboard and forward.
 ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vector2d& at, const ViewerExtent& extent);
+
+/// Goes to a ping and selects its sample, as a click on a waterfall or a sweep does; playing stops. Places outside
+/// `extent` change nothing.
+ViewerState select_ping(ViewerState state, std::size_t ping, PixelPlace place, const ViewerExtent& extent);
 
 /// The state after `seconds` of playing: the ping that is due, the first one following the last.
 /// `carried` holds the remaining fraction of a ping between calls.

@@ -48,24 +48,29 @@ ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options,
     : data_(data), screen_(screen), extent_(extent_of(data)), say_(options.say), state_(options.start) {
   require_viewable(data, state_.mode);
   require_start(state_, extent_);
-  layout_ = lay_out_viewer(options.width, options.height, state_.mode, ViewerScene::has_content(data));
-  if (state_.mode == ViewerMode::run)
-    for (const bool tvg : {false, true}) max_db_[tvg ? 1 : 0] = common_max_db(data, tvg);
+  picture_ = picture_of(data);
+  layout_ = lay_out_viewer(options.width, options.height, state_.mode, parts());
+  if (state_.mode == ViewerMode::run) max_db_ = common_max_db(data);
   open(options);
-  for (ViewerPanel* panel : {&fan_, &scene_panel_, &ascan_, &history_, &facts_panel_, &status_})
+  for (ViewerPanel* panel : {&fan_, &scene_panel_, &ascan_, &history_, &facts_panel_, &timeline_, &status_})
     *panel = add_panel(window_);
   fan_.marks->SetActiveCamera(fan_.content->GetActiveCamera());
   lay_out();
   if (ViewerScene::has_content(data))
-    scene_ = std::make_unique<ViewerScene>(data, scene_panel_, state_, panel_options(layout_.scene, layout_.font_size));
+    scene_ =
+        std::make_unique<ViewerScene>(data, scene_panel_, state_, panel_options(layout_.scene_view, layout_.font_size));
   connect_style();
   if (state_.mode == ViewerMode::run)
-    sliders_ = std::make_unique<ViewerSliders>(window_, interactor_, [this](double gain_db, double window_db) {
-      ViewerState next = state_;
-      next.gain_db = gain_db;
-      next.window_db = window_db;
-      guarded([&] { change(next); });
-    });
+    sliders_ = std::make_unique<ViewerSliders>(
+        window_, interactor_, extent_.pings, [this](double gain_db, double window_db, double ping) {
+          ViewerState next = state_;
+          next.gain_db = gain_db;
+          next.window_db = window_db;
+          const auto asked = static_cast<std::size_t>(std::lround(std::max(0.0, ping)));
+          if (asked != state_.ping) next.playing = false;
+          next.ping = std::min(asked, extent_.pings - 1);
+          guarded([&] { change(next); });
+        });
   help_ = add_panel(window_);
   help_.content->SetLayer(1);
   help_.content->InteractiveOff();
@@ -131,12 +136,20 @@ void ViewerWindow::say(const std::string& text) const {
   if (say_) say_(text);
 }
 
+ViewerParts ViewerWindow::parts() const {
+  return {ViewerScene::has_content(data_), picture_ != ViewerPicture::waterfall, extent_.pings > 1,
+          state_.show_colour_bars};
+}
+
 void ViewerWindow::lay_out() {
   const int* size = window_->GetSize();
-  layout_ =
-      lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, ViewerScene::has_content(data_));
+  layout_ = lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, parts());
   place_panel(fan_, layout_.fan, size);
   place_panel(scene_panel_, layout_.scene, size);
+  if (layout_.scene_view.width() > 0)
+    scene_panel_.content->SetViewport(layout_.scene_view.left / size[0], layout_.scene_view.bottom / size[1],
+                                      layout_.scene_view.right / size[0], layout_.scene_view.top / size[1]);
+  place_panel(timeline_, layout_.timeline, size);
   place_panel(ascan_, layout_.ascan, size);
   place_panel(history_, layout_.history, size);
   place_panel(facts_panel_, layout_.facts, size);
@@ -146,7 +159,7 @@ void ViewerWindow::lay_out() {
   if (sliders_)
     sliders_->place({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font, layout_.facts.bottom + 0.5 * font,
                      layout_.facts.bottom + 12 * font},
-                    size, layout_.font_size);
+                    layout_.timeline, size, layout_.font_size);
 }
 
 void ViewerWindow::resized() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,10 +11,12 @@
 
 #include "view/off_screen_internal.hpp"
 #include "viewer/show_viewer.hpp"
+#include "viewer/viewer_buttons_internal.hpp"
 #include "viewer/viewer_controls_internal.hpp"
 #include "viewer/viewer_explain.hpp"
 #include "viewer/viewer_flat_panels_internal.hpp"
 #include "viewer/viewer_layout.hpp"
+#include "viewer/viewer_records_internal.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 
 namespace insonify {
@@ -34,6 +37,8 @@ class ViewerWindow {
   const std::string& explanation() const { return explanation_; }
   /// Centre of a sample's cell on the fan, in pixels of the window.
   Point2 pixel_of(PixelPlace place) const;
+  /// Centre of the button of a key; none if it is not shown.
+  std::optional<Point2> pixel_of_button(const std::string& key) const;
   /// Place in the window of a point of the world [m]; none without a 3-D panel.
   std::optional<Point2> pixel_of_point(const Eigen::Vector3d& world) const;
   bool finished() const { return finished_; }
@@ -67,15 +72,21 @@ class ViewerWindow {
   void click_fan(Point2 place);
   void click_scene(Point2 place);
   void click_ascan(Point2 place);
+  void click_history(Point2 place);
+  void select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 place);
   void select(PixelPlace place, const Eigen::Vector2d& at);
 
   PictureOptions options_for(const Box& box) const;
+  ViewerParts parts() const;
   PixelPlace shown_place() const;
   void update_data();
-  void draw_levels(bool keep_camera);
-  void draw_selection();
+  void draw_picture(bool keep_camera);
+  void mark_picture();
+  void draw_charts();
+  void draw_history(PixelPlace place, bool levels_stay);
   void draw_scene();
   void draw_words();
+  void draw_facts();
   std::string status_text() const;
 
   const ViewerData& data_;
@@ -93,14 +104,18 @@ class ViewerWindow {
   std::optional<LevelImage> image_;
   std::optional<PixelFacts> facts_;
   std::optional<HeadView> head_view_;
-  double max_db_[2] = {0, 0};  ///< of the colour scale: raw, range compensated
+  std::array<double, 2> max_db_ = {0, 0};  ///< of the colour scale: raw, range compensated
+  ViewerPicture picture_ = ViewerPicture::fan;
+  SweepImage sweep_;                      ///< of the first panel
+  BeamPage picture_page_, history_page_;  ///< of the first panel; of the waterfall below
   FanLayout fan_layout_;
-  Axes ascan_axes_;
+  Axes ascan_axes_, picture_axes_, history_axes_;
+  std::vector<PlacedButton> buttons_;  ///< in pixels of the window
 
   vtkSmartPointer<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkSmartPointer<ViewerStyle> style_;
-  ViewerPanel fan_, scene_panel_, ascan_, history_, facts_panel_, status_, help_;
+  ViewerPanel fan_, scene_panel_, ascan_, history_, facts_panel_, timeline_, status_, help_;
   std::unique_ptr<ViewerScene> scene_;
   std::unique_ptr<ViewerSliders> sliders_;
   double carried_ = 0, last_tick_ = 0;

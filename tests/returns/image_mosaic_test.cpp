@@ -68,6 +68,41 @@ TEST(ImageMosaic, gives_the_strength_of_the_bed_per_area_of_the_resolution_cell)
   for (const double y : {2.05, 4.05, 8.05, 11.05}) EXPECT_NEAR(strength_at(map, 0, y), strength_db, 0.1) << y;
 }
 
+// The same bed heard through a pattern gives the same strength; where the pattern is below -20 dB nothing is heard.
+TEST(ImageMosaic, takes_the_elevation_pattern_out_of_the_levels) {
+  constexpr double tilt = radians(30), width = radians(40);
+  const auto mosaic_of = [&](ElevationShape shape, double compensated_width) {
+    // The response at the elevation of the bed at range r, for a head 4 m up that looks 30 degrees down.
+    const auto intensity = [&](double r) {
+      const double elevation = -std::asin(std::min(1.0, head_altitude / r)) + tilt;
+      const double sine = std::sqrt(std::max(1e-12, 1 - std::pow(head_altitude / r, 2)));
+      constexpr double equivalent = 1.0644670194312262;
+      const double dr = equivalent * bin_length;
+      const double area = std::min(dr / sine, 2 * std::sqrt(2 * r * dr)) * r * equivalent * radians(2);
+      const double level = 200 - 20 - 40 * std::log10(r) - 2 * 0.1 * r + 10 * std::log10(area);
+      return 2 * micropascal * micropascal * power_from_db(level) *
+             std::pow(elevation_response(shape, width, elevation), 2);
+    };
+    MosaicSource source = side_scan_source;
+    source.elevation_shape = shape;
+    source.elevation_width = compensated_width;
+    ImageMosaic mosaic(0.1, MosaicRule::mean);
+    mosaic.add(even_ping(mosaic_head(), side_beam(), intensity), source, {0, 0, 0}, flat_bed(0));
+    return mosaic.map();
+  };
+  for (const ElevationShape shape : {ElevationShape::gaussian, ElevationShape::line}) {
+    const MosaicMap compensated = mosaic_of(shape, width), plain = mosaic_of(shape, 0);
+    // 27 to 63 degrees down: up to 33 degrees off the axis, 33 dB down through a Gaussian of 40 degrees at most.
+    for (const double y : {3.05, 5.05, 7.05, 11.05}) EXPECT_NEAR(strength_at(compensated, 0, y), -20, 0.4) << y;
+    EXPECT_LT(strength_at(plain, 0, 3.05), -22);
+    EXPECT_NEAR(strength_at(plain, 0, 7.05), -20, 0.5) << "on the axis";
+  }
+  // A sector of 40 degrees ends 50 degrees down, 3.36 m across.
+  const MosaicMap sector = mosaic_of(ElevationShape::sector, width);
+  EXPECT_TRUE(std::isnan(strength_at(sector, 0, 3.15)));
+  EXPECT_NEAR(strength_at(sector, 0, 3.75), -20, 0.4);
+}
+
 TEST(ImageMosaic, a_ping_stands_for_the_strip_half_way_to_its_neighbours) {
   const auto heard = [](const Eigen::Vector3d& strip) {
     ImageMosaic mosaic(0.1, MosaicRule::mean);
@@ -112,6 +147,12 @@ TEST(ImageMosaic, of_a_swath_is_as_wide_as_its_outermost_beams) {
   const double edge = head_altitude * std::tan(radians(50) + radians(0.75) / std::cos(radians(50)));
   EXPECT_NEAR(map.y, -edge, 0.06);
   EXPECT_NEAR(map.y + static_cast<double>(map.strength_db.cols()) * map.cell, edge, 0.06);
+  // Ranges do not tell elevations apart, so that the pattern along the way stays in the samples.
+  MosaicSource narrow = side_scan_source;
+  narrow.elevation_width = radians(1.5);
+  ImageMosaic with_pattern(0.05, MosaicRule::mean);
+  with_pattern.add(even_ping(down, fan, [](double) { return 1e-4; }), narrow, {0.2, 0, 0}, flat_bed(0));
+  EXPECT_EQ(strength_at(with_pattern.map(), 0.03, 2.03), strength_at(map, 0.03, 2.03));
   int holes = 0;
   for (double y = -edge + 0.1; y < edge - 0.1; y += 0.05)
     for (const double x : {-0.17, 0.03, 0.17}) holes += std::isnan(strength_at(map, x, y));

@@ -1,107 +1,17 @@
-// Surveys: one result whatever the shards, threads, order and interruptions.
-#include <chrono>
-#include <random>
-
+// Surveys: one result whatever the shards, threads and order, and what it holds.
 #include <nlohmann/json.hpp>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "core/sha256.hpp"
 #include "core/units.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
-#include "tool/tool_runner.hpp"
+#include "tool/survey_fixture.hpp"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-const std::string mission = R"(schema = 1
-[survey]
-scene = "harbour.ply"
-seed = 7
-[trajectory]
-waypoints_m = [[0, 0, -3], [4, 0, -3], [4, 3, -3]]
-speed_m_s = 1
-[[head]]
-name = "fls"
-sonar = "p900-45"
-range = "1:6"
-set = ["sonar.beams=16"]
-angles_deg = [0, 20, 0]
-rate_hz = 2
-[[head]]
-name = "turning"
-sonar = "ping360"
-range = "1:6"
-offset_m = [0.5, 0, 0]
-[head.scan]
-start_deg = 0
-stop_deg = 360
-step_deg = 45
-dwell_s = 0.5
-[ping]
-noise = true
-scatterers_per_cell = 0
-)";
-
-class Survey : public ToolTest {
- protected:
-  void SetUp() override {
-    have("harbour.ply", "make-scene harbour --points 6000");
-    write("m.toml", mission);
-  }
-  void survey(const std::string& run, const std::string& more = "") const {
-    succeed("survey m.toml -q --pings-per-block 3 -o " + run + " " + more);
-  }
-  /// Digests of what a survey gives after merging.
-  std::vector<std::string> merged(const std::string& run) const {
-    succeed("merge -q " + run);
-    std::vector<std::string> digests;
-    for (const char* file : {"/fls/cube.h5", "/turning/cube.h5", "/returns.ply", "/manifest.json", "/fls/run.toml"})
-      digests.push_back(sha256_of_file(path(run + file)));
-    return digests;
-  }
-  /// Digests of the cubes of some heads.
-  std::vector<std::string> merged_cubes(const std::string& run, const std::vector<std::string>& heads) const {
-    succeed("merge -q " + run);
-    std::vector<std::string> digests;
-    for (const std::string& head : heads) digests.push_back(sha256_of_file(path(run + "/" + head + "/cube.h5")));
-    return digests;
-  }
-  /// Digests of the survey made in one go.
-  std::vector<std::string> expected() const {
-    survey("whole", "-j1");
-    return merged("whole");
-  }
-  std::vector<std::string> names_in(const std::string& folder) const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path(folder))) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-};
-
-/// Surveys that other programs run or read.
-class SurveyEngines : public Survey {};
-
-/// Starts the program itself and ends it by `signal` once `enough()`; returns its exit code, or -1.
-int started_and_ended(const std::string& folder, int signal, const std::function<bool()>& enough) {
-  const pid_t child = fork();
-  if (child == 0) {
-    if (chdir(folder.c_str()) == 0)
-      execl(INSONIFY_TOOL, INSONIFY_TOOL, "survey", "m.toml", "-q", "-j2", "--pings-per-block", "3", "-o", "run",
-            static_cast<char*>(nullptr));
-    _exit(99);
-  }
-  while (!enough() && waitpid(child, nullptr, WNOHANG) == 0) usleep(2000);
-  kill(child, signal);
-  int status = -1;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+class Survey : public SurveyTest {};
 
 }  // namespace
 
@@ -164,7 +74,7 @@ accuracy_db = 0.01
 TEST_F(Survey, of_tiles_is_that_of_the_cloud) {
   survey("cloud");
   succeed("prepare harbour.ply -o harbour.tiles -q");
-  write("m.toml", replaced(mission, "harbour.ply", "harbour.tiles"));
+  write("m.toml", replaced(survey_mission, "harbour.ply", "harbour.tiles"));
   survey("tiles", "-j2");
   EXPECT_EQ(merged_cubes("tiles", {"fls", "turning"}), merged_cubes("cloud", {"fls", "turning"}));
 }
@@ -183,77 +93,8 @@ TEST_F(Survey, returns_know_time_head_ping_and_beam) {
   EXPECT_EQ(ply.size(), header.size() + 11 + rows * (3 * 8 + 8 * 4 + 8 + 4));
 }
 
-TEST_F(Survey, killed_at_any_time_it_goes_on_and_leaves_nothing_over) {
-  const auto whole = expected();
-  const auto blocks = names_in("whole/fls/blocks");
-  const fs::path run = path("run/fls/blocks");
-  for (const std::string done : {"000000.h5", "000000.done", "000002.h5"})
-    started_and_ended(folder_.string(), SIGKILL, [&] { return fs::exists(run / done); });
-  ASSERT_TRUE(fs::exists(run / "000000.done"));
-  const auto made = fs::last_write_time(run / "000000.h5");
-  survey("run");
-  EXPECT_EQ(fs::last_write_time(run / "000000.h5"), made) << "a finished block is not made again";
-  EXPECT_EQ(merged("run"), whole);
-  EXPECT_EQ(names_in("run/fls/blocks"), blocks);
-}
-
-TEST_F(Survey, interrupted_it_keeps_every_finished_ping) {
-  const auto whole = expected();
-  const int code =
-      started_and_ended(folder_.string(), SIGINT, [&] { return fs::exists(path("run/fls/blocks/000000.done")); });
-  const auto status = nlohmann::json::parse(read("run/status.json"));
-  EXPECT_EQ(code, status["state"] == "done" ? 0 : 130);
-  const auto result = nlohmann::json::parse(succeed("survey m.toml --pings-per-block 3 -o run --json -q"));
-  EXPECT_EQ(result["made"].get<int>(), 26 - status["done"].get<int>()) << "no finished ping is made twice";
-  EXPECT_EQ(merged("run"), whole);
-  EXPECT_EQ(names_in("run/turning/blocks"), names_in("whole/turning/blocks"));
-  EXPECT_EQ(nlohmann::json::parse(read("run/status.json"))["state"], "done");
-}
-
-// The lines of docs/cluster.md, with a task that is killed.
-TEST_F(SurveyEngines, under_gnu_parallel_gives_the_same_bytes) {
-  if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
-  const auto whole = expected();
-  const std::string line = "cd " + folder_.string() +
-                           " && parallel --will-cite -j2 " INSONIFY_TOOL
-                           " survey m.toml -o run -j1 -q --pings-per-block 3 --shard {}/4 ::: 0 1 2 3";
-  // Tasks that are killed sooner or later, if they are not done by then.
-  for (const char* seconds : {"0.05", "0.1", "0.2"})
-    static_cast<void>(
-        std::system(("cd " + folder_.string() + " && parallel --will-cite 'timeout -s KILL " + seconds +
-                     " " INSONIFY_TOOL " survey m.toml -o run -q --pings-per-block 3 --shard {}/4' ::: 0 1 2>/dev/null")
-                        .c_str()));
-  EXPECT_EQ(std::system(line.c_str()), 0);
-  EXPECT_EQ(merged("run"), whole);
-  EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
-}
-
-// The job array of docs/cluster.md. The second task is killed in its first run, and put back into the queue.
-TEST_F(SurveyEngines, a_job_array_with_a_requeued_task_gives_the_same_bytes) {
-  if (geteuid() != 0 || std::system("command -v slurmctld munged >/dev/null") != 0)
-    GTEST_SKIP() << "Slurm is not installed, or this is not root";
-  const auto whole = expected();
-  write(
-      "job.sh",
-      R"(#!/bin/sh
-#SBATCH --array=0-3 --cpus-per-task=1 --requeue --output=task-%a.txt
-if [ "$SLURM_ARRAY_TASK_ID" = 1 ] && [ -z "$SLURM_RESTART_COUNT" ]; then
-  timeout -s KILL 0.1 )" INSONIFY_TOOL R"( survey m.toml -o run -q --pings-per-block 3 --shard 1/4
-  scontrol requeue "${SLURM_ARRAY_JOB_ID}_1" && sleep 10
-fi
-exec )" INSONIFY_TOOL
-      R"( survey m.toml -o run -j "$SLURM_CPUS_PER_TASK" -q --pings-per-block 3 --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"
-)");
-  const std::string line = "cd " + folder_.string() + " && timeout 60 " INSONIFY_TESTS "/tool/slurm_node.sh " +
-                           path("slurm.log") + " sbatch --wait job.sh >sbatch.txt 2>&1";
-  EXPECT_EQ(std::system(line.c_str()), 0) << read("sbatch.txt");
-  EXPECT_THAT(read("slurm.log"), HasSubstr("Requeuing"));
-  EXPECT_EQ(merged("run"), whole);
-  EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
-}
-
 // Another reader than our own.
-TEST_F(SurveyEngines, a_merged_cube_is_read_by_h5py) {
+TEST_F(Survey, a_merged_cube_is_read_by_h5py) {
   const std::string python = "/usr/bin/python3 -c \"import h5py\" 2>/dev/null";
   if (std::system(python.c_str()) != 0) GTEST_SKIP() << "h5py is not installed";
   survey("run");
@@ -281,79 +122,12 @@ with h5py.File("run/fls/cube.h5") as f:
   EXPECT_EQ(static_cast<float>(real), std::abs(cube.pings[5].pressure(3, 4).real()));
 }
 
-// A limit of the size of files refuses to write as a full disk does.
-TEST_F(Survey, on_a_full_disk_it_ends_and_goes_on_when_there_is_space) {
-  const auto whole = expected();
-  const int status = std::system(("cd " + folder_.string() +
-                                  " && trap '' XFSZ && ulimit -f 100 && " INSONIFY_TOOL
-                                  " survey m.toml -o run -q --pings-per-block 3 2>/dev/null")
-                                     .c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 4);
-  EXPECT_THAT(names_in("run/fls/blocks"), testing::IsEmpty());
-  survey("run");
-  EXPECT_EQ(merged("run"), whole);
-}
-
-TEST_F(Survey, names_missing_and_changed_blocks) {
-  survey("run", "--shard 0/2");
-  expect_refused("merge run", 3, {"run: 5 of 10 blocks are not done: fls/blocks/000001 (pings 3 to 5)", "again"});
-  survey("run", "--shard 1/2");
-  std::ofstream(path("run/fls/blocks/000001.h5"), std::ios::app) << "x";
-  expect_refused("merge run", 3, {"run/fls/blocks/000001.h5: was changed since it was made"});
-}
-
-TEST_F(Survey, a_block_of_another_mission_is_refused) {
-  survey("run", "--shard 0/2");
-  write("m.toml", mission + "threshold_db = 12\n");
-  survey("other", "--shard 1/2");
-  for (const auto& entry : fs::directory_iterator(path("other/fls/blocks")))
-    fs::copy(entry.path(), path("run/fls/blocks") / entry.path().filename());
-  expect_refused("merge run", 3, {"run/fls/blocks/000001.done: is of another mission", "remove it and its block"});
-  write("m.toml", mission);
-  expect_refused("survey m.toml --pings-per-block 3 -o run", 3, {"run/fls/blocks/000001.done: is of another mission"});
-}
-
-// Three kills; INSONIFY_KILLS says how many in the long form.
-TEST_F(Survey, killed_at_random_times_it_gives_the_same_bytes) {
-  const auto whole = expected();
-  const auto blocks = names_in("whole/fls/blocks");
-  const char* asked = std::getenv("INSONIFY_KILLS");
-  const int kills = asked ? std::atoi(asked) : 3;
-  std::mt19937 random(17);
-  std::uniform_real_distribution<double> seconds(0.02, 0.6);
-  std::map<std::string, fs::file_time_type> made;
-  for (int k = 0; k < kills; ++k) {
-    const auto begin = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> wait(seconds(random));
-    started_and_ended(folder_.string(), SIGKILL, [&] { return std::chrono::steady_clock::now() - begin > wait; });
-    if (!fs::exists(path("run/survey.toml"))) continue;
-    // What was done before the kill is as it was.
-    std::size_t done = 0;
-    for (const std::string head : {"fls", "turning"})
-      for (const std::string& name : names_in("run/" + head + "/blocks")) {
-        if (!name.ends_with(".done")) continue;
-        ++done;
-        const std::string cube = "run/" + head + "/blocks/" + name.substr(0, 6) + ".h5";
-        const auto time = fs::last_write_time(path(cube));
-        const auto [at, is_new] = made.emplace(cube, time);
-        EXPECT_TRUE(is_new || at->second == time) << cube << " is made twice, at kill " << k;
-      }
-    if (done < 10) continue;
-    EXPECT_EQ(merged("run"), whole) << "at kill " << k;
-    fs::remove_all(path("run"));
-    made.clear();
-  }
-  survey("run");
-  EXPECT_EQ(merged("run"), whole);
-  EXPECT_EQ(names_in("run/fls/blocks"), blocks);
-}
-
 TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
   // Between the second and third entry the vehicle is faster than a hundredth of the sound speed.
   write("way.csv",
         "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,0,0\n1,0.5,0,-3,0,0,0\n"
         "1.2,4.5,0,-3,0,0,0\n2,5,0,-3,0,0,0\n");
-  write("m.toml", replaced(replaced(mission, "rate_hz = 2", "times_s = [0.5, 1.1, 1.5]"),
+  write("m.toml", replaced(replaced(survey_mission, "rate_hz = 2", "times_s = [0.5, 1.1, 1.5]"),
                            "waypoints_m = [[0, 0, -3], [4, 0, -3], [4, 3, -3]]\nspeed_m_s = 1", "file = \"way.csv\""));
   const ToolResult made = run("survey m.toml -o run -q");
   EXPECT_EQ(made.exit_code, 5);
@@ -366,7 +140,7 @@ TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
 }
 
 TEST_F(Survey, coverage_is_the_same_for_any_shards_and_sums_the_pings) {
-  write("m.toml", replaced(mission, "seed = 7", "seed = 7\ncoverage = true"));
+  write("m.toml", replaced(survey_mission, "seed = 7", "seed = 7\ncoverage = true"));
   const auto covered = [&](const std::string& run) {
     succeed("merge -q " + run);
     return sha256_of_file(path(run + "/coverage.ply"));
@@ -406,7 +180,7 @@ TEST_F(Survey, navigation_noise_moves_what_is_stored_and_not_what_is_heard) {
   survey("run");
   merged("run");
   write("m.toml",
-        replaced(mission, "speed_m_s = 1", "speed_m_s = 1\nnav_noise = { position_m = 0.3, heading_deg = 5 }"));
+        replaced(survey_mission, "speed_m_s = 1", "speed_m_s = 1\nnav_noise = { position_m = 0.3, heading_deg = 5 }"));
   survey("noisy");
   merged("noisy");
   const Cube truth = read_cube(path("run/fls/cube.h5")), believed = read_cube(path("noisy/fls/cube.h5"));
@@ -428,7 +202,7 @@ TEST_F(Survey, navigation_noise_moves_what_is_stored_and_not_what_is_heard) {
 
 TEST_F(Survey, knows_where_on_the_globe_and_when_it_was) {
   write("m.toml",
-        replaced(mission, "seed = 7",
+        replaced(survey_mission, "seed = 7",
                  "seed = 7\nstart_utc = \"2026-05-01T08:30:00Z\"\nanchor = { latitude_deg = 54, longitude_deg = 8, "
                  "heading_deg = 90 }"));
   survey("run");
@@ -447,7 +221,7 @@ TEST_F(Survey, knows_where_on_the_globe_and_when_it_was) {
   EXPECT_NEAR(radians(place[0].get<double>() - 8) * 3757214, 2.5, 1e-3);
   EXPECT_NEAR(place[1].get<double>(), 54, 1e-8);
   EXPECT_NEAR(place[2].get<double>(), -3, 1e-3);
-  write("m.toml", mission);
+  write("m.toml", survey_mission);
   survey("plain");
   merged("plain");
   EXPECT_FALSE(file_exists(path("plain/track.geojson")));
@@ -474,7 +248,7 @@ TEST_F(Survey, plans_without_writing_anything) {
 
 TEST_F(Survey, refuses_what_cannot_be) {
   const auto refuses = [&](const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
-    write("bad.toml", replaced(mission, from, to));
+    write("bad.toml", replaced(survey_mission, from, to));
     expect_refused("survey bad.toml -o bad", 3, parts);
   };
   refuses(
@@ -495,7 +269,7 @@ TEST_F(Survey, refuses_what_cannot_be) {
   refuses("waypoints_m = [[0, 0, -3], [4, 0, -3], [4, 3, -3]]\nspeed_m_s = 1", "file = \"back.csv\"",
           {"back.csv:4: ", "time"});
   survey("run", "--shard 0/9");
-  write("m.toml", mission + "threshold_db = 12\n");
+  write("m.toml", survey_mission + "threshold_db = 12\n");
   expect_refused("survey m.toml --pings-per-block 3 -o run", 3, {"run: holds a survey of another mission"});
   expect_refused("survey m.toml -o x --shard 3/3", 2, {"--shard = '3/3' is not I/N"});
   expect_refused("survey m.toml", 2, {"--output or --plan must be given"});

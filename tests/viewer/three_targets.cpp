@@ -16,8 +16,8 @@ void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middl
     for (int j = -2; j <= 2; ++j) add_surfel(scene, middle + 0.02 * (i * across + j * up), towards, 4e-4, material);
 }
 
-void add_echo(ViewerData& data, const Target& target) {
-  for (Ping& ping : data.pings)
+void add_echo(std::vector<Ping>& pings, const Target& target) {
+  for (Ping& ping : pings)
     ping.pressure(static_cast<Eigen::Index>(target.place.beam), static_cast<Eigen::Index>(target.place.bin)) = loud;
 }
 
@@ -34,9 +34,9 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   ping.gate = {2, 14, 0.1};
   ping.pressure = ComplexGridF::Constant(beams, bins, soft);
   for (std::size_t i = 0; i < pings; ++i) {
-    data.pings.push_back(ping);
-    data.pings.back().number = static_cast<std::int64_t>(7 + i);
-    data.pings.back().time = 0.5 * static_cast<double>(i);
+    made.pings.push_back(ping);
+    made.pings.back().number = static_cast<std::int64_t>(7 + i);
+    made.pings.back().time = 0.5 * static_cast<double>(i);
   }
 
   data.scene.origin = {8, 22, 0};
@@ -46,13 +46,14 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
     Target target{name, ping.fan.azimuth[beam], ping.gate.centre(bin), {beam, bin}, {}};
     target.position = ping.world_from_head * (target.range * unit_vector({target.azimuth, 0}));
     add_plate(data.scene, ping.world_from_head, target.position, material);
-    add_echo(data, target);
+    add_echo(made.pings, target);
     return target;
   };
   const bool port_last = ping.fan.azimuth[0] < 0;  // for either numbering of the fan
   made.port = place("iron", port_last ? 33 : 7, 40, 0);
   made.starboard = place("wood", port_last ? 7 : 33, 40, 1);
   made.far = place("rubber", 20, 100, 2);
+  data.pings = PingReel(made.pings);
   if (!with_contributors) return made;
 
   // Two of the port target's own surfels.

@@ -13,6 +13,7 @@ struct Target {
 };
 struct TargetData {
   ViewerData data;
+  std::vector<Ping> pings;  ///< those of `data`
   Target port, starboard, far;
 };
 /// `pings` identical pings with numbers 7, 8, ...

@@ -67,7 +67,7 @@ TEST(ExplainPixel, without_contributors_what_is_seen_there_is_highlighted) {
 TEST(ExplainPixel, names_the_occluder_and_its_range) {
   auto made = three_targets();
   // A screen of 40 x 40 surfels in front of the far target, at half its range.
-  const Pose& pose = made.data.pings[0].world_from_head;
+  const Pose& pose = made.pings[0].world_from_head;
   const double range = 6;
   for (int i = -20; i < 20; ++i)
     for (int j = -20; j < 20; ++j)
@@ -84,11 +84,12 @@ TEST(ExplainPixel, names_the_occluder_and_its_range) {
 
 TEST(ExplainPixel, reports_a_hole_of_the_scan_and_the_sampling_error) {
   auto made = three_targets();
-  Ping& ping = made.data.pings[0];
+  Ping& ping = made.pings[0];
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), Not(HasSubstr("Hole")));
   ping.unknown.setZero(ping.pressure.rows(), ping.pressure.cols());
   ping.unknown(3, 4) = 1;
   ping.level_error_db.setConstant(ping.pressure.rows(), ping.pressure.cols(), 0.25F);
+  made.data.pings = PingReel(made.pings);
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), HasSubstr("Hole"));
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), Not(HasSubstr("Hole")));
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), HasSubstr("sampling error 0.25 dB"));
@@ -96,7 +97,8 @@ TEST(ExplainPixel, reports_a_hole_of_the_scan_and_the_sampling_error) {
 
 TEST(ExplainPixel, silence_has_no_level) {
   auto made = three_targets();
-  made.data.pings[0].pressure(2, 2) = 0;
+  made.pings[0].pressure(2, 2) = 0;
+  made.data.pings = PingReel(made.pings);
   const std::string text = explain_pixel(find_pixel_facts(made.data, 0, {2, 2}));
   EXPECT_THAT(text, HasSubstr("no sound at all"));
   EXPECT_THAT(text, Not(HasSubstr("inf")));
@@ -114,12 +116,12 @@ TEST(ExplainPixel, refuses_a_sample_that_is_not_there) {
 TEST(PlaceOf, finds_the_sample_of_a_target) {
   const auto made = three_targets();
   for (const auto* target : {&made.port, &made.starboard, &made.far})
-    EXPECT_EQ(place_of(made.data.pings[0], target->position), target->place) << target->name;
+    EXPECT_EQ(place_of(made.pings[0], target->position), target->place) << target->name;
 }
 
 TEST(PlaceOf, is_empty_outside_fan_and_gate) {
   const auto made = three_targets();
-  const Ping& ping = made.data.pings[0];
+  const Ping& ping = made.pings[0];
   EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(1.9, 0, 0)));
   EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(14.1, 0, 0)));
   EXPECT_FALSE(place_of(ping, ping.world_from_head * Eigen::Vector3d(-5, 0, 0)));
@@ -130,7 +132,7 @@ TEST(PlaceOf, is_empty_outside_fan_and_gate) {
 
 TEST(HeadView, counts_what_a_head_sees) {
   const auto made = three_targets();
-  const Ping& ping = made.data.pings[0];
+  const Ping& ping = made.pings[0];
   const HeadView view = look_from(made.data.scene, view_at(made.data, ping.world_from_head, ping.fan, ping.gate));
   EXPECT_EQ(view.seen, 75U);
   EXPECT_EQ(view.seen + view.hidden + view.turned_away + view.outside, made.data.scene.size());
@@ -148,7 +150,7 @@ TEST(HeadView, counts_what_a_head_sees) {
 // A ping samples more than the elevation width and the gate: so does the inspection, once it knows the ping.
 TEST(HeadView, is_that_of_the_ping_where_it_is_known) {
   auto made = three_targets();
-  const Ping& ping = made.data.pings[0];
+  const Ping& ping = made.pings[0];
   const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.place);
   EXPECT_EQ(facts.visibility->seen.size(), 25U);
   made.data.view = View{Pose::Identity(), {}, {2, 9, 0.1}, {}};  // the far target stands at 12 m
@@ -158,7 +160,7 @@ TEST(HeadView, is_that_of_the_ping_where_it_is_known) {
 
 TEST(HeadView, explains_a_surfel) {
   const auto made = three_targets();
-  const Ping& ping = made.data.pings[0];
+  const Ping& ping = made.pings[0];
   const HeadPlace head = head_place(ping.world_from_head);
   const HeadView view = look_from(made.data.scene, view_at(made.data, ping.world_from_head, ping.fan, ping.gate));
   const std::string text = explain_surfel(made.data.scene, view, head, 12);  // middle of the port target

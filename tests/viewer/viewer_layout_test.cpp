@@ -10,7 +10,8 @@
 namespace {
 
 constexpr ViewerPanelName all[] = {ViewerPanelName::fan,     ViewerPanelName::scene, ViewerPanelName::ascan,
-                                   ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::status};
+                                   ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::timeline,
+                                   ViewerPanelName::status};
 
 std::string refused(const std::string& script) {
   return error_of([&] { parse_viewer_script(script); });
@@ -21,9 +22,11 @@ std::string refused(const std::string& script) {
 TEST(ViewerLayout, panels_tile_the_window) {
   for (const auto& [width, height] : {std::pair{800, 600}, {1600, 1000}, {1201, 1777}, {3840, 2160}})
     for (const ViewerMode mode : {ViewerMode::run, ViewerMode::inspect})
-      for (const bool with_scene : {true, false}) {
+      for (const int parts : {0, 1, 2, 3, 4, 5, 6, 7}) {
+        const bool with_scene = (parts & 1) != 0, with_history = (parts & 2) != 0, with_timeline = (parts & 4) != 0;
         if (mode == ViewerMode::inspect && !with_scene) continue;
-        const ViewerLayout layout = lay_out_viewer(width, height, mode, with_scene);
+        const ViewerLayout layout =
+            lay_out_viewer(width, height, mode, {with_scene, with_history, with_timeline, true});
         double area = 0;
         for (const ViewerPanelName a : all) {
           const Box& box = box_of(layout, a);
@@ -35,7 +38,7 @@ TEST(ViewerLayout, panels_tile_the_window) {
 }
 
 TEST(ViewerLayout, every_place_belongs_to_the_panel_drawn_there) {
-  const ViewerLayout layout = lay_out_viewer(1600, 1000, ViewerMode::run, true);
+  const ViewerLayout layout = lay_out_viewer(1600, 1000, ViewerMode::run, {true, true, true, true});
   for (const ViewerPanelName name : all) {
     const Box& box = box_of(layout, name);
     EXPECT_EQ(panel_at(layout, {(box.left + box.right) / 2, (box.bottom + box.top) / 2}), name);
@@ -45,9 +48,18 @@ TEST(ViewerLayout, every_place_belongs_to_the_panel_drawn_there) {
   EXPECT_FALSE(panel_at(layout, {-1, 500}));
 }
 
+TEST(ViewerLayout, the_key_of_the_scene_stands_beside_it) {
+  const ViewerLayout with = lay_out_viewer(1600, 1000, ViewerMode::run, {});
+  EXPECT_EQ(with.scene_view.left, with.scene.left);
+  EXPECT_GT(with.scene.right - with.scene_view.right, 10 * with.font_size);
+  EXPECT_GT(with.scene_view.width(), with.scene.width() / 2);
+  const ViewerLayout without = lay_out_viewer(1600, 1000, ViewerMode::run, {true, true, false, false});
+  EXPECT_EQ(without.scene_view.right, without.scene.right);
+}
+
 TEST(ViewerLayout, refuses_a_window_too_small_to_read) {
-  EXPECT_THROW(lay_out_viewer(799, 600, ViewerMode::run, true), Error);
-  EXPECT_THROW(lay_out_viewer(800, 8193, ViewerMode::run, true), Error);
+  EXPECT_THROW(lay_out_viewer(799, 600, ViewerMode::run, {}), Error);
+  EXPECT_THROW(lay_out_viewer(800, 8193, ViewerMode::run, {}), Error);
 }
 
 // --- picking

@@ -118,12 +118,40 @@ TEST(ViewerKeys, nothing_to_choose_from_is_no_harm) {
   }
 }
 
+TEST(ViewerKeys, page_keys_go_by_a_tenth_of_the_pings) {
+  const ViewerExtent survey{200, 1, 10};
+  EXPECT_EQ(apply_key({}, "Next", survey).state.ping, 20U);
+  ViewerState late;
+  late.ping = 199;
+  EXPECT_EQ(apply_key(late, "Prior", survey).state.ping, 179U);
+  EXPECT_EQ(apply_key(late, "Next", survey).state.ping, 199U);
+}
+
+// Every key that the tables of keys name has a button, and every button presses a key that works.
+TEST(ViewerKeys, every_key_has_a_button_and_every_button_works) {
+  for (const ViewerMode mode : {ViewerMode::run, ViewerMode::inspect}) {
+    std::set<std::string> pressed;
+    for (const ViewerKey& row : viewer_keys(mode)) {
+      const bool of_the_mouse = row.keys == "click" || row.keys == "drag, wheel";
+      EXPECT_EQ(row.buttons.empty(), of_the_mouse) << row.keys;
+      for (const ViewerButton& button : row.buttons) EXPECT_TRUE(pressed.insert(button.key).second) << button.key;
+    }
+    for (const char* key : {"1", "3", "plus", "minus", "g", "n", "u", "r", "j", "h", "q"})
+      EXPECT_EQ(pressed.count(key), 1U) << key;
+    if (mode == ViewerMode::inspect) continue;
+    for (const char* key : {"space", "Left", "Prior", "Home", "less", "Up", "bracketleft", "t", "m", "d", "shift+Left",
+                            "shift+Down", "Escape", "f"})
+      EXPECT_EQ(pressed.count(key), 1U) << key;
+  }
+}
+
 // Every key in the help has an effect in its mode.
 TEST(ViewerKeys, help_names_keys_that_work) {
   const std::set<std::string> symbols = {
       "Left", "Right",       "comma",        "period", "Home", "End", "space",      "less",     "greater", "Up",
       "Down", "bracketleft", "bracketright", "t",      "m",    "d",   "shift+Left", "shift+Up", "Escape",  "1",
-      "5",    "plus",        "minus",        "g",      "u",    "r",   "j",          "h",        "q",       "e"};
+      "5",    "plus",        "minus",        "g",      "u",    "r",   "j",          "h",        "q",       "e",
+      "f",    "Prior",       "Next"};
   ViewerState busy;
   busy.ping = 2;
   busy.selected = PixelPlace{5, 5};
@@ -133,9 +161,9 @@ TEST(ViewerKeys, help_names_keys_that_work) {
     return testing::PrintToString(std::make_tuple(s.ping, s.selected ? s.selected->beam : 999,
                                                   s.selected ? s.selected->bin : 999, s.gain_db, s.window_db, s.tvg,
                                                   s.colour_map, s.playing)) +
-           testing::PrintToString(std::make_tuple(s.pings_per_second, s.measure.active,
-                                                  static_cast<int>(s.scene_colour), s.point_size, s.show_help,
-                                                  s.show_colour_bars, s.show_grid, static_cast<int>(a.request)));
+           testing::PrintToString(
+               std::make_tuple(s.pings_per_second, s.measure.active, static_cast<int>(s.scene_colour), s.point_size,
+                               s.show_help, s.show_colour_bars, s.show_grid, s.follow, static_cast<int>(a.request)));
   };
   for (const std::string& key : symbols) EXPECT_NE(print(apply_key(busy, key, extent)), print({busy})) << key;
   for (const char* word : {"ping", "play", "gain", "window", "colour map", "measure", "screenshot", "quit"})
@@ -191,8 +219,23 @@ TEST(ViewerSelect, two_clicks_measure_a_distance_and_leave_the_selection) {
   state = select_pixel(state, {7, 8}, {4, 5}, extent);
   EXPECT_DOUBLE_EQ(state.measure.length(), 5);  // 3-4-5
   EXPECT_EQ(state.selected, (PixelPlace{3, 4}));
+  // The second click ends it: the next one selects, and the length stays.
+  EXPECT_FALSE(state.measure.active);
   state = select_pixel(state, {7, 8}, {0, 0}, extent);
-  EXPECT_EQ(state.measure.points.size(), 1U);  // a new measurement
+  EXPECT_EQ(state.selected, (PixelPlace{7, 8}));
+  EXPECT_DOUBLE_EQ(state.measure.length(), 5);
+  state = after(state, {"d"});
+  EXPECT_TRUE(state.measure.active && state.measure.points.empty());  // a new measurement
+}
+
+TEST(ViewerSelect, a_click_on_a_waterfall_goes_to_its_ping) {
+  ViewerState state;
+  state.playing = true;
+  state = select_ping(state, 3, {0, 7}, extent);
+  EXPECT_EQ(state.ping, 3U);
+  EXPECT_EQ(state.selected, (PixelPlace{0, 7}));
+  EXPECT_FALSE(state.playing);
+  EXPECT_EQ(select_ping(state, 5, {0, 7}, extent).ping, 3U);  // there are five
 }
 
 // --- the head

@@ -205,8 +205,8 @@ TEST_F(WindowFixture, quits_on_request) {
 }
 
 TEST_F(WindowFixture, inspects_a_scene_and_says_its_pose) {
-  const Ping ping = made_.data.pings[0];
-  made_.data.pings.clear();
+  const Ping ping = made_.pings[0];
+  made_.data.pings = {};
   made_.data.fan = ping.fan;
   made_.data.gate = ping.gate;
   ViewerOptions options;
@@ -248,6 +248,7 @@ TEST_F(WindowFixture, refuses_what_cannot_be_shown) {
   EXPECT_THAT(refuses(made_.data, options), HasSubstr("window of 300 x 1000 pixels"));
   EXPECT_THAT(refuses({}, {}, ErrorKind::content), HasSubstr("no pings"));
   ViewerData uneven = made_.data;
-  uneven.pings[0].pressure.resize(3, 3);
+  made_.pings[0].pressure.resize(3, 3);
+  uneven.pings = PingReel(made_.pings);
   EXPECT_THAT(refuses(uneven, {}, ErrorKind::content), HasSubstr("3 x 3 samples"));
 }

@@ -1,0 +1,123 @@
+#include "viewer/survey_pings.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "returns/sounding_columns.hpp"
+#include "scene_io/load_scene.hpp"
+#include "store/cube.hpp"
+#include "store/survey_run.hpp"
+
+namespace insonify::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Pings of several cubes as one list.
+struct CubeList {
+  std::vector<CubeOfPings> cubes;
+  std::vector<std::size_t> begin;  // of each cube in the list; and the end of all
+  std::vector<std::int64_t> number;
+  Soundings returns;  // of one cube
+  std::size_t returns_of = std::numeric_limits<std::size_t>::max();
+
+  std::size_t cube_of(std::size_t ping) const {
+    return static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), ping) - begin.begin()) - 1;
+  }
+
+  ComplexGridF beam(std::size_t first, std::size_t count, std::size_t beam) const {
+    ComplexGridF rows;
+    for (std::size_t done = 0; done < count;) {
+      const std::size_t at = first + done, c = cube_of(at);
+      const std::size_t here = std::min(count - done, begin[c + 1] - at);
+      const ComplexGridF part = read_beam(cubes[c].cube, at - begin[c], here, beam);
+      if (done == 0) rows.resize(static_cast<Eigen::Index>(count), part.cols());
+      rows.middleRows(static_cast<Eigen::Index>(done), part.rows()) = part;
+      done += here;
+    }
+    return rows;
+  }
+
+  Soundings returns_of_ping(std::size_t ping) {
+    const std::size_t c = cube_of(ping);
+    if (c != returns_of) returns = fs::exists(cubes[c].returns) ? load_soundings(cubes[c].returns) : Soundings{};
+    returns_of = c;
+    Soundings own;
+    for (std::size_t i = 0; i < returns.size(); ++i) {
+      if (static_cast<std::int64_t>(returns.ping[i]) != number[ping]) continue;
+      own.position.push_back(returns.position[i]);
+      each_column([i](const char*, auto& to, const auto& from) { to.push_back(from[i]); }, own, returns);
+    }
+    return own;
+  }
+};
+
+}  // namespace
+
+PingReel reel_of(const std::vector<CubeOfPings>& cubes) {
+  const auto list = std::make_shared<CubeList>();
+  list->cubes = cubes;
+  std::vector<ReelPlace> places;
+  for (const CubeOfPings& cube : cubes) {
+    list->begin.push_back(places.size());
+    for (const TrackPoint& point : read_track(cube.cube)) {
+      places.push_back({point.number, point.time, point.world_from_head, point.scan});
+      list->number.push_back(point.number);
+    }
+  }
+  list->begin.push_back(places.size());
+  PingSource source;
+  source.ping = [list](std::size_t i) {
+    const std::size_t c = list->cube_of(i);
+    return std::move(read_cube(list->cubes[c].cube, i - list->begin[c], 1).pings.at(0));
+  };
+  source.beam = [list](std::size_t first, std::size_t count, std::size_t beam) {
+    return list->beam(first, count, beam);
+  };
+  if (std::any_of(cubes.begin(), cubes.end(), [](const CubeOfPings& cube) { return !cube.returns.empty(); }))
+    source.returns = [list](std::size_t i) { return list->returns_of_ping(i); };
+  return {std::move(places), std::move(source)};
+}
+
+std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const std::string& head) {
+  const fs::path given = fs::path(target).has_filename() ? fs::path(target) : fs::path(target).parent_path();
+  const bool is_whole = is_survey_run(given.string());
+  const fs::path folder = is_whole ? given : given.parent_path();
+  if (!is_whole && (!fs::is_directory(given) || !is_survey_run(folder.string()))) return {};
+  const SurveyRun run = load_survey_run(folder.string());
+  const std::string wanted = is_whole ? head : given.filename().string();
+  SurveyHeadRun found;
+  const SurveyRunHead* chosen = nullptr;
+  for (const SurveyRunHead& one : run.heads) {
+    if (!chosen && (wanted.empty() || one.name == wanted))
+      chosen = &one;
+    else
+      found.others.push_back(one.name);
+  }
+  if (!chosen)
+    fail(ErrorKind::argument, "--head = '", wanted, "' is not in ", folder.string(), "; it has ",
+         joined(found.others, ", "));
+  found.name = chosen->name;
+  found.folder = (folder / chosen->name).string();
+  found.blocks = chosen->blocks();
+  for (std::size_t b = 0; b < found.blocks; ++b) {
+    const BlockFiles files = block_files(folder.string(), chosen->name, static_cast<std::int64_t>(b));
+    const auto mark = find_mark(files, run.mission_sha256);
+    if (!mark) continue;
+    ++found.done;
+    if (!mark->cube_sha256.empty()) found.cubes.push_back({files.cube, files.returns});
+  }
+  const fs::path merged = fs::path(found.folder) / "cube.h5";
+  if (found.cubes.empty() && fs::exists(merged)) {
+    found.cubes.push_back({merged.string(), ""});
+    found.done = found.blocks;
+  }
+  if (found.cubes.empty())
+    fail(ErrorKind::content, found.folder, ": no ping is done yet; run the survey, or wait for its first block");
+  return found;
+}
+
+}  // namespace insonify::viewer

@@ -1,0 +1,66 @@
+#include "viewer/ping_reel.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace insonify {
+namespace {
+
+std::vector<ReelPlace> places_of(const std::vector<Ping>& pings) {
+  std::vector<ReelPlace> places;
+  for (const Ping& ping : pings) places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan});
+  return places;
+}
+
+PingSource source_in_memory(std::vector<Ping> pings) {
+  const auto held = std::make_shared<const std::vector<Ping>>(std::move(pings));
+  PingSource source;
+  source.ping = [held](std::size_t i) { return (*held)[i]; };
+  source.beam = [held](std::size_t first, std::size_t count, std::size_t beam) {
+    ComplexGridF rows(static_cast<Eigen::Index>(count), (*held)[first].pressure.cols());
+    for (std::size_t i = 0; i < count; ++i)
+      rows.row(static_cast<Eigen::Index>(i)) = (*held)[first + i].pressure.row(static_cast<Eigen::Index>(beam));
+    return rows;
+  };
+  return source;
+}
+
+}  // namespace
+
+PingReel::PingReel(std::vector<Ping> pings) : places_(places_of(pings)), source_(source_in_memory(std::move(pings))) {}
+
+PingReel::PingReel(std::vector<ReelPlace> places, PingSource source)
+    : places_(std::move(places)), source_(std::move(source)) {}
+
+std::shared_ptr<const Ping> PingReel::ping(std::size_t i) const {
+  constexpr const char* who = "show_viewer";
+  if (i >= size()) fail(ErrorKind::argument, who, ": ping = ", i, ", must be below ", size(), ", the number of pings");
+  if (last_ && last_index_ == i) return last_;
+  auto ping = std::make_shared<const Ping>(source_.ping(i));
+  require_valid(ping->fan, who);
+  require_valid(ping->gate, who);
+  if (!frame_) frame_ = {ping->fan, ping->gate};
+  const std::size_t beams = frame_->fan.beams(), bins = frame_->gate.bins();
+  const auto rows = static_cast<std::size_t>(ping->pressure.rows());
+  const auto columns = static_cast<std::size_t>(ping->pressure.cols());
+  if (rows != beams || columns != bins || ping->fan.beams() != beams || ping->gate.bins() != bins)
+    fail(ErrorKind::content, who, ": ping ", ping->number, " has ", rows, " x ", columns,
+         " samples, must be beams x bins = ", beams, " x ", bins);
+  last_ = std::move(ping);
+  last_index_ = i;
+  return last_;
+}
+
+const PingReel::Frame& PingReel::frame() const {
+  if (!frame_) ping(0);
+  return *frame_;
+}
+
+ComplexGridF PingReel::beam(std::size_t first, std::size_t count, std::size_t beam) const {
+  return source_.beam(first, count, beam);
+}
+
+Soundings PingReel::returns(std::size_t i) const { return has_returns() ? source_.returns(i) : Soundings{}; }
+
+}  // namespace insonify

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "returns/ping.hpp"
+#include "returns/soundings.hpp"
+
+namespace insonify {
+
+/// When and from where a ping of a reel was sent.
+struct ReelPlace {
+  std::int64_t number = 0;
+  double time = 0;  ///< [s]
+  Pose world_from_head = Pose::Identity();
+  std::optional<ScanPlace> scan{};  ///< of a scanning head
+};
+
+/// Reads pings by their index in a reel.
+struct PingSource {
+  std::function<Ping(std::size_t ping)> ping;
+  /// Pressure of one beam in `count` pings from the `first` on, pings x bins [Pa].
+  std::function<ComplexGridF(std::size_t first, std::size_t count, std::size_t beam)> beam;
+  std::function<Soundings(std::size_t ping)> returns;  ///< of one ping; or empty: there are none
+};
+
+/// The pings that a viewer plays: the places of all are known, images are read one at a time, so that memory does not
+/// grow with their number. All pings have the fan and the gate of the first.
+class PingReel {
+ public:
+  PingReel() = default;
+  /// Pings that are in memory.
+  explicit PingReel(std::vector<Ping> pings);
+  /// `source.ping` and `source.beam` must be given.
+  PingReel(std::vector<ReelPlace> places, PingSource source);
+
+  std::size_t size() const { return places_.size(); }
+  bool empty() const { return places_.empty(); }
+  const ReelPlace& place(std::size_t i) const { return places_[i]; }
+  const std::vector<ReelPlace>& places() const { return places_; }
+
+  /// Of every ping; read with the first one.
+  const BeamFan& fan() const { return frame().fan; }
+  const RangeGate& gate() const { return frame().gate; }
+  /// A ping; the last one asked for is kept. Throws Error(content) for one that is invalid or differs from the first in
+  /// fan or gate, and what its source throws.
+  std::shared_ptr<const Ping> ping(std::size_t i) const;
+  /// Pressure of one beam in some pings, pings x bins [Pa].
+  ComplexGridF beam(std::size_t first, std::size_t count, std::size_t beam) const;
+  bool has_returns() const { return static_cast<bool>(source_.returns); }
+  /// The returns of one ping; none if has_returns is false.
+  Soundings returns(std::size_t i) const;
+
+ private:
+  struct Frame {
+    BeamFan fan;
+    RangeGate gate;
+  };
+  const Frame& frame() const;
+
+  std::vector<ReelPlace> places_;
+  PingSource source_;
+  mutable std::optional<Frame> frame_;
+  mutable std::shared_ptr<const Ping> last_;
+  mutable std::size_t last_index_ = 0;
+};
+
+}  // namespace insonify

@@ -1,0 +1,60 @@
+#include <algorithm>
+
+#include "viewer/viewer_buttons_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double row_letters = 1.6;  // height of a row in sizes of its letters
+
+void add_left_text(Canvas& canvas, const std::string& words, Point2 left_middle, double room, int font) {
+  const FittedText fitted = fit_text(words, font, room);
+  const double width = text_size(fitted.text, fitted.font_size).width;
+  canvas.add_text({fitted.text, {left_middle.x + width / 2, left_middle.y}, fitted.font_size});
+}
+
+// A plate with its label; returns where it ends.
+double add_button(Canvas& canvas, const ViewerButton& button, Point2 left_middle, int font,
+                  std::vector<PlacedButton>& placed) {
+  const double half = 0.68 * font, text = text_size(button.label, font).width;
+  const double width = std::max(text + 0.8 * font, 1.7 * font);
+  const Box box{left_middle.x, left_middle.x + width, left_middle.y - half, left_middle.y + half};
+  canvas.add_plate(box, canvas.colours().line, 0.28);
+  canvas.add_text({button.label, {left_middle.x + width / 2, left_middle.y}, font});
+  placed.push_back({box, button.key});
+  return box.right;
+}
+
+}  // namespace
+
+std::vector<PlacedButton> draw_key_rows(Canvas& canvas, const std::vector<ViewerKey>& keys, const Box& box, int font,
+                                        bool mouse) {
+  std::vector<PlacedButton> placed;
+  const double row = row_letters * font, gap = 0.35 * font;
+  double middle = box.top - row / 2;
+  for (const ViewerKey& key : keys) {
+    if (key.buttons.empty() && !mouse) continue;
+    if (middle - row / 2 < box.bottom) break;
+    double left = box.left;
+    for (const ViewerButton& button : key.buttons)
+      left = add_button(canvas, button, {left, middle}, font, placed) + gap;
+    if (key.buttons.empty()) {
+      add_left_text(canvas, key.keys, {left, middle}, box.width() / 3, font);
+      left += std::min(text_size(key.keys, font).width, box.width() / 3) + gap;
+    }
+    add_left_text(canvas, key.action, {left + gap, middle}, box.right - left - gap, font);
+    middle -= row;
+  }
+  return placed;
+}
+
+std::vector<PlacedButton> draw_help(Canvas& canvas, ViewerMode mode, const Box& room, int font) {
+  const std::vector<ViewerKey> keys = viewer_keys(mode);
+  const double row = row_letters * font, height = row * static_cast<double>(keys.size() + 3), width = 40.0 * font;
+  const double left = (room.width() - width) / 2, top = (room.height() + height) / 2;
+  canvas.add_plate({left, left + width, top - height, top}, canvas.colours().background, 0.94);
+  canvas.add_text({"Keys", {left + width / 2, top - row}, (5 * font) / 4});
+  return draw_key_rows(canvas, keys, {left + 1.5 * font, left + width - font, top - height, top - 2 * row}, font, true);
+}
+
+}  // namespace insonify

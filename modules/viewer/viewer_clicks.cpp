@@ -1,0 +1,118 @@
+// What a click in a ViewerWindow does.
+#include <vtkCamera.h>
+
+#include "viewer/viewer_window_internal.hpp"
+
+namespace insonify {
+
+Point2 ViewerWindow::on_panel(const Box& box, Point2 place) const { return {place.x - box.left, place.y - box.bottom}; }
+
+// Converts a place in the window to the fan's plane, since its camera may have moved.
+Point2 ViewerWindow::on_fan(Point2 place) const {
+  const Point2 own = on_panel(layout_.fan, place);
+  vtkCamera* camera = fan_.content->GetActiveCamera();
+  const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
+  const double* focus = camera->GetFocalPoint();
+  return {focus[0] + (own.x - layout_.fan.width() / 2) * per_pixel,
+          focus[1] + (own.y - layout_.fan.height() / 2) * per_pixel};
+}
+
+Point2 ViewerWindow::pixel_of(PixelPlace place) const {
+  const Point2 at = fan_layout_.at(-image_->fan.azimuth[place.beam], image_->gate.centre(place.bin));
+  vtkCamera* camera = fan_.content->GetActiveCamera();
+  const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
+  const double* focus = camera->GetFocalPoint();
+  return {layout_.fan.left + layout_.fan.width() / 2 + (at.x - focus[0]) / per_pixel,
+          layout_.fan.bottom + layout_.fan.height() / 2 + (at.y - focus[1]) / per_pixel};
+}
+
+std::optional<Point2> ViewerWindow::pixel_of_point(const Eigen::Vector3d& world) const {
+  if (!scene_) return {};
+  return scene_->pixel_of(world);
+}
+
+PanelMotion ViewerWindow::motion_at(Point2 place) const {
+  const auto panel = panel_at(layout_, place);
+  if (panel == ViewerPanelName::scene) return PanelMotion::turn;
+  return panel == ViewerPanelName::fan ? PanelMotion::slide : PanelMotion::none;
+}
+
+std::optional<Point2> ViewerWindow::pixel_of_button(const std::string& key) const {
+  for (const PlacedButton& button : buttons_)
+    if (button.key == key)
+      return Point2{(button.box.left + button.box.right) / 2, (button.box.bottom + button.box.top) / 2};
+  return {};
+}
+
+void ViewerWindow::click(Point2 place) {
+  for (const PlacedButton& button : buttons_)
+    if (place.x >= button.box.left && place.x < button.box.right && place.y >= button.box.bottom &&
+        place.y < button.box.top)
+      return press_key(std::string(button.key));
+  const auto panel = panel_at(layout_, place);
+  if (panel == ViewerPanelName::fan) click_fan(place);
+  if (panel == ViewerPanelName::scene) click_scene(place);
+  if (panel == ViewerPanelName::ascan) click_ascan(place);
+  if (panel == ViewerPanelName::history) click_history(place);
+}
+
+void ViewerWindow::click_fan(Point2 place) {
+  if (picture_ == ViewerPicture::waterfall) return select_on_waterfall(picture_axes_, picture_page_, on_fan(place));
+  const FanPlace at = fan_place(fan_layout_, on_fan(place));
+  const LevelImage& shown = picture_ == ViewerPicture::sweep ? sweep_.image : *image_;
+  const auto pixel = pixel_at(shown, at);
+  if (!pixel) return;
+  if (picture_ == ViewerPicture::fan || state_.measure.active) return select(*pixel, metres_on_fan(at));
+  change(select_ping(state_, sweep_.ping[pixel->beam], {0, pixel->bin}, extent_));
+  say(explanation_);
+}
+
+void ViewerWindow::click_history(Point2 place) {
+  if (extent_.pings > 1) select_on_waterfall(history_axes_, history_page_, on_panel(layout_.history, place));
+}
+
+void ViewerWindow::select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 place) {
+  const auto row = row_at(axes, place);
+  const auto bin = bin_at(*image_, axes, place);
+  if (!row || !bin) return;
+  notice_.clear();
+  change(select_ping(state_, page.first + *row, {page.beam, *bin}, extent_));
+  say(explanation_);
+}
+
+void ViewerWindow::click_scene(Point2 place) {
+  if (state_.mode == ViewerMode::inspect) {
+    ViewerState next = state_;
+    next.surfel = scene_->surfel_at(place);
+    change(next);
+    if (state_.surfel) say(explanation_);
+    return;
+  }
+  const auto world = scene_->world_at(place);
+  if (!world) return;
+  const auto pixel = place_of(*data_.pings.ping(state_.ping), *world);
+  if (!pixel) {
+    notice_ = "this point lies outside fan and range gate";
+    return draw();
+  }
+  const double bearing = -image_->fan.azimuth[pixel->beam];
+  select(*pixel, metres_on_fan({bearing, image_->gate.centre(pixel->bin)}));
+}
+
+void ViewerWindow::click_ascan(Point2 place) {
+  const auto bin = bin_at(*image_, ascan_axes_, on_panel(layout_.ascan, place));
+  if (!bin) return;
+  ViewerState next = state_;
+  next.selected = PixelPlace{shown_place().beam, *bin};
+  change(next);
+  say(explanation_);
+}
+
+void ViewerWindow::select(PixelPlace place, const Eigen::Vector2d& at) {
+  const bool measures = state_.measure.active;
+  notice_.clear();
+  change(select_pixel(state_, place, at, extent_));
+  if (!measures) say(explanation_);
+}
+
+}  // namespace insonify

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "view/show_image.hpp"
+#include "viewer/viewer_data.hpp"
+
+namespace insonify {
+
+/// One beam in some consecutive pings; kept until others are asked for.
+struct BeamPage {
+  std::size_t first = 0, count = 0, beam = 0;
+  ComplexGridF pressure;  ///< pings x bins [Pa]
+
+  std::size_t end() const { return first + count; }
+};
+
+/// Makes `page` that of these pings, reading them if they are others than those it holds.
+void turn_page(BeamPage& page, const PingReel& pings, std::size_t first, std::size_t count, std::size_t beam);
+
+/// The first and number of the pings of the waterfall in which a ping is shown: at most 600 of them.
+struct PageOfPings {
+  std::size_t first = 0, count = 0;
+};
+PageOfPings page_of(const PingReel& pings, std::size_t ping);
+
+/// The levels of a page, range compensated if `tvg`.
+PingHistory history_of(const ViewerData& data, const BeamPage& page, bool tvg);
+
+/// What the display of a scanning head of one beam shows at a ping: every bearing of the sweep as it was heard last;
+/// what was not heard yet is silent.
+struct SweepImage {
+  LevelImage image;
+  std::vector<std::size_t> ping;  ///< by beam of the image: the ping that heard it, or will
+};
+SweepImage sweep_at(const ViewerData& data, std::size_t ping, bool tvg, BeamPage& page);
+
+}  // namespace insonify

@@ -1,0 +1,267 @@
+// A survey in the viewer: pings read one at a time, sweeps, waterfalls, seeking; and the program on a survey's folder.
+#include "core/units.hpp"
+#include "support/test.hpp"
+#include "tool/tool_runner.hpp"
+#include "view/test_pictures.hpp"
+#include "viewer/viewer_records_internal.hpp"
+#include "viewer/viewer_window_internal.hpp"
+
+namespace {
+
+constexpr std::size_t pings_per_sweep = 12;
+
+// Ping i of a head of one beam; what it hears at bin b is louder by a decibel for each ping, and by 20 at bin i.
+Ping one_beam_ping(std::size_t i, bool scans) {
+  Ping ping;
+  ping.number = static_cast<std::int64_t>(i);
+  ping.time = 0.5 * static_cast<double>(i);
+  ping.world_from_head = pose_from_yaw_pitch_roll({0.1 * static_cast<double>(i), 0, -3}, 0, 0, 0);
+  if (scans)
+    ping.scan = ScanPlace{static_cast<std::int64_t>(i / pings_per_sweep),
+                          radians(30.0 * static_cast<double>(i % pings_per_sweep))};
+  ping.fan = make_fan(1, 0, radians(2), radians(20));
+  ping.gate = {1, 9, 0.1};
+  ping.pressure = ComplexGridF::Constant(1, 80, std::pow(10.0F, static_cast<float>(i) / 20));
+  ping.pressure(0, static_cast<Eigen::Index>(i % 80)) *= 10;
+  return ping;
+}
+
+// A reel that counts what is read of it, and how many of its pings are held at once.
+struct CountedReel {
+  std::shared_ptr<int> read = std::make_shared<int>(0), beams_read = std::make_shared<int>(0);
+
+  PingReel reel(std::size_t count, bool scans) const {
+    std::vector<ReelPlace> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Ping ping = one_beam_ping(i, scans);
+      places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan});
+    }
+    PingSource source;
+    source.ping = [scans, read = read](std::size_t i) { return ++*read, one_beam_ping(i, scans); };
+    source.beam = [scans, rows_read = beams_read](std::size_t first, std::size_t n, std::size_t beam) {
+      *rows_read += static_cast<int>(n);
+      ComplexGridF rows(static_cast<Eigen::Index>(n), 80);
+      for (std::size_t i = 0; i < n; ++i)
+        rows.row(static_cast<Eigen::Index>(i)) =
+            one_beam_ping(first + i, scans).pressure.row(static_cast<Eigen::Index>(beam));
+      return rows;
+    };
+    return {std::move(places), std::move(source)};
+  }
+};
+
+class SurveyWindow : public testing::Test {
+ protected:
+  void open(std::size_t pings, bool scans) {
+    data_.title = "survey";
+    data_.pings = counted_.reel(pings, scans);
+    ViewerOptions options;
+    options.width = 800, options.height = 600;
+    options.say = [this](const std::string& text) { said_.push_back(text); };
+    window_ = std::make_unique<ViewerWindow>(data_, options, ViewerScreen::off_screen);
+    window_->run({});
+  }
+  void click(Point2 at) { window_->click(at); }
+
+  CountedReel counted_;
+  ViewerData data_;
+  std::unique_ptr<ViewerWindow> window_;
+  std::vector<std::string> said_;
+};
+
+}  // namespace
+
+TEST(PingReel, reads_what_is_asked_for_and_keeps_the_last) {
+  const CountedReel counted;
+  const PingReel reel = counted.reel(1000, false);
+  EXPECT_EQ(*counted.read, 0);
+  EXPECT_EQ(reel.gate().bins(), 80U);
+  EXPECT_EQ(*counted.read, 1);
+  const std::weak_ptr<const Ping> first = reel.ping(7);
+  EXPECT_EQ(reel.ping(7)->number, 7);
+  EXPECT_EQ(*counted.read, 2);
+  EXPECT_EQ(reel.ping(8)->number, 8);
+  EXPECT_TRUE(first.expired());  // one is held, however many were read
+  EXPECT_THAT(error_of([&] { reel.ping(1000); }, ErrorKind::argument), HasSubstr("must be below 1000"));
+}
+
+TEST(PingReel, refuses_a_ping_of_another_extent) {
+  std::vector<Ping> pings{one_beam_ping(0, false), one_beam_ping(1, false)};
+  pings[1].gate.max_range = 8;
+  pings[1].pressure.conservativeResize(1, 70);
+  const PingReel reel(pings);
+  EXPECT_EQ(reel.fan().beams(), 1U);
+  EXPECT_THAT(error_of([&] { reel.ping(1); }, ErrorKind::content), HasSubstr("ping 1 has 1 x 70 samples"));
+}
+
+TEST(ViewerRecords, a_page_holds_the_ping_and_at_most_600) {
+  const PingReel reel = CountedReel().reel(1301, false);
+  for (const std::size_t ping : {0, 599, 600, 1199, 1200, 1300}) {
+    const PageOfPings page = page_of(reel, ping);
+    EXPECT_TRUE(page.first <= ping && ping < page.first + page.count) << ping;
+    EXPECT_LE(page.count, 600U);
+    EXPECT_GE(page.count, 2U);  // a waterfall of one row would be refused
+  }
+  EXPECT_EQ(page_of(reel, 599).first, page_of(reel, 0).first);  // the picture stays while the ping goes on
+}
+
+// After ping 14 of sweeps of twelve, bearings 0 to 2 are new, and the others those of the sweep before.
+TEST(ViewerRecords, a_sweep_shows_every_bearing_as_it_was_heard_last) {
+  ViewerData data;
+  data.pings = CountedReel().reel(40, true);
+  BeamPage page;
+  const SweepImage sweep = sweep_at(data, 14, false, page);
+  ASSERT_EQ(sweep.ping.size(), pings_per_sweep);
+  for (std::size_t beam = 0; beam < pings_per_sweep; ++beam) {
+    const std::size_t heard = beam <= 2 ? 12 + beam : beam;
+    EXPECT_EQ(sweep.ping[beam], heard);
+    EXPECT_NEAR(sweep.image.level_db(static_cast<Eigen::Index>(beam), 70),
+                120 - 20 * std::log10(std::sqrt(2)) + static_cast<double>(heard), 1e-3);
+    EXPECT_NEAR(std::remainder(sweep.image.fan.azimuth[beam] - radians(30.0 * static_cast<double>(beam)), 2 * pi), 0,
+                1e-12);
+  }
+  // In the first sweep nothing was heard of the bearings to come.
+  const SweepImage first = sweep_at(data, 3, false, page);
+  EXPECT_EQ(first.image.level_db(4, 70), static_cast<float>(silence_db));
+  EXPECT_GT(first.image.level_db(3, 70), 100);
+  // The last sweep, of four pings, keeps the whole circle.
+  EXPECT_EQ(sweep_at(data, 39, false, page).ping.size(), pings_per_sweep);
+}
+
+TEST_F(SurveyWindow, playing_reads_every_ping_once) {
+  open(300, false);
+  const int before = *counted_.read;
+  EXPECT_LE(before, 20);  // the colour scale looks at 16 of them
+  for (int i = 0; i < 8; ++i) window_->press_key("Right");
+  EXPECT_EQ(window_->state().ping, 8U);
+  EXPECT_LE(*counted_.read, before + 8);
+  EXPECT_LE(*counted_.beams_read, 300);  // the waterfall is read once
+}
+
+TEST_F(SurveyWindow, a_click_on_the_waterfall_goes_to_the_ping) {
+  open(200, false);
+  EXPECT_EQ(window_->layout().history.width(), 0);  // the waterfall is the first panel
+  const Box& box = window_->layout().fan;
+  click({box.left + 0.5 * box.width(), box.bottom + 0.75 * box.height()});
+  const std::size_t high = window_->state().ping;
+  ASSERT_TRUE(window_->state().selected);
+  EXPECT_GT(high, 110U);  // newest on top
+  EXPECT_LT(high, 190U);
+  click({box.left + 0.3 * box.width(), box.bottom + 0.4 * box.height()});
+  EXPECT_LT(window_->state().ping, high - 40);
+  EXPECT_THAT(said_.back(), HasSubstr("Ping " + std::to_string(window_->state().ping)));
+}
+
+TEST_F(SurveyWindow, a_click_on_a_sweep_goes_to_the_ping_that_heard_it) {
+  open(40, true);
+  window_->press_key("Next");
+  window_->press_key("Next");
+  window_->press_key("Next");
+  window_->press_key("Next");
+  EXPECT_EQ(window_->state().ping, 16U);
+  // Straight to starboard of the head is bearing 90 degrees, scan angle 270: ping 9 of the sweep before.
+  const Box& box = window_->layout().fan;
+  click({box.left + 0.6 * box.width(), box.bottom + 0.47 * box.height()});
+  EXPECT_EQ(window_->state().ping, 9U);
+  EXPECT_THAT(said_.back(), HasSubstr("of which the head turned"));
+}
+
+TEST_F(SurveyWindow, the_timeline_seeks_and_stops_playing) {
+  open(201, false);
+  window_->press_key("space");
+  EXPECT_TRUE(window_->state().playing);
+  const Box& box = window_->layout().timeline;
+  ViewerEvent event = parse_viewer_script("click timeline 0 0").front();
+  event.from = {0.75 * box.width(), 0.5 * box.height()};
+  window_->play(event);
+  EXPECT_NEAR(static_cast<double>(window_->state().ping), 152, 6);
+  EXPECT_FALSE(window_->state().playing);
+  window_->press_key("Next");
+  EXPECT_NEAR(static_cast<double>(window_->state().ping), 172, 6);
+}
+
+TEST_F(SurveyWindow, buttons_press_their_keys) {
+  open(200, false);
+  const auto press = [&](const char* key) {
+    const auto at = window_->pixel_of_button(key);
+    ASSERT_TRUE(at) << key;
+    click(*at);
+  };
+  press("Right");
+  EXPECT_EQ(window_->state().ping, 1U);
+  press("space");
+  EXPECT_TRUE(window_->state().playing);
+  press("space");
+  // Those without room are in the help.
+  window_->press_key("h");
+  press("m");
+  EXPECT_NE(window_->state().colour_map, "copper");
+  press("q");
+  EXPECT_TRUE(window_->finished());
+}
+
+namespace {
+
+class ViewSurvey : public ToolTest {
+ protected:
+  void SetUp() override {
+    have("harbour.ply", "make-scene harbour --points 6000");
+    write("m.toml", R"(schema = 1
+[survey]
+scene = "harbour.ply"
+[trajectory]
+waypoints_m = [[0, 0, -3], [4, 0, -3]]
+speed_m_s = 1
+[[head]]
+name = "fls"
+sonar = "p900-45"
+range = "1:9"
+set = ["sonar.beams=16"]
+angles_deg = [0, 20, 0]
+rate_hz = 2
+[[head]]
+name = "turning"
+sonar = "ping360"
+range = "1:6"
+[head.scan]
+step_deg = 45
+dwell_s = 0.5
+[ping]
+scatterers_per_cell = 0
+)");
+  }
+  void survey(const std::string& more = "") const { succeed("survey m.toml -q --pings-per-block 3 -o run " + more); }
+  std::string shown(const std::string& arguments) const {
+    return succeed("view " + arguments + " --size 800x600 --force --screenshot a.png -q");
+  }
+};
+
+}  // namespace
+
+// From its shards and merged, as a whole and by the folder of a head, a survey looks the same.
+TEST_F(ViewSurvey, is_played_from_shards_and_merged) {
+  survey();
+  EXPECT_THAT(shown("run --ping 5 --events 'select 3 200'"), HasSubstr("Ping 5, beam 3, bin 200"));
+  const std::string from_shards = read("a.png");
+  succeed("merge run -q");
+  shown("run/fls --ping 5 --events 'select 3 200'");
+  EXPECT_EQ(read("a.png"), from_shards);
+  EXPECT_THAT(shown("run --head turning --ping 3 --no-scene --events 'select 0 9; key End; select 0 9'"),
+              AllOf(HasSubstr("the head turned -135.00°"), HasSubstr("Ping 7, ")));
+  // The blocks are not needed once they are copied.
+  succeed("merge run --copy -q");
+  for (const char* head : {"fls", "turning"}) std::filesystem::remove_all(path("run/" + std::string(head) + "/blocks"));
+  EXPECT_THAT(shown("run --ping 5 --no-scene --events 'select 3 200'"), HasSubstr("Ping 5, beam 3, bin 200"));
+}
+
+TEST_F(ViewSurvey, says_what_is_missing) {
+  survey("--shard 1/2");
+  const ToolResult result = run("view run --size 800x600 --no-scene --screenshot a.png --events 'select 0 3'");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("2 of 3 blocks of fls are not done yet"));
+  EXPECT_THAT(result.err, HasSubstr("other heads too: --head turning"));
+  EXPECT_THAT(result.out, HasSubstr("Ping 3, "));  // the first of block 1
+  expect_refused("view run --head sonar --screenshot b.png", 2,
+                 {"--head = 'sonar' is not in run; it has fls, turning"});
+  expect_refused("view harbour.ply --head fls --sonar p900-45 --pose=0,0,0,0,0,0 --screenshot b.png", 2, {"--head"});
+}
