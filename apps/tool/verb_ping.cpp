@@ -73,7 +73,12 @@ void ping(const PingCommand& command) {
 
   progress.step("writing " + o.run.output);
   watch.lap();
-  save_soundings(directory.file("returns.pcd"), result.soundings);
+  const Eigen::Vector3d origin = save_soundings(directory.file("returns.pcd"), result.soundings);
+  manifest["returns_pcd_origin_m"] = {origin.x(), origin.y(), origin.z()};
+  if (!origin.isZero(0))
+    note_to_user(
+        fmt::format("returns.pcd counts from {:.0f}, {:.0f}, {:.0f} m, as its VIEWPOINT says: a PCD is float32",
+                    origin.x(), origin.y(), origin.z()));
   save_soundings(directory.file("returns.ply"), result.soundings);
   if (simulation.outputs.elements)
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ void write_cube(const std::string& path, const Cube& cube);
 /// Reads what write_cube wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not a cube, has
 /// another schema or lacks a dataset or attribute, naming it.
 Cube read_cube(const std::string& path);
+
+/// Calls `use` with the cube without pings and each of its pings, one after the other: memory is that of one ping. Errors
+/// as read_cube, of images when their ping is due.
+void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use);
 
 /// When and from where a ping was sent.
 struct TrackPoint {

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <span>
 
 #include "core/error.hpp"
 #include "store/cube.hpp"
@@ -72,10 +73,10 @@ void require_sources(const Place& place, hid_t dataset, const std::string& name)
   }
 }
 
-// Reads one image per ping, with values of `type`, into the member selected by `part`.
+// Reads one image per ping, from ping `first` of the cube on, with values of `type`, into the member selected by `part`.
 template <typename Part>
-void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::vector<Ping>& pings,
-                 Part part) {
+void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::span<Ping> pings,
+                 std::size_t first, Part part) {
   require_sources(place, dataset, name);
   const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
@@ -83,7 +84,7 @@ void read_images(const Place& place, hid_t dataset, const std::string& name, hid
   for (std::size_t p = 0; p < pings.size(); ++p) {
     auto& image = part(pings[p]);
     image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
-    const Handle row = select_row(place, dataset, extent, p);
+    const Handle row = select_row(place, dataset, extent, first + p);
     place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read");
   }
 }
@@ -99,7 +100,7 @@ void require_extent(const Place& place, hid_t dataset, const std::string& name, 
     fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
 }
 
-void read_layers(const Place& place, hid_t file, const Extent& extent, std::vector<Ping>& pings) {
+void read_layers(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   for (const std::string& layer : names_in(place, file, layers_group)) {
     const std::string path = std::string(layers_group) + "/" + layer;
@@ -107,7 +108,7 @@ void read_layers(const Place& place, hid_t file, const Extent& extent, std::vect
     require_extent(place, dataset, path, extent);
     require_complex(place, dataset, path);
     for (Ping& ping : pings) ping.layers.push_back({layer, {}});
-    read_images(place, dataset, path, type, pings,
+    read_images(place, dataset, path, type, pings, first,
                 [](Ping& ping) -> ComplexGridF& { return ping.layers.back().pressure; });
   }
 }
@@ -115,7 +116,7 @@ void read_layers(const Place& place, hid_t file, const Extent& extent, std::vect
 // Reads an optional map into a member of each ping.
 template <typename Map>
 void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-              std::vector<Ping>& pings, Map Ping::*map) {
+              std::span<Ping> pings, std::size_t first, Map Ping::*map) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return;
   const Handle dataset = open_dataset(place, file, name);
   require_extent(place, dataset, name.path, extent);
@@ -123,14 +124,7 @@ void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t typ
   if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
     fail(place.kind, place.path, ": ", name.path, " must be of ",
          H5Tget_class(type) == H5T_FLOAT ? "float32" : "uint8");
-  read_images(place, dataset, name.path, type, pings, [map](Ping& ping) -> Map& { return ping.*map; });
-}
-
-void read_scan(const Place& place, hid_t file, std::vector<Ping>& pings) {
-  if (H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) <= 0) return;
-  const auto angle = read_all<double>(place, file, scan_angle_name, {pings.size()}, H5T_NATIVE_DOUBLE);
-  const auto sweep = read_all<std::int64_t>(place, file, sweep_name, {pings.size()}, H5T_NATIVE_INT64);
-  for (std::size_t p = 0; p < pings.size(); ++p) pings[p].scan = ScanPlace{sweep[p], angle[p]};
+  read_images(place, dataset, name.path, type, pings, first, [map](Ping& ping) -> Map& { return ping.*map; });
 }
 
 std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
@@ -148,37 +142,53 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
   return track;
 }
 
-std::vector<Ping> read_pings(const Place& place, hid_t file) {
-  const Handle dataset = open_dataset(place, file, pressure_name);
-  const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
-  require_complex(place, dataset, pressure_name.path);
-  const std::vector<TrackPoint> track = track_of(place, file, extent[0]);
+// What is known of the pings of a cube without their images.
+struct CubeTable {
+  Extent extent;  // of /pressure
+  Ping common;
+  std::vector<TrackPoint> track;
+  std::vector<double> scan_angle;  // with the sweeps, of a scanning head alone
+  std::vector<std::int64_t> sweep;
+};
 
-  std::vector<Ping> pings(extent[0], read_axes(place, file, extent));
-  const bool expected_level = H5Aexists(file, expected_level_attribute) > 0;
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    pings[p].time = track[p].time;
-    pings[p].number = track[p].number;
-    pings[p].world_from_head = track[p].world_from_head;
-    pings[p].expected_level = expected_level;
+CubeTable read_table(const Place& place, hid_t file) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  CubeTable table;
+  table.extent = extent_of(place, dataset, pressure_name.path, 3);
+  require_complex(place, dataset, pressure_name.path);
+  const hsize_t pings = table.extent[0];
+  table.track = track_of(place, file, pings);
+  table.common = read_axes(place, file, table.extent);
+  table.common.expected_level = H5Aexists(file, expected_level_attribute) > 0;
+  if (H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) > 0) {
+    table.scan_angle = read_all<double>(place, file, scan_angle_name, {pings}, H5T_NATIVE_DOUBLE);
+    table.sweep = read_all<std::int64_t>(place, file, sweep_name, {pings}, H5T_NATIVE_INT64);
   }
-  read_scan(place, file, pings);
-  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings,
-              [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
-  read_layers(place, file, extent, pings);
-  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::intensity);
-  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::level_error_db);
-  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, &Ping::unknown);
-  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, &Ping::split_phase);
-  return pings;
+  return table;
 }
 
-}  // namespace
+Ping ping_of(const CubeTable& table, std::size_t p) {
+  Ping ping = table.common;
+  ping.time = table.track[p].time;
+  ping.number = table.track[p].number;
+  ping.world_from_head = table.track[p].world_from_head;
+  if (!table.sweep.empty()) ping.scan = ScanPlace{table.sweep[p], table.scan_angle[p]};
+  return ping;
+}
 
-Cube read_cube(const std::string& path) {
-  const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
+// Fills the images of pings, of which the first is number `first` in the cube.
+void fill_images(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, first,
+              [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
+  read_layers(place, file, extent, pings, first);
+  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::intensity);
+  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::level_error_db);
+  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, first, &Ping::unknown);
+  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::split_phase);
+}
+
+Cube read_attributes(const Place& place, hid_t file) {
   require_schema(place, file);
   Cube cube;
   cube.insonify_version = read_text(place, file, "insonify_version");
@@ -190,8 +200,33 @@ Cube read_cube(const std::string& path) {
   cube.source_level_db = read_number(place, file, "source_level_db");
   cube.seed = read_unsigned(place, file, "seed");
   cube.tolerance = read_number(place, file, "tolerance");
-  cube.pings = read_pings(place, file);
   return cube;
+}
+
+}  // namespace
+
+Cube read_cube(const std::string& path) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  Cube cube = read_attributes(place, file);
+  const CubeTable table = read_table(place, file);
+  for (std::size_t p = 0; p < table.track.size(); ++p) cube.pings.push_back(ping_of(table, p));
+  fill_images(place, file, table.extent, cube.pings, 0);
+  return cube;
+}
+
+void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  const Cube cube = read_attributes(place, file);
+  const CubeTable table = read_table(place, file);
+  for (std::size_t p = 0; p < table.track.size(); ++p) {
+    Ping ping = ping_of(table, p);
+    fill_images(place, file, table.extent, {&ping, 1}, p);
+    use(cube, ping);
+  }
 }
 
 std::vector<TrackPoint> read_track(const std::string& path) {
