@@ -119,7 +119,7 @@ RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< of heights, by GDAL
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.
 void check_netcdf(const std::string& path);
-RawCloud read_asc(const std::string& path, const ReadOptions& options);     ///< text, or an ESRI ASCII grid
-RawCloud read_vtk(const std::string& path, const ReadOptions& options);     ///< .vtk, .vtp, .stl
+RawCloud read_asc(const std::string& path, const ReadOptions& options);  ///< text, or an ESRI ASCII grid
+RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp, .stl
 
 }  // namespace insonify

@@ -8,23 +8,16 @@
 #include <set>
 #include <sstream>
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
-#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
-#include <vtkUnsignedIntArray.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -34,24 +27,13 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
-#include "returns/sounding_columns.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_lines_internal.hpp"
+#include "view/xml_file_internal.hpp"
 
 namespace insonify {
-namespace {
 
-/// An array of cell data; of a fan with ranges varying fastest.
-vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>(count));
-  std::copy(values, values + count, array->GetPointer(0));
-  return array;
-}
-
-/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed.
 void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who) {
   const VtkMessages messages;
   writer.SetInputData(data);
@@ -62,6 +44,17 @@ void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, 
   if (!writer.Write()) fail(ErrorKind::runtime, who, ": VTK cannot write ", path);
   messages.throw_first_error(who);
   write_file(path, writer.GetOutputString());
+}
+
+namespace {
+
+/// An array of cell data; of a fan with ranges varying fastest.
+vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  std::copy(values, values + count, array->GetPointer(0));
+  return array;
 }
 
 void require_map(const HorizontalMap& map, const char* who) {
@@ -267,44 +260,6 @@ void save_lines(const std::string& path, const LineSet& lines) {
   if (!lines.fields.empty()) data->GetCellData()->SetActiveScalars(lines.fields.front().name.c_str());
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_xml(*writer, data, path, "save_lines");
-}
-
-void save_points(const std::string& path, const Soundings& soundings) {
-  const auto count = static_cast<vtkIdType>(soundings.size());
-  vtkNew<vtkPolyData> data;
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> vertices;
-  for (vtkIdType i = 0; i < count; ++i) {
-    points->InsertNextPoint(soundings.position[static_cast<std::size_t>(i)].data());
-    vertices->InsertNextCell(1, &i);
-  }
-  data->SetPoints(points);
-  data->SetVerts(vertices);
-
-  vtkNew<vtkStringArray> units;
-  units->SetName("units");
-  units->InsertNextValue("Points: m");
-  each_column(
-      [&](const SoundingColumn& about, const auto& column) {
-        if (column.size() != soundings.size())
-          fail(ErrorKind::argument, "save_points: ", path, ": column '", about.name, "' has ", column.size(),
-               " entries, must have one for each of the ", soundings.size(), " soundings");
-        using Real = std::is_same<typename std::decay_t<decltype(column)>::value_type, float>;
-        using Array = std::conditional_t<Real::value, vtkFloatArray, vtkUnsignedIntArray>;
-        const auto array = vtkSmartPointer<Array>::New();
-        array->SetName(about.name);
-        array->SetNumberOfValues(count);
-        std::copy(column.begin(), column.end(), array->GetPointer(0));
-        array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), about.unit);
-        data->GetPointData()->AddArray(array);
-        units->InsertNextValue(std::string(about.name) + ": " + about.unit);
-      },
-      soundings);
-  data->GetPointData()->SetActiveScalars("level_db");
-  data->GetFieldData()->AddArray(units);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  write_xml(*writer, data, path, "save_points");
 }
 
 }  // namespace insonify

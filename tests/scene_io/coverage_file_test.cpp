@@ -68,7 +68,8 @@ TEST(BedOfReturns, is_the_surface_on_which_they_stand) {
   }
   returns.azimuth = returns.elevation = returns.range;
   returns.true_elevation = returns.range;
-  returns.ping = returns.beam = returns.bin = returns.true_surfel = returns.true_material = std::vector<std::uint32_t>(400, 0);
+  returns.ping = returns.beam = returns.bin = returns.true_surfel = returns.true_material =
+      std::vector<std::uint32_t>(400, 0);
   save_soundings(own_path("returns.ply"), returns);
   const BedSurface bed = bed_of_returns(own_path("returns.ply"), 1);
   for (double x = 1; x < 9; x += 0.7) EXPECT_NEAR(bed.at(x, 4.2), -5 + 0.1 * x, 0.03) << x;
