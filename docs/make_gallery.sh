@@ -84,6 +84,13 @@ picture side-scan "A side-scan line along the wreck." \
 picture track "The same line from above: the way over the mosaic of both sides." \
   "insonify image line --view track --size 900x700 -o track.png"
 
+chapter "A swath over a slope and a step" "A bathymetric head above a slope of 45 degrees to port, a level bed, and a step of one metre to starboard. Soundings by centre of gravity and by phase, from the ping alone. [How they are found](equations.md), E92 to E95."
+steps "printf 'v %s 24 -8\nv %s 12 -20\nv %s -8 -20\nv %s -8 -19\nv %s -45 -19\n' -2 -2 -2 -2 -2 2 2 2 2 2 > groove.obj" \
+  "for i in 1 2 3 4; do echo f \$i \$((i + 1)) \$((i + 6)) \$((i + 5)); done >> groove.obj" \
+  "insonify ping groove.obj --sonar r2sonic-2024 --pose=0,0,0,0,90,0 --range 12:48 --split --noise --no-picture -o groove" \
+  "insonify export groove --to csv -o groove.csv"
+picture soundings "Soundings of one ping across the track." "insonify image groove --view soundings --size 1000x500 -o soundings.png"
+
 chapter "The head itself" "The directional response of its array."
 picture pattern "Beam pattern." "insonify beampattern p900-45 --steer=-20 --size 900x500 -o pattern.png"
 

@@ -5,7 +5,7 @@
 
 namespace insonify::tool {
 
-/// Options of `export --to gsf|las|mcap|geotiff`.
+/// Options of `export`.
 struct ProductOptions {
   std::string to = "vtk", run, output;
   std::string head;                    ///< of a survey with several
@@ -13,9 +13,10 @@ struct ProductOptions {
   double cell = 0.5;                   ///< of a raster [m]
   int per_beam = 1;                    ///< soundings of a beam
   bool linear = false;                 ///< images of pressure in 32 bits
+  bool force = false;                  ///< replace a directory
 };
 
-/// Writes the pings of a run, one after the other, as a file of another program. Throws Error(argument) for a product with
+/// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws Error(argument) for a product with
 /// coordinates of the globe if neither options nor mission say where the world is, Error(content) for a survey that is
 /// not complete or has several heads, as read_cube for damaged cubes, and Error(file) if it cannot write.
 void export_product(const ProductOptions& options, const CommonOptions& common);

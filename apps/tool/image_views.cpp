@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "tool/image.hpp"
 #include "tool/run_files.hpp"
+#include "tool/run_pings.hpp"
 #include "tool/scan_image.hpp"
 #include "tool/side_scan.hpp"
 #include "tool/track_image.hpp"
@@ -96,6 +97,12 @@ Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number)
   return panels;
 }
 
+void draw_soundings(const ViewJob& job) {
+  const Environment environment = find_run_pings(job.run.path, "").environment;
+  const Ping& ping = job.run.cube.pings[job.ping];
+  show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, environment, 1)), job.picture, job.path);
+}
+
 /// The sweep of the ping.
 void draw_scan(const ViewJob& job) {
   const bool in_world = job.options.frame == "world";
@@ -149,6 +156,7 @@ const std::vector<ViewSpec>& all_views() {
        BeamChoice::mean,
        BeamChoice::mean},
       {"panels", "fan, one beam, its pattern and facts", {"--annotate", "--animate"}, draw_panels, max_db_of_image},
+      {.name = "soundings", .shows = "soundings of the bottom across the track", .draw = draw_soundings},
       {.name = "scan", .shows = "the sweep of a scanning head", .options = {"--frame"}, .draw = draw_scan},
       {.name = "track", .shows = "a merged survey from above: ways, and mosaic or returns", .draw_alone = draw_track},
       {.name = "scene",

@@ -57,10 +57,7 @@ RunPings find_run_pings(const std::string& run, const std::string& head) {
 }
 
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use) {
-  for (const std::string& path : run.cubes) {
-    const Cube cube = read_cube(path);
-    for (const Ping& ping : cube.pings) use(cube, ping);
-  }
+  for (const std::string& path : run.cubes) read_cube_pings(path, use);
 }
 
 BottomOptions bottom_options(const Cube& cube, const Environment& environment, int per_beam) {

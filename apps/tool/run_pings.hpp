@@ -11,7 +11,7 @@
 
 namespace insonify::tool {
 
-/// The pings of a run or of one head of a survey: cubes that are read one at a time.
+/// The pings of a run or of one head of a survey: cubes whose pings are read one at a time.
 struct RunPings {
   std::vector<std::string> cubes;  ///< paths
   Environment environment{};       ///< of its run.toml, if it has one
@@ -24,7 +24,7 @@ struct RunPings {
 /// done, Error(argument) for a head that is not named or not there.
 RunPings find_run_pings(const std::string& run, const std::string& head);
 
-/// Calls `use` with each ping and the cube it is of.
+/// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
 
 /// Options to find the bottom in pings of a cube.

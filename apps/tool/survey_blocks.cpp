@@ -20,11 +20,8 @@ namespace fs = std::filesystem;
 
 /// Appends the soundings of `from` that belong to ping `number`.
 void append(Soundings& to, const Soundings& from, std::uint32_t number) {
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (from.ping[i] != number) continue;
-    to.position.push_back(from.position[i]);
-    each_column([i](const char*, auto& column, const auto& source) { column.push_back(source[i]); }, to, from);
-  }
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (from.ping[i] == number) append_row(to, from, i);
 }
 
 /// Drops the layers if not all pings have the same ones: what a ping needs is decided for each.

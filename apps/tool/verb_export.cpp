@@ -1,13 +1,16 @@
+#include <filesystem>
+#include <optional>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "returns/looks.hpp"
 #include "returns/quantise.hpp"
-#include "store/cube.hpp"
+#include "scene_io/load_scene.hpp"
 #include "store/run_directory.hpp"
 #include "tool/export_product.hpp"
-#include "tool/image.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_pings.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 #include "view/save_vtk.hpp"
@@ -18,28 +21,29 @@ namespace {
 struct ExportOptions {
   CommonOptions common;
   ProductOptions product;
-  bool force = false;
 };
 
 void add_options(OptionList list, ExportOptions& o) {
   ProductOptions& p = o.product;
   list.add("RUN", &p.run, "run directory, survey or cube.h5", {.required = true});
-  list.add("-o,--output", &p.output, "file to write; of vtk: directory to make", {.required = true});
+  list.add("-o,--output", &p.output, "file to write; of vtk and png: directory to make", {.required = true});
   list.add(
       "--to", &p.to,
-      "vtk: grids for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 in UTM, or "
-      "geotiff: a grid in UTM; mcap: images, points and poses as messages of ROS 2",
-      {.words = {"vtk", "gsf", "las", "geotiff", "mcap"}});
+      "vtk: grids and returns for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 "
+      "in "
+      "UTM, geotiff: a grid in UTM, or csv: a table; mcap: images, points and poses as messages of ROS 2; png: bare "
+      "pictures",
+      {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png"}});
   list.add("--anchor", &p.anchor,
            "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: the mission's");
   list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
   list.add("--start-utc", &p.start_utc, "of time 0, as 2026-05-01T08:30:00Z; default: the mission's, else 1970");
   list.add("--head", &p.head, "of a survey with several heads");
   list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
-  list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy (gsf has one)",
+  list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
            {.within = std::pair(1, 100), .shown_as = "INT"});
   list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
-  list.add("--force", &o.force, "replace an existing directory of an earlier export");
+  list.add("--force", &p.force, "replace an existing directory of an earlier export");
   add_common(list, o.common, false);
 }
 
@@ -61,18 +65,25 @@ std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m)
   return fields;
 }
 
+/// The returns beside a run or of a merged survey; nothing if there are none.
+std::optional<Soundings> returns_of(const std::string& run) {
+  const std::filesystem::path path = std::filesystem::path(run) / "returns.ply";
+  if (!std::filesystem::exists(path)) return {};
+  return load_soundings(path.string());
+}
+
 void export_run(const ExportOptions& options) {
   if (options.product.to != "vtk") return export_product(options.product, options.common);
   const ProductOptions& o = options.product;
   Progress progress(options.common, 2);
   progress.step("reading " + o.run);
-  const Cube cube = read_run_cube(o.run);
-  RunDirectory directory(o.output, options.force);
+  const RunPings run = find_run_pings(o.run, o.head);
+  RunDirectory directory(o.output, o.force);
 
   progress.step("writing " + o.output);
   std::vector<SeriesEntry> fans, images;
-  for (std::size_t k = 0; k < cube.pings.size(); ++k) {
-    const Ping& ping = cube.pings[k];
+  each_ping(run, [&](const Cube& cube, const Ping& ping) {
+    const std::size_t k = images.size();
     const std::vector<SampleField> fields = fields_of(ping, cube.absorption_db_per_m);
     const auto files = save_fan_grid(directory.file(fmt::format("fan_{:06}.vts", k)), ping.fan, ping.gate, fields,
                                      ping.world_from_head);
@@ -81,16 +92,18 @@ void export_run(const ExportOptions& options) {
     const std::string image = directory.file(fmt::format("image_{:06}.vti", k));
     save_sample_image(image, ping.fan, ping.gate, fields);
     images.push_back({ping.time, 0, image});
-  }
+  });
   save_series(directory.file("fan.pvd"), fans);
   save_series(directory.file("image.pvd"), images);
+  const std::optional<Soundings> returns = returns_of(o.run);
+  if (returns) save_points(directory.file("returns.vtp"), *returns);
   write_file(
       directory.file("manifest.json"),
       nlohmann::ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}}.dump(2) +
           "\n");
   directory.commit();
-  fmt::print("{}: {} grids and {} images of {} pings; open fan.pvd in ParaView\n", o.output, fans.size(), images.size(),
-             cube.pings.size());
+  fmt::print("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView\n", o.output, fans.size(),
+             images.size(), images.size(), returns ? fmt::format(", {} returns", returns->size()) : "");
 }
 
 }  // namespace

@@ -37,6 +37,19 @@ double peak_level_db(const Ping& ping) {
   return std::max(silence_db, pressure_level_db(std::sqrt(ping.pressure.unaryExpr(power).maxCoeff())));
 }
 
+/// Writes the returns as both clouds; returns the local origin of the PCD.
+Eigen::Vector3d save_returns(RunDirectory& directory, const Soundings& soundings, ordered_json& manifest) {
+  const Eigen::Vector3d origin = save_soundings(directory.file("returns.pcd"), soundings);
+  manifest["returns_pcd_origin_m"] = {origin.x(), origin.y(), origin.z()};
+  save_soundings(directory.file("returns.ply"), soundings);
+  return origin;
+}
+
+std::string origin_note(const Eigen::Vector3d& origin) {
+  return fmt::format("returns.pcd counts from {:.0f}, {:.0f}, {:.0f} m, as its VIEWPOINT says: a PCD is float32",
+                     origin.x(), origin.y(), origin.z());
+}
+
 void ping(const PingCommand& command) {
   PingOptions o = settled_options(command);
   const CommonOptions& common = o.common;
@@ -73,8 +86,8 @@ void ping(const PingCommand& command) {
 
   progress.step("writing " + o.run.output);
   watch.lap();
-  save_soundings(directory.file("returns.pcd"), result.soundings);
-  save_soundings(directory.file("returns.ply"), result.soundings);
+  const Eigen::Vector3d origin = save_returns(directory, result.soundings, manifest);
+  if (!origin.isZero(0)) note_to_user(origin_note(origin));
   if (simulation.outputs.elements)
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
   write_kept(directory, o, loaded.scene, ready, result, manifest);

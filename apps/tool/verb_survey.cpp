@@ -71,7 +71,7 @@ ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::s
     scatterers += static_cast<double>(result.sampling.scatterers);
     soundings += static_cast<double>(result.soundings.size());
   }
-  constexpr double row_bytes = 68;  // of returns.ply
+  constexpr double row_bytes = 76;  // of returns.ply
   const double n = static_cast<double>(pings.size()), part = samples > 0 ? n / static_cast<double>(samples) : 0;
   return {{"name", s.file.mission.heads[h].name},
           {"pings", pings.size()},

@@ -15,32 +15,34 @@ namespace {
 // Records, and subrecords of a ping.
 enum : std::uint32_t { header_record = 1, ping_record = 2, profile_record = 3, parameter_record = 4 };
 constexpr std::uint8_t beam_flags_id = 16, scale_factors_id = 100, seabat_ii_id = 114;
+constexpr std::size_t most_beams = 18000;  // of 28 bytes: a record has at most 2^19
 constexpr double confidence_95 = 1.959963985;
 constexpr double knots_per_m_s = 3600.0 / 1852;
 
 enum class GsfType { u8, i16, u16, i32, u32 };
 
-/// An array of one number per beam: raw = value times multiplier, rounded.
+/// An array of one number per beam: raw = (value + offset) times multiplier, rounded.
 struct GsfArray {
   std::uint8_t id, size_flag;  ///< of the field: 0 the usual, 0x40 four bytes
   GsfType type;
-  std::int32_t multiplier;
+  std::int32_t multiplier, offset;
   const char* name;
   double (*value)(const GsfBeam& beam);
 };
 
 const GsfArray gsf_arrays[] = {
-    {1, 0x40, GsfType::u32, 10000, "depth below z = 0", [](const GsfBeam& b) { return b.depth; }},
-    {2, 0x40, GsfType::i32, 10000, "across", [](const GsfBeam& b) { return b.across; }},
-    {3, 0x40, GsfType::i32, 10000, "along", [](const GsfBeam& b) { return b.along; }},
-    {4, 0x40, GsfType::u32, 100000000, "travel_time", [](const GsfBeam& b) { return b.travel_time; }},
-    {5, 0, GsfType::i16, 100, "angle", [](const GsfBeam& b) { return degrees(b.angle); }},
-    {18, 0, GsfType::i16, 100, "azimuth", [](const GsfBeam& b) { return degrees(std::remainder(b.azimuth, 2 * pi)); }},
-    {7, 0, GsfType::u8, 1, "level_db", [](const GsfBeam& b) { return std::clamp(b.level_db, 0.0, 255.0); }},
-    {9, 0, GsfType::u8, 50, "quality", [](const GsfBeam& b) { return std::clamp(b.quality, 0.0, 5.1); }},
-    {19, 0, GsfType::u16, 10000, "vertical_deviation",
+    {1, 0x40, GsfType::u32, 10000, 10000, "depth below z = 0", [](const GsfBeam& b) { return b.depth; }},
+    {2, 0x40, GsfType::i32, 10000, 0, "across", [](const GsfBeam& b) { return b.across; }},
+    {3, 0x40, GsfType::i32, 10000, 0, "along", [](const GsfBeam& b) { return b.along; }},
+    {4, 0x40, GsfType::u32, 100000000, 0, "travel_time", [](const GsfBeam& b) { return b.travel_time; }},
+    {5, 0, GsfType::i16, 100, 0, "angle", [](const GsfBeam& b) { return degrees(b.angle); }},
+    {18, 0, GsfType::i16, 100, 0, "azimuth",
+     [](const GsfBeam& b) { return degrees(std::remainder(b.azimuth, 2 * pi)); }},
+    {7, 0, GsfType::u8, 1, 0, "level_db", [](const GsfBeam& b) { return std::clamp(b.level_db, 0.0, 255.0); }},
+    {9, 0, GsfType::u8, 50, 0, "quality", [](const GsfBeam& b) { return std::clamp(b.quality, 0.0, 5.1); }},
+    {19, 0, GsfType::u16, 10000, 0, "vertical_deviation",
      [](const GsfBeam& b) { return std::min(6.5, confidence_95 * b.vertical_deviation); }},
-    {20, 0, GsfType::u16, 10000, "horizontal_deviation",
+    {20, 0, GsfType::u16, 10000, 0, "horizontal_deviation",
      [](const GsfBeam& b) { return std::min(6.5, confidence_95 * b.horizontal_deviation); }}};
 
 /// Rounds `value` to a number of the field; Error(content) if it has no room there.
@@ -121,7 +123,7 @@ std::string scale_factors() {
   for (const GsfArray& array : gsf_arrays) {
     put_big(bytes, static_cast<std::uint32_t>(std::uint32_t{array.id} << 24 | std::uint32_t{array.size_flag} << 16));
     put_big(bytes, array.multiplier);
-    put_big(bytes, std::int32_t{0});  // offset
+    put_big(bytes, array.offset);
   }
   return bytes;
 }
@@ -175,16 +177,17 @@ void GsfFile::record(std::uint32_t id, std::string data) {
 }
 
 void GsfFile::add(const GsfPing& ping) {
-  if (ping.beams.empty() || ping.beams.size() > 1000)
-    fail(ErrorKind::content, "GSF: ping ", ping.number, " has ", ping.beams.size(),
-         " beams, must be within 1 and 1000");
+  if (ping.beams.empty() || ping.beams.size() > most_beams)
+    fail(ErrorKind::content, "GSF: ping ", ping.number, " has ", ping.beams.size(), " soundings, must be within 1 and ",
+         most_beams);
   std::string data = ping_header(ping);
   if (!scaled_) put_subrecord(data, scale_factors_id, scale_factors());
   scaled_ = true;
   for (const GsfArray& array : gsf_arrays) {
     std::string values;
     for (const GsfBeam& beam : ping.beams)
-      put_gsf(values, array.type, beam.detected ? array.value(beam) * array.multiplier : 0, ping, array.name);
+      put_gsf(values, array.type, ((beam.detected ? array.value(beam) : 0) + array.offset) * array.multiplier, ping,
+              array.name);
     put_subrecord(data, array.id, values);
   }
   std::string flags;

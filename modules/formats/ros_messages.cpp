@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/error.hpp"
+#include "formats/fan_raster.hpp"
 #include "formats/packed_bytes_internal.hpp"
 #include "returns/looks.hpp"
 
@@ -43,11 +43,6 @@ const std::string header_part = part_line + "std_msgs/Header\nbuiltin_interfaces
 const std::string vector_part = part_line + "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
 constexpr std::uint32_t dtype_uint8 = 0, dtype_uint32 = 4;
 constexpr std::uint8_t float32_field = 7;
-
-void require_one_row(const Ping& ping, const char* who) {
-  if (fan_rows(ping.fan).size() > 1)
-    fail(ErrorKind::content, who, ": ping ", ping.number, " has several rows of beams, must have one");
-}
 
 Grid<std::uint8_t> greys_of(const Ping& ping, const Tvg& tvg, const GreyWindow& window) {
   return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
@@ -137,41 +132,16 @@ std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double f
 }
 
 std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height) {
-  require_one_row(ping, "fan_image");
-  const Grid<std::uint8_t> grey = greys_of(ping, tvg, window);
-  std::vector<std::size_t> order(ping.fan.beams());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return ping.fan.azimuth[a] < ping.fan.azimuth[b]; });
-  const double half = ping.fan.beam_width / 2;
-  const double port = ping.fan.azimuth[order.back()] + half, starboard = ping.fan.azimuth[order.front()] - half;
-  const double far = ping.gate.max_range, step = far / height;
-  const double side = far * std::sin(std::min(std::max(std::abs(port), std::abs(starboard)), std::numbers::pi / 2));
-  const int width = std::max(1, 2 * static_cast<int>(std::ceil(side / step)));
-
-  std::string pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), '\0');
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) {
-      const double x = (height - row - 0.5) * step, y = (width / 2 - column - 0.5) * step;
-      const double range = std::hypot(x, y), azimuth = std::atan2(y, x);
-      const double bin = std::floor((range - ping.gate.min_range) / ping.gate.bin_size);
-      if (azimuth > port || azimuth < starboard || bin < 0 || bin >= static_cast<double>(grey.cols())) continue;
-      auto next = std::lower_bound(order.begin(), order.end(), azimuth,
-                                   [&](std::size_t b, double a) { return ping.fan.azimuth[b] < a; });
-      if (next == order.end() ||
-          (next != order.begin() && azimuth - ping.fan.azimuth[*(next - 1)] < ping.fan.azimuth[*next] - azimuth))
-        --next;
-      pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] =
-          static_cast<char>(grey(static_cast<Eigen::Index>(*next), static_cast<Eigen::Index>(bin)));
-    }
+  const FanRaster raster = fan_raster(ping, tvg, window, height);
   CdrMessage message;
   message.header(time, "head");
-  message.count(static_cast<std::size_t>(height));
-  message.count(static_cast<std::size_t>(width));
+  message.count(static_cast<std::size_t>(raster.grey.rows()));
+  message.count(static_cast<std::size_t>(raster.grey.cols()));
   message.text("mono8");
   message.put(std::uint8_t{0});
-  message.count(static_cast<std::size_t>(width));
-  message.count(pixels.size());
-  message.raw() += pixels;
+  message.count(static_cast<std::size_t>(raster.grey.cols()));
+  message.count(static_cast<std::size_t>(raster.grey.size()));
+  message.raw().append(reinterpret_cast<const char*>(raster.grey.data()), static_cast<std::size_t>(raster.grey.size()));
   return message.raw();
 }
 

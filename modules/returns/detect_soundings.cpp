@@ -84,6 +84,14 @@ class Detector {
         most = most.max(ping_.pressure.row(b).segment(first, count).cast<std::complex<double>>().abs2());
       most *= margin;
     });
+    const auto reach = static_cast<std::size_t>(options_.side_lobe_reach / ping_.gate.bin_size);
+    if (reach == 0) return;
+    std::vector<double> about(strongest_.size());
+    for (std::size_t n = 0; n < about.size(); ++n)
+      about[n] = *std::max_element(
+          strongest_.begin() + static_cast<std::ptrdiff_t>(n - std::min(n, reach)),
+          strongest_.begin() + static_cast<std::ptrdiff_t>(std::min(strongest_.size(), n + reach + 1)));
+    strongest_.swap(about);
   }
   bool is_maximum(const Eigen::ArrayXd& row, Eigen::Index n) const {
     for (Eigen::Index k = 1; k <= std::max<Eigen::Index>(1, cell_ - 1); ++k) {
@@ -113,18 +121,23 @@ class Detector {
   std::vector<double> factor_;  // above the sum of so many cells
 };
 
-/// Appends the sounding of one detection, in the direction of its strongest contributor.
+/// Appends the sounding of one detection, in the direction of its strongest contributor or, without one, of the beam.
 void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const StrongestContributor& from) {
   const double range = ping.gate.centre(cell.bin) + static_cast<double>(cell.offset) * ping.gate.bin_size;
-  s.position.push_back(ping.world_from_head * (range * unit_vector(from.direction)));
+  const bool known = from.power > 0;
+  const Direction axis{ping.fan.azimuth[beam], ping.fan.elevation[beam]};
+  s.position.push_back(ping.world_from_head * (range * unit_vector(known ? from.direction : axis)));
   s.level_db.push_back(cell.level_db);
   s.range.push_back(static_cast<float>(range));
-  s.azimuth.push_back(static_cast<float>(ping.fan.azimuth[beam]));
-  s.elevation.push_back(static_cast<float>(from.direction.elevation));
+  s.azimuth.push_back(static_cast<float>(axis.azimuth));
+  s.elevation.push_back(static_cast<float>(axis.elevation));
   s.ping.push_back(static_cast<std::uint32_t>(ping.number));
   s.beam.push_back(static_cast<std::uint32_t>(beam));
   s.bin.push_back(cell.bin);
-  s.material.push_back(from.material);
+  s.true_elevation.push_back(known ? static_cast<float>(from.direction.elevation)
+                                   : std::numeric_limits<float>::quiet_NaN());
+  s.true_surfel.push_back(known ? from.surfel : Soundings::none);
+  s.true_material.push_back(known ? from.material : Soundings::none);
 }
 
 }  // namespace
@@ -137,6 +150,7 @@ Soundings detect_soundings(const Ping& ping, const EchoSource& source, const Det
   require(options.false_alarm_rate > 0 && options.false_alarm_rate <= 1, me, "false_alarm_rate",
           options.false_alarm_rate, "", "above 0 and at most 1");
   require(options.range_resolution >= 0, me, "range_resolution", options.range_resolution, "m", ">= 0");
+  require(options.side_lobe_reach >= 0, me, "side_lobe_reach", options.side_lobe_reach, "m", ">= 0");
   const Detector detector(ping, options);
   std::vector<std::vector<Cell>> of_beam(ping.fan.beams());
   parallel_for(of_beam.size(), options.threads,
@@ -149,9 +163,7 @@ Soundings detect_soundings(const Ping& ping, const EchoSource& source, const Det
   Soundings all;
   auto contributor = from.begin();
   for (std::size_t b = 0; b < of_beam.size(); ++b)
-    for (const Cell cell : of_beam[b])
-      if (const StrongestContributor& strongest = *contributor++; strongest.power > 0)
-        add_sounding(all, ping, b, cell, strongest);
+    for (const Cell cell : of_beam[b]) add_sounding(all, ping, b, cell, *contributor++);
   return all;
 }
 

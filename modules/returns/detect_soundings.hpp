@@ -11,7 +11,10 @@ namespace insonify {
 struct DetectionOptions {
   double noise_floor_db = -std::numeric_limits<double>::infinity();  ///< noise level in a beam [dB re 1 uPa]
   double threshold_db = 11.4;       ///< above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)
-  double side_lobe_margin_db = 25;  ///< samples this far below the strongest beam at the same range are side lobes
+  double side_lobe_margin_db = 25;  ///< samples this far below the strongest beam about their range are side lobes
+  /// How far about [m]: of a wide band they reach half the array's length in range, since an echo from beside a beam
+  /// meets its elements at different times. 0: the same bin.
+  double side_lobe_reach = 0;
   /// Probability that speckle as strong as its surroundings exceeds the threshold above them (E78), within 0 and 1; 1:
   /// surroundings do not count.
   double false_alarm_rate = 1e-3;
@@ -31,14 +34,15 @@ double background_factor(double false_alarm_rate, int cells);
 /// Maxima are a resolution cell apart at least, rounded up to bins.
 /// Range and level of a maximum are those of the parabola through its level and those beside it (E72): exact for a
 /// Gaussian pulse alone, whose peak bins as long as the pulse sample up to 3 dB low. With all_bins they are those of the
-/// bin. The direction is that of the strongest contributing scatterer within one bin length,
-/// searched in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in elevation for a fan of
-/// several rows or a planar array). Samples without a contributor (side lobes) give no sounding.
+/// bin. The ping alone decides: noise, reverberation and side lobes are detected as any echo. `source` gives only the
+/// columns true_..., and the direction in which the cloud shows a sounding: those of the strongest contributing scatterer
+/// within one bin length, searched in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in
+/// elevation for a fan of several rows or a planar array).
 ///
-/// source   patches and echoes the ping was synthesized from
+/// source   patches and echoes the ping was synthesized from; may be empty
 ///
 /// Cost: two reads of the ping, and the parts of surfels near detections made again. The result does not depend on
-/// options.threads. Throws Error for a rate outside (0, 1] or a resolution that is not >= 0.
+/// options.threads. Throws Error for a rate outside (0, 1], or a resolution or reach that is not >= 0.
 Soundings detect_soundings(const Ping& ping, const EchoSource& source, const DetectionOptions& options = {});
 
 /// The same for patches and echoes that are stored, index by index; throws Error if their numbers differ.

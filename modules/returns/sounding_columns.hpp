@@ -3,18 +3,31 @@
 
 namespace insonify {
 
-/// Calls use(name, column ...) for every column beside position, in the order of files, with the columns of one or more
-/// soundings.
+/// Name and unit of a column in files.
+struct SoundingColumn {
+  const char *name, *unit;
+};
+
+/// Calls use(SoundingColumn, column ...) for every column beside position, in the order of files, with the columns of one
+/// or more soundings.
 template <typename Use, typename... Some>
 void each_column(const Use& use, Some&... soundings) {
-  use("level_db", soundings.level_db...);
-  use("range", soundings.range...);
-  use("azimuth", soundings.azimuth...);
-  use("elevation", soundings.elevation...);
-  use("ping", soundings.ping...);
-  use("beam", soundings.beam...);
-  use("bin", soundings.bin...);
-  use("material", soundings.material...);
+  use(SoundingColumn{"level_db", "dB re 1 uPa"}, soundings.level_db...);
+  use(SoundingColumn{"range", "m"}, soundings.range...);
+  use(SoundingColumn{"azimuth", "rad, positive to port"}, soundings.azimuth...);
+  use(SoundingColumn{"elevation", "rad, positive up"}, soundings.elevation...);
+  use(SoundingColumn{"ping", "number"}, soundings.ping...);
+  use(SoundingColumn{"beam", "number from 0"}, soundings.beam...);
+  use(SoundingColumn{"bin", "number from 0"}, soundings.bin...);
+  use(SoundingColumn{"true_elevation", "rad, positive up; NaN: no surfel"}, soundings.true_elevation...);
+  use(SoundingColumn{"true_surfel", "id in the scene; 4294967295: none"}, soundings.true_surfel...);
+  use(SoundingColumn{"true_material", "number in the scene; 4294967295: none"}, soundings.true_material...);
+}
+
+/// Appends sounding i of `from`.
+inline void append_row(Soundings& to, const Soundings& from, std::size_t i) {
+  to.position.push_back(from.position[i]);
+  each_column([i](const SoundingColumn&, auto& column, const auto& source) { column.push_back(source[i]); }, to, from);
 }
 
 }  // namespace insonify

@@ -6,18 +6,24 @@
 
 namespace insonify {
 
-/// Detected points as a structure of arrays: the returns as a 3-D point cloud.
+/// Detected points as a structure of arrays: the returns as a 3-D point cloud. What a sonar measures is level, range and
+/// the direction of the beam; the columns true_... hold what only the simulator knows, and decide nothing.
 struct Soundings {
-  std::vector<Eigen::Vector3d> position;  ///< world frame [m]
-  std::vector<float> level_db;            ///< dB re 1 uPa
-  std::vector<float> range;               ///< [m]
-  std::vector<float> azimuth;             ///< of the beam [rad]
-  std::vector<float>
-      elevation;  ///< of the strongest contributor [rad], as ground truth: a head of one row does not measure it
+  static constexpr std::uint32_t none = 0xffffffff;  ///< of true_surfel and true_material: no surfel contributes
+
+  /// World [m]: at the measured range, towards the strongest contributor, so that the cloud lies on the scene; without
+  /// one (noise, reverberation, side lobes) on the axis of the beam.
+  std::vector<Eigen::Vector3d> position;
+  std::vector<float> level_db;   ///< dB re 1 uPa
+  std::vector<float> range;      ///< [m]
+  std::vector<float> azimuth;    ///< of the beam [rad]
+  std::vector<float> elevation;  ///< of the beam [rad]: a head of one row does not measure more
   std::vector<std::uint32_t> ping;
   std::vector<std::uint32_t> beam;
   std::vector<std::uint32_t> bin;
-  std::vector<std::uint32_t> material;  ///< of the strongest contributor
+  std::vector<float> true_elevation;         ///< of the strongest contributor [rad]; NaN: none
+  std::vector<std::uint32_t> true_surfel;    ///< its id in the scene
+  std::vector<std::uint32_t> true_material;  ///< index into the scene's materials
 
   /// Returns the number of soundings.
   std::size_t size() const { return position.size(); }

@@ -140,7 +140,7 @@ class SlabSearch {
       const double power = std::norm(echoes.amplitude[i]);
       StrongestContributor& best = found[at->pixel];
       if (own == best.own_share ? power > best.power : own && power > 0)
-        best = {power, own, {s.azimuth[i], s.elevation[i]}, s.material[i]};
+        best = {power, own, {s.azimuth[i], s.elevation[i]}, static_cast<std::uint32_t>(s.id[i] >> 32), s.material[i]};
     }
   }
 

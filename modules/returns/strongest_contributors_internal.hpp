@@ -18,6 +18,7 @@ struct StrongestContributor {
   double power = 0;        ///< [Pa^2]; 0: there is none
   bool own_share = false;  ///< stands in the beam's own share of the fan
   Direction direction{};
+  std::uint32_t surfel = 0;  ///< id in the scene
   std::uint16_t material = 0;
 };
 

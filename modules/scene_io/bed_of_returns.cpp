@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "returns/soundings.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 
@@ -23,11 +24,11 @@ RowFile returns_file(const std::string& path) {
   return std::move(*file);
 }
 
-/// Place, level and range of every row, batch after batch.
+/// Place, level and range of every row that comes from a surfel, batch after batch: false alarms lie on no bed.
 template <typename Take>
 void each_return(const RowFile& file, const Take& take) {
-  constexpr std::array<const char*, 5> names = {"x", "y", "z", "scalar_level_db", "scalar_range"};
-  std::array<const RowTable::Column*, 5> columns{};
+  constexpr std::array<const char*, 6> names = {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_true_surfel"};
+  std::array<const RowTable::Column*, 6> columns{};
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto found = std::find_if(file.columns.begin(), file.columns.end(),
                                     [&](const RowTable::Column& column) { return column.name == names[k]; });
@@ -41,6 +42,7 @@ void each_return(const RowFile& file, const Take& take) {
     for (std::size_t i = 0; i < rows.rows; ++i) {
       const char* row = rows.bytes + i * rows.stride;
       const auto value = [&](std::size_t k) { return columns[k]->value(row); };
+      if (value(5) == Soundings::none) continue;
       take(Eigen::Vector3d(value(0), value(1), value(2)), value(3), value(4));
     }
   }
@@ -50,6 +52,7 @@ Eigen::AlignedBox2d extent_of(const RowFile& file) {
   Eigen::AlignedBox2d box;
   each_return(file,
               [&](const Eigen::Vector3d& place, double, double) { box.extend(Eigen::Vector2d(place.head<2>())); });
+  if (box.isEmpty()) fail(ErrorKind::content, file.path, ": holds no returns of surfels");
   return box;
 }
 

@@ -30,9 +30,10 @@ Soundings load_soundings(const std::string& path) {
   for (int axis = 0; axis < 3; ++axis)
     each_row(axes[axis], [&](std::size_t i, double value) { soundings.position[i][axis] = value; });
   each_column(
-      [&](const std::string& name, auto& values) {
+      [&](const SoundingColumn& column, auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        each_row("scalar_" + name, [&](std::size_t, double value) { values.push_back(static_cast<Value>(value)); });
+        each_row(std::string("scalar_") + column.name,
+                 [&](std::size_t, double value) { values.push_back(static_cast<Value>(value)); });
       },
       soundings);
   return soundings;

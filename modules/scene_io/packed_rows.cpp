@@ -44,18 +44,38 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
   PackedRows rows;
   rows.rows = n;
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  for (const char* axis : {"x", "y", "z"}) rows.comments.push_back(std::string("unit ") + axis + " m");
   each_column(
-      [&](const char* name, const auto& column) {
+      [&](const SoundingColumn& about, const auto& column) {
         if (column.size() != n)
           fail(ErrorKind::argument, who, ": soundings have ", n, " positions but a column of length ", column.size(),
                ", must be the same; fill every column");
         const bool real = std::is_same_v<decltype(column.front()), const float&>;
-        rows.columns.push_back({prefix + name, real ? NumberType::float32 : NumberType::uint32});
+        rows.columns.push_back({prefix + about.name, real ? NumberType::float32 : NumberType::uint32});
+        rows.comments.push_back("unit " + prefix + about.name + " " + about.unit);
       },
       soundings);
   rows.write_row = [&soundings, wide](std::size_t i, char* out) {
     put_position(out, soundings.position[i], wide);
-    each_column([&](const char*, const auto& column) { put(out, column[i]); }, soundings);
+    each_column([&](const SoundingColumn&, const auto& column) { put(out, column[i]); }, soundings);
+  };
+  return rows;
+}
+
+PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who) {
+  PackedRows rows = rows_of(soundings, false, "", who);
+  rows.origin = origin;
+  rows.columns.push_back({"intensity", NumberType::float32});
+  rows.columns.push_back({"label", NumberType::uint32});
+  rows.comments.emplace_back("intensity is level_db, label is true_material");
+  const std::size_t last = rows.stride() - sizeof(float) - sizeof(std::uint32_t);
+  rows.write_row = [&soundings, origin, last, write_row = rows.write_row](std::size_t i, char* out) {
+    write_row(i, out);
+    char* place = out;
+    put_position(place, soundings.position[i] - origin, false);
+    out += last;
+    put(out, soundings.level_db[i]);
+    put(out, soundings.true_material[i]);
   };
   return rows;
 }

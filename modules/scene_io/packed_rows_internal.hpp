@@ -20,6 +20,7 @@ struct PackedRows {
   std::vector<Column> columns;
   std::size_t rows = 0;
   std::vector<std::string> comments;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of a PCD, that its VIEWPOINT gives [m]
   std::function<void(std::size_t row, char* out)> write_row;
 
   std::size_t stride() const {
@@ -36,9 +37,13 @@ void put(char*& out, T value) {
   out += sizeof(T);
 }
 
-/// x y z (double if `wide`) level_db range azimuth elevation (float32) ping beam bin material (uint32); all
-/// but the coordinates named `prefix` + name. Throws Error(argument) unless all columns have one length.
+/// x y z (double if `wide`) level_db range azimuth elevation (float32) ping beam bin (uint32) true_elevation (float32)
+/// true_surfel true_material (uint32); all but the coordinates named `prefix` + name. Throws Error(argument) unless all columns have one length.
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who);
+
+/// The same for a PCD, of float32 less an origin, with intensity (level_db, float32) and label (true_material, uint32),
+/// the names by which PCL's own point types know them.
+PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who);
 
 /// x y z (double if `wide`), normal, area (float32), material (uint16 in PLY, uint32 in PCD), id (uint32), noise (float32) if the
 /// scene has it.

@@ -1,5 +1,7 @@
 #include "scene_io/pcl_bridge.hpp"
 
+#include <sstream>
+
 #include <pcl/conversions.h>
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/io/pcd_io.h>
@@ -109,6 +111,13 @@ pcl::PointCloud<pcl::PointNormal> to_pcl(const SceneCloud& scene) {
 std::string pcd_header(const PackedRows& rows) {
   std::string header =
       pcl::PCDWriter().generateHeaderBinary(empty_cloud(rows), Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity());
+  if (!rows.origin.isZero(0)) {
+    const std::string nowhere = "VIEWPOINT 0 0 0 ";
+    std::ostringstream there;
+    there.precision(17);
+    there << "VIEWPOINT " << rows.origin.x() << ' ' << rows.origin.y() << ' ' << rows.origin.z() << ' ';
+    header.replace(header.find(nowhere), nowhere.size(), there.str());
+  }
   std::string comments;
   for (const std::string& comment : rows.comments) comments += "# " + comment + "\n";
   header.insert(header.find('\n') + 1, comments);

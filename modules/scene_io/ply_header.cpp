@@ -33,7 +33,8 @@ void read_header_line(PlyHeader& header, const std::string& line) {
   const std::vector<std::string> words = words_of(line);
   if (words.empty() || words[0] == "obj_info") return;
   if (words[0] == "comment") {
-    read_tag(header.path, std::string_view(line).substr(std::min(line.find("comment") + 8, line.size())), header.tags);
+    header.comments.push_back(line.substr(std::min(line.find("comment") + 8, line.size())));
+    read_tag(header.path, header.comments.back(), header.tags);
   } else if (words[0] == "format" && words.size() >= 2) {
     header.encoding = words[1];
     if (words[1] != "ascii" && words[1] != "binary_little_endian" && words[1] != "binary_big_endian")

@@ -30,6 +30,7 @@ struct PlyHeader {
   std::string path, encoding;  ///< ascii, binary_little_endian or binary_big_endian
   std::vector<PlyElement> elements;
   SceneTags tags;
+  std::vector<std::string> comments;
   std::size_t end = 0;    ///< offset of the data [bytes]
   std::size_t lines = 0;  ///< number of header lines
 

@@ -116,9 +116,12 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options);
 RawCloud read_ply(const std::string& path, const ReadOptions& options);
 RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
+RawCloud read_gltf(const std::string& path, const ReadOptions& options);
 RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< of heights, by GDAL
-RawCloud read_asc(const std::string& path, const ReadOptions& options);     ///< text, or an ESRI ASCII grid
-RawCloud read_vtk(const std::string& path, const ReadOptions& options);     ///< .vtk, .vtp, .stl
+/// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.
+void check_netcdf(const std::string& path);
+RawCloud read_asc(const std::string& path, const ReadOptions& options);  ///< text, or an ESRI ASCII grid
+RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp, .stl
 
 }  // namespace insonify

@@ -1,6 +1,8 @@
 // Heights of GeoTIFF, BAG, netCDF, GMT and ESRI ASCII grids through GDAL. Without GDAL all are refused, with a remedy.
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
 
 #include "core/error.hpp"
@@ -122,6 +124,7 @@ std::vector<double> raster_heights(const std::string& path, GDALDatasetH file) {
 
 RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   require_readable(path);
+  check_netcdf(path);
   const QuietGdal quiet;
   const GdalFile file = open_raster(path);
   RawCloud raw;
@@ -140,11 +143,43 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
 
 #endif
 
+namespace {
+
+/// Refuses an ESRI ASCII grid with fewer numbers than its head announces, where GDAL would see zeros, or that ends within
+/// a line.
+void check_ascii_grid(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t columns = 0, rows = 0, numbers = 0;
+  for (std::string word; file >> word;) {
+    if (std::isalpha(static_cast<unsigned char>(word.front())) == 0 || word == "nan" || word == "NaN") {
+      ++numbers;
+      continue;
+    }
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    std::string value;
+    file >> value;
+    if (word == "ncols") columns = std::strtoull(value.c_str(), nullptr, 10);
+    if (word == "nrows") rows = std::strtoull(value.c_str(), nullptr, 10);
+  }
+  if (rows > 0 && numbers / rows < columns)
+    fail(ErrorKind::content, path, ": cut off: it announces ", columns, " x ", rows, " numbers and has ", numbers,
+         "; copy or export the file again");
+  file.clear();
+  file.seekg(-1, std::ios::end);
+  if (!std::isspace(file.get()))
+    fail(ErrorKind::content, path, ": ends within a line, so that its last number may be cut off; copy or export the ",
+         "file again, or end its last line");
+}
+
+}  // namespace
+
 RawCloud read_asc(const std::string& path, const ReadOptions& options) {
   require_readable(path);
   std::string head = read_beginning(path, 5);
   for (char& c : head) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return head == "ncols" ? read_raster(path, options) : read_text_cloud(path, options);
+  if (head != "ncols") return read_text_cloud(path, options);
+  check_ascii_grid(path);
+  return read_raster(path, options);
 }
 
 }  // namespace insonify

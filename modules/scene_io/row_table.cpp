@@ -249,6 +249,7 @@ std::optional<RowFile> find_ply_rows(const std::string& path) {
   if (header.encoding == "ascii") return std::nullopt;
   RowFile file{path, "PLY " + header.encoding, {}, header.vertex().count, 0, header.end, false, header.tags, {}};
   file.big_endian = header.encoding == "binary_big_endian";
+  file.comments = header.comments;
   for (const PlyElement& element : header.elements) {
     if (element.has_list() && element.count > 0) return std::nullopt;  // a mesh
     std::size_t stride = 0;

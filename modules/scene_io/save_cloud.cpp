@@ -62,11 +62,20 @@ void save_scene(const std::string& path, const SceneCloud& scene) {
   write_rows(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows);
 }
 
-void save_soundings(const std::string& path, const Soundings& soundings) {
-  const CloudFormat format = format_of(path, "save_soundings");
-  const bool ply = format == CloudFormat::ply;
-  const PackedRows rows = rows_of(soundings, ply, ply ? "scalar_" : "", "save_soundings");
-  write_rows(path, ply ? ply_header(rows) : pcd_header(rows), rows);
+Eigen::Vector3d save_soundings(const std::string& path, const Soundings& soundings) {
+  constexpr const char* who = "save_soundings";
+  if (format_of(path, who) == CloudFormat::ply) {
+    const PackedRows rows = rows_of(soundings, true, "scalar_", who);
+    write_rows(path, ply_header(rows), rows);
+    return Eigen::Vector3d::Zero();
+  }
+  const auto far = [](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() > farthest_in_pcd; };
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (std::any_of(soundings.position.begin(), soundings.position.end(), far))
+    origin = 100 * (soundings.position.front() / 100).array().round() + 0.0;  // no zero below zero
+  const PackedRows rows = pcd_rows_of(soundings, origin, who);
+  write_rows(path, pcd_header(rows), rows);
+  return origin;
 }
 
 void save_survey_returns(const std::string& path, const Soundings& soundings, const std::vector<double>& time,
@@ -79,6 +88,7 @@ void save_survey_returns(const std::string& path, const Soundings& soundings, co
   const std::size_t stride = rows.stride();
   rows.columns.push_back({"scalar_time", NumberType::float64});
   rows.columns.push_back({"scalar_head", NumberType::uint32});
+  rows.comments.insert(rows.comments.end(), {"unit scalar_time s", "unit scalar_head number in the mission, from 0"});
   rows.write_row = [&time, head, stride, write_row = rows.write_row](std::size_t i, char* out) {
     write_row(i, out);
     out += stride;
@@ -90,15 +100,17 @@ void save_survey_returns(const std::string& path, const Soundings& soundings, co
 
 void join_clouds(const std::string& path, const std::vector<std::string>& parts) {
   if (parts.empty()) fail(ErrorKind::argument, "join_clouds: ", path, ": no parts, must be at least one");
-  // The columns are those of the first part, the number of rows is that of all.
+  // Columns and comments are those of the first part, the number of rows is that of all.
   PackedRows all;
   std::vector<RowFile> files;
   for (const std::string& part : parts) {
     require_readable(part);
     std::optional<RowFile> file = find_ply_rows(part);
     if (!file || file->big_endian) fail(ErrorKind::content, part, ": is not a binary little-endian PLY of points");
-    if (files.empty())
+    if (files.empty()) {
+      all.comments = file->comments;
       for (const auto& column : file->columns) all.columns.push_back({column.name, column.type});
+    }
     const auto same = [](const auto& a, const auto& b) { return a.name == b.name && a.type == b.type; };
     if (!std::equal(file->columns.begin(), file->columns.end(), all.columns.begin(), all.columns.end(), same))
       fail(ErrorKind::content, part, ": has other columns than ", parts.front());

@@ -18,11 +18,14 @@ namespace insonify {
 /// zero for PCD, Error(content) if it is empty, Error(file) if it cannot write.
 void save_scene(const std::string& path, const SceneCloud& scene);
 
-/// Writes soundings as .pcd (fields x y z level_db range azimuth elevation ping beam bin material) or .ply (the same,
-/// named scalar_level_db ..., so that CloudCompare shows them as scalar fields). x y z are world coordinates: float in
-/// PCD, double in PLY. Written to a temporary name, then renamed. Empty soundings give a file without points.
+/// Writes soundings as .pcd (fields x y z level_db range azimuth elevation ping beam bin true_elevation true_surfel
+/// true_material) or .ply (the same,
+/// named scalar_level_db ..., so that CloudCompare shows them as scalar fields), with units in comment lines. x y z are
+/// world coordinates, in PLY double. A PCD is float32: of soundings beyond 2000 m from zero they count from a local origin
+/// in whole hundreds of metres, which is the translation of the VIEWPOINT (where pcl_viewer puts the cloud) and is
+/// returned [m]; zero otherwise. It also has intensity (level_db) and label (true_material). Written to a temporary name, then renamed. Empty soundings give a file without points.
 /// Throws Error(argument) for another extension or columns of different lengths, Error(file) if it cannot write.
-void save_soundings(const std::string& path, const Soundings& soundings);
+Eigen::Vector3d save_soundings(const std::string& path, const Soundings& soundings);
 
 /// Writes the soundings of one head of a survey as .ply: the columns of save_soundings, then scalar_time (double, when
 /// the ping was sent [s]) and scalar_head (its index in the mission). Throws as save_soundings.

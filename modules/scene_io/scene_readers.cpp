@@ -17,6 +17,8 @@ const std::vector<SceneReader>& scene_readers() {
       {{".stl"}, {"solid "}, "an ASCII STL file", "", read_vtk},
       {{".vtk"}, {"# vtk DataFile"}, "a legacy VTK file", "", read_vtk},
       {{".vtp"}, {"<?xml", "<VTKFile"}, "an XML file, if of VTK polydata", "", read_vtk},
+      {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},
+      {{".gltf"}, {}, "a glTF document", "", read_gltf},
       {{".xyz", ".txt", ".csv"}, {}, "text", "", read_text_cloud},
       {{".asc"}, {"ncols", "NCOLS"}, "text, or an ESRI ASCII grid", "", read_asc},
       {{".tif", ".tiff"}, {std::string("II*\0", 4), std::string("MM\0*", 4)}, "a TIFF file", "", read_raster},

@@ -71,8 +71,11 @@ InsonifiedRegion region_of(const ResolvedPing& ping) {
   return region;
 }
 
-DetectionOptions detection_of(const SimulationOptions& o, double range_resolution, double beam_noise_db) {
+DetectionOptions detection_of(const SimulationOptions& o, const LineArray& array, double range_resolution,
+                              double beam_noise_db) {
   DetectionOptions detection = o.detection;
+  if (detection.side_lobe_reach == 0)
+    detection.side_lobe_reach = 0.5 * array.spacing * static_cast<double>(array.elements());  // (E19)
   if (detection.range_resolution == 0) detection.range_resolution = range_resolution;
   detection.threads = o.threads;
   if (std::isinf(detection.noise_floor_db)) detection.noise_floor_db = beam_noise_db;
@@ -102,7 +105,7 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
   ping.region = region_of(ping);
   ping.element_noise_db = element_noise_level_db(environment, head.pulse);
   ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
-  ping.detection = detection_of(options, ping.view.sampling.range_resolution, ping.beam_noise_db);
+  ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
   return ping;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -51,6 +52,10 @@ Cube read_cube(const std::string& path, std::size_t first = 0,
 /// The pressure of one beam in `count` pings from the `first` on (by their order in the cube), pings x bins [Pa],
 /// without reading the other beams. Errors as read_cube; Error(argument) for pings or a beam that the cube lacks.
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam);
+
+/// Calls `use` with the cube without pings and each of its pings, one after the other: memory is that of one ping. Errors
+/// as read_cube, of images when their ping is due.
+void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use);
 
 /// When and from where a ping was sent.
 struct TrackPoint {

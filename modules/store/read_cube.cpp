@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <sstream>
-#include <utility>
 
 #include "core/error.hpp"
 #include "store/cube.hpp"
@@ -76,23 +76,18 @@ void require_sources(const Place& place, hid_t dataset, const std::string& name)
   }
 }
 
-// Some of the pings of a cube, from `first` on.
-struct PingsRead {
-  hsize_t first = 0;
-  std::vector<Ping> pings;
-};
-
-// Reads one image per ping, with values of `type`, into the member selected by `part`.
+// Reads one image per ping, from ping `first` of the cube on, with values of `type`, into the member selected by `part`.
 template <typename Part>
-void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, PingsRead& read, Part part) {
+void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::span<Ping> pings,
+                 std::size_t first, Part part) {
   require_sources(place, dataset, name);
   const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
-  for (std::size_t p = 0; p < read.pings.size(); ++p) {
-    auto& image = part(read.pings[p]);
+  for (std::size_t p = 0; p < pings.size(); ++p) {
+    auto& image = part(pings[p]);
     image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
-    const Handle row = select_row(place, dataset, extent, read.first + p);
+    const Handle row = select_row(place, dataset, extent, first + p);
     place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read");
   }
 }
@@ -108,15 +103,15 @@ void require_extent(const Place& place, hid_t dataset, const std::string& name, 
     fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
 }
 
-void read_layers(const Place& place, hid_t file, const Extent& extent, PingsRead& read) {
+void read_layers(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   for (const std::string& layer : names_in(place, file, layers_group)) {
     const std::string path = std::string(layers_group) + "/" + layer;
     const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
     require_extent(place, dataset, path, extent);
     require_complex(place, dataset, path);
-    for (Ping& ping : read.pings) ping.layers.push_back({layer, {}});
-    read_images(place, dataset, path, type, read,
+    for (Ping& ping : pings) ping.layers.push_back({layer, {}});
+    read_images(place, dataset, path, type, pings, first,
                 [](Ping& ping) -> ComplexGridF& { return ping.layers.back().pressure; });
   }
 }
@@ -124,7 +119,7 @@ void read_layers(const Place& place, hid_t file, const Extent& extent, PingsRead
 // Reads an optional map into what `map` gives of each ping.
 template <typename Map>
 void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-              PingsRead& read, const Map& map) {
+              std::span<Ping> pings, std::size_t first, const Map& map) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return;
   const Handle dataset = open_dataset(place, file, name);
   require_extent(place, dataset, name.path, extent);
@@ -133,15 +128,15 @@ void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t typ
     fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
          8 * H5Tget_size(type));
   read_images(
-      place, dataset, name.path, type, read, [&map](Ping & ping) -> auto& { return std::invoke(map, ping); });
+      place, dataset, name.path, type, pings, first, [&map](Ping & ping) -> auto& { return std::invoke(map, ping); });
 }
 
-void read_labels(const Place& place, hid_t file, const Extent& extent, PingsRead& read) {
+void read_labels(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
   if (H5Lexists(file, label_material_name.path, H5P_DEFAULT) <= 0) return;
   const auto read_part = [&](const DatasetName& name, hid_t type, auto label) {
     open_dataset(place, file, name);  // all three, or none
     read_map(
-        place, file, name, type, extent, read, [label](Ping & ping) -> auto& { return ping.labels.*label; });
+        place, file, name, type, extent, pings, first, [label](Ping & ping) -> auto& { return ping.labels.*label; });
   };
   read_part(label_material_name, H5T_NATIVE_UINT16, &PixelLabels::material);
   read_part(label_id_name, H5T_NATIVE_UINT32, &PixelLabels::id);
@@ -149,7 +144,7 @@ void read_labels(const Place& place, hid_t file, const Extent& extent, PingsRead
   std::istringstream lines(read_text(place, file, label_names_attribute));
   std::vector<std::string> names;
   for (std::string name; std::getline(lines, name);) names.push_back(name);
-  for (Ping& ping : read.pings) ping.labels.names = names;
+  for (Ping& ping : pings) ping.labels.names = names;
 }
 
 std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
@@ -175,41 +170,47 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
   return track;
 }
 
-// The pings from `first` on, at most `count` of them.
-std::vector<Ping> read_pings(const Place& place, hid_t file, hsize_t first, hsize_t count) {
-  const Handle dataset = open_dataset(place, file, pressure_name);
-  const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
-  require_complex(place, dataset, pressure_name.path);
-  const std::vector<TrackPoint> track = track_of(place, file, extent[0]);
+// What is known of the pings of a cube without their images.
+struct CubeTable {
+  Extent extent;  // of /pressure
+  Ping common;
+  std::vector<TrackPoint> track;
+};
 
-  first = std::min(first, extent[0]);
-  PingsRead read{first, std::vector<Ping>(std::min(count, extent[0] - first), read_axes(place, file, extent))};
-  const bool expected_level = H5Aexists(file, expected_level_attribute) > 0;
-  for (std::size_t p = 0; p < read.pings.size(); ++p) {
-    const TrackPoint& at = track[first + p];
-    read.pings[p].time = at.time;
-    read.pings[p].number = at.number;
-    read.pings[p].world_from_head = at.world_from_head;
-    read.pings[p].scan = at.scan;
-    read.pings[p].expected_level = expected_level;
-  }
-  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), read,
-              [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
-  read_layers(place, file, extent, read);
-  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, read, &Ping::intensity);
-  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, read, &Ping::level_error_db);
-  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, read, &Ping::unknown);
-  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, read, &Ping::split_phase);
-  read_labels(place, file, extent, read);
-  return std::move(read.pings);
+CubeTable read_table(const Place& place, hid_t file) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  CubeTable table;
+  table.extent = extent_of(place, dataset, pressure_name.path, 3);
+  require_complex(place, dataset, pressure_name.path);
+  table.track = track_of(place, file, table.extent[0]);
+  table.common = read_axes(place, file, table.extent);
+  table.common.expected_level = H5Aexists(file, expected_level_attribute) > 0;
+  return table;
 }
 
-}  // namespace
+Ping ping_of(const CubeTable& table, std::size_t p) {
+  Ping ping = table.common;
+  ping.time = table.track[p].time;
+  ping.number = table.track[p].number;
+  ping.world_from_head = table.track[p].world_from_head;
+  ping.scan = table.track[p].scan;
+  return ping;
+}
 
-Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
-  const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
+// Fills the images of pings, of which the first is number `first` in the cube.
+void fill_images(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, first,
+              [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
+  read_layers(place, file, extent, pings, first);
+  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::intensity);
+  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::level_error_db);
+  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, first, &Ping::unknown);
+  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::split_phase);
+  read_labels(place, file, extent, pings, first);
+}
+
+Cube read_attributes(const Place& place, hid_t file) {
   require_schema(place, file);
   Cube cube;
   cube.insonify_version = read_text(place, file, "insonify_version");
@@ -221,7 +222,21 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
   cube.source_level_db = read_number(place, file, "source_level_db");
   cube.seed = read_unsigned(place, file, "seed");
   cube.tolerance = read_number(place, file, "tolerance");
-  cube.pings = read_pings(place, file, first, count);
+  return cube;
+}
+
+}  // namespace
+
+Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  Cube cube = read_attributes(place, file);
+  const CubeTable table = read_table(place, file);
+  const std::size_t begin = std::min(first, table.track.size()),
+                    end = begin + std::min(count, table.track.size() - begin);
+  for (std::size_t p = begin; p < end; ++p) cube.pings.push_back(ping_of(table, p));
+  fill_images(place, file, table.extent, cube.pings, begin);
   return cube;
 }
 
@@ -246,6 +261,19 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
   place.checked(H5Dread(dataset, complex_type(place, H5T_NATIVE_FLOAT), memory, space, H5P_DEFAULT, rows.data()),
                 "/pressure cannot be read");
   return rows;
+}
+
+void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  const Cube cube = read_attributes(place, file);
+  const CubeTable table = read_table(place, file);
+  for (std::size_t p = 0; p < table.track.size(); ++p) {
+    Ping ping = ping_of(table, p);
+    fill_images(place, file, table.extent, {&ping, 1}, p);
+    use(cube, ping);
+  }
 }
 
 std::vector<TrackPoint> read_track(const std::string& path) {

@@ -15,6 +15,7 @@
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStructuredGrid.h>
 #include <vtkXMLImageDataReader.h>
@@ -30,20 +31,10 @@
 #include "view/drawn_cells_internal.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_lines_internal.hpp"
+#include "view/xml_file_internal.hpp"
 
 namespace insonify {
-namespace {
 
-/// An array of cell data; of a fan with ranges varying fastest.
-vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>(count));
-  std::copy(values, values + count, array->GetPointer(0));
-  return array;
-}
-
-/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed.
 void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who) {
   const VtkMessages messages;
   writer.SetInputData(data);
@@ -54,6 +45,17 @@ void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, 
   if (!writer.Write()) fail(ErrorKind::runtime, who, ": VTK cannot write ", path);
   messages.throw_first_error(who);
   write_file(path, writer.GetOutputString());
+}
+
+namespace {
+
+/// An array of cell data; of a fan with ranges varying fastest.
+vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  std::copy(values, values + count, array->GetPointer(0));
+  return array;
 }
 
 void require_map(const HorizontalMap& map, const char* who) {

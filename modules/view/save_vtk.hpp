@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/pose.hpp"
+#include "returns/soundings.hpp"
 #include "view/picture.hpp"
 
 namespace insonify {
@@ -48,6 +49,12 @@ HorizontalMap load_map_image(const std::string& path);
 /// is NaN, 1 to 255 are the values from `window` below the highest to it. Errors as save_map_image; Error(content) if
 /// no value is finite.
 void save_map_picture(const std::string& stem, const HorizontalMap& map, double window);
+
+/// Writes soundings as VTK polydata (.vtp): a vertex each in the world [m, double], the columns as point data under their
+/// names, level_db first, and their units as the text array `units` of the field data, "name: unit" each, and as
+/// UNITS_LABEL of the arrays. Written to a temporary name, then renamed. Throws Error(argument) for columns of different
+/// lengths, Error(file) if it cannot write.
+void save_points(const std::string& path, const Soundings& soundings);
 
 /// A file of a time series.
 struct SeriesEntry {

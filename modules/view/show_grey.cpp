@@ -73,4 +73,11 @@ void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::s
   write_grey(grey, fan, path);
 }
 
+void save_grey(const Grid<std::uint8_t>& pixels, const std::string& path) {
+  if (pixels.size() == 0) fail(ErrorKind::argument, "save_grey: ", path, ": the picture has no pixel");
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(pixels.cols()));
+  std::iota(columns.begin(), columns.end(), 0);
+  write_png(Grid<std::uint8_t>(pixels.transpose().rowwise().reverse()), columns, path);
+}
+
 }  // namespace insonify

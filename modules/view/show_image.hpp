@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "returns/bottom_detection.hpp"
 #include "view/picture.hpp"
 
 namespace insonify {
@@ -35,6 +36,9 @@ void show_rect(const LevelImage& image, const PictureOptions& options, const std
 void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::string& path);
 /// The same with 16 bits.
 void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path);
+
+/// Writes pixels (rows x columns, the first row on top) as a grey PNG. Errors as show_grey.
+void save_grey(const Grid<std::uint8_t>& pixels, const std::string& path);
 
 /// Draws the level of one beam against range as a chart with units; the title begins with beam and bearing.
 /// min_db and max_db limit the level axis; an automatic max_db is the next multiple of 5 dB above the beam's
@@ -103,5 +107,10 @@ void show_waterfall(const PingHistory& history, const PictureOptions& options, c
 /// "12.4 m, +5.2°, 93.1 dB". Of beams of one bearing the strongest is used, as in show_fan. Throws Error(argument) for
 /// an invalid image or unless within_db > 0.
 std::vector<Mark> strongest_maxima(const LevelImage& image, std::size_t count, double within_db);
+
+/// Draws soundings of the bottom as points: across to starboard from the head, and height in the world [m], those found by
+/// amplitude and by phase apart. Files as show_fan; Error(content) without soundings.
+void show_soundings(const Ping& ping, const BottomSoundings& found, const PictureOptions& options,
+                    const std::string& png_path);
 
 }  // namespace insonify

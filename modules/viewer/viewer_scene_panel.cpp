@@ -32,8 +32,7 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
     if (all.ping[i] != wanted) continue;
     const double range = all.range[i];
     const double gain = 40 * std::log10(range) + 2 * data.absorption_db_per_m * range;
-    own.position.push_back(all.position[i]);
-    each_column([i](const char*, auto& to, const auto& from) { to.push_back(from[i]); }, own, all);
+    append_row(own, all, i);
     own.level_db.back() = static_cast<float>(static_cast<double>(all.level_db[i]) + gain);
   }
   return own;

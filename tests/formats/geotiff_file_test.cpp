@@ -1,8 +1,6 @@
 #include "formats/geotiff_file.hpp"
 
-#include <map>
-
-#include "formats/file_cursor.hpp"
+#include "formats/tiff_decoder.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -20,36 +18,13 @@ std::vector<GeoBand> two_bands() {
   return bands;
 }
 
-/// Numbers of a tag, by TIFF 6.0.
-std::map<int, std::vector<double>> tiff_tags(const std::string& bytes) {
-  decode::Cursor head(bytes);
-  if (head.text(4) != std::string("II*\0", 4)) throw std::runtime_error("no TIFF");
-  decode::Cursor c(bytes, head.unsigned_little(4));
-  std::map<int, std::vector<double>> tags;
-  int last = 0;
-  for (std::uint64_t n = c.unsigned_little(2); n > 0; --n) {
-    const int tag = static_cast<int>(c.unsigned_little(2)), type = static_cast<int>(c.unsigned_little(2));
-    if (tag <= last) throw std::runtime_error("tags out of order");
-    last = tag;
-    const std::uint64_t count = c.unsigned_little(4);
-    const int size = type == 2 ? 1 : type == 3 ? 2 : type == 4 ? 4 : 8;
-    decode::Cursor at(bytes, c.at());
-    if (count * static_cast<std::uint64_t>(size) > 4)
-      at = decode::Cursor(bytes, decode::Cursor(bytes, c.at()).unsigned_little(4));
-    c.text(4);
-    for (std::uint64_t i = 0; i < count; ++i)
-      tags[tag].push_back(type == 12 ? at.float64() : static_cast<double>(at.unsigned_little(size)));
-  }
-  return tags;
-}
-
 }  // namespace
 
 TEST(GeotiffFile, holds_what_its_specifications_say) {
   const std::string path = own_path("bed.tif");
   write_geotiff(path, two_bands(), {{33, false}, 565000, 5995000, 0.5});
   const std::string bytes = file_bytes(path);
-  auto tags = tiff_tags(bytes);
+  auto tags = decode::tiff_tags(bytes);
   EXPECT_EQ(tags[256], std::vector<double>{3});
   EXPECT_EQ(tags[257], std::vector<double>{2});
   EXPECT_EQ(tags[258], (std::vector<double>{32, 32}));
@@ -69,6 +44,10 @@ TEST(GeotiffFile, holds_what_its_specifications_say) {
   decode::Cursor counts(bytes, static_cast<std::size_t>(tags[273][1]));
   for (const float expected : {4.0F, 5.0F, 6.0F, 1.0F, 2.0F, 0.0F}) EXPECT_EQ(counts.float32(), expected);
   EXPECT_EQ(bytes.size(), static_cast<std::size_t>(tags[273][1]) + 24);
+  const decode::GeotiffContent content = decode::read_geotiff(bytes);
+  EXPECT_EQ(content.bands.at(0)[1], -17.5F);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_ANY_THROW(decode::read_geotiff(bytes.substr(0, size))) << size;
 }
 
 TEST(GeotiffFile, refuses_what_is_no_raster) {

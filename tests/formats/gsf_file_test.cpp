@@ -72,6 +72,20 @@ TEST(GsfFile, holds_what_its_specification_says) {
   }
 }
 
+// Heights above z = 0 are negative depths, which an unsigned field holds by its offset.
+TEST(GsfFile, holds_heights_and_as_many_soundings_as_a_record_has_room_for) {
+  GsfPing ping = two_sided_ping();
+  ping.beams[0].depth = -12.3456;
+  const decode::GsfSwath s = decode::read_gsf(gsf_bytes({ping})).swaths.at(0);
+  EXPECT_NEAR(s.arrays.at(1)[0], -12.3456, 5.1e-5);
+  EXPECT_EQ(s.arrays.at(1)[1], 0);
+  EXPECT_NEAR(s.arrays.at(1)[2], 18.5, 5.1e-5);
+  ping.beams.resize(18000, ping.beams[2]);
+  const std::string bytes = gsf_bytes({ping});
+  EXPECT_LT(bytes.size(), 524288U);
+  EXPECT_EQ(decode::read_gsf(bytes).swaths.at(0).arrays.at(2).size(), 18000U);
+}
+
 // The first records, byte by byte: sizes and ids big-endian, sizes without the eight bytes of the head.
 TEST(GsfFile, begins_with_the_bytes_of_the_specification) {
   const std::string bytes = gsf_bytes({});
@@ -95,8 +109,10 @@ TEST(GsfFile, refuses_what_its_fields_cannot_hold) {
     spoil(ping);
     return error_of([&] { gsf_bytes({ping}); }, ErrorKind::content);
   };
-  EXPECT_THAT(refusal([](GsfPing& p) { p.beams.clear(); }), HasSubstr("ping 41 has 0 beams"));
-  EXPECT_THAT(refusal([](GsfPing& p) { p.beams[0].depth = -1; }), HasSubstr("depth below z = 0 of ping 41 is -10000"));
+  EXPECT_THAT(refusal([](GsfPing& p) { p.beams.clear(); }), HasSubstr("ping 41 has 0 soundings"));
+  EXPECT_THAT(refusal([](GsfPing& p) { p.beams[0].depth = -10001; }),
+              HasSubstr("depth below z = 0 of ping 41 is -10000"));
+  EXPECT_THAT(refusal([](GsfPing& p) { p.beams.resize(18001); }), HasSubstr("ping 41 has 18001 soundings"));
   EXPECT_THAT(refusal([](GsfPing& p) { p.beams[0].across = std::nan(""); }), HasSubstr("across of ping 41"));
   EXPECT_THAT(refusal([](GsfPing& p) { p.time = -1; }), HasSubstr("must be within 1970 and 2106"));
   EXPECT_FALSE(file_exists(own_path("swath.gsf")));

@@ -88,7 +88,7 @@ TEST(LasFile, is_read_as_a_scene_in_its_own_coordinates) {
   for (std::size_t i = 0; i < places.size(); ++i)
     EXPECT_LT((scene.scene.origin + scene.scene.point[i].cast<double>() - places[i]).norm(), 1e-3);
   const std::string bytes = file_bytes(path);
-  for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{300}, std::size_t{1000}, bytes.size() - 1})
+  for (std::size_t size = 0; size < bytes.size(); size += size < 1700 ? 1 : 7)  // every byte of the header
     EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "cut.las", bytes.substr(0, size)),
                 HasSubstr("cut.las"));
 }

@@ -150,6 +150,8 @@ TEST(McapFile, indexes_many_messages_in_chunks) {
     EXPECT_EQ(m.content.numbers.at("data").size(), 10000 + i);
   }
   EXPECT_EQ(times.size(), 300U);
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 500)
+    EXPECT_THROW(decode::read_mcap(bytes.substr(0, size)), std::runtime_error) << size;
   std::string spoilt = bytes;
   spoilt[bytes.size() / 2] = static_cast<char>(spoilt[bytes.size() / 2] ^ 1);
   EXPECT_THROW(decode::read_mcap(spoilt), std::runtime_error);
@@ -164,4 +166,6 @@ TEST(McapFile, begins_and_ends_as_the_specification_says) {
   EXPECT_EQ(bytes.substr(8, 9 + 4 + 4 + 4 + 8),
             std::string("\x01\x14\0\0\0\0\0\0\0\x04\0\0\0ros2\x08\0\0\0insonify", 29));
   EXPECT_EQ(decode::read_mcap(bytes).messages.size(), 0U);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(decode::read_mcap(bytes.substr(0, size)), std::runtime_error) << size;
 }

@@ -84,6 +84,8 @@ FlatBed measure_flat_bed(const std::string& sonar, double max_range) {
 
 void expect_honest(const FlatBed& bed) {
   for (std::size_t k = 0; k < bed.bias.size(); ++k) {
+    testing::Test::RecordProperty("bias_mm_" + std::to_string(k), std::to_string(1000 * bed.bias[k]));
+    testing::Test::RecordProperty("ratio_" + std::to_string(k), std::to_string(bed.ratio[k]));
     EXPECT_LT(std::abs(bed.bias[k]), 0.001 * 20) << k;
     EXPECT_LT(bed.ratio[k], 1.3) << k;
     EXPECT_GT(bed.ratio[k], 1 / 1.3) << k;
@@ -100,23 +102,48 @@ void expect_honest(const FlatBed& bed) {
 TEST(BathymetryLaws, flat_bed_of_an_r2sonic_2024) { expect_honest(measure_flat_bed("r2sonic-2024", 52)); }
 TEST(BathymetryLaws, flat_bed_of_an_em2040) { expect_honest(measure_flat_bed("em2040", 64)); }
 
+namespace {
+
+/// Errors of the ranges of some soundings [m], from their distances to the surface on which they lie.
+struct RegionErrors {
+  std::string name;
+  double count = 0, sum = 0, squares = 0, predicted = 0;
+  void add(double distance, const Eigen::Vector3d& normal, const Eigen::Vector3d& place, float deviation) {
+    const double off = distance / std::abs(normal.normalized().dot(place.normalized()));  // the head is at the origin
+    count += 1, sum += off, squares += off * off;
+    predicted += std::pow(static_cast<double>(deviation), 2);
+  }
+  /// Bias below 3 mm, deviation within a factor 1.5 of the predicted one.
+  void expect_small(double least_count) const {
+    ASSERT_GT(count, least_count) << name;
+    const double bias = sum / count, deviation = std::sqrt(squares / count - bias * bias);
+    const double ratio = deviation / std::sqrt(predicted / count);
+    testing::Test::RecordProperty(name + "_bias_mm", std::to_string(1000 * bias));
+    testing::Test::RecordProperty(name + "_deviation_mm", std::to_string(1000 * deviation));
+    testing::Test::RecordProperty(name + "_ratio", std::to_string(ratio));
+    EXPECT_LT(std::abs(bias), 3e-3) << name;
+    EXPECT_LT(ratio, 1.5) << name;
+    EXPECT_GT(ratio, 1 / 1.5) << name;
+  }
+};
+
+}  // namespace
+
 // z = -20 + y, from below the head upwards: seen from 20 degrees to starboard to port.
 TEST(BathymetryLaws, slope_of_45_degrees) {
   const SonarHead head = swath_head("r2sonic-2024", 8, 40);
   SceneCloud scene;
   add_bed(scene, -20, 26, Eigen::Vector3d(0, 1, 1).normalized(), {0, 0, -20});
   const BottomSoundings found = soundings_of(scene, head, 0, true);
-  double sum = 0, squares = 0, predicted = 0, count = 0;
+  RegionErrors below{"slope_below"}, beside{"slope_beside"};
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found.position[i].y() < -6) continue;  // beyond, the beams run along the slope
     const double off = (found.position[i].z() + 20 - found.position[i].y()) / std::sqrt(2.0);
     EXPECT_LT(std::abs(off), 0.1) << found.beam[i];
-    count += 1, sum += off, squares += off * off;
-    predicted += std::pow(static_cast<double>(found.deviation[i]), 2);
+    (found.position[i].y() < 5 ? below : beside).add(off, {0, -1, 1}, found.position[i], found.deviation[i]);
   }
-  EXPECT_GT(count, 150);
-  EXPECT_LT(std::abs(sum / count), 2e-3);
-  EXPECT_LT(std::sqrt(squares / count), 1.5 * std::sqrt(predicted / count));
+  below.expect_small(60);
+  beside.expect_small(60);
 }
 
 // A vertical step of 1 m at y = 8 m, 20 m below on the near side: both levels and the face between them are found, and no
@@ -129,9 +156,12 @@ TEST(BathymetryLaws, step_of_one_metre) {
   add_bed(scene, 8, 26, {0, 1, 0}, {0, 0, -19});
   const BottomSoundings found = soundings_of(scene, head, 0, true);
   int low = 0, high = 0, face = 0;
+  RegionErrors bed{"before_step"}, top{"behind_step"};
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Eigen::Vector3d& p = found.position[i];
     if (p.y() < -8 || p.y() > 20) continue;
+    if (p.y() < 7.5) bed.add(p.z() + 20, {0, 0, 1}, p, found.deviation[i]);
+    if (p.y() > 8.5) top.add(p.z() + 19, {0, 0, 1}, p, found.deviation[i]);
     if (std::abs(p.z() + 20) < 0.03) ++low;
     if (std::abs(p.z() + 19) < 0.03) ++high;
     if (std::abs(p.y() - 8) < 0.03 && p.z() > -19.95 && p.z() < -19.05) ++face;
@@ -143,4 +173,6 @@ TEST(BathymetryLaws, step_of_one_metre) {
   EXPECT_GT(low, 80);
   EXPECT_GT(high, 40);
   EXPECT_GE(face, 1);
+  bed.expect_small(80);
+  top.expect_small(40);
 }

@@ -35,37 +35,18 @@ Ping noise_ping(const SonarHead& head, const ComplexGrid& signal, std::int64_t n
   return ping;
 }
 
-/// Silent patches in every bin of every beam: a detection needs a candidate scatterer.
-struct Contributors {
-  Scatterers scatterers;
-  Echoes echoes;
-  explicit Contributors(const SonarHead& head) {
-    for (std::size_t b = 0; b < head.fan.beams(); ++b)
-      for (std::size_t n = 0; n < head.gate.bins(); ++n) {
-        scatterers.range.push_back(head.gate.centre(n));
-        scatterers.azimuth.push_back(head.fan.azimuth[b]);
-      }
-    const std::size_t count = scatterers.range.size();
-    scatterers.elevation.assign(count, 0);
-    scatterers.material.assign(count, 0);
-    echoes.delay.assign(count, 0);
-    for (const double a : scatterers.azimuth) echoes.u.push_back(std::sin(a));
-    echoes.amplitude.assign(count, 1e-12);
-  }
-};
-
 const SonarHead head = independent_head();
-const Contributors& silent() {
-  static const Contributors contributors(head);
-  return contributors;
+
+/// No scene: the ping alone decides.
+Soundings detections_of(const Ping& ping, const DetectionOptions& options) {
+  return detect_soundings(ping, Scatterers{}, Echoes{}, options);
 }
 
 /// Detections of one kind in `pings` pings of pure noise.
 double false_alarms(int pings, DetectionOptions options) {
   double count = 0;
   for (int ping = 0; ping < pings; ++ping)
-    count += static_cast<double>(
-        detect_soundings(noise_ping(head, {}, ping), silent().scatterers, silent().echoes, options).size());
+    count += static_cast<double>(detections_of(noise_ping(head, {}, ping), options).size());
   return count;
 }
 
@@ -141,11 +122,10 @@ TEST(DetectionLaws, rayleigh_target_is_found_with_pfa_to_the_one_over_one_plus_s
     const std::vector<Material> materials{{"target", 1.0}};
     const Echoes echoes = direct_echoes(s, materials, head.pulse, clear_water(), {.seed = 9});
     const Ping ping = noise_ping(head, synthesize_gridded(echoes, head, clear_water()), 77);
-    const Soundings found = detect_soundings(ping, silent().scatterers, silent().echoes,
-                                             {.noise_floor_db = noise_floor_db(),
-                                              .threshold_db = threshold_db(rate),
-                                              .side_lobe_margin_db = 1000,
-                                              .false_alarm_rate = 1});
+    const Soundings found = detections_of(ping, {.noise_floor_db = noise_floor_db(),
+                                                 .threshold_db = threshold_db(rate),
+                                                 .side_lobe_margin_db = 1000,
+                                                 .false_alarm_rate = 1});
     double hits = 0;
     for (const std::uint32_t bin : found.bin) hits += bin % 10 == 5;
     const auto targets = static_cast<double>(s.size());

@@ -23,7 +23,8 @@ struct Scene {
   }
   void add(double range, double azimuth, double elevation, std::uint16_t material) {
     scatterers.range.push_back(range), scatterers.azimuth.push_back(azimuth), scatterers.elevation.push_back(elevation);
-    scatterers.material.push_back(material), scatterers.id.push_back(range > 4), scatterers.surfel.push_back(0);
+    scatterers.material.push_back(material), scatterers.id.push_back(std::uint64_t{range > 4 ? 61U : 30U} << 32 | 5),
+        scatterers.surfel.push_back(0);
     scatterers.cos_incidence.push_back(1), scatterers.projected_area.push_back(1);
     echoes.delay.push_back(2 * range / 1500), echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)),
         echoes.amplitude.emplace_back(1, 0);
@@ -49,12 +50,14 @@ TEST(DetectSoundings, puts_one_point_on_each_target) {
   EXPECT_EQ(s.beam[0], 2U);
   EXPECT_EQ(s.bin[0], 25U);
   EXPECT_EQ(s.ping[0], 7U);
-  EXPECT_EQ(s.material[0], 4U);
+  EXPECT_EQ(s.true_material[0], 4U);
   EXPECT_NEAR(s.level_db[0], 100, 1e-3);
   EXPECT_LT((s.position[0] - Eigen::Vector3d(100, 3.05, -5)).norm(), 1e-9);  // head looks along +y
   EXPECT_EQ(s.beam[1], 3U);
-  EXPECT_EQ(s.material[1], 9U);
-  EXPECT_NEAR(s.elevation[1], radians(-20), 1e-6);
+  EXPECT_EQ(s.true_material[1], 9U);
+  EXPECT_EQ(s.elevation[1], 0);  // which one row does not measure
+  EXPECT_NEAR(s.true_elevation[1], radians(-20), 1e-6);
+  EXPECT_EQ(s.true_surfel[1], 61U);
   const Eigen::Vector3d head = 6.05 * unit_vector({radians(10), radians(-20)});
   EXPECT_LT((s.position[1] - scene.ping.world_from_head * head).norm(), 1e-9);
 }
@@ -73,10 +76,33 @@ TEST(DetectSoundings, rejects_side_lobes) {
   EXPECT_EQ(scene.detect({.noise_floor_db = 40, .side_lobe_margin_db = 30}).size(), 3U);
 }
 
-TEST(DetectSoundings, gives_no_point_without_a_scatterer_in_the_beam) {
+// Side lobes of a wide band stand beside the range of their echo.
+TEST(DetectSoundings, rejects_side_lobes_about_the_range_of_their_echo) {
+  Scene scene;
+  scene.mark(1, 28, 70);  // 0.3 m behind the target in beam 2, 30 dB down
+  EXPECT_EQ(scene.detect().size(), 3U);
+  EXPECT_EQ(scene.detect({.noise_floor_db = 40, .side_lobe_reach = 0.25}).size(), 3U);
+  EXPECT_EQ(scene.detect({.noise_floor_db = 40, .side_lobe_reach = 0.35}).size(), 2U);
+}
+
+// Noise is detected as an echo is; the true columns say that nothing is there. Without any echoes the same is found.
+TEST(DetectSoundings, are_decided_by_the_ping_alone) {
   Scene scene;
   scene.mark(0, 80, 100);  // no scatterer there
-  EXPECT_EQ(scene.detect().size(), 2U);
+  const Soundings s = scene.detect();
+  ASSERT_EQ(s.size(), 3U);
+  EXPECT_EQ(s.bin[0], 80U);
+  EXPECT_EQ(s.true_surfel[0], Soundings::none);
+  EXPECT_EQ(s.true_material[0], Soundings::none);
+  EXPECT_TRUE(std::isnan(s.true_elevation[0]));
+  const Eigen::Vector3d on_axis = 8.55 * unit_vector({scene.ping.fan.azimuth[0], 0});
+  EXPECT_LT((s.position[0] - scene.ping.world_from_head * on_axis).norm(), 1e-6);
+  scene.scatterers = {}, scene.echoes = {};
+  const Soundings blind = scene.detect();
+  EXPECT_EQ(blind.bin, s.bin);
+  EXPECT_EQ(blind.range, s.range);
+  EXPECT_EQ(blind.level_db, s.level_db);
+  EXPECT_EQ(blind.true_surfel, std::vector<std::uint32_t>(3, Soundings::none));
 }
 
 // Beams 10 degrees wide and 2 degrees apart: both receive both scatterers, but each reports its own.
@@ -90,8 +116,8 @@ TEST(DetectSoundings, lets_neighbouring_beams_name_their_own_scatterers) {
   scene.echoes.amplitude.back() = 0.5;
   const Soundings s = scene.detect();
   ASSERT_EQ(s.size(), 2U);
-  EXPECT_EQ(s.material[0], 4U);
-  EXPECT_EQ(s.material[1], 6U);
+  EXPECT_EQ(s.true_material[0], 4U);
+  EXPECT_EQ(s.true_material[1], 6U);
 }
 
 // A line array receives from cones: a beam steered up or down is at u = cos(elevation) sin(azimuth).
@@ -102,7 +128,7 @@ TEST(DetectSoundings, searches_along_the_cone_of_a_beam_below_the_horizon) {
   scene.scatterers = {}, scene.echoes = {};
   scene.add(3.05, scene.ping.fan.azimuth[4], radians(-30), 5);
   scene.mark(4, 25, 100);
-  EXPECT_EQ(scene.detect().size(), 1U);
+  EXPECT_EQ(scene.detect().true_material, std::vector<std::uint32_t>{5});
 }
 
 // Two rows of a planar array, 4 degrees apart, and a target in each at one range and bearing: each row reports its own.
@@ -120,9 +146,10 @@ TEST(DetectSoundings, of_a_planar_array_name_scatterers_of_their_own_row) {
   scene.mark(1, 25, 101);
   const Soundings s = scene.detect();
   ASSERT_EQ(s.size(), 2U);
-  EXPECT_EQ(s.material[0], 5U);
-  EXPECT_EQ(s.material[1], 6U);
-  EXPECT_NEAR(s.elevation[1], radians(2.4), 1e-6);
+  EXPECT_EQ(s.true_material[0], 5U);
+  EXPECT_EQ(s.true_material[1], 6U);
+  EXPECT_NEAR(s.elevation[1], radians(2), 1e-6);
+  EXPECT_NEAR(s.true_elevation[1], radians(2.4), 1e-6);
   EXPECT_LT((s.position[1] - 3.05 * unit_vector({0, radians(2.4)})).norm(), 1e-9);
 }
 

@@ -67,10 +67,22 @@ TEST(BedOfReturns, is_the_surface_on_which_they_stand) {
     returns.range.push_back(5);
   }
   returns.azimuth = returns.elevation = returns.range;
-  returns.ping = returns.beam = returns.bin = returns.material = std::vector<std::uint32_t>(400, 0);
+  returns.true_elevation = returns.range;
+  returns.ping = returns.beam = returns.bin = returns.true_surfel = returns.true_material =
+      std::vector<std::uint32_t>(400, 0);
   save_soundings(own_path("returns.ply"), returns);
   const BedSurface bed = bed_of_returns(own_path("returns.ply"), 1);
   for (double x = 1; x < 9; x += 0.7) EXPECT_NEAR(bed.at(x, 4.2), -5 + 0.1 * x, 0.03) << x;
+  // Far above it a false alarm, which comes from no surfel.
+  returns.position[210].z() = 500;
+  returns.true_surfel[210] = Soundings::none;
+  save_soundings(own_path("returns.ply"), returns);
+  for (double x = 1; x < 9; x += 0.7)
+    EXPECT_NEAR(bed_of_returns(own_path("returns.ply"), 1).at(x, 5.2), -5 + 0.1 * x, 0.06) << x;
+  returns.true_surfel.assign(400, Soundings::none);
+  save_soundings(own_path("noise.ply"), returns);
+  expect_error(ErrorKind::content, {"noise.ply: holds no returns of surfels"},
+               [] { bed_of_returns(own_path("noise.ply"), 1); });
   save_soundings(own_path("none.ply"), {});
   expect_error(ErrorKind::content, {"none.ply: holds no returns"}, [] { bed_of_returns(own_path("none.ply"), 1); });
 }

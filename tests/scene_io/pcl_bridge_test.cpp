@@ -99,12 +99,14 @@ TEST(PclBridge, soundings_become_a_cloud_with_named_fields) {
   s.ping = {1};
   s.beam = {2};
   s.bin = {3};
-  s.material = {4};
+  s.true_elevation = {-0.2f};
+  s.true_surfel = {5};
+  s.true_material = {4};
   const pcl::PCLPointCloud2 cloud = to_pcl(s);
-  ASSERT_EQ(cloud.fields.size(), 11u);
+  ASSERT_EQ(cloud.fields.size(), 13u);
   EXPECT_EQ(cloud.fields[3].name, "level_db");
-  EXPECT_EQ(cloud.fields[10].datatype, pcl::PCLPointField::UINT32);
-  EXPECT_EQ(cloud.data.size(), 44u);
+  EXPECT_EQ(cloud.fields[12].datatype, pcl::PCLPointField::UINT32);
+  EXPECT_EQ(cloud.data.size(), 52u);
   pcl::PointCloud<pcl::PointXYZ> xyz;
   pcl::fromPCLPointCloud2(cloud, xyz);
   EXPECT_EQ(xyz[0].z, 3);

@@ -23,6 +23,7 @@ struct RasterKind {
   double no_value = -9999;
   bool hole = true;  ///< cell (column 4, row 3) has no height
   bool nothing = false;
+  int columns = raster_columns, rows = raster_rows;
 };
 
 /// Writes the plane with one of GDAL's own writers; empty if this GDAL lacks it.
@@ -30,7 +31,7 @@ std::string raster_file(const RasterKind& kind) {
   GDALAllRegister();
   const GDALDriverH driver = GDALGetDriverByName(kind.driver), memory = GDALGetDriverByName("MEM");
   if (!driver) return {};
-  const GDALDatasetH source = GDALCreate(memory, "", raster_columns, raster_rows, 1, GDT_Float32, nullptr);
+  const GDALDatasetH source = GDALCreate(memory, "", kind.columns, kind.rows, 1, GDT_Float32, nullptr);
   const bool degrees_of_arc = kind.epsg == 4326;
   const double step = degrees_of_arc ? 1e-5 : raster_cell;
   double transform[6] = {degrees_of_arc ? 9.5 : west, step, 0, degrees_of_arc ? 54.1 : north, 0, -step};
@@ -41,13 +42,13 @@ std::string raster_file(const RasterKind& kind) {
   OSRDestroySpatialReference(reference);
   const GDALRasterBandH band = GDALGetRasterBand(source, 1);
   GDALSetRasterNoDataValue(band, kind.no_value);
-  for (int row = 0; row < raster_rows; ++row) {
+  for (int row = 0; row < kind.rows; ++row) {
     std::vector<float> values;
-    for (int column = 0; column < raster_columns; ++column)
+    for (int column = 0; column < kind.columns; ++column)
       values.push_back(kind.nothing || (kind.hole && column == 4 && row == 3)
                            ? static_cast<float>(kind.no_value)
                            : static_cast<float>(raster_height(column, row)));
-    if (GDALRasterIO(band, GF_Write, 0, row, raster_columns, 1, values.data(), raster_columns, 1, GDT_Float32, 0, 0) !=
+    if (GDALRasterIO(band, GF_Write, 0, row, kind.columns, 1, values.data(), kind.columns, 1, GDT_Float32, 0, 0) !=
         CE_None)
       throw std::runtime_error("GDAL cannot write");
   }
@@ -115,16 +116,79 @@ TEST(RasterFiles, in_degrees_or_without_heights_are_refused) {
               HasSubstr("none of its 600 cells has a height"));
 }
 
-TEST(RasterFiles, cut_off_or_of_another_kind_are_refused) {
+namespace {
+
+/// All numbers of the scene's points.
+std::vector<Eigen::Vector3f> points_of_raster(const std::string& path) { return load_scene(path).scene.point; }
+
+/// Every beginning of a file, in steps, is refused in one line that names it, or has lost nothing but padding.
+/// False if this GDAL cannot write such a file.
+bool expect_no_part_passes(const RasterKind& kind, std::size_t step) {
+  const std::string path = raster_file(kind);
+  if (path.empty()) return false;
+  const std::string bytes = file_bytes(path), name = std::string("cut_") + kind.file;
+  const std::vector<Eigen::Vector3f> whole = points_of_raster(path);
+  std::size_t passed = 0;
+  for (std::size_t size = 0; size < bytes.size(); size += std::min(step, bytes.size() - size)) {
+    const std::string cut = own_file(name, bytes.substr(0, size));
+    try {
+      EXPECT_EQ(points_of_raster(cut), whole) << name << " of " << size << " bytes";
+      ++passed;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(name)) << size;
+      EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n"))) << size;
+    }
+  }
+  EXPECT_LT(passed, 2 + bytes.size() / 20) << name;
+  return true;
+}
+
+}  // namespace
+
+TEST(RasterFiles, cut_off_at_any_byte_are_refused) {
+  for (const auto& [driver, file] : {std::pair{"GTiff", "bed.tif"}, std::pair{"AAIGrid", "bed.asc"},
+                                     std::pair{"netCDF", "bed.nc"}, std::pair{"GMT", "bed.grd"}})
+    expect_no_part_passes({driver, file, 32632, -9999, true, false, 7, 5}, 1);
+}
+
+TEST(RasterFiles, of_hdf5_cut_off_are_refused) {
+  if (!expect_no_part_passes({"BAG", "bed.bag", 32632, 1e6}, 97)) GTEST_SKIP() << "this GDAL cannot write BAG";
+}
+
+TEST(RasterFiles, of_either_byte_order_are_read_and_of_a_wrong_one_or_another_kind_refused) {
   const std::string bytes = file_bytes(raster_file({"GTiff", "whole.tif"}));
-  for (std::size_t size = 1; size < bytes.size() - 200; size += 97)
-    EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "cut.tif", bytes.substr(0, size)),
-                HasSubstr("cut.tif"))
-        << size;
+  const char* big_options[] = {"ENDIANNESS=BIG", nullptr};
+  const GDALDatasetH source = GDALOpen(own_path("whole.tif").c_str(), GA_ReadOnly);
+  GDALClose(GDALCreateCopy(GDALGetDriverByName("GTiff"), own_path("big.tif").c_str(), source, FALSE,
+                           const_cast<char**>(big_options), nullptr, nullptr));
+  GDALClose(source);
+  EXPECT_EQ(file_bytes(own_path("big.tif")).substr(0, 4), std::string("MM\0*", 4));
+  expect_plane(own_path("big.tif"), 2e-3);
+  for (const std::string& order : {std::string("MM\0*", 4), std::string("MM*\0", 4), std::string("II\0*", 4)})
+    EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "swapped.tif", order + bytes.substr(4)),
+                HasSubstr("swapped.tif"));
   EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "cloud.tif", "x y z\n1 2 3\n"),
               HasSubstr("is no raster that GDAL reads"));
-  std::string other_order = bytes;
-  std::swap(other_order[2], other_order[3]);
-  EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "swapped.tif", other_order),
-              HasSubstr("swapped.tif"));
+}
+
+// A GeoTIFF that insonify exported, by GDAL: place, projection, no data, names and heights.
+TEST(RasterFiles, of_insonify_are_read_by_gdal) {
+  GDALAllRegister();
+  const GDALDatasetH file = GDALOpen(INSONIFY_GOLDEN_RASTER, GA_ReadOnly);
+  ASSERT_NE(file, nullptr);
+  double at[6];
+  ASSERT_EQ(GDALGetGeoTransform(file, at), CE_None);
+  EXPECT_EQ(std::vector<double>(at, at + 6), (std::vector<double>{565400, 0.5, 0, 5995101, 0, -0.5}));
+  EXPECT_STREQ(OSRGetName(GDALGetSpatialRef(file)), "WGS 84 / UTM zone 32N");
+  ASSERT_EQ(GDALGetRasterCount(file), 2);
+  const GDALRasterBandH band = GDALGetRasterBand(file, 1);
+  EXPECT_STREQ(GDALGetDescription(band), "height [m]");
+  int has_none = 0;
+  EXPECT_TRUE(std::isnan(GDALGetRasterNoDataValue(band, &has_none)));
+  EXPECT_TRUE(has_none);
+  std::vector<float> heights(6);
+  ASSERT_EQ(GDALRasterIO(band, GF_Read, 0, 0, 3, 2, heights.data(), 3, 2, GDT_Float32, 0, 0), CE_None);
+  EXPECT_EQ(std::vector<float>(heights.begin(), heights.end() - 1),
+            (std::vector<float>{-18, -17.5F, 2.25F, -20, -21}));  // from the north
+  GDALClose(file);
 }

@@ -21,7 +21,7 @@ void expect_same_stored(const SceneCloud& scene, SimulationOptions options, cons
   EXPECT_GT(streamed.soundings.size(), 10U);
   EXPECT_EQ(streamed.soundings.bin, stored.soundings.bin);
   EXPECT_EQ(streamed.soundings.position, stored.soundings.position);
-  EXPECT_EQ(streamed.soundings.material, stored.soundings.material);
+  EXPECT_EQ(streamed.soundings.true_surfel, stored.soundings.true_surfel);
 }
 
 }  // namespace

@@ -223,6 +223,36 @@ TEST(Cube, comes_back_bit_for_bit) {
   }
 }
 
+// One ping after the other, with all that it has: the same bits as of the whole cube.
+TEST(Cube, is_read_ping_by_ping_as_it_is_as_a_whole) {
+  Cube cube = make_cube(4, 5);
+  for (Ping& ping : cube.pings) {
+    ping.layers = {{"direct", ping.pressure * 0.5F}, {"noise", ping.pressure * 0.25F}};
+    ping.split_phase = ping.pressure.real();
+    ping.intensity = ping.pressure.abs2();
+    ping.scan = ScanPlace{ping.number / 2, 0.1 * static_cast<double>(ping.number)};
+  }
+  const std::string path = write(cube);
+  std::size_t p = 0;
+  read_cube_pings(path, [&](const Cube& shared, const Ping& ping) {
+    EXPECT_TRUE(shared.pings.empty());
+    EXPECT_EQ(shared.sonar, cube.sonar);
+    const Ping& whole = cube.pings.at(p++);
+    EXPECT_EQ(ping.number, whole.number);
+    EXPECT_EQ(ping.time, whole.time);
+    EXPECT_EQ(ping.world_from_head.matrix(), whole.world_from_head.matrix());
+    EXPECT_TRUE((ping.pressure == whole.pressure).all());
+    EXPECT_TRUE((ping.split_phase == whole.split_phase).all());
+    EXPECT_TRUE((ping.intensity == whole.intensity).all());
+    ASSERT_EQ(ping.layers.size(), 2U);
+    EXPECT_TRUE((ping.layers[1].pressure == whole.layers[1].pressure).all());
+    ASSERT_TRUE(ping.scan);
+    EXPECT_EQ(ping.scan->sweep, whole.scan->sweep);
+    EXPECT_EQ(ping.scan->angle, whole.scan->angle);
+  });
+  EXPECT_EQ(p, 4U);
+}
+
 TEST(Cube, of_one_ping_and_one_beam_comes_back) {
   const Cube cube = make_cube(1, 1);
   const Cube back = read_cube(write(cube));

@@ -1,8 +1,15 @@
 // What `export --to gsf|las|mcap|geotiff` writes of a ball to port of the head, ahead of it and above the bed, read by
 // the decoders of tests/formats: every field's unit and sign.
+#include <nlohmann/json.hpp>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
 #include "core/geodesy.hpp"
 #include "formats/gsf_decoder.hpp"
+#include "formats/las_decoder.hpp"
 #include "formats/ros_decoder.hpp"
+#include "formats/tiff_decoder.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/cube.hpp"
@@ -41,27 +48,17 @@ class ExportProducts : public ToolTest {
   }
   std::string read_bytes(const std::string& name) const { return file_bytes(path(name)); }
 
-  /// The strongest point of a LAS file 1.4 of format 6 with 14 extra bytes, by its specification, in the world.
-  Eigen::Vector3d strongest_point(const std::string& name, bool is_world = false) const {
-    const std::string bytes = read_bytes(name);
-    const auto data = decode::Cursor(bytes, 96).unsigned_little(4),
-               count = decode::Cursor(bytes, 247).unsigned_little(8);
-    decode::Cursor offsets(bytes, 155);
-    Eigen::Vector3d offset, best;
-    for (int axis = 0; axis < 3; ++axis) offset[axis] = offsets.float64();
-    float most_db = -1;
-    for (std::uint64_t i = 0; i < count; ++i) {
-      decode::Cursor point(bytes, data + 44 * i);
-      Eigen::Vector3d at = offset;
-      for (int axis = 0; axis < 3; ++axis) at[axis] += 1e-4 * static_cast<double>(point.signed_little(4));
-      point.text(18);
-      if (const float level = point.float32(); level > most_db) most_db = level, best = at;
-    }
-    if (is_world) return best;
-    GeoPlace place = geo_place_of(UtmPlace{best.x(), best.y()}, {32, true});
-    Eigen::Vector3d world = world_from_geo(ball_anchor, place);
-    world.z() = best.z();
-    return world;
+  /// The strongest point of a LAS file, in UTM.
+  Eigen::Vector3d strongest_point(const std::string& name) const {
+    const std::vector<decode::LasRow> rows = decode::read_las(read_bytes(name));
+    const auto best = std::max_element(rows.begin(), rows.end(),
+                                       [](const auto& a, const auto& b) { return a.level_db < b.level_db; });
+    return {best->place[0], best->place[1], best->place[2]};
+  }
+  /// A place in zone 32N in the world.
+  static Eigen::Vector3d in_world(const Eigen::Vector3d& utm) {
+    const Eigen::Vector3d world = world_from_geo(ball_anchor, geo_place_of(UtmPlace{utm.x(), utm.y()}, {32, true}));
+    return {world.x(), world.y(), utm.z()};
   }
 
   /// The beam's sounding, somewhat behind the front of the ball.
@@ -103,15 +100,107 @@ TEST_F(ExportProducts, gsf_has_the_ball_to_port_ahead_and_at_its_depth) {
 }
 
 TEST_F(ExportProducts, las_and_geotiff_have_it_at_its_place_in_utm) {
-  succeed("export out --to las --anchor 54.1,7.9,90 -o ball.las -q");
+  succeed("export out --to las --anchor 54.1,7.9,90 --start-utc 2026-05-01T08:30:00Z -o ball.las -q");
   succeed("export out --to geotiff --anchor 54.1,7.9,90 --cell 0.25 -o ball.tif -q");
-  const Eigen::Vector3d point = strongest_point("ball.las");
+  const Eigen::Vector3d point = in_world(strongest_point("ball.las"));
   const double range = (point - pose.translation()).norm();
   EXPECT_GT(range, least);
   EXPECT_LT(range, most);
   const Eigen::Vector3d ball = pose * (range * unit_vector({radians(beam_deg), 0}));
   EXPECT_LT((point - ball).norm(), 1e-3);
-  EXPECT_EQ(read_bytes("ball.tif").substr(0, 4), std::string("II*\0", 4));
+  for (const decode::LasRow& row : decode::read_las(read_bytes("ball.las"))) {
+    EXPECT_NEAR(row.time, 1777624200, 1e-6);
+    EXPECT_EQ(row.classification, 40U);
+    EXPECT_EQ(row.ping, 0U);
+    EXPECT_NEAR(row.intensity, 100 * static_cast<double>(row.level_db), 0.51);
+    EXPECT_GT(row.deviation, 0);
+  }
+
+  // Each sounding of the LAS file lies in a cell of the map whose mean height is near its own; the other cells are empty.
+  const decode::GeotiffContent map = decode::read_geotiff(read_bytes("ball.tif"));
+  EXPECT_EQ(map.epsg, 32632);
+  ASSERT_EQ(map.bands.size(), 3U);
+  float counted = 0;
+  for (const float count : map.bands[2]) counted += count;
+  const std::vector<decode::LasRow> rows = decode::read_las(read_bytes("ball.las"));
+  EXPECT_EQ(static_cast<std::size_t>(counted), rows.size());
+  std::vector<double> heights(map.bands[0].size(), 0);
+  for (const decode::LasRow& row : rows) {
+    const double column = std::floor((row.place[0] - map.west) / map.cell);
+    const double line = std::floor((map.north - row.place[1]) / map.cell);
+    ASSERT_TRUE(column >= 0 && column < static_cast<double>(map.columns) && line >= 0 &&
+                line < static_cast<double>(map.rows));
+    heights[static_cast<std::size_t>(line) * map.columns + static_cast<std::size_t>(column)] += row.place[2];
+  }
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double count = static_cast<double>(map.bands[2][i]);
+    EXPECT_EQ(std::isnan(map.bands[0][i]), count == 0);
+    if (count > 0) {
+      EXPECT_NEAR(static_cast<double>(map.bands[0][i]), heights[i] / count, 1e-3);
+    }
+  }
+}
+
+TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
+  succeed("export out --to csv --anchor 54.1,7.9,90 --start-utc 2026-05-01T08:30:00Z -o ball.csv -q");
+  succeed("export out --to las --anchor 54.1,7.9,90 -o ball.las -q");
+  const std::vector<decode::LasRow> rows = decode::read_las(read_bytes("ball.las"));
+  std::istringstream lines(read("ball.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line,
+            "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,latitude_deg,longitude_deg");
+  std::size_t i = 0;
+  for (; std::getline(lines, line); ++i) {
+    std::vector<std::string> words;
+    std::istringstream row(line);
+    for (std::string word; std::getline(row, word, ',');) words.push_back(word);
+    ASSERT_EQ(words.size(), 13U);
+    const Eigen::Vector3d at(std::stod(words[3]), std::stod(words[4]), std::stod(words[5]));
+    const decode::LasRow& las = rows.at(i);
+    EXPECT_LT((at - in_world({las.place[0], las.place[1], las.place[2]})).norm(), 1e-3);
+    EXPECT_EQ(words[1], "1777624200.000000");
+    EXPECT_EQ(std::stoul(words[2]), las.beam);
+    EXPECT_NEAR(std::stod(words[6]), (at - pose.translation()).norm(), 2e-4);
+    EXPECT_NEAR(std::stod(words[7]), static_cast<double>(las.deviation), 1e-5);
+    EXPECT_NEAR(std::stod(words[8]), static_cast<double>(las.level_db), 0.006);
+    EXPECT_NEAR(std::stod(words[9]), std::log10(std::stod(words[6]) / std::stod(words[7])), 0.01);
+    const GeoPlace place = geo_from_world(ball_anchor, at);
+    EXPECT_NEAR(std::stod(words[11]), degrees(place.latitude), 2e-9);
+    EXPECT_NEAR(std::stod(words[12]), degrees(place.longitude), 2e-9);
+  }
+  EXPECT_EQ(i, rows.size());
+  // Without a place on the globe the columns of the world remain.
+  succeed("export out --to csv -o world.csv -q");
+  EXPECT_THAT(read("world.csv"),
+              testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,"
+                                  "method\n"));
+}
+
+// The head stands below the middle of the last row, port on the left.
+TEST_F(ExportProducts, png_shows_it_to_port_at_its_range) {
+  succeed("export out --to png -o pictures -q");
+  const auto manifest = nlohmann::json::parse(read("pictures/manifest.json"));
+  ASSERT_EQ(manifest["pings"].size(), 1U);
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(path("pictures/" + manifest["pings"][0]["fan"].get<std::string>()).c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  const int* size = image->GetDimensions();
+  const auto* pixel = static_cast<const unsigned char*>(image->GetScalarPointer());
+  double x = 0, y = 0, sum = 0;
+  const int brightest = *std::max_element(pixel, pixel + size[0] * size[1]);
+  for (int row = 0; row < size[1]; ++row)
+    for (int column = 0; column < size[0]; ++column)
+      if (const double grey = pixel[row * size[0] + column]; grey > brightest - 10)
+        x += grey * (row + 0.5), y += grey * (size[0] / 2 - column - 0.5), sum += grey;
+  const double metre = manifest["metres_per_pixel"];
+  EXPECT_NEAR(size[1] * metre, 14, 1e-9);
+  EXPECT_NEAR(std::atan2(y, x), radians(beam_deg), radians(1.5));
+  EXPECT_NEAR(std::hypot(x, y) / sum * metre, ball_range, ball_radius + 0.1);
+  const auto& place = manifest["pings"][0]["world_from_head"];
+  EXPECT_NEAR(place[3].get<double>(), pose.translation().x(), 1e-9);
+  expect_refused("export out --to png -o pictures", 4, {"pictures", "--force"});
 }
 
 TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
@@ -149,10 +238,173 @@ TEST_F(ExportProducts, says_how_to_give_what_it_misses) {
   expect_refused("export cut.h5 --to mcap -o product", 3, {"cut.h5"});
 }
 
-// A world in UTM: coordinates of the scene are those of the product.
-TEST_F(ExportProducts, utm_worlds_keep_their_coordinates) {
-  succeed("export out --to las --utm 32N -o ball.las -q");
-  const Eigen::Vector3d point = strongest_point("ball.las", true);
-  const Eigen::Vector3d ball = pose * ((point - pose.translation()).norm() * unit_vector({radians(beam_deg), 0}));
-  EXPECT_LT((point - ball).norm(), 1e-3);
+// A world in UTM: soundings of LAS and GSF within 1 mm and 1e-7 degrees of the scene's own coordinates.
+TEST(ExportUtm, keeps_the_coordinates_of_its_scene) {
+  const Eigen::Vector3d ball(565432.125, 5995123.5, -15);
+  const double radius = 0.02;
+  class Tool : public ToolTest {
+    void TestBody() override {}
+
+   public:
+    using ToolTest::expect_refused, ToolTest::path, ToolTest::read, ToolTest::succeed;
+  } tool;
+  SceneCloud scene;
+  scene.origin = {565400, 5995100, 0};
+  add_sphere(scene, ball, radius, 400);
+  save_scene(tool.path("ball.ply"), scene);
+  const Pose pose = head_above(ball);
+  const Eigen::Vector3d at = pose.translation();
+  std::ostringstream command;
+  command.precision(16);
+  command << "ping ball.ply --sonar r2sonic-2024 --set sonar.beams=65 --range 11:13 --split --no-picture -q --pose="
+          << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o out";
+  tool.succeed(command.str());
+  tool.succeed("export out --to csv -o ball.csv -q");
+  tool.succeed("export out --to las --utm 32N -o ball.las -q");
+  tool.succeed("export out --to gsf --utm 32N -o ball.gsf -q");
+
+  // In LAS: on the axis of its beam at its range, to a millimetre; in all the same place.
+  const std::vector<decode::LasRow> rows = decode::read_las(tool.read("ball.las"));
+  const auto row = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.beam == 44; });
+  ASSERT_NE(row, rows.end());
+  const Eigen::Vector3d point(row->place[0], row->place[1], row->place[2]);
+  const double range = (point - at).norm();
+  EXPECT_NEAR(range, ball_range, radius + 0.01);
+  EXPECT_LT((point - pose * (range * unit_vector({radians(beam_deg), 0}))).norm(), 1e-3);
+  EXPECT_LT((point - ball).norm(), radius + 0.01);
+  // In GSF: the head's latitude and longitude, from which across and along lead to the sounding.
+  const decode::GsfSwath s = decode::read_gsf(tool.read("ball.gsf")).swaths.at(0);
+  const GeoPlace head = geo_place_of(UtmPlace{at.x(), at.y()}, {32, true});
+  EXPECT_NEAR(s.latitude_deg, degrees(head.latitude), 0.6e-7);
+  EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
+  std::size_t beam = 0;
+  for (std::size_t b = 0; b < s.flags.size(); ++b)
+    if (s.flags[b] == 0 &&
+        std::abs(s.arrays.at(5)[b] - degrees(std::acos(std::cos(radians(24)) * std::sqrt(0.75)))) < 0.01 &&
+        s.arrays.at(2)[b] < 0)
+      beam = b;
+  EXPECT_NEAR(s.arrays.at(1)[beam], -point.z(), 1e-3);
+  const Anchor here{degrees(head.latitude), degrees(head.longitude), s.heading_deg};
+  const GeoPlace found = geo_from_world(here, {s.arrays.at(3)[beam], -s.arrays.at(2)[beam], 0});
+  const GeoPlace expected = geo_place_of(UtmPlace{point.x(), point.y()}, {32, true});
+  EXPECT_NEAR(degrees(found.latitude), degrees(expected.latitude), 1e-7);
+  EXPECT_NEAR(degrees(found.longitude), degrees(expected.longitude), 1e-7);
+  // Its PCD keeps its digits.
+  const auto manifest = nlohmann::json::parse(tool.read("out/manifest.json"));
+  EXPECT_EQ(manifest["returns_pcd_origin_m"], (std::vector<double>{565400, 5995100, 0}));
+  EXPECT_THAT(tool.read("out/returns.pcd"), HasSubstr("VIEWPOINT 565400 5995100 0 1 0 0 0"));
+}
+
+// Two balls in one beam, above z = 0: two soundings of it, and depths below zero.
+TEST_F(ExportProducts, gsf_has_several_soundings_of_a_beam_and_heights) {
+  SceneCloud scene;
+  const Pose high = head_above({0, 0, 30});
+  for (const auto& [range, radius] :
+       {std::pair(9.0, 0.03), std::pair(13.0, 0.4)})  // the far one shows round the near one
+    add_sphere(scene, high * (range * unit_vector({0.1, 0})), radius, 3000);
+  save_scene(path("two.ply"), scene);
+  const Eigen::Vector3d at = high.translation();
+  std::ostringstream command;
+  command.precision(12);
+  command
+      << "ping two.ply --sonar r2sonic-2024 --set sonar.beams=65 --range 8:14 --noise --no-picture -q --force --pose="
+      << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o two";
+  succeed(command.str());
+  succeed("export two --to gsf --anchor 54.1,7.9 -o one.gsf -q");
+  succeed("export two --to gsf --anchor 54.1,7.9 --per-beam 3 -o many.gsf -q");
+  const decode::GsfSwath one = decode::read_gsf(read_bytes("one.gsf")).swaths.at(0);
+  const decode::GsfSwath many = decode::read_gsf(read_bytes("many.gsf")).swaths.at(0);
+  EXPECT_EQ(one.beams, 65);
+  EXPECT_GT(many.beams, 65);
+  std::map<double, std::vector<double>> depths;  // by angle and azimuth of the beam
+  for (std::size_t b = 0; b < many.flags.size(); ++b)
+    if (many.flags[b] == 0) depths[1000 * many.arrays.at(5)[b] + many.arrays.at(18)[b]].push_back(many.arrays.at(1)[b]);
+  bool both = false;
+  for (const auto& [beam, of_beam] : depths) {
+    for (const double depth : of_beam) EXPECT_LT(depth, -20);
+    // Ranges from 9 m to the front of the far ball.
+    const double apart =
+        of_beam.size() == 2 ? std::abs(of_beam[0] - of_beam[1]) / (std::cos(0.1) * std::sqrt(0.75)) : 0;
+    both |= apart > 3.5 && apart < 4.1;
+  }
+  EXPECT_TRUE(both);
+}
+
+// A survey of two blocks over a level bed: each product has all its pings, at the place and time that the mission gives.
+class ExportSurvey : public ToolTest {
+ protected:
+  static constexpr double bed_depth = 4;
+  void SetUp() override {
+    write("bed.obj", "v -3 -14 -4\nv 3 -14 -4\nv 3 14 -4\nv -3 14 -4\nf 1 2 3\nf 1 3 4\n");
+    write("line.toml", R"(schema = 1
+[survey]
+scene = "bed.obj"
+anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }
+start_utc = "2026-05-01T08:30:00Z"
+[trajectory]
+waypoints_m = [[-1, 0, 0], [1, 0, 0]]
+speed_m_s = 1
+[[head]]
+sonar = "r2sonic-2024"
+set = ["sonar.beams=33", "sonar.field_of_view_deg=90"]
+range = "2:8"
+every_m = 0.5
+[ping]
+noise = true
+split = true
+)");
+    succeed("survey line.toml -q --pings-per-block 3 -o run");
+  }
+};
+
+TEST_F(ExportSurvey, has_all_pings_in_every_product) {
+  for (const char* to : {"gsf", "las", "csv", "geotiff", "mcap", "png"})
+    succeed("export run -q --to " + std::string(to) + " -o product." + to);
+  succeed("merge -q run");
+  succeed("export run -q -o vtk");
+
+  const decode::GsfContent gsf = decode::read_gsf(read("product.gsf"));
+  ASSERT_EQ(gsf.swaths.size(), 4U);
+  const Anchor anchor{54.1, 7.9, 30};
+  std::size_t soundings = 0;
+  for (std::size_t p = 0; p < 4; ++p) {
+    const decode::GsfSwath& s = gsf.swaths[p];
+    EXPECT_NEAR(s.time, 1777624200 + 0.5 * static_cast<double>(p), 1e-6);
+    EXPECT_NEAR(s.heading_deg, 30, 0.011);
+    if (p > 0) {
+      EXPECT_NEAR(s.speed_knots, 1 / 0.514444, 0.02);
+    }
+    const GeoPlace head = geo_from_world(anchor, {-1 + 0.5 * static_cast<double>(p), 0, 0});
+    EXPECT_NEAR(s.latitude_deg, degrees(head.latitude), 0.6e-7);
+    EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
+    for (std::size_t b = 0; b < s.flags.size(); ++b)
+      if (s.flags[b] == 0) {
+        ++soundings;
+        EXPECT_NEAR(s.arrays.at(1)[b], bed_depth, 0.1);
+        EXPECT_NEAR(s.arrays.at(2)[b],
+                    bed_depth * std::tan(radians(s.arrays.at(5)[b])) * (2 * b < s.flags.size() ? -1 : 1), 0.1);
+      }
+  }
+  EXPECT_GT(soundings, 4 * 31U);
+
+  const std::vector<decode::LasRow> las = decode::read_las(read("product.las"));
+  EXPECT_EQ(las.size(), soundings);
+  for (const decode::LasRow& row : las) EXPECT_NEAR(row.place[2], -bed_depth, 0.1);
+  const std::string csv = read("product.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), soundings + 1);
+  EXPECT_THAT(csv, HasSubstr("latitude_deg"));
+  const decode::GeotiffContent map = decode::read_geotiff(read("product.geotiff"));
+  double counted = 0;
+  for (std::size_t i = 0; i < map.bands[2].size(); ++i) {
+    counted += static_cast<double>(map.bands[2][i]);
+    if (map.bands[2][i] > 0) {
+      EXPECT_NEAR(map.bands[0][i], -bed_depth, 0.1);
+    }
+  }
+  EXPECT_EQ(counted, static_cast<double>(soundings));
+  EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 4U);
+  EXPECT_EQ(nlohmann::json::parse(read("product.png/manifest.json"))["pings"].size(), 4U);
+  EXPECT_TRUE(std::filesystem::exists(path("product.png/fan_000003.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("vtk/fan_000003.vts")));
+  EXPECT_TRUE(std::filesystem::exists(path("vtk/returns.vtp")));
 }

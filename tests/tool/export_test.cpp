@@ -1,13 +1,19 @@
 // What `export` and --keep paths write for VTK's own readers.
 #include <vtkCellData.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLStructuredGridReader.h>
 
+#include "returns/sounding_columns.hpp"
+#include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -45,6 +51,41 @@ TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   grid->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
   EXPECT_EQ(static_cast<float>(range[1]), level.maxCoeff());
   EXPECT_THAT(read("vtk/fan.pvd"), HasSubstr("file=\"fan_000000.vts\""));
+}
+
+// What ParaView shows of the returns: places in double and every column under its name, with its unit.
+TEST_F(Export, gives_returns_with_names_and_units) {
+  succeed(ping + "-o out");
+  succeed("export out -o vtk -q");
+  const Soundings returns = load_soundings(path("out/returns.ply"));
+  ASSERT_GT(returns.size(), 20U);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(path("vtk/returns.vtp").c_str());
+  reader->Update();
+  vtkPolyData* data = reader->GetOutput();
+  ASSERT_EQ(data->GetNumberOfPoints(), static_cast<vtkIdType>(returns.size()));
+  EXPECT_EQ(data->GetNumberOfVerts(), data->GetNumberOfPoints());
+  EXPECT_EQ(data->GetPoints()->GetDataType(), VTK_DOUBLE);
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    Eigen::Vector3d p;
+    data->GetPoint(static_cast<vtkIdType>(i), p.data());
+    ASSERT_EQ(p, returns.position[i]);
+  }
+  auto* units = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("units"));
+  ASSERT_NE(units, nullptr);
+  std::string all;
+  for (vtkIdType i = 0; i < units->GetNumberOfValues(); ++i) all += units->GetValue(i) + "\n";
+  EXPECT_THAT(all, HasSubstr("level_db: dB re 1 uPa\nrange: m\nazimuth: rad"));
+  const auto expect_column = [&](const char* name, const auto& values) {
+    vtkDataArray* array = data->GetPointData()->GetArray(name);
+    ASSERT_NE(array, nullptr) << name;
+    EXPECT_TRUE(array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) << name;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double value = static_cast<double>(values[i]), read = array->GetTuple1(static_cast<vtkIdType>(i));
+      ASSERT_TRUE(read == value || (std::isnan(read) && std::isnan(value))) << name << " " << i;
+    }
+  };
+  each_column([&](const SoundingColumn& about, const auto& column) { expect_column(about.name, column); }, returns);
 }
 
 TEST_F(Export, paths_start_and_end_at_the_head_and_bounce_where_asked) {

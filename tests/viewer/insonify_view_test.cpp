@@ -106,7 +106,9 @@ TEST_F(InsonifyView, shows_the_returns_of_a_run) {
   soundings.ping = {7, 8};
   soundings.beam = {static_cast<std::uint32_t>(made_.port.place.beam), 20};
   soundings.bin = {40, 100};
-  soundings.material = {0, 2};
+  soundings.true_elevation = {0, 0.01F};
+  soundings.true_surfel = {3, 4};
+  soundings.true_material = {0, 2};
   save_soundings(path("out/returns.ply"), soundings);
   const Soundings back = load_soundings(path("out/returns.ply"));
   const auto fields = [](const auto& x) {

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "formats/mcap_file.hpp"
+#include "formats/ros_messages.hpp"
+#include "tool/product_run.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr int fan_rows_of_pixels = 480;
+
+/// Topics of a robot's log, made with the first ping, whose levels give the scale of images.
+struct RobotLog {
+  McapFile file;
+  GreyScale grey;
+  SonarImageScale scale;
+  Eigen::Vector3d origin;
+  std::uint16_t image, fan, points, transforms;
+
+  RobotLog(const ProductOptions& o, const Cube& cube, const Ping& ping)
+      : file(o.output), grey(cube, ping), origin(ping.world_from_head.translation()) {
+    // Single precision holds world coordinates to a millimetre up to some kilometres.
+    origin = origin.norm() > 1e4 ? Eigen::Vector3d(origin.array().round()) : Eigen::Vector3d(0, 0, 0);
+    scale = {o.linear, grey.window, std::max(1e-12, 4 * static_cast<double>(ping.pressure.abs().maxCoeff()))};
+    const std::map<std::string, std::string> greys = {{"black_db", fmt::format("{}", grey.window.min_db)},
+                                                      {"white_db", fmt::format("{}", grey.window.max_db)},
+                                                      {"reference", "dB re 1 uPa at 1 m"}};
+    const std::map<std::string, std::string> numbers = {{"full_scale_pa", fmt::format("{}", scale.full_scale)}};
+    const std::map<std::string, std::string> place = {
+        {"origin_m", fmt::format("{},{},{}", origin.x(), origin.y(), origin.z())}};
+    const auto add = [&](const char* topic, const RosType& type, const std::map<std::string, std::string>& about) {
+      return file.add_topic(topic, type.name, type.text, about);
+    };
+    image = add("/sonar/image", projected_sonar_image_type(), o.linear ? numbers : greys);
+    fan = add("/sonar/fan", image_type(), greys);
+    points = add("/sonar/points", point_cloud_type(), place);
+    transforms = add("/tf", transforms_type(), place);
+  }
+};
+
+}  // namespace
+
+std::size_t mcap_product(const PlacedRun& run) {
+  std::unique_ptr<RobotLog> log;
+  const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
+    if (!log) log = std::make_unique<RobotLog>(run.options, cube, ping);
+    const auto time = static_cast<std::uint64_t>(std::llround((run.start + ping.time) * 1e9));
+    log->file.add(log->transforms, time, head_transforms(ping.world_from_head, log->origin, time));
+    log->file.add(
+        log->image, time,
+        projected_sonar_image(ping, time, cube.centre_frequency, cube.sound_speed, log->grey.tvg, log->scale));
+    log->file.add(log->fan, time, fan_image(ping, time, log->grey.tvg, log->scale.window, fan_rows_of_pixels));
+    log->file.add(log->points, time, point_cloud(found.position, found.level_db, log->origin, time));
+  });
+  log->file.finish();
+  return soundings;
+}
+
+}  // namespace insonify::tool

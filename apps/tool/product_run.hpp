@@ -1,0 +1,53 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "core/geodesy.hpp"
+#include "returns/quantise.hpp"
+#include "store/run_directory.hpp"
+#include "tool/export_product.hpp"
+#include "tool/run_pings.hpp"
+
+namespace insonify::tool {
+
+/// A run with its place and time.
+struct PlacedRun {
+  const ProductOptions& options;
+  RunPings pings;
+  std::optional<Georeference> place{};  ///< where its world is; csv, mcap and png need none
+  double start = 0;                     ///< seconds since 1970 of time 0
+
+  const Georeference& reference() const { return *place; }
+};
+
+/// The UTM zone of a product, and places in it.
+struct UtmWorld {
+  const Georeference& reference;
+  UtmZone zone;
+  explicit UtmWorld(const Georeference& from);
+  /// Easting, northing [m] and height of a place in the world.
+  Eigen::Vector3d place(const Eigen::Vector3d& world) const;
+};
+
+/// Calls `use` with every ping and its soundings of the bottom; returns how many soundings there were. Throws
+/// Error(content) for a run without pings.
+std::size_t each_swath(const PlacedRun& run,
+                       const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use);
+
+/// How range-compensated levels become grey values, from the first ping.
+struct GreyScale {
+  Tvg tvg;
+  GreyWindow window;
+  GreyScale(const Cube& cube, const Ping& first);
+};
+
+// Writers of the products: each returns how many soundings there were.
+std::size_t gsf_product(const PlacedRun& run);
+std::size_t las_product(const PlacedRun& run);
+std::size_t geotiff_product(const PlacedRun& run);
+std::size_t csv_product(const PlacedRun& run);
+std::size_t mcap_product(const PlacedRun& run);
+/// Writes pictures and how to read them; returns how many pings there were.
+std::size_t png_product(const PlacedRun& run, RunDirectory& directory);
+
+}  // namespace insonify::tool
