@@ -28,7 +28,7 @@ struct Fftw<double> {
   }
   static Plan make(int n, int batch, int distance, std::complex<double>* from, std::complex<double>* to, int sign) {
     return fftw_plan_many_dft(1, &n, batch, reinterpret_cast<fftw_complex*>(from), nullptr, 1, distance,
-                               reinterpret_cast<fftw_complex*>(to), nullptr, 1, distance, sign, FFTW_ESTIMATE);
+                              reinterpret_cast<fftw_complex*>(to), nullptr, 1, distance, sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<double>* from, std::complex<double>* to) {
     fftw_execute_dft(plan, reinterpret_cast<fftw_complex*>(from), reinterpret_cast<fftw_complex*>(to));

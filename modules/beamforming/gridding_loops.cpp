@@ -1,5 +1,4 @@
 #include "beamforming/gridding_loops_internal.hpp"
-
 #include "beamforming/kernel_lanes_internal.hpp"
 #include "core/target_clones.hpp"
 

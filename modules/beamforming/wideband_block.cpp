@@ -185,8 +185,10 @@ void WidebandRoom::form_beam_terms(const BendSeries& bend) {
       },
       [&](std::size_t i) {
         // Frequencies beyond what bins can tell fold, as they do in any sampled image.
-        const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(plan.line_of(plan.chunks[i] * lines_at_once)) % cycle;
-        const std::ptrdiff_t bin = line < 0 ? line + cycle : line;
+        const std::ptrdiff_t line =
+            static_cast<std::ptrdiff_t>(plan.line_of((plan.chunks[i] + 1) * lines_at_once - 1)) -
+            static_cast<std::ptrdiff_t>(lines_at_once - 1);
+        const std::ptrdiff_t bin = (line % cycle + cycle) % cycle;
         for (std::size_t q = 0; q < bend.terms; ++q)
           kernels::add_chunk(chunk_.data() + q * chunk, plan.row_factor.data(), plan.rows(),
                              reinterpret_cast<float*>(term_[q]->data() + bin), bins_row_);

@@ -72,7 +72,7 @@ class WidebandRoom {
 
   const WidebandPlan& plan_;
   const WidebandTransforms& transforms_;
-  AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride
+  AlignedArray<float, float> re_, im_;           ///< fine samples x grid_stride
   Spectrum tile_, harmonics_;                    ///< some samples by direction, and by harmonic
   Spectrum spectrum_, row_;                      ///< harmonics x fine samples, and one of them by frequency
   std::vector<std::unique_ptr<Spectrum>> term_;  ///< of each: by chunk, harmonic and line; then harmonics x bins
@@ -82,7 +82,7 @@ class WidebandRoom {
   std::vector<std::complex<double>> carrier_, turn_, now_;
   std::vector<float> scratch_, samples_, sums_;
   std::vector<double> pulse_re_, pulse_im_;
-  std::vector<bool> touched_;  ///< tiles of fine samples that hold anything
+  std::vector<char> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;
   double start_time_ = 0, unit_ = 0;  // unit: a power of two, of the first echoes; 0: none yet
 };

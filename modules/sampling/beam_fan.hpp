@@ -18,6 +18,7 @@ struct BeamFan {
   double row_width = 0;           ///< full -3 dB width in elevation of the beams of a planar array [rad]; 0: line array
 
   std::size_t beams() const { return azimuth.size(); }
+  bool operator==(const BeamFan&) const = default;
 };
 
 /// Returns a fan of `beams` directions equally spaced in azimuth over `field_of_view` [rad], centred on azimuth 0, at
