@@ -21,16 +21,18 @@ int main(int argc, char** argv) {
   spec.beams = 64;
   const SonarHead head = make_head(spec, sound_speed(environment.water));
 
-  // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel.
+  // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel. What forms the
+  // beams of the head is made once and kept.
   Cube cube = make_cube(head, medium_of(environment, head.pulse.centre_frequency));
   Insonification insonified;
+  KeptSynthesizers kept;
   for (int k = 0; k < 8; ++k) {
     SimulationOptions options;
     options.ping = k;
     options.time = 0.5 * k;
     options.outputs.scatterers = true;
     const Pose pose = pose_from_yaw_pitch_roll({1.5 * k, 2, -3}, radians(20), radians(15), 0);
-    const SimulatedPing result = simulate_ping(prepared, head, pose, environment, options);
+    const SimulatedPing result = simulate_ping(prepared, head, pose, environment, options, &kept);
     add_ping(insonified, scene, result.scatterers, head, result.medium);
     std::cout << "ping " << k << ": " << result.soundings.size() << " soundings\n";
     cube.pings.push_back(result.ping);

@@ -147,7 +147,7 @@ SurveyScene::Made SurveyScene::make(const SurveySetup& setup, const SurveyPing& 
   HeadSetup h = head.setup.head;
   apply(by, h.head, h.environment);
   const auto simulate = [&](const auto& scene, const SceneCloud& cloud) {
-    Made made{simulate_ping(scene, h.head, place.world_from_head, h.environment, options), {}};
+    Made made{simulate_ping(scene, h.head, place.world_from_head, h.environment, options, &kept_), {}};
     if (setup.file.coverage)
       made.covered = coverage_of(cloud, made.ping.scatterers, h.head, made.ping.medium, {.threads = options.threads});
     return made;

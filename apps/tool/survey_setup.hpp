@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "beamforming/kept_synthesizers.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "simulate/simulate_survey.hpp"
 #include "store/mission_file.hpp"
@@ -67,6 +68,7 @@ class SurveyScene {
   LoadedScene loaded_;
   std::optional<TiledScene> tiles_;
   std::optional<PreparedScene> prepared_;  ///< absent: every ping has a scene of its own
+  mutable KeptSynthesizers kept_;          // of all heads, for the pings that follow
 };
 
 }  // namespace insonify::tool

@@ -30,6 +30,8 @@ struct Pulse {
   PulseShape shape = PulseShape::gaussian;
   double duration = 0;                            ///< of a sweep [s]; a Gaussian's follows from its bandwidth
   ReplicaWindow window = ReplicaWindow::hamming;  ///< of a sweep's replica
+
+  bool operator==(const Pulse&) const = default;
 };
 
 /// Throws Error unless all is finite, 0 < bandwidth < 2 centre_frequency, -400 <= source_level_db <= 260 and, for a

@@ -52,6 +52,8 @@ struct Absorption {
   double a0 = 0;  ///< [Np/m]
   double a1 = 0;  ///< [Np/m/Hz]
   double a2 = 0;  ///< [Np/m/Hz^2]
+
+  bool operator==(const Absorption&) const = default;
 };
 
 /// Taylor coefficients of absorption_db_per_m about `centre_frequency` [Hz] up to `order` 0, 1 or 2 (E3, E21, E22).
@@ -62,6 +64,8 @@ Absorption absorption_about(const Water& water, double centre_frequency, int ord
 struct Medium {
   double sound_speed = 1500;  ///< [m/s]
   Absorption absorption;
+
+  bool operator==(const Medium&) const = default;
 };
 
 /// Medium of `water` for a pulse about `centre_frequency` [Hz]; sound speed by UNESCO, absorption by `formula` to

@@ -33,6 +33,20 @@ FftAlongRows<Real>::~FftAlongRows() {
   Fftw<Real>::destroy(plan_);
 }
 
+template <typename Real>
+FftOfRows<Real>::FftOfRows(std::size_t n, std::size_t batch, std::size_t distance, int sign) {
+  AlignedArray<std::complex<Real>, Real> from(batch * distance), to(batch * distance);
+  const std::scoped_lock lock(fftw_planner());
+  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), static_cast<int>(distance), from.data(),
+                           to.data(), sign);
+}
+
+template <typename Real>
+FftOfRows<Real>::~FftOfRows() {
+  const std::scoped_lock lock(fftw_planner());
+  Fftw<Real>::destroy(plan_);
+}
+
 ForwardFft::ForwardFft(std::size_t n) : plan_(nullptr, &destroy_plan) {
   const std::scoped_lock lock(fftw_planner());
   std::vector<std::complex<double>> buffer(n);
@@ -47,5 +61,6 @@ void ForwardFft::run(std::vector<std::complex<double>>& data) const {
 
 template class FftAlongRows<float>;
 template class FftAlongRows<double>;
+template class FftOfRows<float>;
 
 }  // namespace insonify

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <complex>
 #include <cstddef>
+#include <cstdlib>
 #include <new>
+#include <vector>
 
 #include <fftw3.h>
 
@@ -24,8 +26,13 @@ struct Fftw<double> {
     auto* raw = reinterpret_cast<fftw_complex*>(data);
     fftw_execute_dft(plan, raw, raw);
   }
-  static void* allocate(std::size_t bytes) { return fftw_malloc(bytes); }
-  static void release(void* p) { fftw_free(p); }
+  static Plan make(int n, int batch, int distance, std::complex<double>* from, std::complex<double>* to, int sign) {
+    return fftw_plan_many_dft(1, &n, batch, reinterpret_cast<fftw_complex*>(from), nullptr, 1, distance,
+                              reinterpret_cast<fftw_complex*>(to), nullptr, 1, distance, sign, FFTW_ESTIMATE);
+  }
+  static void run(Plan plan, std::complex<double>* from, std::complex<double>* to) {
+    fftw_execute_dft(plan, reinterpret_cast<fftw_complex*>(from), reinterpret_cast<fftw_complex*>(to));
+  }
 };
 
 template <>
@@ -40,29 +47,45 @@ struct Fftw<float> {
     auto* raw = reinterpret_cast<fftwf_complex*>(data);
     fftwf_execute_dft(plan, raw, raw);
   }
-  static void* allocate(std::size_t bytes) { return fftwf_malloc(bytes); }
-  static void release(void* p) { fftwf_free(p); }
+  static Plan make(int n, int batch, int distance, std::complex<float>* from, std::complex<float>* to, int sign) {
+    return fftwf_plan_many_dft(1, &n, batch, reinterpret_cast<fftwf_complex*>(from), nullptr, 1, distance,
+                               reinterpret_cast<fftwf_complex*>(to), nullptr, 1, distance, sign, FFTW_ESTIMATE);
+  }
+  static void run(Plan plan, std::complex<float>* from, std::complex<float>* to) {
+    fftwf_execute_dft(plan, reinterpret_cast<fftwf_complex*>(from), reinterpret_cast<fftwf_complex*>(to));
+  }
 };
+
+/// Memory that begins with a cache line, as FFTW and vector registers like it.
+template <typename T>
+struct LineAllocator {
+  using value_type = T;
+  LineAllocator() = default;
+  template <typename Other>
+  LineAllocator(const LineAllocator<Other>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  bool operator==(const LineAllocator&) const { return true; }
+
+ private:
+  static constexpr std::align_val_t line{64};
+};
+using AlignedFloats = std::vector<float, LineAllocator<float>>;
 
 /// An array with the alignment that FFTW requires.
 template <typename T, typename Real>
 class AlignedArray {
  public:
-  explicit AlignedArray(std::size_t n) : size_(n), data_(static_cast<T*>(Fftw<Real>::allocate(n * sizeof(T)))) {
-    if (!data_) throw std::bad_alloc();
-    clear();
-  }
-  ~AlignedArray() { Fftw<Real>::release(data_); }
+  explicit AlignedArray(std::size_t n) : data_(n) {}
   AlignedArray(const AlignedArray&) = delete;
   AlignedArray& operator=(const AlignedArray&) = delete;
-  T* data() { return data_; }
-  const T* data() const { return data_; }
+  T* data() { return data_.data(); }
+  const T* data() const { return data_.data(); }
   T& operator[](std::size_t i) { return data_[i]; }
-  void clear() { std::fill_n(data_, size_, T{}); }
+  void clear() { std::fill(data_.begin(), data_.end(), T{}); }
 
  private:
-  std::size_t size_;
-  T* data_;
+  std::vector<T, LineAllocator<T>> data_;
 };
 
 /// In-place FFT of length n of `batch` series; entry k of series s is at index k * stride + s. Plans use FFTW_ESTIMATE,
@@ -78,6 +101,21 @@ class FftAlongRows {
   FftAlongRows& operator=(const FftAlongRows&) = delete;
   /// Transforms `data`, allocated by AlignedArray; may be called concurrently.
   void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data); }
+
+ private:
+  typename Fftw<Real>::Plan plan_;
+};
+
+/// FFT of length n of `batch` series, one after another, `distance` numbers apart, from one array to another.
+template <typename Real>
+class FftOfRows {
+ public:
+  FftOfRows(std::size_t n, std::size_t batch, std::size_t distance, int sign);
+  ~FftOfRows();
+  FftOfRows(const FftOfRows&) = delete;
+  FftOfRows& operator=(const FftOfRows&) = delete;
+  /// Both from AlignedArray, or a multiple of 16 bytes into one; may be called concurrently.
+  void run(std::complex<Real>* from, std::complex<Real>* to) const { Fftw<Real>::run(plan_, from, to); }
 
  private:
   typename Fftw<Real>::Plan plan_;

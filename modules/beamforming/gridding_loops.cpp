@@ -1,4 +1,5 @@
 #include "beamforming/gridding_loops_internal.hpp"
+#include "beamforming/kernel_lanes_internal.hpp"
 #include "core/target_clones.hpp"
 
 namespace insonify::kernels {
@@ -6,18 +7,21 @@ namespace {
 
 #define INSONIFY_INLINE [[gnu::always_inline]] inline
 
-/// Evaluates the polynomials of all lanes by Horner's rule.
-template <std::size_t lanes, typename Real>
-INSONIFY_INLINE void evaluate(Pieces<Real> p, Real t, Real* value) {
-  for (std::size_t l = 0; l < lanes; ++l) value[l] = p.coefficient[l];
-  for (std::size_t k = 1; k <= p.degree; ++k)
-    for (std::size_t l = 0; l < lanes; ++l) value[l] = value[l] * t + p.coefficient[k * lanes + l];
-}
-
-template <std::size_t lanes, typename Real>
-INSONIFY_INLINE void add_row(Real g_re, Real g_im, const Real* kernel, Real* __restrict x_re, Real* __restrict x_im) {
-  for (std::size_t l = 0; l < lanes; ++l) x_re[l] += g_re * kernel[l];
-  for (std::size_t l = 0; l < lanes; ++l) x_im[l] += g_im * kernel[l];
+/// Evaluates the polynomials of `count` lanes from `first` on, by Horner's rule.
+template <typename Real>
+INSONIFY_INLINE void evaluate_some(Pieces<Real> p, std::size_t first, std::size_t count, Real t, Real* value) {
+  using Part = typename Register<Real>::Type;
+  constexpr std::size_t at_once = sizeof(Part) / sizeof(Real);
+  for (std::size_t l = 0; l < count; l += at_once) {
+    const Real* c = p.coefficient + first + l;
+    Part part, next;
+    __builtin_memcpy(&part, c, sizeof part);
+    for (std::size_t k = 1; k <= p.degree; ++k) {
+      __builtin_memcpy(&next, c + k * p.lanes, sizeof next);
+      part = part * t + next;
+    }
+    __builtin_memcpy(value + l, &part, sizeof part);
+  }
 }
 
 template <std::size_t lanes, typename Real>
@@ -25,34 +29,13 @@ INSONIFY_INLINE void grid_all(const GridTargets<Real>& s, std::size_t count, Pie
                               Pieces<Real> columns_of, Real* __restrict pulse, Real* x_re, Real* x_im,
                               std::size_t stride) {
   for (std::size_t i = 0; i < count; ++i) {
-    Real kernel[lanes];
-    evaluate<lanes>(columns_of, s.column_offset[i], kernel);
-    for (std::size_t first = 0; first < rows_of.lanes; first += 8) {
-      // The polynomials of eight rows at a time; their coefficients are rows_of.lanes apart.
-      Real value[8];
-      for (std::size_t l = 0; l < 8; ++l) value[l] = rows_of.coefficient[first + l];
-      for (std::size_t k = 1; k <= rows_of.degree; ++k)
-        for (std::size_t l = 0; l < 8; ++l)
-          value[l] = value[l] * s.row_offset[i] + rows_of.coefficient[k * rows_of.lanes + first + l];
-      for (std::size_t l = 0; l < 8; ++l) pulse[first + l] = value[l];
+    const KernelLanes<lanes, Real> kernel(columns_of, s.column_offset[i]);
+    evaluate_some(rows_of, 0, rows_of.lanes, s.row_offset[i], pulse);
+    Real *to_re = x_re + s.row[i] * stride + s.column[i], *to_im = x_im + s.row[i] * stride + s.column[i];
+    for (std::size_t n = 0; n < rows; ++n, to_re += stride, to_im += stride) {
+      kernel.add(s.re[i] * pulse[n], to_re);
+      kernel.add(s.im[i] * pulse[n], to_im);
     }
-    const std::size_t start = s.row[i] * stride + s.column[i];
-    for (std::size_t n = 0; n < rows; ++n)
-      add_row<lanes>(s.re[i] * pulse[n], s.im[i] * pulse[n], kernel, x_re + start + n * stride,
-                     x_im + start + n * stride);
-  }
-}
-
-/// Evaluates the polynomials of `count` lanes from `first` on, eight at a time.
-template <typename Real>
-INSONIFY_INLINE void evaluate_some(Pieces<Real> p, std::size_t first, std::size_t count, Real t, Real* value) {
-  for (std::size_t l0 = 0; l0 < count; l0 += 8) {
-    const Real* c = p.coefficient + first + l0;
-    Real eight[8];
-    for (std::size_t l = 0; l < 8; ++l) eight[l] = c[l];
-    for (std::size_t k = 1; k <= p.degree; ++k)
-      for (std::size_t l = 0; l < 8; ++l) eight[l] = eight[l] * t + c[k * p.lanes + l];
-    for (std::size_t l = 0; l < 8; ++l) value[l0 + l] = eight[l];
   }
 }
 
@@ -60,24 +43,24 @@ template <std::size_t lanes, typename Real>
 INSONIFY_INLINE void grid_some(Real re, Real im, Real row_offset, Real column_offset, Pieces<Real> pulse_re,
                                Pieces<Real> pulse_im, std::size_t first, std::size_t rows, Pieces<Real> columns_of,
                                Real* __restrict scratch, Real* x_re, Real* x_im, std::size_t stride) {
-  Real kernel[lanes];
-  evaluate<lanes>(columns_of, column_offset, kernel);
+  const KernelLanes<lanes, Real> kernel(columns_of, column_offset);
   Real *g_re = scratch, *g_im = scratch + rows + 16;
   evaluate_some(pulse_re, first, rows, row_offset, g_re);
   evaluate_some(pulse_im, first, rows, row_offset, g_im);
-  for (std::size_t n = 0; n < rows; ++n)
-    add_row<lanes>(re * g_re[n] - im * g_im[n], re * g_im[n] + im * g_re[n], kernel, x_re + n * stride,
-                   x_im + n * stride);
+  for (std::size_t n = 0; n < rows; ++n) {
+    kernel.add(re * g_re[n] - im * g_im[n], x_re + n * stride);
+    kernel.add(re * g_im[n] + im * g_re[n], x_im + n * stride);
+  }
 }
 
 template <std::size_t lanes, typename Real>
 INSONIFY_INLINE void grid_samples(const double* pulse_re, const double* pulse_im, std::size_t rows, Real offset,
                                   Pieces<Real> columns_of, Real* x_re, Real* x_im, std::size_t stride) {
-  Real kernel[lanes];
-  evaluate<lanes>(columns_of, offset, kernel);
-  for (std::size_t n = 0; n < rows; ++n)
-    add_row<lanes>(static_cast<Real>(pulse_re[n]), static_cast<Real>(pulse_im[n]), kernel, x_re + n * stride,
-                   x_im + n * stride);
+  const KernelLanes<lanes, Real> kernel(columns_of, offset);
+  for (std::size_t n = 0; n < rows; ++n) {
+    kernel.add(static_cast<Real>(pulse_re[n]), x_re + n * stride);
+    kernel.add(static_cast<Real>(pulse_im[n]), x_im + n * stride);
+  }
 }
 
 template <typename Real>

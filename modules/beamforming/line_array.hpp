@@ -11,6 +11,7 @@ struct LineArray {
 
   /// Returns the number of elements.
   std::size_t elements() const { return shading.size(); }
+  bool operator==(const LineArray&) const = default;
 };
 
 /// Throws Error unless there is at least one element, spacing is > 0, and the shading is finite and adds up to the

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "beamforming/kernel_lanes_internal.hpp"
 #include "beamforming/planar_loops_internal.hpp"
 #include "core/target_clones.hpp"
 
@@ -21,31 +22,23 @@ struct Wide<double> {
 };
 
 template <std::size_t lanes, typename Real>
-[[gnu::always_inline]] inline void polynomials(Pieces<Real> p, Real t, Real* value) {
-  for (std::size_t l = 0; l < lanes; ++l) value[l] = p.coefficient[l];
-  for (std::size_t k = 1; k <= p.degree; ++k)
-    for (std::size_t l = 0; l < lanes; ++l) value[l] = value[l] * t + p.coefficient[k * lanes + l];
-}
-
-template <std::size_t lanes, typename Real>
 [[gnu::always_inline]] inline void grid_bricks_by(const PlanarEchoes<Real>& e, std::size_t count, std::size_t rows,
                                                   Pieces<Real> columns_of, Pieces<Real> lines_of, std::size_t lines,
                                                   std::size_t plane) {
   for (std::size_t i = 0; i < count; ++i) {
-    Real of_column[lanes], of_line[most_lines];
-    polynomials<lanes>(columns_of, e.column_offset[i], of_column);
+    const KernelLanes<lanes, Real> of_column(columns_of, e.column_offset[i]);
+    Real of_line[most_lines];
     if (lines_of.lanes == 8)
-      polynomials<8>(lines_of, e.line_offset[i], of_line);
+      KernelLanes<8, Real>(lines_of, e.line_offset[i]).store(of_line);
     else
-      polynomials<16>(lines_of, e.line_offset[i], of_line);
+      KernelLanes<16, Real>(lines_of, e.line_offset[i]).store(of_line);
     for (std::size_t k = 0; k < lines; ++k) {
       const Real factor = e.sign[i] * of_line[k];
-      Real* __restrict to_re = e.brick[i * lines + k];
-      Real* __restrict to_im = to_re + plane;
+      Real* to_re = e.brick[i * lines + k];
+      Real* to_im = to_re + plane;
       for (std::size_t n = 0; n < rows; ++n, to_re += brick_stride, to_im += brick_stride) {
-        const Real re = e.pulse_re[n * count + i] * factor, im = e.pulse_im[n * count + i] * factor;
-        for (std::size_t l = 0; l < lanes; ++l) to_re[l] += re * of_column[l];
-        for (std::size_t l = 0; l < lanes; ++l) to_im[l] += im * of_column[l];
+        of_column.add(e.pulse_re[n * count + i] * factor, to_re);
+        of_column.add(e.pulse_im[n * count + i] * factor, to_im);
       }
     }
   }

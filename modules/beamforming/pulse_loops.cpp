@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "beamforming/kernel_lanes_internal.hpp"
 #include "beamforming/pulse_loops_internal.hpp"
 #include "core/target_clones.hpp"
 #include "core/vector_functions.hpp"
@@ -64,17 +65,12 @@ INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPlaces<Real> at, std::size_t coun
                                        const Real* pulse_im, std::size_t rows, Pieces<Real> p, Real* x_re, Real* x_im,
                                        std::size_t stride) {
   for (std::size_t i = 0; i < count; ++i) {
-    Real kernel[lanes];
-    for (std::size_t l = 0; l < lanes; ++l) kernel[l] = p.coefficient[l];
-    for (std::size_t k = 1; k <= p.degree; ++k)
-      for (std::size_t l = 0; l < lanes; ++l)
-        kernel[l] = kernel[l] * at.column_offset[i] + p.coefficient[k * lanes + l];
-    Real* __restrict to_re = x_re + at.row[i] * stride + at.column[i];
-    Real* __restrict to_im = x_im + at.row[i] * stride + at.column[i];
+    const KernelLanes<lanes, Real> kernel(p, at.column_offset[i]);
+    Real* to_re = x_re + at.row[i] * stride + at.column[i];
+    Real* to_im = x_im + at.row[i] * stride + at.column[i];
     for (std::size_t n = 0; n < rows; ++n, to_re += stride, to_im += stride) {
-      const Real re = pulse_re[n * count + i], im = pulse_im[n * count + i];
-      for (std::size_t l = 0; l < lanes; ++l) to_re[l] += re * kernel[l];
-      for (std::size_t l = 0; l < lanes; ++l) to_im[l] += im * kernel[l];
+      kernel.add(pulse_re[n * count + i], to_re);
+      kernel.add(pulse_im[n * count + i], to_im);
     }
   }
 }

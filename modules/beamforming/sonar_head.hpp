@@ -21,6 +21,8 @@ struct SonarHead {
   ElevationShape elevation_shape = ElevationShape::gaussian;
   double transmit_width = 0;          ///< -3 dB width in azimuth of the transmitter [rad]; 0: uniform over the fan
   std::optional<LineArray> column{};  ///< vertical array of a planar array, the same for all columns
+
+  bool operator==(const SonarHead&) const = default;
 };
 
 /// Throws Error if any part is invalid; if only one of column and fan.row_width is given; or if beams x bins, beams x

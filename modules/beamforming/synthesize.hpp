@@ -15,7 +15,11 @@ enum class SynthesisMethod { gridded, direct, spectrum, element_exact, true_dela
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< relative L2 error of the image; pulses are cut below half this fraction of their peak
   int threads = 0;          ///< 0: all cores; the result does not depend on it
+
+  bool operator==(const SynthesisOptions&) const = default;
 };
+
+class KeptSynthesizers;
 
 /// Returns the complex baseband pressure per beam and range bin, beams x bins [Pa], of any head. Beams of one elevation
 /// form a row, and each row is synthesized by `method` from echoes weighted by the row's response to their elevation:
@@ -36,12 +40,15 @@ struct SynthesisOptions {
 /// real pressure: levels and detections apply to it, but such images add up by their squares, and phases have no
 /// meaning. Cost: that of the method for each row. The result does not depend on options.threads. Throws Error as the
 /// methods do, and if there are several rows or a column, but not one echoes.v per echo.
+///
+/// kept   what methods `gridded` and `true_delays` of one row, and `gridded` of a planar array, have in common from image
+///        to image: taken from there, or made and left there; same bytes
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
-                       const SynthesisOptions& options = {});
+                       const SynthesisOptions& options = {}, KeptSynthesizers* kept = nullptr);
 
 /// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made first.
 ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium, SynthesisMethod method,
-                       const SynthesisOptions& options = {});
+                       const SynthesisOptions& options = {}, KeptSynthesizers* kept = nullptr);
 /// Whether the pressure of `head` is formed without all echoes at once: methods `gridded` and `true_delays` of one row of
 /// beams, and `gridded` of a planar array with Gaussian pulses.
 bool streamed(const SonarHead& head, SynthesisMethod method);

@@ -19,7 +19,8 @@ constexpr std::size_t wideband_tile_row = 32 + 8;  ///< numbers from one grid st
 
 /// The transforms of a plan.
 struct WidebandTransforms {
-  FftAlongRows<float> to_harmonics, to_directions, to_frequencies, to_bins;
+  FftOfRows<float> to_harmonics, to_frequencies;
+  FftAlongRows<float> to_directions, to_bins;
 
   explicit WidebandTransforms(const WidebandPlan& plan);
 };
@@ -56,24 +57,32 @@ class WidebandRoom {
   void grid_sweeps(const Echoes& echoes, List list);
   /// Fine samples that hold something.
   void touch(std::size_t row, std::size_t rows);
-  /// Adds what elements receive of one term of the bend.
-  void add_echo_term(const BendSeries& bend, std::size_t term);
-  /// What elements received, as one term of the bend undoes it: bins of all harmonics.
-  void form_beam_term(const BendSeries& bend, std::size_t term, Complex* bins);
-  /// Calls visit(taps, turns, line, x) for every chunk of frequencies that counts.
-  template <typename Visit>
-  void each_chunk(const BendSeries& bend, std::size_t term, Visit&& visit);
+  /// What harmonics receive of one term of the bend, by chunk of frequencies.
+  void receive_term(const BendSeries& bend, std::size_t term, float* lines);
+  void gather_elements(const BendSeries& bend);
+  /// What elements received, as each term of the bend undoes it: bins of all harmonics.
+  void form_beam_terms(const BendSeries& bend);
+  /// Calls visit(chunk, term, taps, turns, x) for some elements of every chunk of frequencies that counts, by its number
+  /// among those, and all terms, so that what interpolates these elements stays in the cache; then done(chunk).
+  template <typename Visit, typename Done>
+  void each_chunk(const BendSeries& bend, Visit&& visit, Done&& done);
+  /// Begins with so many terms.
+  void make_room(std::size_t terms);
   void add_beams(const WidebandBlock& block, ComplexGrid& pressure);
 
   const WidebandPlan& plan_;
   const WidebandTransforms& transforms_;
-  AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride
-  Spectrum tile_, spectrum_;
-  std::vector<float> elements_;                  ///< by chunk and element
-  std::vector<std::unique_ptr<Spectrum>> bins_;  ///< of each term
-  std::vector<float> scratch_, samples_, sums_, start_, step_, line_;
+  AlignedArray<float, float> re_, im_;           ///< fine samples x grid_stride
+  Spectrum tile_, harmonics_;                    ///< some samples by direction, and by harmonic
+  Spectrum spectrum_, row_;                      ///< harmonics x fine samples, and one of them by frequency
+  std::vector<std::unique_ptr<Spectrum>> term_;  ///< of each: by chunk, harmonic and line; then harmonics x bins
+  AlignedFloats elements_;                       ///< by chunk and element
+  AlignedFloats chunk_;                          ///< of one chunk: by term and harmonic
+  AlignedFloats start_, step_, line_;            ///< of one chunk and element group: by term and element
+  std::vector<std::complex<double>> carrier_, turn_, now_;
+  std::vector<float> scratch_, samples_, sums_;
   std::vector<double> pulse_re_, pulse_im_;
-  std::vector<bool> touched_;  ///< tiles of fine samples that hold anything
+  std::vector<char> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;
   double start_time_ = 0, unit_ = 0;  // unit: a power of two, of the first echoes; 0: none yet
 };

@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-constexpr double per_grid_sample = 1.4, per_tap = 5, per_beam_sample = 2.8;  // of each term of a block
+constexpr double per_grid_sample = 1.4, per_tap = 2.5, per_beam_sample = 2.8;  // of each term of a block
 constexpr double per_place = 200, per_element_node = 150, per_tap_made = 450;
 constexpr double per_pulse = 30, per_pulse_sample = 3, per_own_sample = 3;
 constexpr double out_of_cache = 4;  // for pulses on planes above 1 MiB
@@ -55,8 +55,8 @@ WidebandCost wideband_cost(const SonarHead& head, const Medium& medium, const Sy
         terms * (1.8 * (per_grid_sample * fine * grid + per_tap * taps) + 0.8 * per_beam_sample * beams * cycle);
     nanoseconds += 7 * (per_place * nodes * powers * (14 + 0.5 * nodes) + per_element_node * terms * elements);
     kept += terms * (16 * powers * (grid + beams) + 72 * elements);
-    room =
-        std::max(room, 8 * (2 * fine * grid + 40 * grid + rows * fine + terms * rows * cycle) + 64 * chunks * elements);
+    room = std::max(room, 8 * (2 * fine * grid + 80 * grid + rows * fine + terms * rows * std::max(cycle, 8 * chunks)) +
+                              64 * (chunks * elements + terms * (rows + elements)));
     if (used[level]) continue;
     used[level] = true;
     nanoseconds += per_tap_made * chunks * elements;

@@ -43,10 +43,17 @@ WidebandFeed feed_of(const EchoSource& source, const WidebandStretches& stretche
           c, [&](const PatchPlace& p) { return p.range + p.reach >= near && p.range - p.reach <= far; },
           [&](const Scatterers&, const Echoes& echoes) {
             require_finite(echoes, "WidebandSynthesizer");
-            which.clear();
-            for (std::size_t i = 0; i < echoes.size(); ++i)
-              if (stretches.of(echoes.delay[i]) == stretch) which.push_back(static_cast<std::uint32_t>(i));
-            if (!which.empty()) add(echoes, which);
+            // As `of`, without a branch: most echoes of a chunk lie in one stretch.
+            const double start = stretches.axis.start, step = stretches.axis.step, first = stretches.edge[stretch],
+                         last = stretches.edge[stretch + 1];
+            std::size_t count = 0;
+            which.resize(echoes.size());
+            for (std::size_t i = 0; i < echoes.size(); ++i) {
+              const double bin = (echoes.delay[i] - start) / step;
+              which[count] = static_cast<std::uint32_t>(i);
+              count += static_cast<std::size_t>(bin >= first) & static_cast<std::size_t>(bin < last);
+            }
+            if (count > 0) add(echoes, {which.data(), count});
           });
     }
   }};

@@ -10,7 +10,6 @@ constexpr std::size_t lines = lines_at_once;
 
 using Eight = float __attribute__((vector_size(32)));
 using Places = int __attribute__((vector_size(32)));
-constexpr Places low_pairs = {0, 0, 1, 1, 2, 2, 3, 3}, high_pairs = {4, 4, 5, 5, 6, 6, 7, 7};
 constexpr Places real_parts = {0, 2, 4, 6, 8, 10, 12, 14}, imaginary_parts = {1, 3, 5, 7, 9, 11, 13, 15};
 constexpr Places low_mixed = {0, 8, 1, 9, 2, 10, 3, 11}, high_mixed = {4, 12, 5, 13, 6, 14, 7, 15};
 
@@ -60,18 +59,28 @@ void weigh_row(TimeFactor factor, float t, const float* re, const float* im, std
 }
 
 INSONIFY_CLONES
-void gather_elements(ElementTaps taps, ElementTurns turns, const float* rows, std::size_t stride, float* x) {
+void split_chunks(const float* line, const std::size_t* chunk, std::size_t count, float* to, std::size_t stride) {
+  for (std::size_t i = 0; i < count; ++i, to += stride) {
+    Eight low, high;
+    load(line + 2 * lines * chunk[i], low);
+    load(line + 2 * lines * chunk[i] + lines, high);
+    store(__builtin_shuffle(low, high, real_parts), to);
+    store(__builtin_shuffle(low, high, imaginary_parts), to + lines);
+  }
+}
+
+INSONIFY_CLONES
+void gather_elements(ElementTaps taps, ElementTurns turns, const float* rows, float* x) {
   for (std::size_t m = 0; m < taps.elements; ++m) {
-    Eight low = {}, high = {}, weight, first, second;
-    const float* from = rows + 2 * taps.row[m] * stride;
-    for (std::size_t k = 0; k < taps.taps; ++k, from += 2 * stride) {
+    Eight re = {}, im = {}, weight, row_re, row_im;
+    const float* from = rows + 2 * lines * taps.row[m];
+    for (std::size_t k = 0; k < taps.taps; ++k, from += 2 * lines) {
       load(taps.weight + (m * taps.taps + k) * lines, weight);
-      load(from, first);
-      load(from + 8, second);
-      low += __builtin_shuffle(weight, low_pairs) * first;
-      high += __builtin_shuffle(weight, high_pairs) * second;
+      load(from, row_re);
+      load(from + lines, row_im);
+      re += weight * row_re;
+      im += weight * row_im;
     }
-    const Eight re = __builtin_shuffle(low, high, real_parts), im = __builtin_shuffle(low, high, imaginary_parts);
     Eight factor_re, factor_im, x_re, x_im;
     factor_of(turns, m, factor_re, factor_im);
     load(x + 2 * m * lines, x_re);
@@ -82,28 +91,35 @@ void gather_elements(ElementTaps taps, ElementTurns turns, const float* rows, st
 }
 
 INSONIFY_CLONES
-void scatter_elements(ElementTaps taps, ElementTurns turns, const float* x, float* rows, std::size_t stride) {
+void scatter_elements(ElementTaps taps, ElementTurns turns, const float* x, float* rows) {
   for (std::size_t m = 0; m < taps.elements; ++m) {
-    Eight factor_re, factor_im, x_re, x_im, weight, first, second;
+    Eight factor_re, factor_im, x_re, x_im, weight, row_re, row_im;
     factor_of(turns, m, factor_re, factor_im);
     load(x + 2 * m * lines, x_re);
     load(x + (2 * m + 1) * lines, x_im);
     const Eight re = factor_re * x_re - factor_im * x_im, im = factor_re * x_im + factor_im * x_re;
-    const Eight low = __builtin_shuffle(re, im, low_mixed), high = __builtin_shuffle(re, im, high_mixed);
-    float* to = rows + 2 * taps.row[m] * stride;
-    for (std::size_t k = 0; k < taps.taps; ++k, to += 2 * stride) {
+    float* to = rows + 2 * lines * taps.row[m];
+    for (std::size_t k = 0; k < taps.taps; ++k, to += 2 * lines) {
       load(taps.weight + (m * taps.taps + k) * lines, weight);
-      load(to, first);
-      load(to + 8, second);
-      store(first + __builtin_shuffle(weight, low_pairs) * low, to);
-      store(second + __builtin_shuffle(weight, high_pairs) * high, to + 8);
+      load(to, row_re);
+      load(to + lines, row_im);
+      store(row_re + weight * re, to);
+      store(row_im + weight * im, to + lines);
     }
   }
 }
 
 INSONIFY_CLONES
-void scale_row(const float* from, float factor, std::size_t count, float* to) {
-  for (std::size_t k = 0; k < count; ++k) to[k] = factor * from[k];
+void add_chunk(const float* rows, const float* factor, std::size_t count, float* to, std::size_t stride) {
+  for (std::size_t r = 0; r < count; ++r, rows += 2 * lines, to += 2 * stride) {
+    Eight re, im, low, high;
+    load(rows, re);
+    load(rows + lines, im);
+    load(to, low);
+    load(to + lines, high);
+    store(low + factor[r] * __builtin_shuffle(re, im, low_mixed), to);
+    store(high + factor[r] * __builtin_shuffle(re, im, high_mixed), to + lines);
+  }
 }
 
 INSONIFY_CLONES

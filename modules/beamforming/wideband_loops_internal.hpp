@@ -35,15 +35,19 @@ struct ElementTurns {
   const float* t;  ///< by line
 };
 
-/// Adds what elements take from rows of complex numbers, `stride` of them apart, times their factors, to `x`: by
-/// element, lines_at_once real parts and as many imaginary ones.
-void gather_elements(ElementTaps taps, ElementTurns turns, const float* rows, std::size_t stride, float* x);
+/// Chunks of a line of complex numbers, those of `chunk`: of each lines_at_once real parts and as many imaginary ones,
+/// `stride` numbers apart.
+void split_chunks(const float* line, const std::size_t* chunk, std::size_t count, float* to, std::size_t stride);
+
+/// Adds what elements take from the rows of a chunk, each lines_at_once real parts and as many imaginary ones, times their
+/// factors, to `x`: by element, in the same order.
+void gather_elements(ElementTaps taps, ElementTurns turns, const float* rows, float* x);
 
 /// The reverse: adds `x`, times its factors, to the rows.
-void scatter_elements(ElementTaps taps, ElementTurns turns, const float* x, float* rows, std::size_t stride);
+void scatter_elements(ElementTaps taps, ElementTurns turns, const float* x, float* rows);
 
-/// Two planes of `count` numbers times `factor`, as one row of numbers, real and imaginary in turn.
-void scale_row(const float* from, float factor, std::size_t count, float* to);
+/// Adds the rows of a chunk, times a factor each, to rows of complex numbers `stride` of them apart.
+void add_chunk(const float* rows, const float* factor, std::size_t count, float* to, std::size_t stride);
 
 /// Adds to `sum` a beam at `count` (at most 32) times: the row of a grid interpolated by weights, times a polynomial
 /// of time, `stride` of `factor` apart.

@@ -65,6 +65,7 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   half_band = band_of(head.pulse, tolerance);
   fine =
       fast_grid_length(static_cast<std::size_t>(std::ceil(2 * half_band * static_cast<double>(cycle) * axis.step)) + 2);
+  while (fine % (2 * lines_at_once) != 0) fine = fast_grid_length(fine + 1);  // no chunk holds both ends of the band
   fine_step = static_cast<double>(cycle) * axis.step / static_cast<double>(fine);
   fine_row = fine + 8;
 

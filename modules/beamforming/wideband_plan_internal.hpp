@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "beamforming/fft_along_rows_internal.hpp"
 #include "beamforming/gridding_kernel_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
@@ -78,8 +79,8 @@ struct WidebandPlan : WidebandSizes {
 
   std::vector<std::size_t> chunks;           ///< those of lines_at_once frequencies that count
   std::vector<std::uint32_t> tap_row;        ///< the first of the taps, by chunk and element
-  std::vector<float> tap_weight;             ///< by chunk, element, tap and line
-  std::vector<float> element_weight;         ///< by chunk, element and line: shading, and undoes gridding
+  AlignedFloats tap_weight;                  ///< by chunk, element, tap and line
+  AlignedFloats element_weight;              ///< by chunk, element and line: shading, and undoes gridding
   std::vector<double> node_frequency;        ///< off the carrier, against the sign of lines [Hz]
   std::vector<std::complex<double>> moment;  ///< of the kernel by element, node and order, relative to order 0
 

@@ -83,6 +83,7 @@ struct WidebandSynthesizer::Plan {
   WidebandStretches stretches;  ///< what is nearer than blocks reach, then the blocks
   std::deque<Lazy<LevelTables>> levels;
   std::deque<Lazy<WidebandBlock>> blocks;
+  Lazy<Plan> all_around;  ///< for echoes farther out: of all directions
 
   Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
   const LevelTables& tables_of(std::size_t level) const;
@@ -91,10 +92,12 @@ struct WidebandSynthesizer::Plan {
   void add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure) const;
   /// Adds echoes nearer than blocks reach, element by element.
   void add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const;
-  /// Calls use(plan) with this plan, or with one for echoes as far out as `far_out`.
+  /// Calls use(plan) with this plan, or with one for all directions if `far_out` is beyond it.
   template <typename Use>
   ComplexGrid with(double far_out, const Use& use) const {
-    return far_out <= widest ? use(*this) : use(Plan(head, medium, options, far_out));
+    if (far_out <= widest) return use(*this);
+    if (far_out > 1) return use(Plan(head, medium, options, far_out));
+    return use(all_around.get([&] { return std::make_unique<Plan>(head, medium, options, 1); }));
   }
 };
 

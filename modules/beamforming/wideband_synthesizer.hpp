@@ -41,7 +41,7 @@ class WidebandSynthesizer {
   /// Chunks are made again for each block that they reach into; memory does not grow with their number.
   ComplexGrid pressure_of(const EchoSource& source) const;
 
-  /// |u| of echoes up to which a plan is used; for others it is made anew.
+  /// |u| of echoes up to which one plan is used; for others there is one of all directions.
   static double usual_extent(const SonarHead& head);
 
  private:

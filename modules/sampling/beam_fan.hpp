@@ -19,6 +19,7 @@ struct BeamFan {
 
   /// Returns the number of beams.
   std::size_t beams() const { return azimuth.size(); }
+  bool operator==(const BeamFan&) const = default;
 };
 
 /// Returns a fan of `beams` directions equally spaced in azimuth over `field_of_view` [rad], centred on azimuth 0, at

@@ -13,6 +13,7 @@ struct RangeGate {
   std::size_t bins() const;  ///< number of bins that covers max_range
   /// Returns the range of the middle of a bin [m].
   double centre(std::size_t bin) const { return min_range + (static_cast<double>(bin) + 0.5) * bin_size; }
+  bool operator==(const RangeGate&) const = default;
 };
 
 /// Throws Error unless 0 < min_range < max_range, 0 < bin_size, all finite, and at most 2^24 bins.

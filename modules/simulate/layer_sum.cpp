@@ -11,8 +11,8 @@
 
 namespace insonify {
 
-LayerSum::LayerSum(const ResolvedPing& ping)
-    : ping_(ping), incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
+LayerSum::LayerSum(const ResolvedPing& ping, KeptSynthesizers* kept)
+    : ping_(ping), kept_(kept), incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
   if (ping.options.outputs.split_phase) split_ = split_aperture(ping.head, "simulate_ping");
 }
 
@@ -20,11 +20,12 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
   const double tolerance = o.synthesis.tolerance;
-  add_pressure(name, echoes.size(), synthesize(echoes, ping_.head, medium, o.synthesis.method, {tolerance, o.threads}));
+  add_pressure(name, echoes.size(),
+               synthesize(echoes, ping_.head, medium, o.synthesis.method, {tolerance, o.threads}, kept_));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
     if (o.synthesis.method == SynthesisMethod::true_delays)
       return synthesize(echoes, with_one_half(ping_.head, split, side), medium, o.synthesis.method,
-                        {tolerance, o.threads});
+                        {tolerance, o.threads}, kept_);
     return half_pressure(echoes, split, side, medium, {std::max(tolerance, min_gridding_tolerance), o.threads});
   });
   if (!o.outputs.elements) return;
@@ -38,10 +39,10 @@ void LayerSum::add(const std::string& name, const EchoSource& source) {
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
   const SynthesisOptions synthesis{o.synthesis.tolerance, o.threads};
-  add_pressure(name, source.size(), synthesize(source, ping_.head, medium, o.synthesis.method, synthesis));
+  add_pressure(name, source.size(), synthesize(source, ping_.head, medium, o.synthesis.method, synthesis, kept_));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
     if (o.synthesis.method == SynthesisMethod::true_delays)
-      return synthesize(source, with_one_half(ping_.head, split, side), medium, o.synthesis.method, synthesis);
+      return synthesize(source, with_one_half(ping_.head, split, side), medium, o.synthesis.method, synthesis, kept_);
     return half_pressure(source, split, side, medium, synthesis);
   });
 }

@@ -14,8 +14,8 @@ namespace insonify {
 /// Forms beams of one kind of echo after another and adds them up; for SynthesisMethod::incoherent, by their squares.
 class LayerSum {
  public:
-  /// Refers to `ping`, which must outlive it.
-  explicit LayerSum(const ResolvedPing& ping);
+  /// Refers to `ping` and `kept`, which must outlive it; kept: see synthesize.
+  explicit LayerSum(const ResolvedPing& ping, KeptSynthesizers* kept = nullptr);
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
@@ -34,6 +34,7 @@ class LayerSum {
   void add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image);
 
   const ResolvedPing& ping_;
+  KeptSynthesizers* kept_;
   bool incoherent_;
   ComplexGrid sum_;
   std::optional<SplitAperture> split_;

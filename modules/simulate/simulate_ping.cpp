@@ -12,7 +12,7 @@
 namespace insonify {
 
 SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
-                            const Environment& environment, const SimulationOptions& options) {
+                            const Environment& environment, const SimulationOptions& options, KeptSynthesizers* kept) {
   const SceneCloud& scene = prepared.scene();
   const WholeScene& whole = prepared.whole();
   SimulatedPing result;
@@ -35,7 +35,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   result.seconds.acoustics = watch.lap();
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
-  LayerSum layers(ping);
+  LayerSum layers(ping, kept);
   layers.add("direct", direct);
   const bool bounces = effects.multipath == Choice::always;
   if (bounces) parts.bounced = multipath_echoes(scene, patches, environment, ping.view, sent);
@@ -56,12 +56,12 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
 }
 
 SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
-                            const Environment& environment, const SimulationOptions& options) {
+                            const Environment& environment, const SimulationOptions& options, KeptSynthesizers* kept) {
   require_valid(options, "simulate_ping");
   StopWatch watch;
   const PreparedScene prepared(scene, options.threads);
   const double seconds = watch.lap();
-  SimulatedPing result = simulate_ping(prepared, head, world_from_head, environment, options);
+  SimulatedPing result = simulate_ping(prepared, head, world_from_head, environment, options, kept);
   result.seconds.sampling += seconds;
   return result;
 }

@@ -7,6 +7,7 @@
 #include "acoustics/environment.hpp"
 #include "acoustics/sound_paths.hpp"
 #include "beamforming/element_series.hpp"
+#include "beamforming/kept_synthesizers.hpp"
 #include "beamforming/sonar_head.hpp"
 #include "returns/contributors.hpp"
 #include "returns/ping.hpp"
@@ -76,11 +77,15 @@ struct SimulatedPing {
 /// the ping (plan_ping) needs it for options.accuracy_db; what the environment does not hold is not. The result does
 /// not depend on the thread count. Throws Error for an invalid scene, head, pose,
 /// environment or option, named in the message; options are checked before any work.
+///
+/// kept   of many pings of the same heads: what forms their beams is made once and left there; same bytes
 SimulatedPing simulate_ping(const PreparedScene& scene, const SonarHead& head, const Pose& world_from_head,
-                            const Environment& environment, const SimulationOptions& options = {});
+                            const Environment& environment, const SimulationOptions& options = {},
+                            KeptSynthesizers* kept = nullptr);
 
 /// The same, with the scene prepared for this one ping: the same bytes. For many pings of a scene, prepare it once.
 SimulatedPing simulate_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
-                            const Environment& environment, const SimulationOptions& options = {});
+                            const Environment& environment, const SimulationOptions& options = {},
+                            KeptSynthesizers* kept = nullptr);
 
 }  // namespace insonify

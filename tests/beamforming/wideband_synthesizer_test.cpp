@@ -92,6 +92,15 @@ TEST(WidebandSynthesizer, moving_echoes_and_absorption_by_frequency_keep_the_tol
   EXPECT_LE(relative_l2(synthesize_true_delays(e, head, tilted, {1e-3}), exact(e, head, tilted)), 1e-3);
 }
 
+// Side lobes hear what lies far beyond the fan: half of the echoes.
+TEST(WidebandSynthesizer, echoes_from_all_directions_keep_the_tolerance) {
+  const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 30, 3, 3.6});
+  Echoes e = near_echoes(head, 60);
+  for (std::size_t i = 0; i < e.size(); i += 2) e.u[i] = (i % 4 == 0 ? 1 : -1) * (0.97 - 1e-3 * static_cast<double>(i));
+  for (const double tolerance : {1e-3, 1e-4})
+    EXPECT_LE(relative_l2(synthesize_true_delays(e, head, near_water(), {tolerance}), exact(e, head)), tolerance);
+}
+
 TEST(WidebandSynthesizer, sweeps_keep_a_hundredth) {
   SonarHead head = wideband_head({"", 400e3, 60e3, 40, 120, 5, 6});
   head.pulse.shape = PulseShape::linear_fm;

@@ -84,3 +84,20 @@ TEST(StreamedPing, is_the_stored_one_of_a_head_that_moves_and_turns) {
     expect_same_stored(scene, options, pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0));
   }
 }
+
+// What forms beams is made at the first ping and kept: pings that follow have the bytes of single ones.
+TEST(StreamedPing, of_many_pings_that_share_what_forms_their_beams_are_single_pings) {
+  const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
+  const PreparedScene prepared(scene);
+  KeptSynthesizers kept;
+  for (const double yaw : {0.0, 20.0, -40.0}) {
+    const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, radians(yaw), radians(10), 0);
+    const SimulationOptions options{.synthesis = {.tolerance = 1e-3}, .outputs = {.split_phase = true}};
+    const SimulatedPing single = simulate_ping(prepared, head_at_rest, pose, {}, options);
+    const SimulatedPing shared = simulate_ping(prepared, head_at_rest, pose, {}, options, &kept);
+    EXPECT_GT(single.ping.pressure.abs().maxCoeff(), 0);
+    EXPECT_TRUE((single.ping.pressure == shared.ping.pressure).all()) << yaw;
+    EXPECT_TRUE((single.ping.split_phase == shared.ping.split_phase).all()) << yaw;
+    EXPECT_EQ(single.soundings.position, shared.soundings.position) << yaw;
+  }
+}

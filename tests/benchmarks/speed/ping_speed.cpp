@@ -28,10 +28,10 @@ struct PingTime {
 };
 
 PingTime time_ping(const PreparedScene& scene, const SonarHead& head, const Pose& pose,
-                   const SimulationOptions& options) {
+                   const SimulationOptions& options, KeptSynthesizers& kept) {
   const std::clock_t begin = std::clock();
   StopWatch watch;
-  const SimulatedPing result = simulate_ping(scene, head, pose, fresh_water, options);
+  const SimulatedPing result = simulate_ping(scene, head, pose, fresh_water, options, &kept);
   PingTime time{watch.lap(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, result.seconds,
                 result.sampling.scatterers, head.fan.beams() * head.gate.bins()};
   return time;
@@ -40,10 +40,11 @@ PingTime time_ping(const PreparedScene& scene, const SonarHead& head, const Pose
 /// Median by wall time, after one ping that is not counted; one ping only if it takes more than a second.
 PingTime median_ping(int repeats, const PreparedScene& scene, const SonarHead& head, const Pose& pose,
                      const SimulationOptions& options = {}) {
-  const PingTime first = time_ping(scene, head, pose, options);
+  KeptSynthesizers kept;
+  const PingTime first = time_ping(scene, head, pose, options, kept);
   if (first.wall > 1) return first;
   std::vector<PingTime> times;
-  for (int k = 0; k < repeats; ++k) times.push_back(time_ping(scene, head, pose, options));
+  for (int k = 0; k < repeats; ++k) times.push_back(time_ping(scene, head, pose, options, kept));
   std::sort(times.begin(), times.end(), [](const PingTime& a, const PingTime& b) { return a.wall < b.wall; });
   return times[times.size() / 2];
 }
