@@ -14,6 +14,15 @@ herr_t take_first_reason(unsigned n, const H5E_error2_t* error, void* reason) {
   return 0;
 }
 
+// What the system said, if HDF5 quotes it among addresses and sizes of its own, else all of one line.
+std::string plain_reason(const std::string& reason) {
+  const std::string quote = "error message = '";
+  const std::size_t begin = reason.find(quote);
+  if (begin == std::string::npos) return reason.substr(0, reason.find('\n'));
+  const std::size_t text = begin + quote.size();
+  return reason.substr(text, reason.find('\'', text) - text);
+}
+
 void write_scalar(const Place& place, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
                   const void* value) {
   const std::string what = std::string("attribute '") + name + "' cannot be written";
@@ -55,7 +64,7 @@ QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 void Place::fail_here(const std::string& what) const {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_reason, &reason);
-  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", reason);
+  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", plain_reason(reason));
 }
 
 Handle text_type(const Place& place, std::size_t length) {

@@ -75,7 +75,9 @@ TEST_F(Help, fits_the_terminal_and_shows_defaults_units_and_ranges) {
     bool examples = false;
     for (std::string line; std::getline(help, line);) {
       examples = examples || line.starts_with("Examples:");
-      if (!examples && !line.starts_with("Usage:")) EXPECT_LE(line.size(), 90u) << verb << ": " << line;
+      if (!examples && !line.starts_with("Usage:")) {
+        EXPECT_LE(line.size(), 90u) << verb << ": " << line;
+      }
     }
   }
   const std::string help = std::regex_replace(succeed("ping --help"), std::regex("\\s+"), " ");

@@ -38,7 +38,7 @@ TEST_F(Hostile, full_disk_is_one_line_and_leaves_the_old_run) {
   const auto before = names();
   for (const int kib : {1, 16, 64, 128, 256})
     for (const std::string& command :
-         {small_ping + " --range 2:20 --layers -o out --force", std::string("merge out out -o both"),
+         {small_ping + " --range 2:20 --layers -o out --force", std::string("merge out out -o both -q"),
           std::string("export out -o vtk"), std::string("prepare harbour.ply -o again.ply"),
           std::string("prepare harbour.ply -o again.tiles")}) {
       const ToolResult result = with_small_files(kib, command);

@@ -1,5 +1,7 @@
 // Ctrl-C and kill at any stage: the prompt is back within a second, and nothing is left that was not complete.
+#include <cmath>
 #include <csignal>
+#include <fstream>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -49,11 +51,15 @@ class Interrupt : public ToolTest {
 
 TEST_F(Interrupt, ends_every_verb_within_a_second_and_leaves_nothing) {
   have("harbour.ply", "make-scene harbour --points 300000");
-  have("points.xyz", "make-scene reef --points 200000");
-  have("run", "ping harbour.ply --sonar p900-45 --pose=-25,0,-4,0,10,0 --range 1:12 --no-picture --keep contributors");
+  {
+    std::ofstream points(path("points.xyz"));
+    for (int i = 0; i < 200000; ++i)
+      points << 0.02 * (i % 500) << ' ' << 0.02 * (i / 500) << ' ' << 0.1 * std::sin(0.05 * (i % 500)) << '\n';
+  }
+  have("run", "ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 1:12 --no-picture --keep contributors");
   const std::set<std::string> before = names();
   const std::string long_ping =
-      "ping harbour.ply --sonar oculus-m750d --pose=-25,0,-4,0,10,0 --range 0.5:40 --method direct -o out";
+      "ping harbour.ply --sonar oculus-m750d --pose=0,0,-3,0,10,0 --range 0.5:40 --method direct -o out";
   for (const auto& [command, times] : std::vector<std::pair<std::string, std::vector<double>>>{
            {long_ping, {0.02, 0.3, 1.5}},
            {"prepare points.xyz -o prepared.ply", {0.05, 0.4}},
@@ -62,7 +68,7 @@ TEST_F(Interrupt, ends_every_verb_within_a_second_and_leaves_nothing) {
            {"make-scene harbour --points 20000000 -o big.tiles", {0.05, 0.5}},
            {"merge run run run run -o merged", {0.01, 0.05}},
            {"export run -o exported", {0.02, 0.1}},
-           {"accuracy harbour.ply --sonar p900-45 --pose=-25,0,-4,0,10,0 -o report", {0.1, 0.8}}})
+           {"accuracy harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 -o report", {0.1, 0.8}}})
     for (const double after : times) {
       const Ended ended = interrupted(command, after);
       EXPECT_LT(ended.seconds, 1) << command << " after " << after << " s";
@@ -80,14 +86,14 @@ TEST_F(Interrupt, is_ignored_where_the_caller_says_so) {
   have("harbour.ply", "make-scene harbour --points 300000");
   std::signal(SIGHUP, SIG_IGN);
   const Ended ended = interrupted(
-      "ping harbour.ply --sonar p900-45 --pose=-25,0,-4,0,10,0 --range 1:12 --no-picture -q -o out", 0.05, SIGHUP);
+      "ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 1:12 --no-picture -q -o out", 0.05, SIGHUP);
   std::signal(SIGHUP, SIG_DFL);
   EXPECT_EQ(ended.exit_code, 0) << read("err");
 }
 
 TEST_F(Interrupt, kill_leaves_what_the_next_run_removes) {
   have("harbour.ply", "make-scene harbour --points 300000");
-  const std::string ping = "ping harbour.ply --sonar p900-45 --pose=-25,0,-4,0,10,0 --no-picture -o out --range 1:";
+  const std::string ping = "ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --no-picture -o out --range 1:";
   const std::size_t before = names().size();
   interrupted(ping + "30 --method direct", 0.5, SIGKILL);
   EXPECT_EQ(names().size(), before + 1) << "a hidden folder";
