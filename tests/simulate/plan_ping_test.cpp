@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "support/errors.hpp"
+#include "support/heads.hpp"
 
 using namespace insonify;
 
