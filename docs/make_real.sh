@@ -11,7 +11,7 @@ compare() { (cd "$work" && insonify compare "$@"); }
 cp data/records/sample.aris data/records/ship_3dsonar_frame5.pcd "$work"
 
 # Two seeds, the expected level, and another gain of one scene.
-insonify make-scene harbour -o "$work/harbour.ply" --points 300000 >/dev/null
+insonify make-scene harbour -o "$work/harbour.ply" --points 150000 >/dev/null
 ping=(ping "$work/harbour.ply" --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:15 --no-picture)
 insonify "${ping[@]}" --seed 1 -o "$work/seed-1" >/dev/null
 insonify "${ping[@]}" --seed 2 -o "$work/seed-2" >/dev/null
@@ -20,7 +20,7 @@ seeds=$(compare seed-1 seed-2)
 expected=$(compare expected seed-1 | head -7)
 
 # A lens sonar: a frame of the recording against an even bed heard by a head of its beams.
-insonify make-scene plane -o "$work/bed.ply" --points 400000 --size 50,50 >/dev/null
+insonify make-scene plane -o "$work/bed.ply" --points 200000 --size 50,50 >/dev/null
 insonify ping "$work/bed.ply" --sonar aris-1800-lf --set sonar.centre_frequency_hz=1200000 --set sonar.field_of_view_deg=13.8 \
   --set sonar.beam_width_deg=0.3 --set sonar.range_resolution_m=0.01 --pose=0,0,2,0,9,0 --range 3.3:23.4 --no-picture -o "$work/bed" >/dev/null
 aris=$(compare bed sample.aris -o aris)

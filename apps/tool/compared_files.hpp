@@ -32,7 +32,7 @@ struct ComparedFile {
   bool from_port = false;                 ///< beams are the columns of a picture, from port to starboard
   std::optional<Pose> world_from_head{};  ///< of a run
   double centre_frequency = 0, bandwidth = 0, sound_speed = 0;  ///< of a run; 0: unknown
-  std::string kind{};                                             ///< run, ARIS 1200, NPY, PNG of 8 bits, ...
+  std::string kind{};                                           ///< run, ARIS 1200, NPY, PNG of 8 bits, ...
 };
 
 /// "MIN:MAX" in dB. Throws Error(argument) naming the option.

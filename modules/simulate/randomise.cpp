@@ -13,7 +13,7 @@ std::array<double, 4> symmetric_numbers(std::uint64_t seed, const SurveyPing& pi
   std::array<double, 4> numbers =
       random_uniform(seed, RandomStage::randomise,
                      {static_cast<std::uint64_t>(ping.head), static_cast<std::uint64_t>(ping.number), group});
-  for (double& number : numbers) number = 2 * number - 1;
+  for (double& number : numbers) number = 2 * number - 1;  // (E126)
   return numbers;
 }
 

@@ -15,14 +15,14 @@ namespace {
 
 // VTK's origin is the lower left corner.
 template <typename Grey>
-void save_png_of(const std::string& path, const Grid<Grey>& grey, int channels) {
-  if (grey.size() == 0 || grey.cols() % channels != 0)
+void save_png_of(const std::string& path, const Grid<Grey>& grey) {
+  if (grey.size() == 0)
     fail(ErrorKind::argument, "save_grey_png: ", path, ": picture of ", grey.rows(), " x ", grey.cols(),
          " values, must have one at least");
   const VtkMessages messages;
   vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(grey.cols()) / channels, static_cast<int>(grey.rows()), 1);
-  image->AllocateScalars(sizeof(Grey) == 1 ? VTK_UNSIGNED_CHAR : VTK_UNSIGNED_SHORT, channels);
+  image->SetDimensions(static_cast<int>(grey.cols()), static_cast<int>(grey.rows()), 1);
+  image->AllocateScalars(sizeof(Grey) == 1 ? VTK_UNSIGNED_CHAR : VTK_UNSIGNED_SHORT, 1);
   Eigen::Map<Grid<Grey>>(static_cast<Grey*>(image->GetScalarPointer()), grey.rows(), grey.cols()) =
       grey.colwise().reverse();
   vtkNew<vtkPNGWriter> writer;
@@ -67,8 +67,7 @@ GreyPicture load_grey_png(const std::string& path) {
   return {8, values_of<std::uint8_t>(image)};
 }
 
-void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { save_png_of(path, grey, 1); }
-void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey) { save_png_of(path, grey, 1); }
-void save_colour_png(const std::string& path, const Grid<std::uint8_t>& colours) { save_png_of(path, colours, 3); }
+void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { save_png_of(path, grey); }
+void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey) { save_png_of(path, grey); }
 
 }  // namespace insonify

@@ -21,7 +21,4 @@ GreyPicture load_grey_png(const std::string& path);
 void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
 void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey);
 
-/// Writes colours as a PNG: three bytes for each pixel, `colours` has three columns for each of the picture. Errors as save_grey_png.
-void save_colour_png(const std::string& path, const Grid<std::uint8_t>& colours);
-
 }  // namespace insonify
