@@ -115,7 +115,7 @@ TEST(SimulatePing, of_open_water_gives_false_alarms_at_the_stated_rate) {
   const auto ping = [&](std::int64_t number, double above_db) {
     return simulate_ping(
         scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {},
-        {.ping = number, .effects = {.noise = true}, .detection = {.all_bins = true, .above_db = above_db}});
+        {.effects = {.noise = true}, .detection = {.all_bins = true, .above_db = above_db}, .ping = number});
   };
   const double floor_db = ping(0, 200).noise_floor_db;
   for (const double rate : {1e-2, 1e-3, 1e-4}) {
