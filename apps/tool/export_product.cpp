@@ -16,7 +16,7 @@ namespace {
 constexpr double shown_span_db = 80;  // of images in 8 bits
 
 /// Where the world is, if options or mission say so.
-std::optional<Georeference> place_of(const ProductOptions& o, const RunPings& pings) {
+std::optional<Georeference> georeference_of(const ProductOptions& o, const RunPings& pings) {
   Georeference reference;
   if (!o.utm.empty()) reference.zone = parse_utm_zone(o.utm, "--utm");
   if (!o.anchor.empty())
@@ -76,7 +76,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   progress.step("reading " + o.run);
   PlacedRun run{o, find_run_pings(o.run, o.head)};
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
-  run.place = place_of(o, run.pings);
+  run.place = georeference_of(o, run.pings);
   if (o.to == "png") {
     RunDirectory directory(o.output, o.force);
     progress.step("writing " + o.output);

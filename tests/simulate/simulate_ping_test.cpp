@@ -87,7 +87,9 @@ TEST(SimulatePing, returns_points_that_lie_on_the_scene) {
                                         {water}, {.detection = {.false_alarm_rate = 1}});
   ASSERT_GT(p.soundings.size(), 500U);
   std::vector<double> off;
-  for (const auto& x : p.soundings.position) off.push_back(std::abs(x.z()));
+  for (std::size_t i = 0; i < p.soundings.size(); ++i)
+    if (p.soundings.true_surfel[i] != Soundings::none) off.push_back(std::abs(p.soundings.position[i].z()));
+  ASSERT_GT(off.size(), 500U);
   std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
   EXPECT_LT(off[off.size() / 2], plain_head.gate.bin_size);
   EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * plain_head.gate.bin_size);
@@ -104,6 +106,30 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
   const SimulatedPing p = ping(true);
   EXPECT_NEAR(mean_level_db(p.ping, 2, 20), p.noise_floor_db, 0.4);
   EXPECT_EQ(p.soundings.size(), 0U);
+}
+
+// Cells of open water that exceed the noise floor by -ln(rate): nobody knows that there is nothing. The floor is that of the
+// mean beam, within some tenths of a decibel, which at 10^-4 change the rate by a fifth.
+TEST(SimulatePing, of_open_water_gives_false_alarms_at_the_stated_rate) {
+  const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
+  const auto ping = [&](std::int64_t number, double above_db) {
+    return simulate_ping(
+        scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {},
+        {.effects = {.noise = true}, .detection = {.all_bins = true, .above_db = above_db}, .ping = number});
+  };
+  const double floor_db = ping(0, 200).noise_floor_db;
+  for (const double rate : {1e-2, 1e-3, 1e-4}) {
+    const int pings = rate < 5e-4 ? 12 : 3;
+    double found = 0, cells = 0;
+    for (int number = 0; number < pings; ++number) {
+      const SimulatedPing p = ping(number, floor_db + db_from_power(-std::log(rate)));
+      found += static_cast<double>(p.soundings.size());
+      cells += static_cast<double>(p.ping.pressure.size());
+      for (const std::uint32_t surfel : p.soundings.true_surfel) EXPECT_EQ(surfel, Soundings::none);
+    }
+    const double expected = rate * cells;
+    EXPECT_NEAR(found / expected, 1, 0.25 + 4 / std::sqrt(expected)) << rate << ": " << found << " of " << expected;
+  }
 }
 
 TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
