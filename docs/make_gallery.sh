@@ -3,18 +3,8 @@
 #   docs/make_gallery.sh [build/release/bin/insonify]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-tool=$(realpath "${1:-build/release/bin/insonify}")
-root=$PWD
-pictures=$root/docs/images/gallery
-page=$root/docs/gallery.md
-most_bytes=700000
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-rm -rf "$pictures"
-mkdir -p "$pictures"
-cd "$work"
-insonify() { "$tool" "$@" -q >/dev/null; }
+. docs/picture_page.sh
+begin_page gallery "${1:-build/release/bin/insonify}"
 
 # chapter TITLE TEXT
 chapter() { printf '\n## %s\n\n%s\n' "$1" "$2" >>"$page"; }
@@ -30,27 +20,26 @@ steps() {
 # picture NAME CAPTION COMMAND: runs the command, which writes NAME.png.
 picture() {
   eval "$3"
-  [[ $(stat -c %s "$1.png") -lt $most_bytes ]] || { echo "make_gallery.sh: $1.png is larger than $most_bytes bytes" >&2; exit 1; }
-  mv "$1.png" "$pictures/"
+  keep_picture "$1"
   printf '\n%s\n\n```\n%s\n```\n\n![%s](images/gallery/%s.png)\n' "$2" "$3" "$2" "$1" >>"$page"
 }
 
 cat >"$page" <<'PAGE'
 # Gallery
 
-Every view of the built-in harbour, with its command. `docs/make_gallery.sh` generates this page and its pictures.
+Every view of the built-in harbour, with its command; all run in the folder `out` that `apps/demo.sh` makes. `docs/make_gallery.sh` generates this page and its pictures.
 PAGE
 
 chapter "One ping" "The harbour has a quay to port, pilings to starboard, a wreck and a pipe ahead. A 256-beam head of 900 kHz, at a depth of three metres and pitched ten degrees down, looks at the sea bed in front of the wreck."
-steps "insonify make-scene harbour -o harbour.ply --points 200000" \
-  "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --keep contributors,mask -o ping"
+insonify make-scene harbour -o harbour.ply --points 200000
+steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --keep contributors,mask -o ping"
 picture fan "The fan in its true geometry, starboard on the right; the three strongest maxima are named." \
   "insonify image ping --annotate 3 --size 900x700 -o fan.png"
 picture rect "Bearing against range, dark theme." "insonify image ping --view rect --dark --colormap viridis --size 900x700 -o rect.png"
 picture ascan "One beam: level against range." "insonify image ping --view ascan --beam 140 --size 900x500 -o ascan.png"
 picture spectrum "Power spectra of all beams and of the pulse." "insonify image ping --view spectrum --size 900x500 -o spectrum.png"
 picture panels "Summary of the ping on one page." "insonify image ping --view panels --size 1200x900 -o panels.png"
-picture scene "The returns in the scene, with head and fan." "insonify image ping --view scene --size 1000x750 -o scene.png"
+picture scene "The returns in the scene, with head, fan and its footprint on the bed (blue)." "insonify image ping --view scene --size 1000x750 -o scene.png"
 picture viewer "The viewer (insonify view ping): a click on a pixel names the surfels behind it." \
   "insonify view ping --beam 140 --size 1400x900 --screenshot viewer.png"
 
@@ -87,9 +76,17 @@ picture track "The same line from above: the way over the mosaic of both sides."
 chapter "A swath over a slope and a step" "A bathymetric head above a slope of 45 degrees to port, a level bed, and a step of one metre to starboard. Soundings by centre of gravity and by phase, from the ping alone. [How they are found](equations.md), E92 to E95."
 steps "printf 'v %s 24 -8\nv %s 12 -20\nv %s -8 -20\nv %s -8 -19\nv %s -45 -19\n' -2 -2 -2 -2 -2 2 2 2 2 2 > groove.obj" \
   "for i in 1 2 3 4; do echo f \$i \$((i + 1)) \$((i + 6)) \$((i + 5)); done >> groove.obj" \
-  "insonify ping groove.obj --sonar r2sonic-2024 --pose=0,0,0,0,90,0 --range 12:48 --split --noise --no-picture -o groove" \
+  "insonify ping groove.obj --sonar r2sonic-2024 --pose=0,0,0,0,0,0 --range 12:48 --split --noise --no-picture -o groove" \
   "insonify export groove --to csv -o groove.csv"
 picture soundings "Soundings of one ping across the track." "insonify image groove --view soundings --size 1000x500 -o soundings.png"
+
+chapter "A survey" "A multibeam along the wreck and a scanning head, from one mission; the viewer plays it from its blocks, merged or not."
+steps "printf 'schema = 1\n[survey]\nscene = \"harbour.ply\"\n[trajectory]\nwaypoints_m = [[0, -4, -3], [18, -4, -3], [18, 5, -3]]\nspeed_m_s = 1\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=128\"]\nrange = \"1:15\"\nangles_deg = [0, 15, 0]\nrate_hz = 2\n[[head]]\nname = \"turning\"\nsonar = \"ping360\"\nrange = \"0.75:15\"\n[head.scan]\nstep_deg = 5\ndwell_s = 0.2\n' > two.toml" \
+  "insonify survey two.toml -o two"
+picture survey "The viewer (insonify view two): the ping, head and way in the scene, a waterfall of one beam; a slider and every key have their place." \
+  "insonify view two --ping 30 --beam 64 --size 1400x900 --screenshot survey.png"
+picture sweep "The scanning head: the sweep as its display shows it, older where it is still to come (insonify view two --head turning)." \
+  "insonify view two --head turning --ping 100 --size 1400x900 --screenshot sweep.png"
 
 chapter "The head itself" "The directional response of its array."
 picture pattern "Beam pattern." "insonify beampattern p900-45 --steer=-20 --size 900x500 -o pattern.png"

@@ -265,7 +265,7 @@ TEST(ExportUtm, keeps_the_coordinates_of_its_scene) {
   const Eigen::Vector3d at = pose.translation();
   std::ostringstream command;
   command.precision(16);
-  command << "ping ball.ply --sonar r2sonic-2024 --set sonar.beams=65 --range 11:13 --split --no-picture -q --pose="
+  command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 11:13 --split --no-picture -q --pose="
           << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o out";
   tool.succeed(command.str());
   tool.succeed("export out --to csv -o ball.csv -q");
@@ -316,7 +316,7 @@ TEST_F(ExportProducts, gsf_has_several_soundings_of_a_beam_and_heights) {
   std::ostringstream command;
   command.precision(12);
   command
-      << "ping two.ply --sonar r2sonic-2024 --set sonar.beams=65 --range 8:14 --noise --no-picture -q --force --pose="
+      << "ping two.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --noise --no-picture -q --force --pose="
       << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o two";
   succeed(command.str());
   succeed("export two --to gsf --anchor 54.1,7.9 -o one.gsf -q");

@@ -146,6 +146,45 @@ TEST(SceneView, of_a_preset_holds_every_point_and_wastes_no_room) {
   }
 }
 
+// From behind at 30 degrees a flat scene leaves half of a square picture empty.
+TEST(SceneView, automatic_looks_down_until_the_picture_is_filled) {
+  SceneCloud scene;
+  add_floor(scene, {0, -20, -5}, 40, 0.5);
+  SceneLook look;
+  look.head = head_at(Pose(Eigen::Translation3d(0, 0, -2)), 60, 30);
+  const std::vector<Eigen::Vector3d> points = points_of_interest(scene, look);
+  constexpr double side = 600, margin = 20;
+  const auto height_of = [&](ScenePreset preset) {
+    const CameraView view = place_view(scene, look, {preset, {}, {}}, points, side, side, margin, "test");
+    double low = 1e9, high = -1e9;
+    for (const Eigen::Vector3d& point : points) {
+      const double y = show_point(view, point, side, side).at.y;
+      low = std::min(low, y), high = std::max(high, y);
+    }
+    return (high - low) / side;
+  };
+  EXPECT_LT(height_of(ScenePreset::behind), 0.55);
+  EXPECT_GT(height_of(ScenePreset::automatic), 0.65);
+}
+
+// A playing picture stands still: its frame holds the whole way, wherever the head is on it.
+TEST(SceneView, of_a_track_holds_the_way_and_keeps_its_frame) {
+  SceneCloud scene;
+  add_floor(scene, {0, -50, -5}, 100, 1);
+  SceneLook look;
+  for (double x = 10; x <= 60; x += 5) look.track.emplace_back(x, 10, -2);
+  const auto seen_from = [&](double x) {
+    look.head = head_at(Pose(Eigen::Translation3d(x, 10, -2)), 60, 10);
+    return points_of_interest(scene, look);
+  };
+  const std::vector<Eigen::Vector3d> begin = seen_from(10), end = seen_from(60);
+  EXPECT_EQ(begin, end);
+  for (const double x : {10.0, 60.0})
+    EXPECT_TRUE(std::any_of(begin.begin(), begin.end(), [&](const Eigen::Vector3d& p) {
+      return (p + scene.origin - Eigen::Vector3d(x, 10, -2)).norm() < 1e-9;
+    })) << x;
+}
+
 TEST(SceneView, given_explicitly_is_relative_to_the_origin) {
   SceneCloud scene = floor_of(4, 1);
   scene.origin = {500000, 5000000, 0};

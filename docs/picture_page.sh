@@ -1,0 +1,23 @@
+# Sourced by the scripts that make a page of pictures. Needs no display.
+# begin_page NAME TOOL [keep]: the page is docs/NAME.md, its pictures are in docs/images/NAME, which is emptied unless
+# `keep`; the commands run in a folder of their own. `insonify` is the tool, which says nothing but errors.
+most_bytes=700000  # of a picture
+
+begin_page() {
+  root=$PWD
+  tool=$(realpath "$2")
+  pictures=$root/docs/images/$1
+  page=$root/docs/$1.md
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  [[ ${3:-} == keep ]] || rm -rf "$pictures"
+  mkdir -p "$pictures"
+  cd "$work"
+}
+insonify() { "$tool" "$@" -q >/dev/null; }
+
+# keep_picture NAME: moves NAME.png to the pictures of the page.
+keep_picture() {
+  [[ $(stat -c %s "$1.png") -lt $most_bytes ]] || { echo "$0: $1.png is larger than $most_bytes bytes" >&2; exit 1; }
+  mv "$1.png" "$pictures/"
+}
