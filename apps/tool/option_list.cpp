@@ -44,7 +44,7 @@ std::string sign_check(const std::string& text) {
   return text.starts_with("-") ? text + " must be 0 or more" : std::string();
 }
 
-/// The value that an option has if it is not given; empty if there is none to be told.
+/// The value that an option has if it is not given; empty if there is none.
 std::string default_of(const OptionValue& value) {
   if (const auto* text = std::get_if<std::string*>(&value)) return **text;
   if (const auto* number = std::get_if<double*>(&value)) return fmt::format("{}", **number);

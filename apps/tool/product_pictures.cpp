@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
-#include "formats/fan_raster.hpp"
+#include "formats/grey_fan.hpp"
 #include "returns/looks.hpp"
 #include "tool/product_run.hpp"
 #include "view/show_image.hpp"
@@ -26,7 +26,7 @@ std::size_t png_product(const PlacedRun& run, RunDirectory& directory) {
       manifest["bin_m"] = ping.gate.bin_size;
     }
     const std::string number = fmt::format("{:06}.png", manifest["pings"].size());
-    const FanRaster fan = fan_raster(ping, scale->tvg, scale->window, rows_of_pixels);
+    const GreyFan fan = grey_fan(ping, scale->tvg, scale->window, rows_of_pixels);
     save_grey(fan.grey, directory.file("fan_" + number));
     show_grey(quantise_16(apply_tvg(shown_level_db(ping), ping.gate, scale->tvg), scale->window), ping.fan,
               directory.file("samples_" + number));

@@ -21,11 +21,13 @@ class KeptSynthesizers {
   KeptSynthesizers(KeptSynthesizers&&) noexcept;
   KeptSynthesizers& operator=(KeptSynthesizers&&) noexcept;
 
-  /// Synthesizers for these, kept or made; throw Error as their constructors do.
+  /// The synthesizer of the narrow band for these, kept or made. Throws Error as its constructor does.
   std::shared_ptr<const PingSynthesizer> narrow_band(const SonarHead& head, const Medium& medium,
                                                      const SynthesisOptions& options);
+  /// The same of a planar array.
   std::shared_ptr<const PlanarSynthesizer> planar(const SonarHead& head, const Medium& medium,
                                                   const SynthesisOptions& options);
+  /// The same with true delays.
   std::shared_ptr<const WidebandSynthesizer> true_delays(const SonarHead& head, const Medium& medium,
                                                          const SynthesisOptions& options);
 

@@ -13,6 +13,7 @@
 
 namespace insonify {
 
+/// How images are compared.
 struct ComparisonOptions {
   std::optional<GreyWindow>
       window{};            ///< declared span; nothing: 60 dB below the 99.9 % quantile of B, in multiples of 5

@@ -8,6 +8,7 @@ namespace insonify {
 struct MeanAndDeviation {
   double mean = 0, deviation = 0;
 };
+/// Mean and standard deviation of a sample; both 0 if it is empty.
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values);
 
 /// Returns the Wasserstein-1 distance of two samples: the mean distance of their quantiles, in their unit (E121). Throws
@@ -30,6 +31,7 @@ KolmogorovSmirnov kolmogorov_smirnov_exponential(std::vector<double> sample);
 struct FittedLine {
   double offset = 0, slope = 0;
 };
+/// Fits a line to points of equal weight.
 FittedLine fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
 /// A monotone map of levels: straight lines between knots, of slope 1 beyond them.
@@ -40,6 +42,7 @@ struct LevelMap {
 /// The map that gives a sample the distribution of another: knots at 21 quantiles, 0 to 100 % (E121). Throws
 /// Error(argument) if one is empty.
 LevelMap level_map(std::vector<double> from, std::vector<double> to);
+/// The level that a map gives for `level`.
 double mapped(const LevelMap& map, double level);
 
 }  // namespace insonify

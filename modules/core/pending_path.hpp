@@ -32,7 +32,7 @@ class PendingPath {
   std::string target_, temporary_;
 };
 
-/// The temporary name that this process gives `target`; `count` tells several of one process apart. `kind`: "tmp" for an output
+/// The temporary name that this process gives `target`; `count` numbers those of one process. `kind`: "tmp" for an output
 /// that is being written, "old" for one that is being replaced.
 std::string sibling_name(const std::string& target, const char* kind = "tmp", int count = 0);
 

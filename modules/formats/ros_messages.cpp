@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "formats/fan_raster.hpp"
+#include "formats/grey_fan.hpp"
 #include "formats/packed_bytes_internal.hpp"
 #include "returns/looks.hpp"
 
@@ -132,7 +132,7 @@ std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double f
 }
 
 std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height) {
-  const FanRaster raster = fan_raster(ping, tvg, window, height);
+  const GreyFan raster = grey_fan(ping, tvg, window, height);
   CdrMessage message;
   message.header(time, "head");
   message.count(static_cast<std::size_t>(raster.grey.rows()));

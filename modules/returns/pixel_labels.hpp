@@ -18,6 +18,7 @@ struct PixelLabels {
   Grid<float> share;               ///< of the pixel's energy that is of that material and in this cell; else 0
   std::vector<std::string> names;  ///< of the materials
 
+  /// Whether there are no labels.
   bool empty() const { return material.size() == 0; }
 };
 

@@ -18,6 +18,7 @@ struct Randomisation {
   double temperature_c = 0, salinity_psu = 0;      ///< of the water
   double position = 0, heading = 0, attitude = 0;  ///< of the head: each coordinate [m]; yaw; pitch and roll each [rad]
 
+  /// Whether pings differ at all.
   bool any() const {
     return source_level_db > 0 || noise_db > 0 || temperature_c > 0 || salinity_psu > 0 || position > 0 ||
            heading > 0 || attitude > 0;

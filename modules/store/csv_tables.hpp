@@ -24,7 +24,7 @@ SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 Trajectory load_trajectory(const std::string& path);
 
 /// What is doubtful in such a file: an angle that changes by half a turn or more between two entries, where the way
-/// between them (the shortest turn, as of all attitudes) cannot be told from it. None for quaternions. Errors as
+/// between them (the shortest turn, as of all attitudes) is not known. None for quaternions. Errors as
 /// load_trajectory.
 std::vector<std::string> trajectory_notes(const std::string& path);
 

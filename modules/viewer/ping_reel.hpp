@@ -37,19 +37,25 @@ class PingReel {
   /// `source.ping` and `source.beam` must be given.
   PingReel(std::vector<ReelPlace> places, PingSource source);
 
+  /// Number of pings.
   std::size_t size() const { return places_.size(); }
+  /// Whether there is no ping.
   bool empty() const { return places_.empty(); }
+  /// When and where ping `i` was sent.
   const ReelPlace& place(std::size_t i) const { return places_[i]; }
+  /// The same of all pings.
   const std::vector<ReelPlace>& places() const { return places_; }
 
-  /// Of every ping; read with the first one.
+  /// Fan of every ping; read with the first one.
   const BeamFan& fan() const { return frame().fan; }
+  /// Range gate of every ping; read with the first one.
   const RangeGate& gate() const { return frame().gate; }
   /// A ping; the last one asked for is kept. Throws Error(content) for one that is invalid or differs from the first in
   /// fan or gate, and what its source throws.
   std::shared_ptr<const Ping> ping(std::size_t i) const;
   /// Pressure of one beam in some pings, pings x bins [Pa].
   ComplexGridF beam(std::size_t first, std::size_t count, std::size_t beam) const;
+  /// Whether the source gives returns.
   bool has_returns() const { return static_cast<bool>(source_.returns); }
   /// The returns of one ping; none if has_returns is false.
   Soundings returns(std::size_t i) const;

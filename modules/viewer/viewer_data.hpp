@@ -38,6 +38,7 @@ enum class ViewerPicture {
   sweep,     ///< of a scanning head of one beam: what its display shows, every bearing as it was heard last
   waterfall  ///< of another head of one beam: ping after ping
 };
+/// The picture that suits the head of a run.
 ViewerPicture picture_of(const ViewerData& data);
 
 /// Throws Error(content) unless there are pings, the first is valid, per-ping lists have one element per ping, and a

@@ -119,7 +119,8 @@ TEST(ContributorFile, foreign_missing_and_truncated_files_are_refused) {
   const std::string text = own_file("text.h5", "this is not HDF5\n");
   EXPECT_EQ(error_with_kind([&] { read_contributor_file(text); }), "content: " + text + ": is not an HDF5 file");
   const std::string missing = own_path("missing.h5");
-  EXPECT_EQ(error_with_kind([&] { read_contributor_file(missing); }), "file: " + missing + ": no such file; check the path");
+  EXPECT_EQ(error_with_kind([&] { read_contributor_file(missing); }),
+            "file: " + missing + ": no such file; check the path");
   const std::string foreign = own_path("foreign.h5");
   H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   EXPECT_EQ(

@@ -69,5 +69,6 @@ TEST(ScattererTable, says_what_an_empty_or_missing_file_lacks) {
   refuses_table("# only a comment\n",
                 " has no header, must start with range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im");
   const std::string missing = own_path("missing.csv");
-  EXPECT_EQ(error_with_kind([&] { load_scatterer_table(missing); }), "file: " + missing + ": no such file; check the path");
+  EXPECT_EQ(error_with_kind([&] { load_scatterer_table(missing); }),
+            "file: " + missing + ": no such file; check the path");
 }

@@ -41,7 +41,8 @@ class ExportProducts : public ToolTest {
     const Eigen::Vector3d at = pose.translation();
     std::ostringstream command;
     command.precision(12);
-    command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --split --noise --no-picture -q "
+    command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --split "
+               "--noise --no-picture -q "
                "--pose="
             << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o out";
     succeed(command.str());
@@ -265,7 +266,8 @@ TEST(ExportUtm, keeps_the_coordinates_of_its_scene) {
   const Eigen::Vector3d at = pose.translation();
   std::ostringstream command;
   command.precision(16);
-  command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 11:13 --split --no-picture -q --pose="
+  command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 11:13 --split "
+             "--no-picture -q --pose="
           << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o out";
   tool.succeed(command.str());
   tool.succeed("export out --to csv -o ball.csv -q");
@@ -315,9 +317,9 @@ TEST_F(ExportProducts, gsf_has_several_soundings_of_a_beam_and_heights) {
   const Eigen::Vector3d at = high.translation();
   std::ostringstream command;
   command.precision(12);
-  command
-      << "ping two.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --noise --no-picture -q --force --pose="
-      << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o two";
+  command << "ping two.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --noise "
+             "--no-picture -q --force --pose="
+          << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o two";
   succeed(command.str());
   succeed("export two --to gsf --anchor 54.1,7.9 -o one.gsf -q");
   succeed("export two --to gsf --anchor 54.1,7.9 --per-beam 3 -o many.gsf -q");

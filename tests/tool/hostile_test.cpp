@@ -27,7 +27,8 @@ class Hostile : public ToolTest {
   }
 };
 
-const std::string small_ping = "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0";
+const std::string small_ping =
+    "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0";
 
 }  // namespace
 
@@ -77,7 +78,8 @@ TEST_F(Hostile, names_that_no_other_program_can_read_are_refused_before_the_work
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("not UTF-8"));
   succeed("make-scene harbour --points 2000 -o 'd\x7fl.ply'");
-  succeed("ping 'd\x7fl.ply' --no-picture -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,-3,0,10,0 --range 2:9 -o out");
+  succeed(
+      "ping 'd\x7fl.ply' --no-picture -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,-3,0,10,0 --range 2:9 -o out");
   succeed("ping --run out/run.toml --no-picture -q -o again");
   EXPECT_TRUE(read("out/cube.h5") == read("again/cube.h5"));
 }

@@ -8,7 +8,7 @@
 namespace insonify {
 
 /// A fan in true geometry, from above: ahead is up, port on the left, the head below the middle of the last row.
-struct FanRaster {
+struct GreyFan {
   Grid<std::uint8_t> grey;  ///< rows x columns, row 0 the farthest; 0 outside of the fan
   double pixel = 0;         ///< size [m]
 };
@@ -16,7 +16,7 @@ struct FanRaster {
 /// Returns the levels of a ping, with the gain of a TVG, as grey values of pixels of max_range / rows: each is the sample
 /// of the nearest beam at its range. Throws Error(content) for a ping of several rows of beams, Error(argument) as
 /// quantise_8.
-FanRaster fan_raster(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows);
+GreyFan grey_fan(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows);
 
 /// Throws Error(content) naming `who` for a ping of several rows of beams.
 void require_one_row(const Ping& ping, const char* who);

@@ -1,4 +1,4 @@
-#include "formats/fan_raster.hpp"
+#include "formats/grey_fan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ void require_one_row(const Ping& ping, const char* who) {
     fail(ErrorKind::content, who, ": ping ", ping.number, " has several rows of beams, must have one");
 }
 
-FanRaster fan_raster(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows) {
-  require_one_row(ping, "fan_raster");
+GreyFan grey_fan(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows) {
+  require_one_row(ping, "grey_fan");
   const Grid<std::uint8_t> grey = quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
   std::vector<std::size_t> order(ping.fan.beams());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -28,7 +28,7 @@ FanRaster fan_raster(const Ping& ping, const Tvg& tvg, const GreyWindow& window,
   const double side = ping.gate.max_range * std::sin(std::min(std::max(std::abs(port), std::abs(starboard)), pi / 2));
   const int columns = std::max(1, 2 * static_cast<int>(std::ceil(side / step)));
 
-  FanRaster raster{Grid<std::uint8_t>::Zero(rows, columns), step};
+  GreyFan raster{Grid<std::uint8_t>::Zero(rows, columns), step};
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const double x = (rows - row - 0.5) * step, y = (columns / 2 - column - 0.5) * step;
