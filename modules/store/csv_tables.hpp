@@ -23,8 +23,8 @@ SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 /// ascend strictly, angles are within -360 and 360 degrees, there are at least two entries.
 Trajectory load_trajectory(const std::string& path);
 
-/// What is doubtful in such a file: an angle that changes by half a turn or more between two entries, where the way
-/// between them (the shortest turn, as of all attitudes) is not known. None for quaternions. Errors as
+/// What is doubtful in such a file: an angle that changes by half a turn or more between two entries. Attitudes take the
+/// shortest turn between them; a longer one would need entries in between. None for quaternions. Errors as
 /// load_trajectory.
 std::vector<std::string> trajectory_notes(const std::string& path);
 
