@@ -1,15 +1,16 @@
 // The first ping through the API: from a scene, a sonar and a pose to levels and points.
 #include <iostream>
 
-#include "core/units.hpp"
-#include "scene/built_in_scenes.hpp"
-#include "simulate/simulate_ping.hpp"
-#include "store/sonar_file.hpp"
+#include <insonify/core/units.hpp>
+#include <insonify/scene/built_in_scenes.hpp>
+#include <insonify/simulate/simulate_ping.hpp>
+#include <insonify/store/sonar_file.hpp>
 
 int main() {
   using namespace insonify;
 
-  // The scene: a harbour of 100 000 surfels; load_scene("reef.pcd") loads your own.
+  // The scene: a harbour of 100 000 surfels. For a cloud of your own include <insonify/scene_io/load_scene.hpp>, link
+  // insonify::scene_io, and write: const SceneCloud scene = load_scene("reef.pcd").scene;
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 100000});
 
   // The sonar: a preset limited to 20 m, in water of 8 deg C.

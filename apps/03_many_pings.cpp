@@ -1,12 +1,12 @@
 // Many pings of one scene: prepare it once, ping along a track, store all pings in one cube.
 #include <iostream>
 
-#include "core/units.hpp"
-#include "returns/insonification.hpp"
-#include "scene/built_in_scenes.hpp"
-#include "simulate/simulate_ping.hpp"
-#include "store/cube.hpp"
-#include "store/sonar_file.hpp"
+#include <insonify/core/units.hpp>
+#include <insonify/returns/insonification.hpp>
+#include <insonify/scene/built_in_scenes.hpp>
+#include <insonify/simulate/simulate_ping.hpp>
+#include <insonify/store/cube.hpp>
+#include <insonify/store/sonar_file.hpp>
 
 int main(int argc, char** argv) {
   using namespace insonify;
@@ -22,8 +22,7 @@ int main(int argc, char** argv) {
   const SonarHead head = make_head(spec, sound_speed(environment.water));
 
   // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel.
-  Cube cube;
-  cube.sonar = head.name;
+  Cube cube = make_cube(head, medium_of(environment, head.pulse.centre_frequency));
   Insonification insonified;
   for (int k = 0; k < 8; ++k) {
     SimulationOptions options;
@@ -35,8 +34,6 @@ int main(int argc, char** argv) {
     add_ping(insonified, scene, result.scatterers, head, result.medium);
     std::cout << "ping " << k << ": " << result.soundings.size() << " soundings\n";
     cube.pings.push_back(result.ping);
-    cube.sound_speed = result.medium.sound_speed;
-    cube.absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db;
   }
   std::size_t surfels = 0;
   for (const auto hits : insonified.hits) surfels += hits > 0;

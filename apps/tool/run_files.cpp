@@ -55,17 +55,11 @@ std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::s
 }
 
 Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
-  Cube cube;
+  SimulationOptions options;
+  options.seed = common.seed;
+  options.synthesis.tolerance = run.tolerance;
+  Cube cube = make_cube(setup.head, setup.medium, options);
   cube.pings = std::move(pings);
-  cube.sound_speed = setup.medium.sound_speed;
-  cube.absorption_db_per_m = setup.medium.absorption.a0 / nepers_per_db;
-  cube.centre_frequency = setup.head.pulse.centre_frequency;
-  cube.bandwidth = setup.head.pulse.bandwidth;
-  cube.source_level_db = setup.head.pulse.source_level_db;
-  cube.seed = common.seed;
-  cube.tolerance = run.tolerance;
-  cube.sonar = setup.head.name;
-  cube.insonify_version = INSONIFY_VERSION;
   return cube;
 }
 

@@ -11,6 +11,7 @@ namespace insonify {
 /// quick: seconds, to try whether everything works; standard: a minute or two; full: about ten minutes.
 enum class SweepSize { quick, standard, full };
 
+/// Extent of a sweep, and what is left out of it.
 struct SweepOptions {
   SweepSize size = SweepSize::standard;
   std::uint64_t seed = 1;
@@ -19,6 +20,7 @@ struct SweepOptions {
   std::vector<std::string> methods{};  ///< of accuracy_methods; empty: all
 };
 
+/// A method and what measures it.
 struct AccuracyRun {
   std::string method;
   std::function<AccuracyRow(const AccuracyBench&)> measure;

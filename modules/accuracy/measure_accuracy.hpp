@@ -31,6 +31,7 @@ struct AccuracyRow {
   std::size_t checked_beams = 0;
 };
 
+/// How long and how thoroughly a method is measured.
 struct MeasureOptions {
   int threads = 0;
   int repeats = 5;                   ///< timed runs, after one to warm caches
@@ -46,6 +47,7 @@ struct MeasureOptions {
 /// evenly picked beams as referee_work allows (at least 4, see picked).
 class AccuracyBench {
  public:
+  /// Sums the referee's beams of `task`. Throws Error for a task that cannot be synthesized.
   AccuracyBench(std::string sweep, AccuracyTask task, const MeasureOptions& options);
 
   /// Time of evenly picked echoes, scaled up; error against synthesize_extended on at most twice_checked echoes, 4
@@ -57,13 +59,18 @@ class AccuracyBench {
   AccuracyRow gridded(double tolerance, int threads = 0) const;
   /// On a part of echoes and beams, checked against direct on the same part.
   AccuracyRow spectrum() const;
+  /// Each pulse cut at the tolerance, exact pattern.
   AccuracyRow windowed(double tolerance) const;
+  /// Each echo in the bin nearest to it alone.
   AccuracyRow nearest_bin() const;
+  /// The pattern cut after so many nulls on either side.
   AccuracyRow pattern_cut(double nulls) const;
   /// Error of leaving out slope (order 0) or curvature (1) of the absorption, gridded at a tolerance of 1e-8.
   AccuracyRow absorption_order(int order) const;
 
+  /// The task that is measured.
   const AccuracyTask& task() const { return task_; }
+  /// Name of the sweep that the task is part of.
   const std::string& sweep() const { return sweep_; }
 
  private:
@@ -88,6 +95,7 @@ class AccuracyBench {
 struct ImageError {
   double whole = 0, worst_eighth = 0;
 };
+/// Returns the error of `pressure` against `referee`, both beams x bins; `eighth_counts`: eighths that hold an echo.
 ImageError image_error(const ComplexGrid& pressure, const ComplexGrid& referee, const std::vector<bool>& eighth_counts);
 
 }  // namespace insonify

@@ -15,6 +15,7 @@ struct SamplingErrorRow {
   double seconds = 0;              ///< of sampling once, median over trials
 };
 
+/// Options of measure_sampling_error.
 struct SamplingErrorOptions {
   int most_rays = 4096;  ///< per beam, in steps of four times from 16 on
   int trials = 4;        ///< seeds

@@ -12,6 +12,7 @@
 
 namespace insonify {
 
+/// The complex factor xi of a scatterer's amplitude (E7).
 enum class SurfaceAmplitude {
   complex_normal,  ///< Rayleigh speckle, bound to the scatterer id (E9)
   random_phase,    ///< unit amplitude, random phase
@@ -19,6 +20,7 @@ enum class SurfaceAmplitude {
   mean_power       ///< 1 in water and boundaries too: for expected intensities, where phases do not count
 };
 
+/// Patterns of the head, and amplitudes of the surface.
 struct EchoOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
   ElevationShape elevation_shape = ElevationShape::gaussian;

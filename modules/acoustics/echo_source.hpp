@@ -17,7 +17,9 @@ struct EchoSource {
     std::size_t size;
     double min_range, max_range;
   };
+  /// Takes the patches and echoes of a chunk.
   using Visitor = std::function<void(const Scatterers&, const Echoes&)>;
+  /// Returns whether a patch is wanted.
   using Filter = std::function<bool(const PatchPlace&)>;
 
   std::vector<Chunk> chunks;

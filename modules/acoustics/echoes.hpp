@@ -14,7 +14,9 @@ struct Echoes {
   std::vector<double> v{};        ///< direction cosine upwards, sin(el); empty: not needed, the head has one elevation
   std::vector<double> doppler{};  ///< shift of the carrier [Hz], positive when closing; empty: nothing moves
 
+  /// Returns the number of echoes.
   std::size_t size() const { return delay.size(); }
+  /// Returns the shift of echo i [Hz]; 0 if nothing moves.
   double doppler_of(std::size_t i) const { return doppler.empty() ? 0 : doppler[i]; }
 };
 

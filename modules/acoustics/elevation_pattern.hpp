@@ -3,6 +3,7 @@
 
 namespace insonify {
 
+/// Shape of a head's pattern in elevation (E14).
 enum class ElevationShape {
   gaussian,  ///< main lobe only: -3 dB at half the width, -12 dB at the width, no side lobes
   line,      ///< uniform line aperture of that -3 dB width: sinc with side lobes from -13 dB

@@ -14,6 +14,7 @@ namespace insonify {
 struct LegPair {
   std::uint8_t out = 0, back = 0;
 
+  /// Returns the number of legs by a boundary: 0, 1 or 2.
   int bounces() const { return (out != 0) + (back != 0); }
   bool operator==(const LegPair&) const = default;
 };
@@ -36,6 +37,7 @@ struct View {
   SamplingOptions sampling;
 };
 
+/// Options of multipath_echoes.
 struct MultipathOptions {
   /// Captured surfels that lie (within 60 degrees) along a boundary and are nearer to it than this [m], and three times
   /// its rms relief, are taken for the boundary itself: they neither block a bounce off it nor give an echo by one.

@@ -6,6 +6,7 @@
 
 namespace insonify {
 
+/// Kind of the transmitted pulse.
 enum class PulseShape {
   gaussian,  ///< a short burst, as the receiver's filter passes it
   linear_fm  ///< a sweep of the bandwidth, compressed by a matched filter
@@ -17,6 +18,7 @@ enum class ReplicaWindow { uniform, hann, hamming };
 
 /// As sonar files spell them: "gaussian", "linear_fm"; "uniform", "hann", "hamming".
 const char* pulse_shape_name(PulseShape shape);
+/// The same of a window.
 const char* replica_window_name(ReplicaWindow window);
 
 /// The transmitted pulse as it leaves the receiver's filter: unit envelope peak, so that the level of an echo's peak is

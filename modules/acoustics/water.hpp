@@ -21,6 +21,7 @@ void require_valid(const Water& water, const char* who);
 /// 35 psu) of Leroy and Parthiot (1998, E24), 0..12000 m. A lake has up to 3 % less.
 double gauge_pressure(const Water& water);
 
+/// Formulas of sound_speed.
 enum class SoundSpeedFormula { unesco, mackenzie, leroy };
 
 /// Sound speed [m/s].
@@ -32,6 +33,7 @@ enum class SoundSpeedFormula { unesco, mackenzie, leroy };
 /// refuses, and where the result is not > 0.
 double sound_speed(const Water& water, SoundSpeedFormula formula = SoundSpeedFormula::unesco);
 
+/// Formulas of absorption_db_per_m.
 enum class AbsorptionFormula { francois_garrison, fisher_simmons, ainslie_mccolm };
 
 /// Absorption of sound [dB/m] at `frequency` [Hz].

@@ -35,6 +35,7 @@ BeamPatternReport measure_beam_pattern(const LineArray& array, double wavelength
 struct BeamPatternCurve {
   std::vector<double> azimuth, level_db;
 };
+/// Returns the curve of the beam steered to azimuth `steering` [rad].
 BeamPatternCurve beam_pattern_curve(const LineArray& array, double wavelength, double steering);
 
 }  // namespace insonify

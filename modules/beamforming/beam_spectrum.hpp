@@ -14,6 +14,7 @@ struct BeamSpectrum {
   std::vector<double> density;    ///< [Pa^2/Hz]
 };
 
+/// Options of beam_spectrum.
 struct BeamSpectrumOptions {
   double centre_frequency = 0;  ///< [Hz]
   std::size_t segment = 0;      ///< samples per segment, even; 0: a power of two near a 64th of the series, 64 to 1024

@@ -14,6 +14,7 @@ enum class Wavefront {
 /// The tolerances that series and beams of elements can keep.
 constexpr double min_element_tolerance = 1e-12, max_element_tolerance = 0.1;
 
+/// Options of element_series and beam_from_elements.
 struct ElementOptions {
   double tolerance =
       1e-4;  ///< relative error of series and beams, within min_element_tolerance and max_element_tolerance

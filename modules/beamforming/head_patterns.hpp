@@ -25,7 +25,9 @@ double sampled_half_extent(const SonarHead& head, double floor_db);
 /// row's own elevation: the response of the head's column (E56) if it has one, else the elevation pattern (E14).
 class RowResponse {
  public:
+  /// Keeps a reference to `head`, which must outlive it; wavelength [m], row_elevation [rad].
   RowResponse(const SonarHead& head, double wavelength, double row_elevation);
+  /// Returns the response to an echo with upward direction cosine v.
   double at(double v);
 
  private:

@@ -9,6 +9,7 @@ struct LineArray {
   double spacing = 0;           ///< between neighbouring elements [m]
   std::vector<double> shading;  ///< one real weight per element, symmetric, sum = number of elements
 
+  /// Returns the number of elements.
   std::size_t elements() const { return shading.size(); }
 };
 

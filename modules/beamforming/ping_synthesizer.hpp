@@ -50,6 +50,7 @@ class PingSynthesizer {
   /// again for each slab of bins that they reach into.
   ComplexGrid pressure_of(const EchoSource& source) const;
 
+  /// Returns what the constructor has chosen for head, medium and tolerance.
   SynthesisChoice choice() const;
   /// Returns true if `pressure` sums these echoes directly; decided by a cost model, never by measured time.
   bool sums_directly(const Echoes& echoes) const;

@@ -18,12 +18,14 @@ struct SplitAperture {
 /// planar array, several rows of beams, or fewer than eight elements.
 SplitAperture split_aperture(const SonarHead& head, const char* who);
 
+/// Half of a split aperture.
 enum class ApertureSide { port, starboard };
 
 /// Returns the image of one half, beams x bins [Pa], as synthesize_gridded of an array at its own place: echoes arrive with
 /// the phase exp(+-i k b u) and beams are steered with exp(-+i k b u_b), b the half baseline (E92). Narrow band, far field.
 ComplexGrid half_pressure(const EchoSource& source, const SplitAperture& split, ApertureSide side, const Medium& medium,
                           const SynthesisOptions& options);
+/// The same of stored echoes.
 ComplexGrid half_pressure(const Echoes& echoes, const SplitAperture& split, ApertureSide side, const Medium& medium,
                           const SynthesisOptions& options);
 

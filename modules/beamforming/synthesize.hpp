@@ -11,6 +11,7 @@ namespace insonify {
 /// expected level without speckle (synthesize_intensity).
 enum class SynthesisMethod { gridded, direct, spectrum, element_exact, true_delays, incoherent };
 
+/// Options of all synthesizers.
 struct SynthesisOptions {
   double tolerance = 1e-4;  ///< relative L2 error of the image; pulses are cut below half this fraction of their peak
   int threads = 0;          ///< 0: all cores; the result does not depend on it

@@ -19,6 +19,7 @@ namespace insonify {
 Grid<double> synthesize_intensity(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                   const SynthesisOptions& options = {});
 
+/// Options of predict_level_error_db.
 struct LevelErrorOptions {
   double dynamic_range_db = 40;  ///< cells further below the strongest one are NaN; within (0, 50]
   int threads = 0;               ///< 0: all cores; the result does not depend on it

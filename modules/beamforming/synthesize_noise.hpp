@@ -7,6 +7,7 @@
 
 namespace insonify {
 
+/// Options of synthesize_noise.
 struct NoiseOptions {
   std::uint64_t seed = 1;
   std::int64_t ping = 0;  ///< number of the ping; every ping has its own noise

@@ -17,7 +17,9 @@ enum class ErrorKind {
 /// it violates and a remedy.
 class Error : public std::runtime_error {
  public:
+  /// Constructs an error of this kind and text; fail() composes the text.
   Error(ErrorKind kind, const std::string& text) : std::runtime_error(text), kind_(kind) {}
+  /// Returns the category.
   ErrorKind kind() const { return kind_; }
 
  private:

@@ -40,6 +40,7 @@ void require_valid(const Anchor& anchor, const char* who);
 
 /// Returns earth-centred, earth-fixed coordinates [m] (E90), and their inverse, good to 1e-9 m: longitude in (-pi, pi].
 Eigen::Vector3d ecef_of(const GeoPlace& place);
+/// The inverse of ecef_of.
 GeoPlace geo_place_of(const Eigen::Vector3d& ecef);
 
 /// Returns the place of a point of the world [m], whose plane z = 0 touches the ellipsoid at the anchor (E90): x points
@@ -71,6 +72,7 @@ double heading_of(const Georeference& reference, const Eigen::Vector3d& world, c
 
 /// Reads LAT,LON[,HEADING] in degrees, and a zone as 32N or 19S. Throw Error(argument) naming `option`, with the rule.
 Anchor parse_anchor(const std::string& text, const std::string& option);
+/// The same of a zone.
 UtmZone parse_utm_zone(const std::string& text, const std::string& option);
 
 }  // namespace insonify

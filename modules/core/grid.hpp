@@ -15,7 +15,9 @@ namespace insonify {
 template <typename T>
 using Grid = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Complex numbers in double precision, for synthesis.
 using ComplexGrid = Grid<std::complex<double>>;
+/// Complex numbers in single precision, as pings store them.
 using ComplexGridF = Grid<std::complex<float>>;
 
 }  // namespace insonify

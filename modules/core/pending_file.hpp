@@ -13,6 +13,7 @@ class PendingFile {
   /// Throws Error(file) if the folder of `path` does not exist or `path` is a folder.
   explicit PendingFile(const std::string& path);
 
+  /// Returns the path to write to until commit().
   const std::string& temporary() const { return path_.temporary(); }
   /// Writes the file from memory to the disk and renames it. Throws Error(file) if that fails.
   void commit();

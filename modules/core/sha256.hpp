@@ -10,6 +10,7 @@ namespace insonify {
 /// SHA-256 (FIPS 180-4) of bytes that are added piece by piece.
 class Sha256 {
  public:
+  /// Adds bytes after those added before.
   void add(std::string_view bytes);
   /// The digest of all that was added, in 64 hexadecimal digits. Call it once, last.
   std::string digest();
@@ -22,6 +23,7 @@ class Sha256 {
   std::uint64_t length_ = 0;
 };
 
+/// Returns the digest of `bytes` in 64 hexadecimal digits.
 std::string sha256_of(std::string_view bytes);
 
 /// The digest of a file's content. Throws Error(file) if it cannot be read.

@@ -17,6 +17,7 @@ INSONIFY_ALWAYS_INLINE double floor(double x) {
   const double n = nearest(x);
   return n > x ? n - 1 : n;
 }
+/// Smallest whole number that is not below x, for |x| < 2^51.
 INSONIFY_ALWAYS_INLINE double ceil(double x) {
   const double n = nearest(x);
   return n < x ? n + 1 : n;

@@ -26,6 +26,7 @@ class BedPoints {
  public:
   /// A grid of cells that holds `low` to `high`. Throws Error(argument) unless cell > 0 and at most 2^26 cells do.
   BedPoints(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell);
+  /// Adds a point of the world [m]; one outside the grid counts in the nearest cell.
   void add(const Eigen::Vector3d& point);
   /// The mean height of the points of each cell; of a cell without points that of the cells about it, which grow by
   /// factors of two until they hold some, bilinear between them. Throws Error(content) if no point was added.

@@ -24,9 +24,11 @@ struct BottomSoundings {
   std::vector<BottomMethod> method;
   std::vector<std::uint32_t> beam;
 
+  /// Returns the number of soundings.
   std::size_t size() const { return range.size(); }
 };
 
+/// Options of detect_bottom.
 struct BottomOptions {
   double sound_speed = 1500;        ///< at the head [m/s]
   double centre_frequency = 0;      ///< [Hz], with phase

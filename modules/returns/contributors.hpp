@@ -24,7 +24,9 @@ struct Contributors {
   std::vector<std::uint16_t> material;  ///< index into the scene's materials; `no_material` if unused
   std::vector<PathKind> path;
 
+  /// Returns true if contributors were not asked for.
   bool empty() const { return surfel.empty(); }
+  /// Returns the index of the k-th strongest contributor of a pixel into the arrays.
   std::size_t at(std::size_t beam, std::size_t bin, std::size_t k = 0) const {
     return (beam * bins + bin) * per_pixel + k;
   }

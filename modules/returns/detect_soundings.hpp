@@ -7,6 +7,7 @@
 
 namespace insonify {
 
+/// Thresholds of detect_soundings.
 struct DetectionOptions {
   double noise_floor_db = -std::numeric_limits<double>::infinity();  ///< noise level in a beam [dB re 1 uPa]
   double threshold_db = 11.4;       ///< above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)

@@ -18,6 +18,7 @@ struct SurfelEchoes {
   std::span<const LegPair> legs{};        ///< legs of every echo; empty: all direct
 };
 
+/// Options of find_contributors.
 struct ContributorOptions {
   int per_pixel = 4;      ///< contributors listed per pixel, 1 to 255
   double floor_db = -60;  ///< contributions may be omitted below this energy re the peak of beam or pulse [dB]

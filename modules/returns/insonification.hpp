@@ -22,9 +22,11 @@ struct Insonification {
       grazing_angle;         ///< largest angle between surface and direction of sound [rad]; pi/2: normal incidence
   std::vector<float> range;  ///< least range [m]
 
+  /// Returns the number of surfels of the scene.
   std::size_t size() const { return hits.size(); }
 };
 
+/// Options of add_ping and insonified_surfels.
 struct InsonificationOptions {
   /// Lowest response [dB] of a surfel's best beam to a part of it for the part to count as insonified, which excludes
   /// parts sampled beside the fan because of side lobes. The elevation pattern of a head with one row is not included:

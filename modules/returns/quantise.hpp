@@ -32,6 +32,7 @@ struct GreyWindow {
 /// min_db)/255 or /65535, and the largest value in the last step and above. Throws Error(argument) unless the window is
 /// finite with min_db < max_db, Error(content) for a level that is not a number.
 Grid<std::uint8_t> quantise_8(const Grid<float>& level_db, const GreyWindow& window);
+/// The same in 65535 steps.
 Grid<std::uint16_t> quantise_16(const Grid<float>& level_db, const GreyWindow& window);
 
 /// Returns the level at the middle of a grey value's step [dB], within half a step of the original for levels in the

@@ -19,6 +19,7 @@ struct Soundings {
   std::vector<std::uint32_t> bin;
   std::vector<std::uint32_t> material;  ///< of the strongest contributor
 
+  /// Returns the number of soundings.
   std::size_t size() const { return position.size(); }
 };
 

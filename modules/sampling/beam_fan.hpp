@@ -17,6 +17,7 @@ struct BeamFan {
   double elevation_width = 0;     ///< full -3 dB width in elevation [rad]; for a planar array that of the transmitter
   double row_width = 0;           ///< full -3 dB width in elevation of the beams of a planar array [rad]; 0: line array
 
+  /// Returns the number of beams.
   std::size_t beams() const { return azimuth.size(); }
 };
 
@@ -73,13 +74,16 @@ std::pair<double, double> azimuths_of(const Sector& sector);
 /// asks here.
 class SectorBounds {
  public:
+  /// Computes the edges of `sector` once.
   explicit SectorBounds(const Sector& sector);
 
   /// True if a sphere of radius `margin` [m] round p (head axes) may reach into the sector; exact for margin 0.
   bool holds(const Eigen::Vector3d& p, double margin = 0) const {
     return in_elevations(p, margin) && in_cones(p, margin);
   }
+  /// The part of holds() that the elevations of the sector decide.
   bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const;
+  /// The part of holds() that the cones of the sector decide.
   bool in_cones(const Eigen::Vector3d& p, double margin = 0) const;
 
  private:

@@ -21,6 +21,7 @@ struct Hole {
   double min_range = 0, max_range = 0;  ///< ranges of the surrounding surfels [m]
 };
 
+/// Result of find_holes.
 struct Holes {
   std::vector<Hole> holes;     ///< sorted by beam, then by elevation
   std::size_t directions = 0;  ///< number of directions tested

@@ -10,6 +10,7 @@
 
 namespace insonify {
 
+/// What a scatterer stands for.
 enum class SamplingKind {
   surfels,  ///< every visible surfel is a scatterer with its true area
   rays      ///< a fixed number of rays per beam, each with its solid angle
@@ -24,6 +25,7 @@ enum class Projection {
   automatic     ///< raster or kdtree, by estimated cost
 };
 
+/// Options of find_scatterers.
 struct SamplingOptions {
   SamplingKind kind = SamplingKind::surfels;
   Projection projection = Projection::automatic;
@@ -60,6 +62,7 @@ struct SamplingReport {
   std::size_t sparse_beams = 0;  ///< beams that see mainly surfels of which a main lobe holds fewer than four
 };
 
+/// Result of find_scatterers.
 struct Sampling {
   Scatterers scatterers;
   SamplingReport report;

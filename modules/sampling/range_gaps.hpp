@@ -19,6 +19,7 @@ struct RangeGaps {
   std::size_t empty = 0;  ///< of these, cells without a hit of the beam
   double widest = 0;      ///< longest run of empty cells [m]
 
+  /// Adds the counts of other beams and keeps the widest gap.
   void add(const RangeGaps& other);
 };
 

@@ -11,6 +11,7 @@ struct RangeGate {
   double bin_size = 0;   ///< [m]
 
   std::size_t bins() const;  ///< number of bins that covers max_range
+  /// Returns the range of the middle of a bin [m].
   double centre(std::size_t bin) const { return min_range + (static_cast<double>(bin) + 0.5) * bin_size; }
 };
 

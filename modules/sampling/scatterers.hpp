@@ -17,6 +17,7 @@ struct Scatterers {
   std::vector<std::uint64_t> id;        ///< surfel id x 2^32 + part; fixed to the scene, and so is the speckle
   std::vector<std::uint32_t> surfel;    ///< index of the surfel in the SceneCloud
 
+  /// Returns the number of scatterers.
   std::size_t size() const { return range.size(); }
 };
 

@@ -11,6 +11,7 @@
 
 namespace insonify {
 
+/// Size, density and seed of a built-in scene.
 struct BuiltInSceneOptions {
   std::size_t points = 200000;                         ///< requested number of surfels; met within 2 %
   Eigen::Vector2d size = Eigen::Vector2d(40.0, 40.0);  ///< [m]; plane: extent in x and y; wall: width and height

@@ -28,7 +28,9 @@ class PreparedScene {
   explicit PreparedScene(const SceneCloud& scene, int threads = 0);
   PreparedScene(SceneCloud&& temporary, int threads = 0) = delete;
 
+  /// Returns the scene given to the constructor.
   const SceneCloud& scene() const { return *scene_; }
+  /// Returns the blocks; together they hold every surfel once.
   std::span<const SurfelBlock> blocks() const { return blocks_; }
   /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
   std::span<const std::uint32_t> order() const { return order_; }

@@ -33,6 +33,7 @@ struct SceneCloud {
   bool normals_oriented = true;         ///< false: the sign of a normal has no meaning and both sides reflect
   std::optional<WholeScene> part_of{};  ///< set if this cloud is part of a larger scene
 
+  /// Returns the number of surfels.
   std::size_t size() const { return point.size(); }
 };
 
@@ -56,6 +57,7 @@ struct Bounds {
   Eigen::Vector3d min = Eigen::Vector3d::Constant(1e300);
   Eigen::Vector3d max = Eigen::Vector3d::Constant(-1e300);
 };
+/// Returns the bounding box of a scene.
 Bounds bounds(const SceneCloud& scene);
 
 }  // namespace insonify

@@ -18,11 +18,13 @@ struct Neighbour {
 /// points. Queries are const, may run concurrently, and do not depend on the number of threads.
 class SceneIndex {
  public:
+  /// Builds the tree over a copy of `points`.
   explicit SceneIndex(std::span<const Eigen::Vector3f> points);
   ~SceneIndex();
   SceneIndex(SceneIndex&&) noexcept;
   SceneIndex& operator=(SceneIndex&&) noexcept;
 
+  /// Returns the number of points.
   std::size_t size() const;
 
   /// Finds the k points nearest to `query`, sorted by distance; fewer if the index is smaller. A query point that is in

@@ -29,6 +29,7 @@ void require_valid(const SceneMesh& mesh, const char* who);
 
 /// Corners of a triangle, relative to the origin of its mesh [m].
 using Corners = std::array<Eigen::Vector3d, 3>;
+/// Returns the corners of a triangle of the mesh, by its number.
 Corners corners_of(const SceneMesh& mesh, std::size_t triangle);
 
 /// Area [m^2]; 0 if a corner is not finite, or the triangle is thinner than 1e-6 of its length.

@@ -7,6 +7,7 @@
 
 namespace insonify {
 
+/// Options of estimate_surfel_areas.
 struct AreaOptions {
   int neighbours = 16;  ///< nearest points whose bisectors bound a cell; at least 6
   int threads = 0;      ///< 0: all cores
@@ -20,6 +21,7 @@ struct AreaOptions {
 std::vector<float> estimate_surfel_areas(std::span<const Eigen::Vector3f> points,
                                          std::span<const Eigen::Vector3f> normals, const AreaOptions& options = {});
 
+/// Options of estimate_surfel_shapes.
 struct ShapeOptions {
   int neighbours =
       16;           ///< nearest points whose bisectors bound a cell seen from one place, twice as many else; at least 6
@@ -29,6 +31,7 @@ struct ShapeOptions {
   bool keep_strays = false;                    ///< strays keep the areas of their cells
 };
 
+/// Normals and areas of points, and what was found on the way.
 struct SurfelShapes {
   std::vector<Eigen::Vector3f> normal;  ///< unit vectors, on the side of the base normals
   std::vector<float> area;              ///< [m^2]

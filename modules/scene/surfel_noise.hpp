@@ -6,6 +6,7 @@
 
 namespace insonify {
 
+/// Options of estimate_surfel_noise.
 struct SurfelNoiseOptions {
   int neighbours = 16;  ///< nearest points, the point itself among them; at least 6
   int threads = 0;      ///< 0: all cores

@@ -4,6 +4,7 @@
 
 namespace insonify {
 
+/// Options of thin_scene.
 struct ThinningOptions {
   double normal_angle = radians(30);  ///< largest angle between the normals of a surfel and its representative [rad]
 };

@@ -9,6 +9,7 @@ namespace insonify {
 
 /// Contents of a cloud or mesh file before preparation.
 struct FileDescription {
+  /// A column of the file.
   struct Field {
     std::string name, type;  ///< e.g. "x", "float32"
   };

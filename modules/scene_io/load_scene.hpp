@@ -13,6 +13,7 @@
 
 namespace insonify {
 
+/// What a file does not say of itself, and how it is completed.
 struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< where the capture stood [m, world]; orients normals without sides
   int normal_neighbours = 32;                ///< for the planes of estimated normals
@@ -50,6 +51,7 @@ struct LoadReport {
   std::size_t outside_intervals = 0;         ///< surfels, or corners of a mesh, whose number lies in no interval
 };
 
+/// Result of load_scene.
 struct LoadedScene {
   SceneCloud scene;
   LoadReport report;

@@ -11,8 +11,11 @@ namespace insonify {
 
 /// Scenes from PCL clouds and meshes in memory: cleaned, completed and counted like files of load_scene.
 LoadedScene from_pcl(const pcl::PointCloud<pcl::PointNormal>& cloud, const LoadOptions& options = {});
+/// The same of points without normals, which are estimated.
 LoadedScene from_pcl(const pcl::PointCloud<pcl::PointXYZ>& cloud, const LoadOptions& options = {});
+/// The same of a cloud of any fields, taken by name and type.
 LoadedScene from_pcl(const pcl::PCLPointCloud2& cloud, const LoadOptions& options = {});
+/// The same of a mesh.
 LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options = {});
 
 /// Soundings as a PCL cloud with fields x y z level_db range azimuth elevation (float32) and ping beam bin material

@@ -8,6 +8,7 @@
 
 namespace insonify {
 
+/// Options of prepare_tiles.
 struct PrepareTilesOptions {
   LoadOptions load;
   std::size_t whole_points = 10'000'000;      ///< binary clouds with more points are streamed
@@ -15,6 +16,7 @@ struct PrepareTilesOptions {
   std::function<void(double)> progress = {};  ///< receives the completed fraction, 0..1; may throw to cancel
 };
 
+/// Result of prepare_tiles.
 struct PreparedTiles {
   LoadReport report;
   TileReport tiles;

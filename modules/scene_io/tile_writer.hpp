@@ -13,6 +13,7 @@
 
 namespace insonify {
 
+/// Options of TileWriter.
 struct TileWriterOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; points are stored relative to it
   std::vector<Material> materials = {Material{}};
@@ -25,6 +26,7 @@ struct TileWriterOptions {
   std::function<void(double)> progress{};  ///< receives the completed fraction of finish(), 0..1; may throw to cancel
 };
 
+/// What a .tiles file holds.
 struct TileReport {
   std::uint64_t surfels = 0, dropped_duplicates = 0, bytes = 0;
   std::size_t tiles = 0;

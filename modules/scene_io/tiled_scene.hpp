@@ -30,6 +30,7 @@ struct TileSelection {
   std::vector<std::uint32_t> tiles;
   std::size_t surfels = 0;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the loaded cloud
+  /// Returns the memory that loading them takes [bytes].
   double bytes_to_load() const { return 64.0 * static_cast<double>(surfels); }
 };
 
@@ -53,10 +54,12 @@ class TiledScene {
   ~TiledScene();
   TiledScene(TiledScene&&) noexcept;
 
+  /// Returns what the directory of the file says of the whole scene.
   const TiledSceneInfo& info() const;
 
   /// The tiles that may hold a surfel within the region.
   TileSelection select(const InsonifiedRegion& region) const;
+  /// All tiles.
   TileSelection select_all() const;
 
   /// The surfels of the selected tiles by ascending id, with the ids and order of the whole scene, and part_of set.

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "beamforming/sonar_head.hpp"
 #include "returns/ping.hpp"
+#include "simulate/simulation_options.hpp"
 
 namespace insonify {
 
@@ -20,6 +22,10 @@ struct Cube {
   std::string sonar;  ///< name of the head
   std::string insonify_version;
 };
+
+/// A cube for pings of `head` in `medium` (SimulatedPing::medium, or medium_of at the centre frequency) by `options`: every
+/// member but the pings, with the version of this library. Throws Error if head or medium are invalid.
+Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOptions& options = {});
 
 /// Writes /pressure (pings x beams x bins, compound {r, i} float32 [Pa]), /range [m, bin centres], /azimuth and
 /// /elevation [rad], /pose (pings x 4 x 4, world_from_head, row-major), /time [s], /ping (numbers) and the root

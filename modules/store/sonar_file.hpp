@@ -16,6 +16,7 @@ struct SonarNumber {
   std::string source;  ///< e.g. "datasheet DA-148-P01443-10"
 };
 
+/// A sonar as its file describes it.
 struct SonarFile {
   SonarSpec spec;
   std::string description;

@@ -10,6 +10,7 @@ namespace insonify {
 struct SurveyRunHead {
   std::string name;
   std::size_t pings = 0, pings_per_block = 1;
+  /// Returns the number of blocks that hold the pings.
   std::size_t blocks() const { return (pings + pings_per_block - 1) / pings_per_block; }
   bool operator==(const SurveyRunHead&) const = default;
 };
@@ -20,6 +21,7 @@ struct SurveyRun {
   std::vector<SurveyRunHead> heads;
 };
 
+/// Returns true if the folder holds a survey.toml.
 bool is_survey_run(const std::string& folder);
 
 /// Makes the folder of a survey, or checks that it is of this mission already. Throws Error(content) if it is of
@@ -33,8 +35,10 @@ SurveyRun load_survey_run(const std::string& folder);
 struct BlockFiles {
   std::string folder, cube, returns, coverage, mark, partial_cube, partial_returns;
 };
+/// Returns the paths of block `block`, from 0, of a head, below the folder of the survey.
 BlockFiles block_files(const std::string& run_folder, const std::string& head, std::int64_t block);
 
+/// A ping that could not be simulated, and why.
 struct FailedPing {
   std::int64_t number = 0;
   std::string reason;

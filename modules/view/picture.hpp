@@ -24,6 +24,7 @@ struct Mark {
   std::string text;
 };
 
+/// Size and style of a picture.
 struct PictureOptions {
   int width = 1400, height = 1050;  ///< [pixels]
   std::string title;

@@ -62,6 +62,7 @@ void save_series(const std::string& path, const std::vector<SeriesEntry>& entrie
 /// Polylines in space with scalar fields, as a structure of arrays.
 struct LineSet {
   std::vector<std::vector<Eigen::Vector3d>> points;  ///< of each line, world [m]
+  /// Numbers of the lines.
   struct Field {
     std::string name;
     std::vector<float> values;  ///< one per line

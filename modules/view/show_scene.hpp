@@ -41,6 +41,7 @@ enum class ScenePreset {
   side,       ///< from starboard of the head, forward to the right; without a head along world y, x to the right
   iso         ///< from above a corner, between -x and -y
 };
+/// From where a scene is looked at.
 struct SceneCamera {
   ScenePreset preset = ScenePreset::automatic;
   std::optional<Eigen::Vector3d> position, focal_point;  ///< [m, world]; both or neither, instead of the preset

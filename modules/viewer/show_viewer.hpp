@@ -9,6 +9,7 @@
 
 namespace insonify {
 
+/// How the viewer begins.
 struct ViewerOptions {
   int width = 1600, height = 1000;  ///< of the window [pixels]
   ViewerState start;

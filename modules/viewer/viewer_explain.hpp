@@ -30,6 +30,7 @@ struct PixelVisibility {
   std::optional<double> occluder_range;          ///< range of the nearest surfel that hides one of `hidden` [m]
   std::optional<std::uint32_t> occluder_surfel;  ///< its index
 };
+/// Returns the visibility at a sample; empty without a scene.
 PixelVisibility look_at_pixel(const ViewerData& data, const Ping& ping, PixelPlace place);
 
 /// Facts about one sample.
@@ -69,6 +70,7 @@ struct HeadView {
   std::size_t rays = 0, rays_open = 0;  ///< 16 per beam; rays_open: hit neither a surface nor a hole
   std::vector<Eigen::Vector3d> holes;   ///< holes of the scan found by the rays, world [m]
 };
+/// Returns the visibility of a scene from a head, by the sampling of `view`.
 HeadView look_from(const SceneCloud& scene, const View& view);
 
 /// The view in sentences, one per line, with the corresponding option --pose.

@@ -20,6 +20,7 @@ struct ViewerLayout {
 
 /// Names of the panels in scripts.
 enum class ViewerPanelName { fan, scene, ascan, history, facts, status };
+/// Returns the box of a panel.
 const Box& box_of(const ViewerLayout& layout, ViewerPanelName name);
 
 /// Layout of a window of width x height pixels; `with_scene` adds the 3-D panel. Throws Error(argument) for a window

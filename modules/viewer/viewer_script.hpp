@@ -8,6 +8,7 @@ namespace insonify {
 
 /// A user action, for pictures and tests of the viewer.
 struct ViewerEvent {
+  /// What happens.
   enum class Kind { click, drag, key, select, wait, screenshot, quit };
   Kind kind = Kind::quit;
   ViewerPanelName panel = ViewerPanelName::fan;  ///< of click and drag

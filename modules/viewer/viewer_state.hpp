@@ -33,6 +33,7 @@ std::string pose_option(const HeadPlace& head);
 struct Measure {
   bool active = false;
   std::vector<Eigen::Vector2d> points;  ///< none, one or two, [m] to starboard and forward of the head
+  /// Returns the distance [m]; 0 unless there are two points.
   double length() const { return points.size() == 2 ? (points[1] - points[0]).norm() : 0; }
 };
 
@@ -64,6 +65,7 @@ struct ViewerState {
 /// Action of the window in addition to drawing the new state.
 enum class ViewerRequest { none, screenshot, print_pose, reset_cameras, quit };
 
+/// What a key press gives.
 struct KeyAnswer {
   ViewerState state;
   ViewerRequest request = ViewerRequest::none;

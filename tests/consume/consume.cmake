@@ -1,15 +1,67 @@
-# Installs BUILD into a folder of its own, builds the stranger's project against it, and runs that.
+# Installs BUILD into a folder of its own and uses the library from there as strangers do: the program of docs/api.md, and a
+# project that takes every component.
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${WORK}/prefix)
 file(REMOVE_RECURSE ${WORK})
-foreach(step IN ITEMS
-    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${prefix}"
-    "${CMAKE_COMMAND};-S;${SOURCE};-B;${WORK}/build;-G;Ninja;-DCMAKE_PREFIX_PATH=${prefix};-DCMAKE_BUILD_TYPE=Debug;-Wno-dev"
-    "${CMAKE_COMMAND};--build;${WORK}/build"
-    "${WORK}/build/stranger"
-    "${prefix}/bin/insonify;sonars;p900-45")
-  execute_process(COMMAND ${step} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+function(run result_name)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "failed: ${step}\n${out}")
+    message(FATAL_ERROR "failed: ${ARGN}\n${out}")
+  endif()
+  set(${result_name} "${out}" PARENT_SCOPE)
+endfunction()
+set(configure ${CMAKE_COMMAND} -G Ninja -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Debug -Wno-dev)
+
+run(out ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+file(GLOB_RECURSE headers ${prefix}/include/*.hpp)
+list(LENGTH headers count)
+if(count LESS 80)
+  message(FATAL_ERROR "${prefix}/include has ${count} headers")
+endif()
+foreach(header IN LISTS headers)
+  file(STRINGS ${header} lines REGEX "^#include \"")
+  if(lines OR NOT header MATCHES "/include/insonify/")
+    message(FATAL_ERROR "${header}: ${lines}: users include <insonify/...> alone")
   endif()
 endforeach()
+
+# The page: its program runs, and needs no package of a side door.
+file(READ ${SOURCE}/../../docs/api.md page)
+foreach(block IN ITEMS "cmake:CMakeLists.txt" "cpp:my_ping.cpp")
+  string(REGEX MATCH "([a-z]+):(.*)" matched ${block})
+  set(name ${CMAKE_MATCH_2})
+  string(REGEX MATCH "\n```${CMAKE_MATCH_1}\n([^`]*)```" matched "${page}")
+  file(WRITE ${WORK}/page/${name} "${CMAKE_MATCH_1}")
+endforeach()
+run(out ${configure} -S ${WORK}/page -B ${WORK}/page/build)
+file(STRINGS ${WORK}/page/build/CMakeCache.txt found REGEX "^(VTK|PCL|HDF5|GDAL|tomlplusplus)_")
+if(found)
+  message(FATAL_ERROR "the component simulate asks for ${found}")
+endif()
+run(out ${CMAKE_COMMAND} --build ${WORK}/page/build)
+run(out ${WORK}/page/build/my_ping)
+if(NOT out MATCHES "^64 beams, [1-9][0-9]+ soundings, the first at")
+  message(FATAL_ERROR "my_ping prints ${out}")
+endif()
+
+# Every component has its row; one that is not there is named.
+file(GLOB_RECURSE config ${prefix}/lib/*/insonifyConfig.cmake)
+file(STRINGS ${config} components REGEX "^set\\(insonify_needs_")
+foreach(line IN LISTS components)
+  string(REGEX REPLACE "set\\(insonify_needs_([a-z_]+).*" "\\1" name "${line}")
+  if(NOT page MATCHES "\n\\| `${name}` \\|")
+    message(FATAL_ERROR "docs/api.md has no row for component ${name}")
+  endif()
+endforeach()
+string(REPLACE "COMPONENTS simulate" "COMPONENTS simulatte" text "${page}")
+string(REGEX MATCH "\n```cmake\n([^`]*)```" matched "${text}")
+file(WRITE ${WORK}/wrong/CMakeLists.txt "${CMAKE_MATCH_1}")
+execute_process(COMMAND ${configure} -S ${WORK}/wrong -B ${WORK}/wrong/build RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE out)
+if(result EQUAL 0 OR NOT out MATCHES "no component[ \n]+simulatte")
+  message(FATAL_ERROR "COMPONENTS simulatte gives ${out}")
+endif()
+
+run(out ${configure} -DTOUR=${SOURCE}/../../apps -S ${SOURCE} -B ${WORK}/build)
+run(out ${CMAKE_COMMAND} --build ${WORK}/build)
+run(out ${WORK}/build/stranger)
+run(out ${prefix}/bin/insonify sonars p900-45)

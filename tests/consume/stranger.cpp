@@ -2,11 +2,11 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include "core/units.hpp"
-#include "scene_io/pcl_bridge.hpp"
-#include "simulate/simulate_ping.hpp"
-#include "store/sonar_file.hpp"
-#include "view/picture.hpp"
+#include <insonify/core/units.hpp>
+#include <insonify/scene_io/pcl_bridge.hpp>
+#include <insonify/simulate/simulate_ping.hpp>
+#include <insonify/store/sonar_file.hpp>
+#include <insonify/view/picture.hpp>
 
 int main() {
   pcl::PointCloud<pcl::PointXYZ> cloud;

@@ -1,0 +1,54 @@
+# `cpack -G DEB` in the build folder of the release preset makes three packages for Debian 12; tests/packages.sh tries them.
+#   insonify          component program: tool, viewer, presets and materials, and what shells and desktops need
+#   libinsonify-dev   component development: headers, static libraries, files for find_package
+#   insonify-doc      component documentation: docs/, and the site if docs/make_site.sh has made it
+set(doc ${CMAKE_INSTALL_DATADIR}/doc)
+install(DIRECTORY docs DESTINATION ${doc}/insonify-doc COMPONENT documentation PATTERN "*.sh" EXCLUDE PATTERN "site" EXCLUDE)
+install(FILES README.md DESTINATION ${doc}/insonify-doc COMPONENT documentation)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/site/ DESTINATION ${doc}/insonify-doc/html COMPONENT documentation OPTIONAL)
+install(DIRECTORY apps/ DESTINATION ${doc}/libinsonify-dev/examples COMPONENT development FILES_MATCHING PATTERN "0[13]_*.cpp"
+  PATTERN "*/" EXCLUDE)
+foreach(of IN ITEMS program:insonify development:libinsonify-dev documentation:insonify-doc)
+  string(REGEX MATCH "(.*):(.*)" matched ${of})
+  install(FILES LICENSE DESTINATION ${doc}/${CMAKE_MATCH_2} RENAME copyright COMPONENT ${CMAKE_MATCH_1})
+  string(TOUPPER ${CMAKE_MATCH_1} component)
+  set(CPACK_DEBIAN_${component}_PACKAGE_NAME ${CMAKE_MATCH_2})
+  set(CPACK_DEBIAN_${component}_FILE_NAME DEB-DEFAULT)
+endforeach()
+
+set(CPACK_PACKAGE_NAME insonify)
+set(CPACK_PACKAGE_VENDOR "the insonify authors")
+set(CPACK_PACKAGE_CONTACT "the insonify authors <insonify@example.org>")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program development documentation)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+  WORLD_EXECUTE)
+
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "simulates imaging sonar on captured scenes: tool and viewer
+ Forward-looking, multibeam, side-scan and scanning sonar over point clouds and
+ meshes: complex time series per beam, sonar pictures, returns as point clouds.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# Pictures: letters, and OpenGL in software where there is no graphics card.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libegl-mesa0, libgl1-mesa-dri")
+
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "simulates imaging sonar on captured scenes: C++ library
+ Headers, static libraries and files for CMake's find_package(insonify).")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libfftw3-dev, liblz4-dev, pkg-config")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "insonify (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), cmake,
+ libhdf5-dev, libtomlplusplus-dev, libpcl-dev, libvtk9-dev, libgdal-dev, libglew-dev, libegl-dev, libx11-dev")
+string(REPLACE "\n" "" CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS}")
+
+set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "simulates imaging sonar on captured scenes: documentation
+ Walk through the program, file formats, equations and their verification,
+ accuracy, and the reference of the C++ library.")
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+include(CPack)
