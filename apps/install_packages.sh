@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that insonify needs and this machine lacks; says which and why. Run by apps/demo.sh and
-# tests/run.sh. With --tests also what the tests need, with --tidy what tests/tidy.sh needs. Uses sudo when not root.
+# tests/run.sh. With --tests also what the tests need, with --tidy what tests/tidy.sh needs, with --packages what
+# tests/packages.sh and docs/make_site.sh need. Uses sudo when not root.
 set -euo pipefail
 
 declare -A why=(
@@ -20,6 +21,9 @@ if [[ "${1:-}" == --tests ]]; then
     [python3-h5py]="cubes as Python reads them")
 fi
 if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
+if [[ "${1:-}" == --packages ]]; then
+  why+=([doxygen]="the site" [dpkg-dev]="dependencies of packages" [file]="dependencies of packages" [debootstrap]="a bare Debian to try packages in")
+fi
 
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${Package} ${Status}\n' "${!why[@]}" 2>/dev/null || true)

@@ -54,7 +54,8 @@ std::string data_folder() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const fs::path& folder : {program / "../share/insonify", program / "../../../data",
-                                 fs::path(INSONIFY_INSTALL_DATA), fs::path(INSONIFY_SOURCE_DATA)})
+                                 fs::path(INSONIFY_INSTALL_DATA), fs::path(INSONIFY_SOURCE_DATA),
+                                 fs::path("/usr/share/insonify")})  // of Debian's package, for users of the library
     if (is_data_folder(folder)) return folder.lexically_normal().string();
   fail(ErrorKind::file, "data files (sonars/, materials.toml) found neither beside the program nor in ",
        INSONIFY_INSTALL_DATA, "; set INSONIFY_DATA to their folder");

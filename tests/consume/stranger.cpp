@@ -1,12 +1,11 @@
 // What a user of PCL writes: a cloud in memory, a ping, soundings back as a PCL cloud.
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
 #include <insonify/core/units.hpp>
 #include <insonify/scene_io/pcl_bridge.hpp>
 #include <insonify/simulate/simulate_ping.hpp>
 #include <insonify/store/sonar_file.hpp>
 #include <insonify/view/picture.hpp>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 
 int main() {
   pcl::PointCloud<pcl::PointXYZ> cloud;
