@@ -6,8 +6,7 @@ set(doc ${CMAKE_INSTALL_DATADIR}/doc)
 install(DIRECTORY docs DESTINATION ${doc}/insonify-doc COMPONENT documentation PATTERN "*.sh" EXCLUDE PATTERN "site" EXCLUDE)
 install(FILES README.md DESTINATION ${doc}/insonify-doc COMPONENT documentation)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/site/ DESTINATION ${doc}/insonify-doc/html COMPONENT documentation OPTIONAL)
-install(DIRECTORY apps/ DESTINATION ${doc}/libinsonify-dev/examples COMPONENT development FILES_MATCHING PATTERN "0[13]_*.cpp"
-  PATTERN "*/" EXCLUDE)
+install(FILES apps/01_first_ping.cpp apps/03_many_pings.cpp DESTINATION ${doc}/libinsonify-dev/examples COMPONENT development)
 foreach(of IN ITEMS program:insonify development:libinsonify-dev documentation:insonify-doc)
   string(REGEX MATCH "(.*):(.*)" matched ${of})
   install(FILES LICENSE DESTINATION ${doc}/${CMAKE_MATCH_2} RENAME copyright COMPONENT ${CMAKE_MATCH_1})
@@ -32,14 +31,14 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
   WORLD_EXECUTE)
 
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "simulates imaging sonar on captured scenes: tool and viewer
- Forward-looking, multibeam, side-scan and scanning sonar over point clouds and
- meshes: complex time series per beam, sonar pictures, returns as point clouds.")
+Forward-looking, multibeam, side-scan and scanning sonar over point clouds and
+meshes: complex time series per beam, sonar pictures, returns as point clouds.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Pictures: letters, and OpenGL in software where there is no graphics card.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libegl-mesa0, libgl1-mesa-dri")
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "simulates imaging sonar on captured scenes: C++ library
- Headers, static libraries and files for CMake's find_package(insonify).")
+Headers, static libraries and files for CMake's find_package(insonify).")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libfftw3-dev, liblz4-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "insonify (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), cmake,
@@ -47,8 +46,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "insonify (= ${PROJECT_VERSION}-
 string(REPLACE "\n" "" CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS}")
 
 set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "simulates imaging sonar on captured scenes: documentation
- Walk through the program, file formats, equations and their verification,
- accuracy, and the reference of the C++ library.")
+Walk through the program, file formats, equations and their verification,
+accuracy, and the reference of the C++ library.")
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 include(CPack)
