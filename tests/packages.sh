@@ -57,6 +57,7 @@ END
 if [[ ${1:-} != --unpack && $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null &&
   debootstrap --variant=minbase bookworm "$work/root" "$mirror" >"$work/debootstrap.log" 2>&1; then
   mount -t proc proc "$work/root/proc"
+  echo 'Dpkg::Use-Pty "0";' >"$work/root/etc/apt/apt.conf.d/quiet"
   cp "${packages[@]}" "$work/try.sh" "$work/root/tmp/"
   inside() { chroot "$work/root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
   inside sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends /tmp/*.deb cmake g++ make >/dev/null'

@@ -21,7 +21,7 @@ void view(const std::vector<std::string>& arguments) {
   argv.push_back(nullptr);
   execvp(viewer.c_str(), argv.data());  // returns only if it failed
   fail(ErrorKind::runtime, "cannot start ", viewer, ": ", std::strerror(errno),
-       "; it is installed beside insonify, unless that was built without INSONIFY_VIEW");
+       "; it belongs beside insonify, where `cmake --build --preset release --target insonify-view` puts it");
 }
 
 }  // namespace

@@ -41,13 +41,16 @@ for my $path (grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp') {
 for my $path ('README.md', glob 'docs/*.md') {
   my $page = $path eq 'README.md' ? 'mainpage' : basename($path, '.md');
   my $folder = $path eq 'README.md' ? '' : 'docs/';
-  my ($fenced, $first, $text) = (0, 1, '');
+  my ($fenced, $first, $text, %seen) = (0, 1, '');
   for my $line (split /^/, slurp($path)) {
     if ($line =~ /^\s*```/) { $fenced = !$fenced; $line =~ s/```\w+/$line =~ m{```(cpp|cmake|toml)} && $1 eq 'cpp' ? '```{.cpp}' : '```'/e }
     if ($fenced) { $text .= $line; next }
     if ($line =~ /^(#+) (.*?)\s*$/) {
       my ($marks, $heading) = ($1, $2);
-      $line = "$marks $heading {#" . ($first ? $page : "$page-" . label($heading)) . "}\n";
+      my $label = $first ? $page : "$page-" . label($heading);
+      my $count = $seen{$label}++;
+      $label .= "-$count" if $count;
+      $line = "$marks $heading {#$label}\n";
       $first = 0;
     }
     # Pictures, then links.
