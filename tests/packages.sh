@@ -33,7 +33,9 @@ cat >"$work/try.sh" <<'END'
 set -euo pipefail
 prefix=${1:-}
 PATH=$prefix/usr/bin:$PATH
-cd "$(mktemp -d)"
+here=$(mktemp -d)
+trap 'rm -rf "$here"' EXIT
+cd "$here"
 insonify --version
 [[ $(insonify sonars | wc -l) -gt 40 ]]
 insonify make-scene harbour -o harbour.ply --points 50000
