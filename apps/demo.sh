@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a sonar picture: installs what is missing, builds the tool, makes the harbour scene, looks at it,
-# pings it, and names the files it wrote and what to try next. A second run installs and builds nothing again and replaces
-# the demo's own files.
+# From a bare Debian 12 to a sonar picture: installs what is missing, builds the tool, makes the harbour scene, looks at it and
+# pings it; then builds the viewer, and names the files it wrote and what to try next. A second run installs and builds
+# nothing again and replaces the demo's own files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 apps/install_packages.sh
 cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 rm -f build-configure.log
-cmake --build --preset release --target insonify  # the viewer and the tour of the API can wait
+cmake --build --preset release --target insonify
 
 mkdir -p out
 insonify=build/release/bin/insonify
@@ -20,12 +20,15 @@ show "$insonify" plan out/harbour.ply --sonar oculus-m750d --pose=$pose --range 
 show "$insonify" ping out/harbour.ply --sonar oculus-m750d --pose=$pose --range 1:40 -o out/harbour --force
 show "$insonify" image out/harbour --view fan -o out/harbour-fan.png --force
 
+cmake --build --preset release --target insonify-view
+show "$insonify" view out/harbour --screenshot out/harbour-viewer.png --force
+
 echo "insonify wrote:"
-ls -1 out/harbour.ply out/harbour/* out/harbour-fan.png
+ls -1 out/harbour.ply out/harbour/* out/harbour-*.png
 cat <<END
 
-Next, for example:
-  $insonify ping out/harbour.ply --sonar p900-45 --pose=$pose --range 1:30 --noise -o out/p900   # another sonar, with noise
-  $insonify image out/harbour --view ascan --beam 256 -o out/harbour-beam.png                   # one beam against range
-  cmake --build --preset release && $insonify view out/harbour                                  # the viewer
+Next, for example, after: cd out; export PATH="$PWD/build/release/bin:\$PATH"
+  insonify view harbour                                        # the viewer: click into the picture
+  insonify image harbour --view ascan --beam 256 -o beam.png   # one beam against range
+  insonify ping harbour.ply --sonar p900-45 --pose=$pose --range 1:30 --noise -o p900   # another sonar, with noise
 END

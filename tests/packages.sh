@@ -15,9 +15,6 @@ docs/make_site.sh build/site >/dev/null
 cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 rm -f build-configure.log
 cmake --build --preset release
-if cmake --build --preset release --target help | grep -q '^insonify_man:'; then
-  cmake --build --preset release --target insonify_man
-fi
 rm -rf build/release/packages
 (cd build/release && cpack -G DEB >cpack.log 2>&1) || { cat build/release/cpack.log; exit 1; }
 packages=(build/release/packages/*.deb)
@@ -44,7 +41,8 @@ insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 1:20 -o p
 insonify image ping --view ascan --beam 100 -o beam.png
 insonify view ping --screenshot view.png >/dev/null
 [[ -s beam.png && -s view.png ]]
-for file in applications/insonify-view.desktop doc/insonify/copyright doc/insonify-doc/README.md doc/insonify-doc/html/index.html; do
+for file in applications/insonify-view.desktop doc/insonify/copyright doc/insonify-doc/README.md doc/insonify-doc/html/index.html \
+  man/man1/insonify-ping.1 bash-completion/completions/insonify; do
   [[ -s $prefix/usr/share/$file ]] || { echo "no /usr/share/$file" >&2; exit 1; }
 done
 block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$prefix/usr/share/doc/insonify-doc/docs/api.md" | sed '1d;$d'; }

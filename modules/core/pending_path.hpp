@@ -16,7 +16,9 @@ class PendingPath {
   PendingPath(const PendingPath&) = delete;
   PendingPath& operator=(const PendingPath&) = delete;
 
+  /// Returns the path that was asked for.
   const std::string& target() const { return target_; }
+  /// Returns the path to write to until it is renamed.
   const std::string& temporary() const { return temporary_; }
 
   /// Writes the file or folder from memory to the disk (fsync), then gives it the target's name, whose old file is

@@ -25,6 +25,14 @@ foreach(header IN LISTS headers)
   endif()
 endforeach()
 
+foreach(file IN ITEMS man/man1/insonify.1 man/man1/insonify-make-scene.1 bash-completion/completions/insonify
+    zsh/vendor-completions/_insonify fish/vendor_completions.d/insonify.fish applications/insonify-view.desktop)
+  file(STRINGS ${prefix}/share/${file} lines LIMIT_COUNT 1)
+  if(NOT lines)
+    message(FATAL_ERROR "${prefix}/share/${file} is empty")
+  endif()
+endforeach()
+
 # The page: its program runs, and needs no package of a side door.
 file(READ ${SOURCE}/../../docs/api.md page)
 foreach(block IN ITEMS "cmake:CMakeLists.txt" "cpp:my_ping.cpp")
