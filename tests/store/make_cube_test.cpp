@@ -24,7 +24,7 @@ TEST(MakeCube, says_what_head_water_and_options_say) {
 
 TEST(MakeCube, refuses_a_head_without_beams_and_water_without_sound) {
   SonarHead head = small_head({});
-  EXPECT_THROW(make_cube(head, {.sound_speed = 0}), Error);
+  EXPECT_THROW(make_cube(head, Medium{0, {}}), Error);
   head.fan = {};
   EXPECT_THROW(make_cube(head, medium_of(Water{}, 450e3)), Error);
 }
