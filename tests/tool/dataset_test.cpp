@@ -70,7 +70,7 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
       EXPECT_EQ(png(form + "/masks/" + name).value.rows(), picture.value.rows());
     }
     for (const auto& a : c["annotations"]) {
-      EXPECT_TRUE(annotation_ids.insert(a["id"]).second);
+      EXPECT_TRUE(annotation_ids.insert(a["id"].get<int>()).second);
       const std::string name = name_of.at(a["image_id"]);
       const Grid<std::uint8_t> mask = decoded_mask(a["segmentation"]);
       const Grid<std::uint16_t> category = png(form + "/masks/" + name).value,
