@@ -125,7 +125,9 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
 
 TEST_F(DatasetRun, shadows_are_shadows_and_water_is_nothing) {
   succeed("dataset survey -o set");
-  for (const auto& image : coco("polar")["images"]) {
+  const nlohmann::json all = coco("polar");
+  ASSERT_FALSE(all["images"].empty());
+  for (const auto& image : all["images"]) {
     const std::string name = image["file_name"];
     const GreyPicture picture = png("polar/images/" + name);
     const Grid<std::uint16_t> mask = png("polar/masks/" + name).value;
@@ -226,7 +228,8 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
       "contributors -o balls");
   succeed("dataset balls -o set --least-pixels 30");
   std::map<int, std::set<int>> of_category;
-  for (const auto& a : coco("polar")["annotations"]) of_category[a["category_id"]].insert(a["instance"].get<int>());
+  const nlohmann::json all = coco("polar");
+  for (const auto& a : all["annotations"]) of_category[a["category_id"]].insert(a["instance"].get<int>());
   const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
   ASSERT_EQ(classes.size(), 4U);
   EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
