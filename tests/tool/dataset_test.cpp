@@ -56,7 +56,7 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
   std::set<int> annotation_ids;
   for (const std::string form : {"polar", "fan"}) {
     const nlohmann::json c = coco(form);
-    ASSERT_EQ(c["images"].size(), 5U);
+    ASSERT_EQ(c["images"].size(), 4U);
     EXPECT_EQ(c["categories"].size(), classes.size() - 1);
     std::map<int, std::string> name_of;
     std::size_t areas = 0;
@@ -70,7 +70,7 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
       EXPECT_EQ(png(form + "/masks/" + name).value.rows(), picture.value.rows());
     }
     for (const auto& a : c["annotations"]) {
-      EXPECT_TRUE(annotation_ids.insert(a["id"]).second);
+      EXPECT_TRUE(annotation_ids.insert(a["id"].get<int>()).second);
       const std::string name = name_of.at(a["image_id"]);
       const Grid<std::uint8_t> mask = decoded_mask(a["segmentation"]);
       const Grid<std::uint16_t> category = png(form + "/masks/" + name).value,
@@ -120,12 +120,14 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
       }
   }
   EXPECT_THAT(read("set/fan/data.yaml"), HasSubstr("train: train.txt\nnames:\n  0: \"shadow\"\n"));
-  EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000004.png\n"));
+  EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000003.png\n"));
 }
 
 TEST_F(DatasetRun, shadows_are_shadows_and_water_is_nothing) {
   succeed("dataset survey -o set");
-  for (const auto& image : coco("polar")["images"]) {
+  const nlohmann::json all = coco("polar");
+  ASSERT_FALSE(all["images"].empty());
+  for (const auto& image : all["images"]) {
     const std::string name = image["file_name"];
     const GreyPicture picture = png("polar/images/" + name);
     const Grid<std::uint16_t> mask = png("polar/masks/" + name).value;
@@ -162,8 +164,8 @@ TEST_F(DatasetRun, meta_says_pose_seed_mapping_and_what_was_randomised) {
     EXPECT_LE(std::abs(meta["randomised"]["source_level_db"].get<double>()), 3);
     levels.insert(meta["randomised"]["source_level_db"].get<double>());
   }
-  EXPECT_EQ(count, 5);
-  EXPECT_EQ(levels.size(), 5U);
+  EXPECT_EQ(count, 4);
+  EXPECT_EQ(levels.size(), 4U);
   EXPECT_THAT(read("set/README.md"), HasSubstr("| 1 | shadow |"));
 }
 
@@ -226,7 +228,8 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
       "contributors -o balls");
   succeed("dataset balls -o set --least-pixels 30");
   std::map<int, std::set<int>> of_category;
-  for (const auto& a : coco("polar")["annotations"]) of_category[a["category_id"]].insert(a["instance"].get<int>());
+  const nlohmann::json all = coco("polar");
+  for (const auto& a : all["annotations"]) of_category[a["category_id"]].insert(a["instance"].get<int>());
   const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
   ASSERT_EQ(classes.size(), 4U);
   EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
@@ -246,7 +249,7 @@ TEST_F(DatasetRun, refuses_runs_without_labels_and_wrong_options) {
   expect_refused("dataset survey -o harbour.ply", 4, {"harbour.ply"});
   // Looking away: masks are empty.
   succeed(
-      "ping harbour.ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,-89,0 --range 0.3:0.8 --no-picture -q "
+      "ping harbour.ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,-89,0 --range 2:4 --no-picture -q "
       "--keep contributors -o away");
   expect_refused("dataset away -o set", 3, {"no pixel of 1 images shows a surface"});
   write("bad.toml", mission("keep = [\"paths\"]\n"));
