@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <complex>
 #include <cstddef>
-#include <cstdlib>
 #include <new>
 #include <vector>
 

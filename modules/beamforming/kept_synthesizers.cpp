@@ -9,42 +9,39 @@
 #include "beamforming/wideband_synthesizer.hpp"
 
 namespace insonify {
-namespace {
-
-/// Synthesizers of one kind, the last used first.
-template <typename Synthesizer>
-class Shelf {
- public:
-  std::shared_ptr<const Synthesizer> of(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
-                                        std::size_t most) {
-    const std::scoped_lock lock(guard_);
-    const auto at = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-      return kept.head == head && kept.medium == medium && kept.options == options;
-    });
-    if (at != kept_.end()) {
-      kept_.splice(kept_.begin(), kept_, at);
-      return kept_.front().synthesizer;
-    }
-    auto made = std::make_shared<const Synthesizer>(head, medium, options);
-    kept_.push_front({head, medium, options, made});
-    while (kept_.size() > most) kept_.pop_back();
-    return made;
-  }
-
- private:
-  struct Kept {
-    SonarHead head;
-    Medium medium;
-    SynthesisOptions options;
-    std::shared_ptr<const Synthesizer> synthesizer;
-  };
-  std::mutex guard_;
-  std::list<Kept> kept_;
-};
-
-}  // namespace
 
 struct KeptSynthesizers::Shelves {
+  /// Synthesizers of one kind, the last used first.
+  template <typename Synthesizer>
+  class Shelf {
+   public:
+    std::shared_ptr<const Synthesizer> of(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
+                                          std::size_t most) {
+      const std::scoped_lock lock(guard_);
+      const auto at = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+        return kept.head == head && kept.medium == medium && kept.options == options;
+      });
+      if (at != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, at);
+        return kept_.front().synthesizer;
+      }
+      auto made = std::make_shared<const Synthesizer>(head, medium, options);
+      kept_.push_front({head, medium, options, made});
+      while (kept_.size() > most) kept_.pop_back();
+      return made;
+    }
+
+   private:
+    struct Kept {
+      SonarHead head;
+      Medium medium;
+      SynthesisOptions options;
+      std::shared_ptr<const Synthesizer> synthesizer;
+    };
+    std::mutex guard_;
+    std::list<Kept> kept_;
+  };
+
   std::size_t most;
   Shelf<PingSynthesizer> narrow_band;
   Shelf<PlanarSynthesizer> planar;

@@ -12,10 +12,10 @@ namespace {
 using Complex = std::complex<double>;
 using RowMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr std::size_t nodes_of_band = WidebandPlan::band_nodes;
-constexpr double share = 0.5;        // of the tolerance, for the terms left out
-constexpr double node_share = 0.05;  // of the tolerance, for nodes in range
-constexpr double power_share = 0.1;  // of the tolerance, for powers of frequency
-constexpr double nothing = 1e-20;    // square of a part of a series that does not count
+constexpr double share = 0.4;         // of the tolerance, for the terms left out
+constexpr double node_share = 0.05;   // of the tolerance, for nodes in range
+constexpr double power_share = 0.02;  // of the tolerance, for powers of frequency
+constexpr double nothing = 1e-20;     // square of a part of a series that does not count
 
 double chebyshev_node(std::size_t j, std::size_t n) {
   return std::cos(pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n));
