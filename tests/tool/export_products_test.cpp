@@ -230,9 +230,7 @@ TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
 TEST_F(ExportProducts, soundings_can_be_looked_at) {
   succeed("image out --view soundings -o soundings.png -q");
   EXPECT_EQ(read("soundings.png").substr(1, 3), "PNG");
-  write("plane.obj", "v 100 0 0\nv 101 0 0\nv 100 1 0\nf 1 2 3\n");
-  succeed(
-      "ping plane.obj --sonar p900-45 --set sonar.beams=8 --pose=0,0,9,0,0,0 --range 1:3 --no-picture -q -o silent");
+  succeed("ping ball.ply --sonar p900-45 --set sonar.beams=8 --pose=0,0,9,0,0,0 --range 1:3 --no-picture -q -o silent");
   expect_refused("image silent --view soundings -o none.png", 3, {"has no sounding of the bottom"});
 }
 

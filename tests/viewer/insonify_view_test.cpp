@@ -112,7 +112,7 @@ TEST_F(InsonifyView, shows_the_returns_of_a_run) {
   save_soundings(path("out/returns.ply"), soundings);
   const Soundings back = load_soundings(path("out/returns.ply"));
   const auto fields = [](const auto& x) {
-    return std::tie(x.position, x.level_db, x.elevation, x.ping, x.bin, x.material);
+    return std::tie(x.position, x.level_db, x.elevation, x.ping, x.bin, x.true_material);
   };
   EXPECT_EQ(fields(back), fields(soundings));
   succeed("view out --size 800x600 --screenshot a.png -q");
