@@ -97,7 +97,6 @@ void dataset(const DatasetOptions& o) {
     const DatasetSource& source = sources[s];
     progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
     for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping) {
-      progress.check();
       writer.add(source, cube, ping, fmt::format("{:03}_{:06}", s, ping.number));
     });
   }

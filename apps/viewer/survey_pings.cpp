@@ -46,11 +46,8 @@ struct CubeList {
     if (c != returns_of) returns = fs::exists(cubes[c].returns) ? load_soundings(cubes[c].returns) : Soundings{};
     returns_of = c;
     Soundings own;
-    for (std::size_t i = 0; i < returns.size(); ++i) {
-      if (static_cast<std::int64_t>(returns.ping[i]) != number[ping]) continue;
-      own.position.push_back(returns.position[i]);
-      each_column([i](const char*, auto& to, const auto& from) { to.push_back(from[i]); }, own, returns);
-    }
+    for (std::size_t i = 0; i < returns.size(); ++i)
+      if (static_cast<std::int64_t>(returns.ping[i]) == number[ping]) append_row(own, returns, i);
     return own;
   }
 };

@@ -1,7 +1,6 @@
 // Drawing of a ViewerWindow's state, restricted to what has changed.
 
 #include <algorithm>
-#include <cmath>
 
 #include "view/axes_internal.hpp"
 #include "view/off_screen_internal.hpp"
@@ -18,16 +17,6 @@ bool same_colours(const ViewerState& a, const ViewerState& b) {
 }
 
 bool same_levels(const ViewerState& a, const ViewerState& b) { return a.ping == b.ping && same_colours(a, b); }
-
-// The beam that is shown first: the middle one, of a head with rows of beams that of the middle row.
-std::size_t middle_beam(const BeamFan& fan) {
-  if (fan.row_width == 0) return fan.beams() / 2;
-  const auto off = [&](std::size_t b) { return std::hypot(fan.azimuth[b], fan.elevation[b]); };
-  std::size_t middle = 0;
-  for (std::size_t b = 1; b < fan.beams(); ++b)
-    if (off(b) < off(middle)) middle = b;
-  return middle;
-}
 
 }  // namespace
 
