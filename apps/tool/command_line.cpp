@@ -120,26 +120,35 @@ int run_command_line(int argc, char** argv) {
   return 0;
 }
 
-/// Writes what is left of stdout. Returns false if its reader has gone, as that of `insonify info x | head -1`. Throws
-/// Error(file) if it cannot be written.
-bool finish_output() {
-  errno = 0;
-  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
-  if (errno == EPIPE) return false;
-  fail(ErrorKind::file, "the output cannot be written: ", std::generic_category().message(errno ? errno : EIO),
+/// Exit code where stdout cannot be written: that of SIGPIPE if its reader has gone, as that of `insonify info x | head -1`.
+/// Throws Error(file) for any other reason.
+int failed_output(int reason) {
+  if (reason == EPIPE) return 128 + SIGPIPE;
+  fail(ErrorKind::file, "the output cannot be written: ", std::generic_category().message(reason ? reason : EIO),
        "; the results are kept in the files that were named, but not what was to be printed");
+}
+
+/// Runs the verb and writes what is left of stdout.
+int run_and_flush(int argc, char** argv) {
+  try {
+    const int exit_code = run_command_line(argc, argv);
+    errno = 0;
+    return std::fflush(stdout) == 0 && !std::ferror(stdout) ? exit_code : failed_output(errno);
+  } catch (const std::system_error& error) {  // of fmt::print
+    if (!std::ferror(stdout)) throw;
+    return failed_output(error.code().value());
+  } catch (...) {
+    wait_for_end();
+    throw;
+  }
 }
 
 }  // namespace
 
 int run_tool(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing
-  return run_program(
-      [&] {
-        const int exit_code = run_command_line(argc, argv);
-        return finish_output() ? exit_code : 128 + SIGPIPE;
-      },
-      "use a smaller scene, fewer scatterers per cell or a shorter range");
+  return run_program([&] { return run_and_flush(argc, argv); },
+                     "use a smaller scene, fewer scatterers per cell or a shorter range");
 }
 
 }  // namespace insonify::tool

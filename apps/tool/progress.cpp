@@ -13,7 +13,7 @@ namespace insonify::tool {
 namespace {
 
 constexpr const char* nothing_kept = "nothing was written";
-std::atomic<bool> interrupted{false};
+std::atomic<bool> interrupted{false}, ending{false};
 std::atomic<const char*> kept_at_once{nothing_kept};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -38,6 +38,7 @@ void wait_for_interrupts() {
   if (kept_at_once.load() != nothing_kept)
     while (sigwait(&set, &signal) != 0) {
     }
+  ending = true;
   discard_pending_paths();
   std::fprintf(stderr, "%sinsonify: interrupted; %s\n", isatty(STDERR_FILENO) ? "\r\033[K" : "", kept_at_once.load());
   _exit(130);
@@ -52,6 +53,10 @@ void end_on_interrupt() {
 }
 
 void finish_on_interrupt(const char* kept) { kept_at_once = kept; }
+
+void wait_for_end() {
+  while (ending) pause();
+}
 
 bool is_interrupted() { return interrupted; }
 

@@ -14,6 +14,9 @@ void end_on_interrupt();
 /// what is done. The second one ends the program at once; `kept` says what is left then.
 void finish_on_interrupt(const char* kept);
 
+/// Never returns if an interrupt is ending the program: for errors that only follow from that.
+void wait_for_end();
+
 /// Whether an interrupt was noted.
 bool is_interrupted();
 

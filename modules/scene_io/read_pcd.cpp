@@ -186,6 +186,8 @@ pcl::PCLPointCloud2 read_data(const Header& header, std::size_t checked_bytes) {
   try {
     std::istringstream stream(bytes);
     result = reader.readHeader(stream, cloud, origin, orientation, version, type, begin);
+    stream.clear();
+    stream.seekg(begin);
     if (result == 0 && type == 0) result = reader.readBodyASCII(stream, cloud, version);
     if (result == 0 && type != 0)
       result =

@@ -91,7 +91,7 @@ TEST_F(Help, is_a_verb_too_and_unknown_verbs_are_corrected) {
   expect_refused("pnig", 2, {"unknown verb 'pnig'; did you mean 'ping'?", "insonify --help"});
   expect_refused("bogus --help", 2, {"unknown verb 'bogus'"});
   expect_refused("help bogus", 2, {"unknown verb 'bogus'"});
-  EXPECT_THAT(run("man pign").err, HasSubstr("unknown verb 'pign'; did you mean 'ping'?"));
+  EXPECT_THAT(run("man pnig").err, HasSubstr("unknown verb 'pnig'; did you mean 'ping'?"));
   EXPECT_EQ(run("completion csh").exit_code, 2);
 }
 

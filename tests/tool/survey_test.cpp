@@ -90,7 +90,7 @@ TEST_F(Survey, returns_know_time_head_ping_and_beam) {
   std::size_t rows = 0;
   std::istringstream(header.substr(header.find("vertex ") + 7)) >> rows;
   EXPECT_GT(rows, 20U);
-  EXPECT_EQ(ply.size(), header.size() + 11 + rows * (3 * 8 + 8 * 4 + 8 + 4));
+  EXPECT_EQ(ply.size(), header.size() + 11 + rows * (3 * 8 + 10 * 4 + 8 + 4));
 }
 
 // Another reader than our own.
