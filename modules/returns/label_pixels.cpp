@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -78,18 +76,20 @@ void label_pixel(const Contributors& c, const PixelCells& cells, const SurfelPla
     }
 }
 
-// The beams of a row by ascending direction cosine, and half the way to their neighbours.
+// The beams of a row by ascending direction cosine, with half the way to their neighbours.
 struct BeamRow {
-  double elevation = 0, half_step = 0;
+  double elevation = 0, reach = 0, half_step = 0;
   std::vector<std::pair<double, std::size_t>> beams;
 };
 
 std::vector<BeamRow> beam_rows(const BeamFan& fan) {
+  const bool planar = fan.row_width > 0;
   std::vector<BeamRow> rows;
   for (const FanRow& fan_row : fan_rows(fan)) {
-    BeamRow row{fan_row.elevation, 0.5 * fan.beam_width, {}};
+    BeamRow row{fan_row.elevation, planar ? 0.5 * fan.row_width : 0.5 * fan.elevation_width, 0, {}};
     for (const std::size_t beam : fan_row.beams) row.beams.emplace_back(direction_cosine(fan, beam), beam);
     std::sort(row.beams.begin(), row.beams.end());
+    row.half_step = 0.5 * fan.beam_width;
     for (std::size_t b = 1; b < row.beams.size(); ++b)
       row.half_step = std::max(row.half_step, 0.5 * (row.beams[b].first - row.beams[b - 1].first));
     rows.push_back(std::move(row));
@@ -97,68 +97,27 @@ std::vector<BeamRow> beam_rows(const BeamFan& fan) {
   return rows;
 }
 
-// Marks the cells of some surfels: half the way to the next beams or half a beam width, and `half_bin` in range, to either
-// side, beside the surfel's own radius; of surfels between two elevations from that of the row.
-Grid<std::uint8_t> cells_of(const SurfelPlaces& at, const std::vector<std::uint32_t>& surfels, const PixelCells& cells,
-                            double half_bin, std::pair<double, double> elevations) {
+// Marks as shadow the unlabelled pixels that hold surface.
+void mark_shadows(const SurfelPlaces& at, const PixelCells& cells, PixelLabels& labels) {
   const RangeGate& gate = cells.gate;
-  const auto bins = static_cast<double>(gate.bins());
-  Grid<std::uint8_t> marked =
-      Grid<std::uint8_t>::Zero(static_cast<Eigen::Index>(cells.fan.beams()), static_cast<Eigen::Index>(gate.bins()));
+  const auto bins = static_cast<double>(labels.material.cols());
   const std::vector<BeamRow> rows = beam_rows(cells.fan);
-  for (const std::uint32_t i : surfels) {
-    const double range = static_cast<double>(at.range[i]), radius = static_cast<double>(at.radius[i]),
-                 reach_in_range = radius + half_bin;
-    const double first = std::max(0.0, std::floor((range - reach_in_range - gate.min_range) / gate.bin_size));
-    const double last = std::min(bins - 1, std::floor((range + reach_in_range - gate.min_range) / gate.bin_size));
+  for (std::size_t i = 0; i < at.range.size(); ++i) {
+    const double range = static_cast<double>(at.range[i]), radius = static_cast<double>(at.radius[i]);
+    const double first = std::max(0.0, std::floor((range - radius - gate.min_range) / gate.bin_size));
+    const double last = std::min(bins - 1, std::floor((range + radius - gate.min_range) / gate.bin_size));
     if (first > last) continue;
     const double u = static_cast<double>(at.u[i]), turn = radius / range;
     for (const BeamRow& row : rows) {
-      const double above = static_cast<double>(at.elevation[i]) - row.elevation;
-      if (above < elevations.first - turn || above > elevations.second + turn) continue;
+      if (std::abs(static_cast<double>(at.elevation[i]) - row.elevation) > row.reach + turn) continue;
       const double reach = std::max(row.half_step, turn);
       auto beam = std::lower_bound(row.beams.begin(), row.beams.end(), std::pair(u - reach, std::size_t{0}));
       for (; beam != row.beams.end() && beam->first <= u + reach; ++beam)
-        marked.row(static_cast<Eigen::Index>(beam->second))
-            .segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first) + 1) = 1;
+        for (double n = first; n <= last; ++n) {
+          auto& material = labels.material(static_cast<Eigen::Index>(beam->second), static_cast<Eigen::Index>(n));
+          if (material == PixelLabels::nothing) material = PixelLabels::shadow;
+        }
     }
-  }
-  return marked;
-}
-
-// The surfels that are heard on the direct path somewhere in the ping.
-std::vector<std::uint32_t> heard_surfels(const Contributors& c) {
-  std::vector<std::uint32_t> heard;
-  for (std::size_t i = 0; i < c.surfel.size(); ++i)
-    if (c.surfel[i] != Contributors::none && c.path[i] == PathKind::direct) heard.push_back(c.surfel[i]);
-  std::sort(heard.begin(), heard.end());
-  heard.erase(std::unique(heard.begin(), heard.end()), heard.end());
-  return heard;
-}
-
-// Takes their material from pixels in whose cell no surfel is heard: they are shadow if surface lies there, else nothing.
-void mark_shadows(const SurfelPlaces& at, const Contributors& contributors, const PixelCells& cells,
-                  PixelLabels& labels) {
-  const bool planar = cells.fan.row_width > 0;
-  const double half = 0.5 * (planar ? cells.fan.row_width : cells.fan.elevation_width), all_round = std::numbers::pi;
-  const std::vector<std::uint32_t> heard_ones = heard_surfels(contributors);
-  const std::pair every = planar ? std::pair(-half, half) : std::pair(-all_round, all_round);
-  const Grid<std::uint8_t> heard = cells_of(at, heard_ones, cells, 0.5 * cells.range_resolution, every);
-
-  // Elevations from which a line array hears something can be in shadow, beyond those of its main lobe.
-  std::pair<double, double> elevations{-half, half};
-  for (const std::uint32_t i : planar ? std::vector<std::uint32_t>{} : heard_ones) {
-    const double above = static_cast<double>(at.elevation[i]) - cells.fan.elevation.front();
-    elevations = {std::min(elevations.first, above), std::max(elevations.second, above)};
-  }
-  std::vector<std::uint32_t> all(at.range.size());
-  std::iota(all.begin(), all.end(), 0U);
-  const Grid<std::uint8_t> surface = cells_of(at, all, cells, 0, elevations);
-  for (Eigen::Index i = 0; i < heard.size(); ++i) {
-    if (heard(i)) continue;
-    labels.material(i) = surface(i) ? PixelLabels::shadow : PixelLabels::nothing;
-    labels.id(i) = PixelLabels::no_id;
-    labels.share(i) = 0;
   }
 }
 
@@ -196,7 +155,7 @@ PixelLabels label_pixels(const SceneCloud& scene, const Contributors& contributo
   const SurfelPlaces at = places_of(scene, cells.world_from_head);
   for (std::size_t beam = 0; beam < contributors.beams; ++beam)
     for (std::size_t bin = 0; bin < contributors.bins; ++bin) label_pixel(contributors, cells, at, beam, bin, labels);
-  mark_shadows(at, contributors, cells, labels);
+  mark_shadows(at, cells, labels);
   return labels;
 }
 

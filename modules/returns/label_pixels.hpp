@@ -18,9 +18,9 @@ struct PixelCells {
 
 /// Labels the pixels of a ping by its strongest contributors (E125). A contributor is in the cell of a pixel if its path is
 /// direct and its surfel lies, but for its own radius, within a range resolution and a beam width (in direction cosine; of
-/// planar arrays a row width, too) of bin and beam. A pixel has the material that has most energy in its cell, if a surfel that is
-/// heard lies within half a beam width and half a range resolution. One without is shadow if surface lies in it nevertheless: a
-/// surfel within half the elevation width or the elevations of what is heard, half way to the next beams, and its own radius in range; else nothing. Shares are of the energy of the contributors that are listed.
+/// planar arrays a row width, too) of bin and beam. A pixel has the material that has most energy in its cell. One without
+/// any is shadow if surface lies in it nevertheless: a surfel within half the elevation width, half way to the
+/// next beams, and its own radius in range; else nothing. Shares are of the energy of the contributors that are listed.
 /// Throws Error(argument) for contributors of another extent or scene.
 PixelLabels label_pixels(const SceneCloud& scene, const Contributors& contributors, const PixelCells& cells);
 

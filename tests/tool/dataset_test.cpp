@@ -123,29 +123,6 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
   EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000003.png\n"));
 }
 
-TEST_F(DatasetRun, shadows_are_shadows_and_water_is_nothing) {
-  succeed("dataset survey -o set");
-  const nlohmann::json all = coco("polar");
-  ASSERT_FALSE(all["images"].empty());
-  for (const auto& image : all["images"]) {
-    const std::string name = image["file_name"];
-    const GreyPicture picture = png("polar/images/" + name);
-    const Grid<std::uint16_t> mask = png("polar/masks/" + name).value;
-    const auto median = [&](const auto& where) {
-      std::vector<int> grey;
-      for (Eigen::Index i = 0; i < mask.size(); ++i)
-        if (where(mask(i))) grey.push_back(picture.value(i));
-      if (grey.empty()) return -1;
-      std::nth_element(grey.begin(), grey.begin() + static_cast<std::ptrdiff_t>(grey.size() / 2), grey.end());
-      return grey[grey.size() / 2];
-    };
-    const int shadow = median([](int m) { return m == 1; }), surface = median([](int m) { return m > 1; });
-    ASSERT_GT(shadow, -1) << name;
-    EXPECT_LT(shadow + 65536 * 6 / 60, surface) << name;    // 6 dB of 60 darker than surface at least
-    EXPECT_TRUE((mask.bottomRows(20) == 0).all()) << name;  // water before the first echo
-  }
-}
-
 TEST_F(DatasetRun, meta_says_pose_seed_mapping_and_what_was_randomised) {
   succeed("dataset survey -o set --window 80:140");
   std::istringstream lines(read("set/meta.jsonl"));
