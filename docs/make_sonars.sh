@@ -59,7 +59,7 @@ cat >"$page" <<'PAGE'
 One picture of each preset over the same bed, with a box ahead and a wall to port. Imaging sonars look ahead, 20 degrees down, from a quarter of their range above the bed, in one ping;
 scanning heads turn once, 1.5 m above it, and the profiler looks down on the box; multibeams, echo sounders and side-scans are mounted as a mission mounts them, 4 m above it, and make a line over the box, side-scans one of 4 m past it, over a strip of the bed. Range up to 10 m, or what the head reaches;
 levels are compensated for range; resolution cells hold two scatterers at least. A number is `sourced` or `derived` from a document that the file in `data/sonars` names, `assumed` or `unknown`, or `recalled`: from memory of product
-literature. Public documents were searched for those too; what is still `recalled` was in none that was found. The last column lists the numbers that no document supports. `docs/make_sonars.sh` generates this page.
+literature. A search of public documents, by model, found none for what is still `recalled`; not every number was searched for singly. The last column lists the numbers that no document supports. `docs/make_sonars.sh` generates this page.
 
 | sonar | | of its numbers without a document |
 |---|---|---|
