@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "returns/quantise.hpp"
@@ -81,7 +82,8 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
     RunDirectory directory(o.output, o.force);
     progress.step("writing " + o.output);
     const std::size_t pings = png_product(run, directory);
-    fmt::print("{}: pictures of {} pings; scales are in manifest.json\n", o.output, pings);
+    print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", pings}},
+                  fmt::format("{}: pictures of {} pings; scales are in manifest.json", o.output, pings));
     return;
   }
   const auto& product =
@@ -92,7 +94,8 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
          "--utm ZONE of a world in UTM");
   progress.step("writing " + o.output);
   const std::size_t soundings = product.write(run);
-  fmt::print("{}: {} soundings as {}\n", o.output, soundings, o.to);
+  print_summary(common, {{"output", o.output}, {"to", o.to}, {"soundings", soundings}},
+                fmt::format("{}: {} soundings as {}", o.output, soundings, o.to));
 }
 
 }  // namespace insonify::tool

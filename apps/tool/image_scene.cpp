@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "sampling/find_holes.hpp"
@@ -136,7 +137,7 @@ void image_scene(const ImageOptions& o, const PictureOptions& asked) {
   PictureOptions picture = asked;
   picture.title = o.title.empty() ? drawing.title : o.title;
   show_scene(drawing.scene, look, picture, o.output);
-  fmt::print("{}\n", o.output);
+  print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
 }
 
 }  // namespace insonify::tool

@@ -131,9 +131,9 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
   }
   manifest["failed"] = failed;
   write_file((fs::path(folder) / "manifest.json").string(), manifest.dump(2) + "\n");
-  print_result(common, manifest, [&] {
-    fmt::print("{}: {} blocks of {} joined\n", folder, finished.size(), joined(run.heads, ", ", &SurveyRunHead::name));
-  });
+  print_summary(common, manifest,
+                fmt::format("{}: {} blocks of {} joined", folder, finished.size(),
+                            joined(run.heads, ", ", &SurveyRunHead::name)));
   if (!failed.empty())
     throw SomeFailed{fmt::format("{}: {} pings failed and are missing in the cubes; manifest.json lists them", folder,
                                  failed.size())};

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <thread>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "core/pending_path.hpp"
@@ -59,6 +61,13 @@ void wait_for_end() {
 }
 
 bool is_interrupted() { return interrupted; }
+
+void print_summary(const CommonOptions& common, const nlohmann::ordered_json& result, const std::string& line) {
+  if (common.json)
+    fmt::print("{}\n", result.dump(2));
+  else if (!common.quiet)
+    fmt::print("{}\n", line);
+}
 
 Progress::Progress(const CommonOptions& common, int steps)
     : quiet_(common.quiet),

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "tool/options.hpp"
 #include "tool/program.hpp"
 
@@ -28,6 +30,9 @@ void print_result(const CommonOptions& common, const Json& result, const Print& 
   else
     print();
 }
+
+/// Says on stdout what was written: as JSON with --json, else in one line, and nothing with -q.
+void print_summary(const CommonOptions& common, const nlohmann::ordered_json& result, const std::string& line);
 
 /// Reports progress on stderr: a bar on a terminal, plain lines with -v, nothing with -q.
 class Progress {

@@ -8,10 +8,14 @@
 
 namespace insonify::tool {
 
-void add_common(OptionList list, CommonOptions& o, bool json) {
-  list.add("-q,--quiet", &o.quiet, "errors only");
+void add_verbosity(OptionList list, CommonOptions& o) {
+  list.add("-q,--quiet", &o.quiet, "no notes, and no line that says what was written");
   list.add("-v,--verbose", &o.verbose, "say each step");
-  if (json) list.add("--json", &o.json, "result as JSON on stdout");
+}
+
+void add_common(OptionList list, CommonOptions& o) {
+  add_verbosity(list, o);
+  list.add("--json", &o.json, "result as JSON on stdout");
 }
 
 void add_work(OptionList list, CommonOptions& o) {
@@ -63,7 +67,7 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
   add_sonar(list, o.common, o.run);
   if (with_output) add_output(list, o.run);
   add_settings(list, ping_settings(o));
-  add_common(list, o.common, true);
+  add_common(list, o.common);
   add_work(list, o.common);
 }
 

@@ -7,8 +7,10 @@
 /// Options that several verbs share.
 namespace insonify::tool {
 
-/// --quiet, --verbose, and --json if the verb has results that a machine may read.
-void add_common(OptionList list, CommonOptions& options, bool json);
+/// --quiet and --verbose.
+void add_verbosity(OptionList list, CommonOptions& options);
+/// --quiet, --verbose and --json.
+void add_common(OptionList list, CommonOptions& options);
 /// --threads and --seed.
 void add_work(OptionList list, CommonOptions& options);
 /// How a scene is completed: viewpoint, materials, unit.

@@ -3,10 +3,12 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "scene_io/bed_of_returns.hpp"
 #include "store/survey_run.hpp"
+#include "tool/progress.hpp"
 #include "view/save_vtk.hpp"
 #include "view/show_track.hpp"
 
@@ -59,7 +61,7 @@ void draw_track(const ImageOptions& o, const PictureOptions& options) {
   picture.title =
       o.title.empty() ? fmt::format("{} pings of {}", pings, joined(run.heads, ", ", &SurveyRunHead::name)) : o.title;
   show_track(map, picture, o.output);
-  fmt::print("{}\n", o.output);
+  print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
 }
 
 }  // namespace insonify::tool

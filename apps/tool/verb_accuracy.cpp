@@ -49,7 +49,7 @@ void add_options(OptionList list, AccuracyOptions& o) {
   list.add("--set", &o.common.settings, "SECTION.KEY=VALUE of sonar or environment", {.one_each = true});
   list.add("--force", &o.run.force, "replace an existing run directory");
   list.add("--no-picture", &o.run.no_picture, "do not draw the charts");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
   add_work(list, o.common);
 }
 
@@ -189,7 +189,9 @@ void accuracy(const AccuracyOptions& o) {
   manifest["peak_memory_mib"] = peak_memory_mib();
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  print_result(common, manifest, [&] { print_table(o.run.output, rows, manifest["summary"]); });
+  print_result(common, manifest, [&] {
+    if (!common.quiet) print_table(o.run.output, rows, manifest["summary"]);
+  });
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ void add_options(OptionList list, BeamPatternOptions& o) {
   list.add("--set", &o.common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times", {.one_each = true});
   list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]");
   list.add("--dark", &o.dark, "dark background");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
 }
 
 /// The beam that is measured, in the water of the run.

@@ -36,7 +36,7 @@ void add_options(OptionList list, CompareOptions& o) {
            "another cloud of the same place, whose strengths say what a repeated measurement reaches");
   list.add("--seed", &o.common.seed, "of the drawn floor");
   list.add("--force", &o.force, "replace an existing folder of an earlier comparison");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
 }
 
 ordered_json json_of(const ImageSimilarity& s) {

@@ -35,7 +35,7 @@ void add_options(OptionList list, DatasetOptions& o) {
            {.comma_separated = true});
   list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of the scenes");
   list.add("--force", &o.force, "replace an existing data set");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
 }
 
 std::vector<double> parse_split(const std::string& text) {
@@ -109,10 +109,9 @@ void dataset(const DatasetOptions& o) {
                                          {"classes", plan.classes},
                                          {"window_db", {plan.window.min_db, plan.window.max_db}},
                                          {"peak_memory_mib", peak_memory_mib()}};
-  print_result(o.common, result, [&] {
-    fmt::print("{}: {} images with {} boxes; classes {}\n", o.output, writer.images(), writer.annotations(),
-               joined(plan.classes));
-  });
+  print_summary(o.common, result,
+                fmt::format("{}: {} images with {} boxes; classes {}", o.output, writer.images(), writer.annotations(),
+                            joined(plan.classes)));
 }
 
 }  // namespace

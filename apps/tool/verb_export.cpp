@@ -44,7 +44,7 @@ void add_options(OptionList list, ExportOptions& o) {
            {.within = std::pair(1, 100), .shown_as = "INT"});
   list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
   list.add("--force", &p.force, "replace an existing directory of an earlier export");
-  add_common(list, o.common, false);
+  add_common(list, o.common);
 }
 
 /// All fields that a cube holds per sample of a ping.
@@ -102,8 +102,14 @@ void export_run(const ExportOptions& options) {
       nlohmann::ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}}.dump(2) +
           "\n");
   directory.commit();
-  fmt::print("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView\n", o.output, fans.size(),
-             images.size(), images.size(), returns ? fmt::format(", {} returns", returns->size()) : "");
+  print_summary(options.common,
+                {{"output", o.output},
+                 {"to", o.to},
+                 {"pings", images.size()},
+                 {"grids", fans.size()},
+                 {"returns", returns ? returns->size() : 0}},
+                fmt::format("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView", o.output, fans.size(),
+                            images.size(), images.size(), returns ? fmt::format(", {} returns", returns->size()) : ""));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -67,7 +68,7 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--animate", &o.animate, "one picture per ping in the folder -o, all with the same levels");
   list.add("--force", &o.force, "replace existing pictures");
   add_scene_view(list, o);
-  add_common(list, o.common, false);
+  add_common(list, o.common);
 }
 
 /// --annotate: how many maxima, or the user's own labels.
@@ -130,11 +131,13 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
       picture.max_db = std::max(picture.max_db, view_of(o).max_db(run, o, ping));
   }
   make_frame_folder(o);
+  std::vector<std::string> files;
   for (std::size_t ping = 0; ping < pings; ++ping) {
     progress.step(fmt::format("drawing {}", frame_path(o, ping)));
     draw_ping(run, o, picture, annotation, ping, frame_path(o, ping));
-    fmt::print("{}\n", frame_path(o, ping));
+    files.push_back(frame_path(o, ping));
   }
+  print_summary(o.common, {{"output", files}, {"view", o.view}}, fmt::format("{}", fmt::join(files, "\n")));
   progress.note(fmt::format("as a film: ffmpeg -framerate 10 -i {}/{}_%06d.png -pix_fmt yuv420p {}.mp4", o.output,
                             o.view, o.view));
 }
@@ -178,7 +181,7 @@ void image(const ImageOptions& o) {
   if (o.animate) return animate(run, o, picture, annotation, progress);
   progress.step("drawing " + o.output);
   draw_ping(run, o, picture, annotation, o.ping, o.output);
-  fmt::print("{}\n", o.output);
+  print_summary(o.common, {{"output", o.output}, {"view", o.view}, {"ping", o.ping}}, o.output);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct InfoOptions {
 
 void add_options(OptionList list, InfoOptions& o) {
   list.add("FILE", &o.files, "cloud, mesh, sonar .toml, cube.h5 or run directory", {.required = true});
-  add_common(list, o.common, true);
+  add_common(list, o.common);
 }
 
 ordered_json point(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

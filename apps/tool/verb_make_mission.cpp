@@ -1,12 +1,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/parse_values.hpp"
+#include "tool/progress.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
 #include "tool/shared_options.hpp"
@@ -39,7 +41,7 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("--rate", &o.rate, "pings per second; of a tunnel as many as the range allows", {.positive = true});
   list.add("--down", &o.down_deg, "tilt of the head [deg]; not of one whose sonar file says how it is mounted");
   list.add("--force", &o.force, "replace an existing file");
-  add_common(list, o.common, false);
+  add_common(list, o.common);
 }
 
 std::string points_as_toml(const std::vector<Eigen::Vector3d>& points) {
@@ -130,7 +132,8 @@ void make_mission(const MakeMissionOptions& o) {
                          "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}",
                          o.name, toml_text(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
                          heads_as_toml(o, sonar, shape), shape.legs));
-  fmt::print("{}: make it with: insonify survey {} -o run\n", o.output, o.output);
+  print_summary(o.common, {{"output", o.output}, {"scene", o.scene}, {"sonar", sonar}},
+                fmt::format("{}: make it with: insonify survey {} -o run", o.output, o.output));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -23,19 +25,28 @@ struct MakeSceneOptions {
   std::string size = "40,40";
   double radius = 0.5;
   double lambert_mu_db = -27;
+  bool bare = false;
   bool force = false;
 };
 
 void add_options(OptionList list, MakeSceneOptions& o) {
-  list.add("NAME", &o.name, "harbour, plane, sphere, wall or poles", {.required = true});
+  list.add("NAME", &o.name, "harbour, reef, plane, sphere, wall or poles", {.required = true});
   list.add("-o,--output", &o.output, "scene to write, .ply or .pcd; or .tiles, for any size", {.required = true});
   list.add("--points", &o.points, "surfels wanted");
   list.add("--size", &o.size, "plane: x,y extent; wall: width,height [m]");
   list.add("--radius", &o.radius, "of the sphere [m]");
   list.add("--mu-db", &o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
+  list.add("--bare", &o.bare, "only the points, as a scanner gives them: `prepare` finds the rest");
   list.add("--force", &o.force, "replace an existing file");
-  add_common(list, o.common, false);
+  add_common(list, o.common);
   list.add("--seed", &o.common.seed, "of jitter and ripples; same seed, same bytes");
+}
+
+nlohmann::ordered_json summary_json(const MakeSceneOptions& o, std::size_t surfels,
+                                    const std::vector<Material>& materials) {
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const Material& material : materials) names.push_back(material.name);
+  return {{"output", o.output}, {"scene", o.name}, {"surfels", surfels}, {"seed", o.common.seed}, {"materials", names}};
 }
 
 void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {
@@ -45,8 +56,9 @@ void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& b
   make_built_in_scene_in_batches(o.name, built_in, batch_surfels, [&](const SceneCloud& batch) { writer.add(batch); });
   progress.step("writing " + o.output);
   const TileReport report = writer.finish();
-  fmt::print("{}: {} surfels in {} tiles, {} materials\n", o.output, report.surfels, report.tiles,
-             options.materials.size());
+  print_summary(o.common, summary_json(o, report.surfels, options.materials),
+                fmt::format("{}: {} surfels in {} tiles, {} materials", o.output, report.surfels, report.tiles,
+                            options.materials.size()));
 }
 
 void make_scene(const MakeSceneOptions& o) {
@@ -56,20 +68,27 @@ void make_scene(const MakeSceneOptions& o) {
       o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), o.common.seed};
   Progress progress(o.common, 2);
   progress.step("making " + o.name);
+  if (is_tiles(o.output) && o.bare)
+    fail(ErrorKind::argument, "--bare: ", o.output, ": tiles are prepared surfels; write .ply or .pcd");
   if (is_tiles(o.output)) return make_scene_as_tiles(o, built_in, progress);
   const SceneCloud scene = make_built_in_scene(o.name, built_in);
   progress.step("writing " + o.output);
-  save_scene(o.output, scene);
-  fmt::print("{}: {} surfels, {} materials\n", o.output, scene.size(), scene.materials.size());
+  if (o.bare)
+    save_bare_points(o.output, scene);
+  else
+    save_scene(o.output, scene);
+  print_summary(o.common, summary_json(o, scene.size(), scene.materials),
+                fmt::format("{}: {} surfels, {} materials", o.output, scene.size(), scene.materials.size()));
 }
 
 }  // namespace
 
 Verb make_scene_verb() {
-  return make_verb<MakeSceneOptions>("make-scene", "a built-in scene with normals, areas and materials",
-                                     {"insonify make-scene harbour -o harbour.ply --points 200000",
-                                      "insonify make-scene plane -o plane.ply --size 40,40 --mu-db -27"},
-                                     add_options, make_scene);
+  return make_verb<MakeSceneOptions>(
+      "make-scene", "a built-in scene with normals, areas and materials",
+      {"insonify make-scene reef --bare -o reef.pcd", "insonify make-scene harbour -o harbour.ply --points 200000",
+       "insonify make-scene plane -o plane.ply --size 40,40 --mu-db -27"},
+      add_options, make_scene);
 }
 
 }  // namespace insonify::tool

@@ -40,7 +40,7 @@ void add_options(OptionList list, MergeOptions& o) {
            "mean: of all pings that hear a cell; best: of the ping whose beam is narrowest there",
            {.words = {"mean", "best"}});
   list.add("--force", &o.force, "replace an existing run directory");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
 }
 
 /// The merged files and their numbers of pings, for the manifest.
@@ -101,8 +101,8 @@ void merge(const MergeOptions& o) {
   if (std::filesystem::exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  print_result(o.common, manifest,
-               [&] { fmt::print("{}: {} pings of {} runs\n", o.output, merged.pings.size(), o.runs.size()); });
+  print_summary(o.common, manifest,
+                fmt::format("{}: {} pings of {} runs", o.output, merged.pings.size(), o.runs.size()));
 }
 
 }  // namespace

@@ -24,10 +24,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-void print_summary(const std::string& output, const ordered_json& manifest) {
-  fmt::print("{}: {} scatterers of {} visible surfels, {} soundings, peak {:.1f} dB re 1 uPa\n", output,
-             manifest["sampling"]["scatterers"].get<std::size_t>(), manifest["sampling"]["visible"].get<std::size_t>(),
-             manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
+std::string summary(const std::string& output, const ordered_json& manifest) {
+  return fmt::format("{}: {} scatterers of {} visible surfels, {} soundings, peak {:.1f} dB re 1 uPa", output,
+                     manifest["sampling"]["scatterers"].get<std::size_t>(),
+                     manifest["sampling"]["visible"].get<std::size_t>(),
+                     manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
 }
 
 void add_ping_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
@@ -108,7 +109,7 @@ void ping(const PingCommand& command) {
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   progress.step("done");
   directory.commit();
-  print_result(common, manifest, [&] { print_summary(o.run.output, manifest); });
+  print_summary(common, manifest, summary(o.run.output, manifest));
 }
 
 }  // namespace

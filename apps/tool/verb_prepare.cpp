@@ -36,7 +36,7 @@ void add_options(OptionList list, PrepareOptions& o) {
            {.positive = true});
   list.add("--force", &o.force, "replace an existing file");
   list.add("--normals", &o.normals, "accepted for clarity: missing normals are always estimated");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
   add_work(list, o.common);
 }
 
@@ -58,10 +58,10 @@ void prepare_as_tiles(const PrepareOptions& o) {
                                {"normals_oriented", prepared.normals_oriented},
                                {"in_batches", prepared.streamed},
                                {"notes", notes}};
-  print_result(o.common, result, [&] {
-    fmt::print("{}: {} surfels in {} tiles, {:.4g} m^2, normals {}\n", o.output, prepared.tiles.surfels,
-               prepared.tiles.tiles, prepared.tiles.total_area, prepared.normals_oriented ? "oriented" : "two-sided");
-  });
+  print_summary(o.common, result,
+                fmt::format("{}: {} surfels in {} tiles, {:.4g} m^2, normals {}", o.output, prepared.tiles.surfels,
+                            prepared.tiles.tiles, prepared.tiles.total_area,
+                            prepared.normals_oriented ? "oriented" : "two-sided"));
 }
 
 void prepare(const PrepareOptions& o) {
@@ -89,10 +89,9 @@ void prepare(const PrepareOptions& o) {
   const ordered_json result = {
       {"output", o.output}, {"points_read", loaded.report.points_read},          {"surfels", loaded.scene.size()},
       {"area_m2", area},    {"normals_oriented", loaded.scene.normals_oriented}, {"notes", notes}};
-  print_result(o.common, result, [&] {
-    fmt::print("{}: {} surfels, {:.4g} m^2, normals {}\n", o.output, loaded.scene.size(), area,
-               loaded.scene.normals_oriented ? "oriented" : "two-sided");
-  });
+  print_summary(o.common, result,
+                fmt::format("{}: {} surfels, {:.4g} m^2, normals {}", o.output, loaded.scene.size(), area,
+                            loaded.scene.normals_oriented ? "oriented" : "two-sided"));
 }
 
 }  // namespace

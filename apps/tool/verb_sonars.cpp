@@ -22,7 +22,7 @@ struct SonarsOptions {
 void add_options(OptionList list, SonarsOptions& o) {
   list.add("NAME", &o.name, "preset or .toml file");
   list.add("--toml", &o.toml, "print the file itself, to begin one of your own with");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
 }
 
 ordered_json sonar_json(const SonarFile& file) {

@@ -32,7 +32,7 @@ void add_options(OptionList list, SurveyOptions& o) {
            {.within = std::pair(0, 100000), .shown_as = "INT"});
   list.add("--plan", &o.plan,
            "only print how many pings, bytes and CPU hours; makes a few pings of each head to measure");
-  add_common(list, o.common, true);
+  add_common(list, o.common);
   list.add("-j,--threads", &o.common.threads,
            "pings at once, at most 1024; 0: as many as cores (results do not depend on it)",
            {.within = std::pair(0, 1024)});
@@ -187,10 +187,9 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
                                {"made", status.made()},
                                {"failed", failures},
                                {"seconds", status.seconds()}};
-  print_result(o.common, result, [&] {
-    fmt::print("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}\n", o.output, status.made(),
-               todo.pings, status.seconds(), o.output);
-  });
+  print_summary(o.common, result,
+                fmt::format("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}", o.output,
+                            status.made(), todo.pings, status.seconds(), o.output));
   if (!failures.empty())
     throw SomeFailed{fmt::format("{} of {} pings failed: {}", failures.size(), todo.pings, joined(failures, "; "))};
 }

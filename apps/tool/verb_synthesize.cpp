@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
+#include "tool/progress.hpp"
 #include "tool/run_files.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/shared_options.hpp"
@@ -28,7 +29,7 @@ void add_options(OptionList list, SynthesizeOptions& o) {
            {.required = true});
   add_sonar(list, o.common, o.run);
   add_output(list, o.run);
-  add_common(list, o.common, true);
+  add_common(list, o.common);
   add_work(list, o.common);
 }
 
@@ -75,10 +76,9 @@ void synthesize(const SynthesizeOptions& o) {
   manifest["seconds"] = {{"synthesis", seconds}};
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
-  print_result(common, manifest, [&] {
-    fmt::print("{}: {} scatterers, peak {:.4f} dB re 1 uPa\n", o.run.output, table.scatterers.size(),
-               manifest["peak_level_db"].get<double>());
-  });
+  print_summary(common, manifest,
+                fmt::format("{}: {} scatterers, peak {:.4f} dB re 1 uPa", o.run.output, table.scatterers.size(),
+                            manifest["peak_level_db"].get<double>()));
 }
 
 }  // namespace

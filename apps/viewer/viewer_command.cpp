@@ -55,7 +55,7 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
   list.add("--script", &c.script, "file of events to play first: click, drag, key, select, wait, screenshot, quit");
   list.add("--events", &c.events, "the same as text, separated by semicolons", {.group = ""});
   list.add("-j,--threads", &c.common.threads, "threads for loading, 0: all cores", {.within = std::pair(0, 1024)});
-  tool::add_common(list, c.common, false);
+  tool::add_verbosity(list, c.common);
 }
 
 namespace fs = std::filesystem;

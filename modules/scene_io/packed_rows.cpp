@@ -80,6 +80,17 @@ PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin
   return rows;
 }
 
+PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format) {
+  const bool wide = format == CloudFormat::ply && !scene.origin.isZero(0);
+  PackedRows rows;
+  rows.rows = scene.size();
+  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  rows.write_row = [&scene, wide](std::size_t i, char* out) {
+    put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
+  };
+  return rows;
+}
+
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
   const bool ply = format == CloudFormat::ply;
   const bool wide = ply && !scene.origin.isZero(0);

@@ -49,6 +49,8 @@ PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin
 /// scene has it.
 enum class CloudFormat { ply, pcd };
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
+/// Its x y z alone.
+PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 
 /// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where never
 /// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.

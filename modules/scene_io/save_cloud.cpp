@@ -44,9 +44,8 @@ CloudFormat format_of(const std::string& path, const char* who) {
   fail(ErrorKind::argument, who, ": ", path, " has extension '", extension, "', must be .ply or .pcd");
 }
 
-}  // namespace
-
-void save_scene(const std::string& path, const SceneCloud& scene) {
+/// The format of a file for the scene, which must fit into it.
+CloudFormat format_for(const std::string& path, const SceneCloud& scene) {
   const CloudFormat format = format_of(path, "save_scene");
   require_valid(scene, "save_scene");
   if (scene.size() == 0)
@@ -58,8 +57,23 @@ void save_scene(const std::string& path, const SceneCloud& scene) {
       fail(ErrorKind::argument, "save_scene: ", path, ": the scene reaches to ", farthest,
            " m from zero; a PCD is float32 and would lose more than 0.1 mm: save it as .ply");
   }
-  const PackedRows rows = rows_of(scene, format);
+  return format;
+}
+
+void write_cloud(const std::string& path, CloudFormat format, const PackedRows& rows) {
   write_rows(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows);
+}
+
+}  // namespace
+
+void save_scene(const std::string& path, const SceneCloud& scene) {
+  const CloudFormat format = format_for(path, scene);
+  write_cloud(path, format, rows_of(scene, format));
+}
+
+void save_bare_points(const std::string& path, const SceneCloud& scene) {
+  const CloudFormat format = format_for(path, scene);
+  write_cloud(path, format, bare_rows_of(scene, format));
 }
 
 Eigen::Vector3d save_soundings(const std::string& path, const Soundings& soundings) {

@@ -18,6 +18,9 @@ namespace insonify {
 /// zero for PCD, Error(content) if it is empty, Error(file) if it cannot write.
 void save_scene(const std::string& path, const SceneCloud& scene);
 
+/// Writes the points of a scene alone, as a scanner gives them: x y z, as save_scene in all else.
+void save_bare_points(const std::string& path, const SceneCloud& scene);
+
 /// Writes soundings as .pcd (fields x y z level_db range azimuth elevation ping beam bin true_elevation true_surfel
 /// true_material) or .ply (the same,
 /// named scalar_level_db ..., so that CloudCompare shows them as scalar fields), with units in comment lines. x y z are

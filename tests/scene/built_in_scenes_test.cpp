@@ -91,9 +91,32 @@ TEST(Harbour, fills_its_box_under_water_and_faces_the_head) {
   for (const Material& m : scene.materials) EXPECT_LT(m.lambert_mu, 1 / pi) << m.name;
 }
 
+TEST(Reef, is_rough_rock_with_corals_over_sand) {
+  const SceneCloud scene = make_built_in_scene("reef", {.points = 100000});
+  const Bounds box = bounds(scene);
+  EXPECT_NEAR(box.min.x(), 0, 0.05);
+  EXPECT_NEAR(box.max.x(), 12, 0.5);
+  EXPECT_GT(box.min.z(), -6);
+  EXPECT_LT(box.max.z(), -2);
+  std::vector<double> area(scene.materials.size(), 0.0), plan(area);
+  std::size_t downward = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    area[scene.material[i]] += scene.area[i];
+    plan[scene.material[i]] += scene.area[i] * std::abs(scene.normal[i].z());
+    downward += scene.normal[i].z() < -0.5f;
+  }
+  EXPECT_NEAR(plan[0], 24, 0.24);           // sand, 2 m of 12 x 12
+  EXPECT_NEAR(plan[1], 120, 1.2);           // rock, the rest
+  EXPECT_GT(area[1], 1.1 * plan[1]);        // which is rough
+  EXPECT_LT(area[0], 1.1 * plan[0]);        // as the sand is not
+  EXPECT_GT(area[2], 5);                    // corals
+  EXPECT_GT(downward, scene.size() / 100);  // tables and branches overhang
+  EXPECT_GT(box.max.z() - box.min.z(), 1.5);
+}
+
 TEST(BuiltInScenes, refuse_bad_options) {
   using testing::HasSubstr;
-  EXPECT_THAT(message_of("harbor", {}), HasSubstr("no scene 'harbor', must be one of: harbour, plane"));
+  EXPECT_THAT(message_of("harbor", {}), HasSubstr("no scene 'harbor', must be one of: harbour, reef, plane"));
   EXPECT_THAT(message_of("plane", {.points = 0}), HasSubstr("points = 0"));
   EXPECT_THAT(message_of("plane", {.size = {0, 1}}), HasSubstr("size = 0 x 1 m"));
   EXPECT_THAT(message_of("sphere", {.radius = -1}), HasSubstr("radius = -1 m"));

@@ -24,6 +24,21 @@ TEST_F(Prepare, thins_to_the_spacing_asked_for_and_keeps_the_area) {
   EXPECT_NEAR(again["area_m2"].get<double>(), whole["area_m2"].get<double>(), 1e-4);
 }
 
+TEST_F(Prepare, finds_normals_and_areas_of_bare_points) {
+  succeed("make-scene reef --points 20000 -o reef.ply -q");
+  succeed("make-scene reef --points 20000 --bare -o bare.pcd -q");
+  const auto described = nlohmann::json::parse(succeed("info bare.pcd --json"));
+  EXPECT_FALSE(described["normals"].get<bool>());
+  EXPECT_EQ(described["fields"].size(), 3u);
+  const nlohmann::json from_points = prepared("bare.pcd -o completed.ply --viewpoint 6,0,5");
+  EXPECT_TRUE(from_points["normals_oriented"].get<bool>());
+  const nlohmann::json exact = prepared("reef.ply -o exact.ply");
+  // Corals of 2 cm branches are finer than 20 000 points show; the rest of the area is found.
+  EXPECT_NEAR(from_points["area_m2"].get<double>(), exact["area_m2"].get<double>(),
+              0.15 * exact["area_m2"].get<double>());
+  expect_refused("make-scene reef --bare -o reef.tiles", 2, {"--bare", "reef.tiles", ".ply or .pcd"});
+}
+
 TEST_F(Prepare, refuses_a_spacing_that_is_not_positive) {
   for (const char* spacing : {"0", "-1", "dense"})
     expect_refused(std::string("prepare plane.ply -o thin.ply --thin ") + spacing, 2, {"--thin"});

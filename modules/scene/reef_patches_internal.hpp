@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "scene/sample_patches_internal.hpp"
+
+namespace insonify {
+
+/// The surfaces of the built-in reef: rough spurs of rock with sand between them, massive, branching and table corals.
+/// `seed` determines roughness and places.
+std::vector<Patch> reef_patches(std::uint64_t seed);
+
+/// Its materials, in the order of the numbers that the patches hold.
+std::vector<Material> reef_materials();
+
+}  // namespace insonify
