@@ -37,6 +37,7 @@ struct RunOptions {
   std::string output;
   double tolerance = 1e-4;
   std::string method = "planned";
+  int keep_bits = 24;  ///< significant bits of the cube's pressures; 24: all
   bool force = false;
   bool no_picture = false;
 };

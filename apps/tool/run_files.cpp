@@ -60,6 +60,7 @@ Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOpti
   options.synthesis.tolerance = run.tolerance;
   Cube cube = make_cube(setup.head, setup.medium, options);
   cube.pings = std::move(pings);
+  cube.keep_bits = run.keep_bits;
   return cube;
 }
 
@@ -97,10 +98,11 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
 
 LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
   Grid<float> level = shown_level_db(ping);
-  if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa"};
+  const bool downwards = looks_down(ping.world_from_head) && !ping.scan;
+  if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa", downwards};
   const std::string unit = tvg->spreading == 40 ? "dB re 1 µPa at 1 m, range compensated"
                                                 : fmt::format("dB re 1 µPa, gain {:g} log r", tvg->spreading);
-  return {ping.fan, ping.gate, apply_tvg(std::move(level), ping.gate, *tvg), unit};
+  return {ping.fan, ping.gate, apply_tvg(std::move(level), ping.gate, *tvg), unit, downwards};
 }
 
 std::string picture_title(const std::string& sonar, const Ping& ping) {

@@ -17,6 +17,7 @@ const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonif
                           .comma_separated = true};
 const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
 const OptionRules ping_numbers{.within = std::pair(-1, 1000000000), .shown_as = "INT"};
+const OptionRules bits{.within = std::pair(1, 24), .shown_as = "INT"};
 const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
 const OptionRules absorption_orders{.within = std::pair(-1, 2), .shown_as = "INT"};
 
@@ -93,6 +94,10 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
        outputs},
       {"ping", "contributors", "--contributors", &o.contributors, "how many of each pixel, with --keep contributors",
        contributor_numbers},
+      {"ping", "keep_bits", "--keep-bits", &o.run.keep_bits,
+       "significant bits of the cube's pressures; fewer than 24, which is all, round each number by at most 2^-BITS of "
+       "it and deflate the cube: 12 (0.002 dB) halves it",
+       bits},
       {"ping", "layers", "--layers", &o.layers, "keep each kind of echo as a layer of the cube"},
       {"ping", "split", "--split", &o.split,
        "keep the phase between the halves of the array, by which soundings of the bottom are found at export; "

@@ -1,7 +1,6 @@
 #include "tool/survey_status.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,17 +9,6 @@
 #include "core/pending_file.hpp"
 
 namespace insonify::tool {
-namespace {
-
-std::string time_text(double seconds) {
-  const long s = std::lround(seconds);
-  if (s < 60) return fmt::format("{} s", s);
-  if (s < 3600) return fmt::format("{}:{:02} min", s / 60, s % 60);
-  return fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
-}
-
-}  // namespace
-
 SurveyStatus::SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done)
     : progress_(progress), path_(std::move(path)), shard_(std::move(shard)), pings_(pings), done_before_(done) {}
 

@@ -8,6 +8,7 @@
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
 #include "tool/image.hpp"
+#include "tool/merge_companions.hpp"
 #include "tool/merge_survey.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
@@ -30,7 +31,9 @@ struct MergeOptions {
 void add_options(OptionList list, MergeOptions& o) {
   list.add("RUN", &o.runs, "run directories or cubes with the same fan and gate; or the folder of one survey",
            {.required = true});
-  list.add("-o,--output", &o.output, "run directory to make; a survey is merged in its own folder");
+  list.add("-o,--output", &o.output,
+           "run directory to make, with returns, contributors and insonification if all runs have them; a survey is "
+           "merged in its own folder");
   list.add("--copy", &o.copy, "of a survey: copy the blocks into the cubes, which otherwise refer to them");
   list.add("--mosaic", &o.mosaic.cell,
            "of a survey: the images of all heads laid on the bed, on a grid of such cells [m]: .vti and .png",
@@ -55,9 +58,10 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
   std::vector<std::string> notes;
   std::size_t same_time = 0;
   for (std::size_t p = 1; p < merged.pings.size(); ++p) same_time += merged.pings[p].time == merged.pings[p - 1].time;
-  bool had_layers = false, other_settings = false;
+  bool had_layers = false, had_labels = false, other_settings = false;
   for (const NamedCube& one : cubes) {
     had_layers |= !one.cube.pings.front().layers.empty();
+    had_labels |= !one.cube.pings.front().labels.empty();
     other_settings |= one.cube.seed != merged.seed || one.cube.tolerance != merged.tolerance ||
                       one.cube.source_level_db != merged.source_level_db;
   }
@@ -66,6 +70,8 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
         fmt::format("{} pings have the time of the one before them and follow in the order given", same_time));
   if (had_layers && merged.pings.front().layers.empty())
     notes.emplace_back("layers are left out: not all pings have the same ones");
+  if (had_labels && merged.pings.front().labels.empty())
+    notes.emplace_back("labels are left out: not all pings have them, of the same materials");
   if (other_settings)
     notes.emplace_back("runs differ in seed, tolerance or source level; the cube states those of the first");
   return notes;
@@ -90,19 +96,21 @@ void merge(const MergeOptions& o) {
     cubes.push_back({run, read_run_cube(run)});
   }
   ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"merged", inputs_json(cubes)}};
-  const Cube merged = merge_cubes(cubes);
-  manifest["pings"] = merged.pings.size();
-  manifest["notes"] = merging_notes(cubes, merged);
-  for (const auto& note : manifest["notes"]) progress.note(note.get<std::string>());
+  const MergedCube merged = merge_cubes(cubes);
+  manifest["pings"] = merged.cube.pings.size();
+  std::vector<std::string> notes = merging_notes(cubes, merged.cube);
 
   progress.step("writing " + o.output);
-  write_cube(directory.file("cube.h5"), merged);
+  write_cube(directory.file("cube.h5"), merged.cube);
+  for (const std::string& note : merge_companions(directory, o.runs, merged, manifest)) notes.push_back(note);
+  for (const std::string& note : notes) progress.note(note);
+  manifest["notes"] = notes;
   const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
   if (std::filesystem::exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
   directory.commit();
   print_summary(o.common, manifest,
-                fmt::format("{}: {} pings of {} runs", o.output, merged.pings.size(), o.runs.size()));
+                fmt::format("{}: {} pings of {} runs", o.output, merged.cube.pings.size(), o.runs.size()));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "viewer/viewer_command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -93,6 +94,28 @@ bool belong_together(const Contributors& list, const SceneCloud& scene) {
   return true;
 }
 
+// The contributors of all pings, where the run has them and they fit into memory.
+void load_contributors(const fs::path& run, LoadedView& view) {
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+  const std::size_t pings = view.data.pings.size();
+  std::vector<std::string> files;
+  for (std::size_t p = 0; p < pings; ++p)
+    files.push_back((run / (pings == 1 ? "contributors.h5" : fmt::format("contributors/{:06}.h5", p))).string());
+  if (!std::all_of(files.begin(), files.end(), [](const std::string& file) { return fs::exists(file); })) return;
+  std::uintmax_t bytes = 0;
+  for (const std::string& file : files) bytes += contributor_bytes(file);
+  if (bytes > most_bytes) {
+    view.notes.push_back(
+        fmt::format("the contributors of all pings are {} MiB and not shown; look at single runs", bytes >> 20));
+    return;
+  }
+  for (const std::string& file : files) {
+    NamedContributors named = read_contributor_file(file);
+    view.data.contributors.push_back(std::move(named.contributors));
+    view.data.material_names = std::move(named.materials);
+  }
+}
+
 void load_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
   if (command.no_scene) return;
   tool::SceneOptions options = tool::scene_of_run(run_folder);
@@ -182,12 +205,8 @@ LoadedView load_run(const ViewerCommand& command) {
   if (!command.head.empty())
     fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no survey; leave --head out");
   open_cubes({{finished_cube(command.target), ""}}, view);
-  const fs::path run(command.target), contributors = run / "contributors.h5", returns = run / "returns.ply";
-  if (fs::is_directory(run) && fs::exists(contributors) && view.data.pings.size() == 1) {
-    NamedContributors named = read_contributor_file(contributors.string());
-    view.data.contributors.push_back(std::move(named.contributors));
-    view.data.material_names = std::move(named.materials);
-  }
+  const fs::path run(command.target), returns = run / "returns.ply";
+  load_contributors(run, view);
   if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());
   load_scene_of_run(command, command.target, view);
   choose_start(command, view);

@@ -6,6 +6,7 @@
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
+#include "core/work_progress.hpp"
 
 namespace insonify {
 namespace {
@@ -39,6 +40,7 @@ ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const
   const EchoShapes shapes(head.pulse, medium);
 
   // Blocks of echoes in order; within a block, each tile of bins is computed by one thread.
+  ObservedLoop blocks((echoes.size() + echoes_at_once - 1) / echoes_at_once);
   for (std::size_t first = 0; first < echoes.size(); first += echoes_at_once) {
     const std::size_t last = std::min(first + echoes_at_once, echoes.size());
     const ComplexGrid weights = beam_weights(echoes, first, last, head, medium, options.threads);
@@ -52,6 +54,7 @@ ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const
           pressure.row(b).segment(begin, end - begin) += weights(i - first, b) * pulse.transpose();  // (E12)
       }
     });
+    blocks.advance();
   }
   return pressure;
 }

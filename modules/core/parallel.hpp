@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/work_progress.hpp"
+
 namespace insonify {
 
 /// Resolves a thread count: `threads` itself if positive, else the number of hardware threads.
@@ -20,11 +22,15 @@ inline int thread_count(int threads) {
 template <typename Body>
 void parallel_for(std::size_t n, int threads, Body&& body) {
   std::atomic<std::size_t> next{0};
+  ObservedLoop observed(n);
   std::exception_ptr first;
   std::mutex first_guard;
   const auto work = [&] {
     try {
-      for (std::size_t i = next++; i < n; i = next++) body(i);
+      for (std::size_t i = next++; i < n; i = next++) {
+        body(i);
+        observed.advance();
+      }
     } catch (...) {
       const std::scoped_lock lock(first_guard);
       if (!first) first = std::current_exception();

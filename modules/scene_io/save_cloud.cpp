@@ -12,6 +12,7 @@
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
+#include "scene_io/write_rows_internal.hpp"
 
 static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers in memory order");
 
@@ -19,23 +20,6 @@ namespace insonify {
 namespace {
 
 constexpr double farthest_in_pcd = 2000;  ///< [m]; float32 steps are 0.12 mm there
-
-/// Writes header and rows to a temporary file, then renames it to `path`; leaves nothing behind on failure.
-void write_rows(const std::string& path, const std::string& header, const PackedRows& rows) {
-  PendingFile pending(path);
-  errno = 0;
-  std::ofstream file(pending.temporary(), std::ios::binary);
-  file << header;
-  constexpr std::size_t block = 1 << 15;
-  const std::size_t stride = rows.stride();
-  std::vector<char> bytes(block * stride);
-  for (std::size_t first = 0; first < rows.rows && file; first += block) {
-    const std::size_t count = std::min(block, rows.rows - first);
-    for (std::size_t i = 0; i < count; ++i) rows.write_row(first + i, bytes.data() + i * stride);
-    file.write(bytes.data(), static_cast<std::streamsize>(count * stride));
-  }
-  pending.commit(file);
-}
 
 CloudFormat format_of(const std::string& path, const char* who) {
   const std::string extension = extension_of(path);

@@ -4,6 +4,7 @@
 
 #include "acoustics/multipath_echoes.hpp"
 #include "core/stop_watch.hpp"
+#include "core/work_progress.hpp"
 #include "simulate/average_looks_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
@@ -26,15 +27,18 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   const EffectSettings& effects = settled.effects;
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
+  begin_stage("sampling");
   PingParts parts = sample_parts(prepared, ping, result);
   const Scatterers& patches = parts.sampling.scatterers;
   result.seconds.sampling = watch.lap();
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
+  begin_stage("echoes");
   const EchoSource direct = direct_source(scene, ping, parts);
   result.seconds.acoustics = watch.lap();
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
+  begin_stage("synthesis");
   LayerSum layers(ping, kept);
   layers.add("direct", direct);
   const bool bounces = effects.multipath == Choice::always;
@@ -47,10 +51,12 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   result.seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.
+  begin_stage("detection");
   result.soundings = detect_soundings(result.ping, direct, ping.detection);
   result.seconds.detection = watch.lap();
 
   // What the options ask for besides, and how the ping came about.
+  begin_stage("outputs");
   attach_outputs(prepared, ping, std::move(parts), result);
   return result;
 }

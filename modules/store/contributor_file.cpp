@@ -102,6 +102,16 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
   });
 }
 
+std::uintmax_t contributor_bytes(const std::string& path) {
+  constexpr std::uintmax_t bytes_of_entry = 19;
+  const QuietErrors quiet;
+  const Place place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  require_ours(place, file);
+  const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
+  return bytes_of_entry * extent[0] * extent[1] * extent[2];
+}
+
 NamedContributors read_contributor_file(const std::string& path) {
   const QuietErrors quiet;
   const Place place{path, ErrorKind::content};

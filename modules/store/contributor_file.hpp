@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,8 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 /// Reads what write_contributor_file wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not
 /// such a file, has another schema or lacks a dataset, naming it.
 NamedContributors read_contributor_file(const std::string& path);
+
+/// Bytes of memory that the contributors of a file take; errors as read_contributor_file.
+std::uintmax_t contributor_bytes(const std::string& path);
 
 }  // namespace insonify

@@ -14,6 +14,8 @@ namespace insonify {
 
 /// The contents of cube.h5: one or more pings of one sonar.
 struct Cube {
+  static constexpr int all_bits = 24;  ///< of a float
+
   std::vector<Ping> pings;         ///< all with the same fan and gate
   double sound_speed = 0;          ///< [m/s]
   double absorption_db_per_m = 0;  ///< at the centre frequency
@@ -22,7 +24,8 @@ struct Cube {
   double source_level_db = 0;      ///< dB re 1 uPa at 1 m
   std::uint64_t seed = 0;
   double tolerance = 0;
-  std::string sonar;  ///< name of the head
+  int keep_bits = all_bits;  ///< significant bits of pressures that write_cube keeps, 1 to all_bits
+  std::string sonar;         ///< name of the head
   std::string insonify_version;
 };
 
@@ -39,6 +42,8 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// The attribute expected_level marks expected levels.
 /// Pings of a scanning head add /scan_angle [rad] and /sweep (pings), /beam_time [s] (pings x beams) and /beam_pose
 /// (pings x beams x 4 x 4).
+/// /unknown and labels are deflated. With fewer keep_bits than all, /pressure and /layers are rounded to so many significant
+/// bits, at most 2^-keep_bits of each real and imaginary part, and deflated, too; the attribute keep_bits says so.
 /// Byte-identical for identical input (no timestamps). Written to a temporary name, then renamed. Throws
 /// Error(argument) if there are no pings or they differ in fan, gate, extent, layers, maps or expected_level;
 /// Error(file) if it cannot write.

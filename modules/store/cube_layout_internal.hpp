@@ -24,6 +24,8 @@ constexpr DatasetName label_id_name{"/label_id", ""};
 constexpr DatasetName label_share_name{"/label_share", ""};
 /// Root attribute: names of the materials of /label_material, one a line.
 constexpr const char* label_names_attribute = "label_names";
+/// Root attribute: significant bits of the pressures, if they are rounded.
+constexpr const char* keep_bits_attribute = "keep_bits";
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.
 constexpr const char* expected_level_attribute = "expected_level";
 constexpr const char* expected_level_text = "expected level, no speckle";

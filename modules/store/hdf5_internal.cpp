@@ -164,7 +164,7 @@ Handle open_file(const Place& place) {
 }
 
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-                      const Extent& chunk) {
+                      const Extent& chunk, Packing packing) {
   const Handle space(
       place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
   const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
@@ -173,6 +173,10 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
     place.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
     place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
                   name.path);  // no undefined bytes in edge chunks
+    if (packing == Packing::deflate) {
+      place.checked(H5Pset_shuffle(properties), name.path);
+      place.checked(H5Pset_deflate(properties, 1), name.path);
+    }
   }
   Handle dataset(
       place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),

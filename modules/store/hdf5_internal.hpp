@@ -81,9 +81,12 @@ void write_hdf5(const std::string& path, Body&& body) {
 /// HDF5.
 Handle open_file(const Place& place);
 
+/// How the chunks of a dataset are stored: as they are, or shuffled and deflated at level 1, without loss.
+enum class Packing { none, deflate };
+
 /// Creates a dataset without timestamps, with its unit as attribute "units"; chunked if `chunk` is not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-                      const Extent& chunk = {});
+                      const Extent& chunk = {}, Packing packing = Packing::none);
 
 /// Creates a group that keeps the order in which its members are written.
 Handle create_ordered_group(const Place& place, hid_t file, const char* name);

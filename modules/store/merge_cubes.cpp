@@ -47,23 +47,52 @@ void count_up_unless_unique(std::vector<Ping>& pings) {
   for (std::size_t p = 0; p < pings.size(); ++p) pings[p].number = static_cast<std::int64_t>(p);
 }
 
+/// Drops what not all pings have alike: layers, maps, labels.
+void drop_unlike_parts(std::vector<Ping>& pings) {
+  const auto drop_unless = [&](const auto& has, const auto& drop) {
+    const auto like_first = [&](const Ping& ping) { return has(ping) == has(pings.front()); };
+    if (!std::all_of(pings.begin(), pings.end(), like_first)) std::for_each(pings.begin(), pings.end(), drop);
+  };
+  drop_unless(layer_names, [](Ping& ping) { ping.layers.clear(); });
+  const auto drop_map = [&](auto map) {
+    drop_unless([map](const Ping& ping) { return (ping.*map).size() > 0; }, [map](Ping& ping) { ping.*map = {}; });
+  };
+  drop_map(&Ping::intensity);
+  drop_map(&Ping::level_error_db);
+  drop_map(&Ping::unknown);
+  drop_map(&Ping::split_phase);
+  // Numbers of materials mean the same in all pings only if their names do.
+  drop_unless([](const Ping& ping) { return ping.labels.empty() ? std::vector<std::string>{} : ping.labels.names; },
+              [](Ping& ping) { ping.labels = {}; });
+}
+
 }  // namespace
 
-Cube merge_cubes(std::vector<NamedCube> cubes) {
+MergedCube merge_cubes(std::vector<NamedCube> cubes) {
   if (cubes.empty()) fail(ErrorKind::argument, "merge_cubes: no cubes, must be at least one");
   for (const NamedCube& one : cubes) {
     if (one.cube.pings.empty()) fail(ErrorKind::content, one.name, ": holds no pings");
     require_alike(one, cubes.front());
   }
-  Cube merged = std::move(cubes.front().cube);
-  for (auto one = cubes.begin() + 1; one != cubes.end(); ++one)
-    std::move(one->cube.pings.begin(), one->cube.pings.end(), std::back_inserter(merged.pings));
-  std::vector<Ping>& pings = merged.pings;
-  std::stable_sort(pings.begin(), pings.end(), [](const Ping& a, const Ping& b) { return a.time < b.time; });
+  struct Traced {
+    Ping ping;
+    PingOrigin origin;
+  };
+  std::vector<Traced> traced;
+  for (std::size_t c = 0; c < cubes.size(); ++c)
+    for (Ping& ping : cubes[c].cube.pings) traced.push_back({std::move(ping), {c, ping.number}});
+  std::stable_sort(traced.begin(), traced.end(),
+                   [](const Traced& a, const Traced& b) { return a.ping.time < b.ping.time; });
+  MergedCube merged;
+  merged.cube = std::move(cubes.front().cube);
+  std::vector<Ping>& pings = merged.cube.pings;
+  pings.clear();
+  for (Traced& one : traced) {
+    pings.push_back(std::move(one.ping));
+    merged.origins.push_back(one.origin);
+  }
   count_up_unless_unique(pings);
-  const std::vector<std::string> layers = layer_names(pings.front());
-  if (!std::all_of(pings.begin(), pings.end(), [&](const Ping& ping) { return layer_names(ping) == layers; }))
-    for (Ping& ping : pings) ping.layers.clear();
+  drop_unlike_parts(pings);
   return merged;
 }
 

@@ -12,11 +12,23 @@ struct NamedCube {
   Cube cube;
 };
 
+/// Where a ping of a merged cube comes from.
+struct PingOrigin {
+  std::size_t cube;     ///< index in what was merged
+  std::int64_t number;  ///< that it had there
+};
+
+/// A merged cube, and the origin of each of its pings.
+struct MergedCube {
+  Cube cube;
+  std::vector<PingOrigin> origins;
+};
+
 /// One cube with all pings, ordered by time of transmission; pings of equal time keep the given order. Ping numbers are
-/// kept if they are unique, else replaced by 0, 1, ... Layers are kept if all pings have the same ones, else dropped.
+/// kept if they are unique, else replaced by 0, 1, ... Layers, maps and labels are kept if all pings have the same ones, else dropped.
 /// Seed, tolerance, version and water are those of the first cube. Throws Error(argument) if there is no cube,
 /// Error(content) naming the cube and the difference if sonar, fan, gate, centre frequency, bandwidth or sound speed
 /// differ from the first.
-Cube merge_cubes(std::vector<NamedCube> cubes);
+MergedCube merge_cubes(std::vector<NamedCube> cubes);
 
 }  // namespace insonify

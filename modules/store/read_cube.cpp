@@ -222,6 +222,8 @@ Cube read_attributes(const Place& place, hid_t file) {
   cube.source_level_db = read_number(place, file, "source_level_db");
   cube.seed = read_unsigned(place, file, "seed");
   cube.tolerance = read_number(place, file, "tolerance");
+  if (H5Aexists(file, keep_bits_attribute) > 0)
+    cube.keep_bits = static_cast<int>(read_integer(place, file, keep_bits_attribute));
   return cube;
 }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <bit>
 #include <complex>
+#include <cstdint>
 #include <type_traits>
 
 #include "core/error.hpp"
@@ -53,6 +55,9 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
 // Refuses pings that cannot share one set of axes.
 void require_writable(const Cube& cube, const std::string& path) {
   if (cube.pings.empty()) fail(ErrorKind::argument, "write_cube: ", path, ": no pings, must be at least one");
+  if (cube.keep_bits < 1 || cube.keep_bits > Cube::all_bits)
+    fail(ErrorKind::argument, "write_cube: ", path, ": keep_bits = ", cube.keep_bits, ", must be within 1 and ",
+         Cube::all_bits);
   const Ping& first = cube.pings.front();
   if (first.fan.azimuth.size() != first.fan.elevation.size())
     fail(ErrorKind::argument, "write_cube: ", path, ": fan has ", first.fan.azimuth.size(), " azimuths and ",
@@ -90,12 +95,14 @@ Handle image_type(const Place& place, bool in_file) {
 
 // Writes one image per ping: the pressure, layer or map selected by `part`.
 template <typename Part>
-void write_images(const Place& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings, Part part) {
+void write_images(const Place& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings, Part part,
+                  Packing packing) {
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
   const Extent extent = {pings.size(), beams, bins};
   using Number = typename std::decay_t<decltype(part(pings[0]))>::Scalar;
   const Handle stored = image_type<Number>(place, true), here = image_type<Number>(place, false);
-  const Handle dataset = create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins});
+  const Handle dataset =
+      create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins}, packing);
   const Extent one_ping = {1, beams, bins};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
@@ -104,32 +111,57 @@ void write_images(const Place& place, hid_t file, const DatasetName& name, const
   }
 }
 
-void write_layers(const Place& place, hid_t file, const std::vector<Ping>& pings) {
-  const std::vector<Layer>& layers = pings.front().layers;
+// Rounds to `bits` significant bits, halves to even; infinities and NaN stay.
+float rounded(float value, int bits) {
+  auto pattern = std::bit_cast<std::uint32_t>(value);
+  if ((pattern & 0x7f800000u) == 0x7f800000u) return value;
+  const int dropped = Cube::all_bits - bits;
+  const std::uint32_t last_kept = (pattern >> dropped) & 1u, half = (1u << dropped) >> 1;
+  pattern += half + last_kept - 1u;
+  return std::bit_cast<float>(pattern & ~((1u << dropped) - 1u));
+}
+
+// Writes pressures with as many significant bits as the cube keeps.
+template <typename Part>
+void write_pressures(const Place& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
+  const int bits = cube.keep_bits;
+  if (bits == Cube::all_bits) return write_images(place, file, name, cube.pings, part, Packing::none);
+  const auto round = [bits](const std::complex<float>& p) {
+    return std::complex<float>(rounded(p.real(), bits), rounded(p.imag(), bits));
+  };
+  write_images(
+      place, file, name, cube.pings, [&](const Ping& ping) -> ComplexGridF { return part(ping).unaryExpr(round); },
+      Packing::deflate);
+}
+
+void write_layers(const Place& place, hid_t file, const Cube& cube) {
+  const std::vector<Layer>& layers = cube.pings.front().layers;
   if (layers.empty()) return;
   const Handle group = create_ordered_group(place, file, layers_group);
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const std::string path = std::string(layers_group) + "/" + layers[l].name;
-    write_images(place, file, {path.c_str(), pressure_name.unit}, pings,
-                 [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
+    write_pressures(place, file, {path.c_str(), pressure_name.unit}, cube,
+                    [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
   }
 }
 
 void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) {
-  const auto write = [&](const DatasetName& name, auto map) {
+  // Noise-like numbers do not become smaller; masks and labels do.
+  const auto write = [&](const DatasetName& name, auto map, Packing packing) {
     if ((pings.front().*map).size() > 0)
       write_images(
-          place, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; });
+          place, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; }, packing);
   };
-  write(intensity_name, &Ping::intensity);
-  write(level_error_name, &Ping::level_error_db);
-  write(unknown_name, &Ping::unknown);
-  write(split_phase_name, &Ping::split_phase);
+  write(intensity_name, &Ping::intensity, Packing::none);
+  write(level_error_name, &Ping::level_error_db, Packing::none);
+  write(unknown_name, &Ping::unknown, Packing::deflate);
+  write(split_phase_name, &Ping::split_phase, Packing::none);
   const PixelLabels& first = pings.front().labels;
   if (first.empty()) return;
   const auto write_label = [&](const DatasetName& name, auto label) {
     write_images(
-        place, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; });
+        place, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; },
+        Packing::deflate);
   };
   write_label(label_material_name, &PixelLabels::material);
   write_label(label_id_name, &PixelLabels::id);
@@ -194,6 +226,7 @@ void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
   write_attribute(place, file, "source_level_db", cube.source_level_db);
   write_attribute(place, file, "seed", cube.seed);
   write_attribute(place, file, "tolerance", cube.tolerance);
+  if (cube.keep_bits < Cube::all_bits) write_attribute(place, file, keep_bits_attribute, std::int64_t{cube.keep_bits});
   const Ping& ping = cube.pings.front();
   write_attribute(place, file, "beam_width", ping.fan.beam_width);
   write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
@@ -213,9 +246,9 @@ void write_cube(const std::string& path, const Cube& cube) {
     write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
     write_track(place, file, cube.pings);
     write_scan(place, file, cube.pings);
-    write_images(place, file, pressure_name, cube.pings,
-                 [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
-    write_layers(place, file, cube.pings);
+    write_pressures(place, file, pressure_name, cube,
+                    [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
+    write_layers(place, file, cube);
     write_maps(place, file, cube.pings);
   });
 }

@@ -123,6 +123,12 @@ Trial try_scale(const FanOutline& fan, double scale, int font) {
   return trial;
 }
 
+// Mirrors the labels at the horizontal line through the apex.
+void turn_over(Trial& trial) {
+  for (PlacedText& text : trial.texts) text.centre.y = -text.centre.y;
+  trial.extent = {trial.extent.left, trial.extent.right, -trial.extent.top, -trial.extent.bottom};
+}
+
 // Largest scale at which the fan and its labels fit into the room, by bisection. The set of labels depends on the
 // scale, so the result is a scale that was tried and fits.
 double fitting_scale(const FanOutline& fan, const Box& room, int font) {
@@ -140,7 +146,11 @@ double fitting_scale(const FanOutline& fan, const Box& room, int font) {
 
 Point2 FanLayout::at(double bearing, double range) const {
   const Point2 p = polar(bearing, range * pixels_per_metre);
-  return {apex.x + p.x, apex.y + p.y};
+  return {apex.x + p.x, downwards ? apex.y - p.y : apex.y + p.y};
+}
+
+Point2 FanLayout::from_apex(Point2 place) const {
+  return {place.x - apex.x, downwards ? apex.y - place.y : place.y - apex.y};
 }
 
 int font_size_for(int width, int height) {
@@ -170,6 +180,7 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   layout.high = fan.high;
   layout.min_range = fan.min_range;
   layout.max_range = fan.max_range;
+  layout.downwards = fan.downwards;
   layout.font_size = font;
   layout.title = place_title(options);
 
@@ -190,6 +201,7 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   // Centre the fan with its labels in the room.
   const Box room = lie ? above : beside;
   Trial trial = try_scale(fan, layout.pixels_per_metre, font);
+  if (fan.downwards) turn_over(trial);
   layout.apex = {(room.left + room.right - trial.extent.left - trial.extent.right) / 2,
                  (room.bottom + room.top - trial.extent.bottom - trial.extent.top) / 2};
   for (PlacedText& text : trial.texts) text.centre = {text.centre.x + layout.apex.x, text.centre.y + layout.apex.y};

@@ -12,13 +12,15 @@ namespace insonify {
 struct FanOutline {
   double low = 0, high = 0;  ///< bearings
   double min_range = 0, max_range = 0;
+  bool downwards = false;  ///< drawn with the apex at the top
 };
 
-/// Layout of a fan picture. Forward is up and starboard right: the flip of the head axes (y to port) is made only here.
+/// Layout of a fan picture. Forward is up, or down if the head looks down, and starboard right: the flip of the head axes (y to port) is made only here.
 struct FanLayout {
   Point2 apex;  ///< the head
   double pixels_per_metre = 1;
   double low = 0, high = 0, min_range = 0, max_range = 0;
+  bool downwards = false;
   std::vector<double> rings;   ///< [m]
   std::vector<double> spokes;  ///< bearings [rad]
   std::vector<PlacedText> texts;
@@ -27,6 +29,8 @@ struct FanLayout {
   int font_size = 0;
 
   Point2 at(double bearing, double range) const;
+  /// The vector from the apex to a place, as in a picture with forward up [pixels].
+  Point2 from_apex(Point2 place) const;
 };
 
 /// Size of ordinary text for a picture of width x height pixels.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/grid.hpp"
+#include "core/pose.hpp"
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
 
@@ -13,9 +14,13 @@ namespace insonify {
 struct LevelImage {
   BeamFan fan;
   RangeGate gate;
-  Grid<float> level_db;  ///< beams x bins
-  std::string unit;      ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
+  Grid<float> level_db;    ///< beams x bins
+  std::string unit;        ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
+  bool downwards = false;  ///< the head looks down, as that of a swath does: a fan is drawn with the head at the top
 };
+
+/// Whether a head looks down by more than 45 degrees.
+inline bool looks_down(const Pose& world_from_head) { return world_from_head.linear()(2, 0) < -0.7072; }
 
 /// A place in a picture marked with a ring and, if there is room, its name.
 struct Mark {

@@ -58,8 +58,8 @@ FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions
   const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
 
   // Lay out everything, then draw it.
-  const FanLayout layout = lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options, scale,
-                                       unit_text(image.unit, cells));
+  const FanOutline outline{cells.low(), cells.high(), image.gate.min_range, max_range, image.downwards};
+  const FanLayout layout = lay_out_fan(outline, options, scale, unit_text(image.unit, cells));
   const double step = std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
   for (const CellPatch& patch : fan_patches(cells, image.gate, layout.pixels_per_metre))
     canvas.add_cells(

@@ -100,7 +100,8 @@ std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing,
 LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
   const auto shown = data.pings.ping(ping_index);
   const Ping& ping = *shown;
-  LevelImage image{ping.fan, ping.gate, shown_level_db(ping), level_unit(tvg)};
+  LevelImage image{ping.fan, ping.gate, shown_level_db(ping), level_unit(tvg),
+                   looks_down(ping.world_from_head) && !ping.scan};
   if (ping.scan)
     for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping.scan->angle, 2 * pi);
   if (tvg) image.level_db = apply_tvg(std::move(image.level_db), ping.gate, {40, data.absorption_db_per_m});
@@ -171,7 +172,7 @@ void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, s
 }
 
 FanPlace fan_place(const FanLayout& layout, Point2 place) {
-  const double x = place.x - layout.apex.x, y = place.y - layout.apex.y;
+  const auto [x, y] = layout.from_apex(place);
   return {std::atan2(x, y), std::hypot(x, y) / layout.pixels_per_metre};
 }
 

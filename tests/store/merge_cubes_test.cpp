@@ -46,7 +46,12 @@ std::string refusal_of_merging(Change&& change) {
 }  // namespace
 
 TEST(MergeCubes, puts_pings_in_order_of_time_and_says_of_the_rest_what_the_first_cube_does) {
-  const Cube merged = merge_cubes({run_of("b", 2, 20, 7), run_of("a", 1, 10, 9), run_of("c", 3, 30, 8)});
+  const MergedCube traced = merge_cubes({run_of("b", 2, 20, 7), run_of("a", 1, 10, 9), run_of("c", 3, 30, 8)});
+  const Cube& merged = traced.cube;
+  ASSERT_EQ(traced.origins.size(), 3u);
+  EXPECT_EQ(traced.origins[0].cube, 1u);
+  EXPECT_EQ(traced.origins[0].number, 9);
+  EXPECT_EQ(traced.origins[2].cube, 2u);
   EXPECT_THAT(values(merged), ElementsAre(10, 20, 30));
   EXPECT_THAT(numbers(merged), ElementsAre(9, 7, 8)) << "unique numbers stay";
   EXPECT_EQ(merged.seed, 20U);
@@ -54,7 +59,7 @@ TEST(MergeCubes, puts_pings_in_order_of_time_and_says_of_the_rest_what_the_first
 }
 
 TEST(MergeCubes, keeps_the_order_given_for_pings_of_one_time_and_counts_numbers_that_are_alike) {
-  const Cube merged = merge_cubes({run_of("b", 5, 20, 3), run_of("a", 5, 10, 3), run_of("c", 0, 30, 3)});
+  const Cube merged = merge_cubes({run_of("b", 5, 20, 3), run_of("a", 5, 10, 3), run_of("c", 0, 30, 3)}).cube;
   EXPECT_THAT(values(merged), ElementsAre(30, 20, 10));
   EXPECT_THAT(numbers(merged), ElementsAre(0, 1, 2));
 }
@@ -62,11 +67,11 @@ TEST(MergeCubes, keeps_the_order_given_for_pings_of_one_time_and_counts_numbers_
 TEST(MergeCubes, keeps_layers_only_if_all_pings_have_the_same) {
   NamedCube second = run_of("b", 1, 2);
   second.cube.pings[0].layers.pop_back();
-  for (const Ping& ping : merge_cubes({run_of("a", 0, 1), second}).pings) EXPECT_TRUE(ping.layers.empty());
+  for (const Ping& ping : merge_cubes({run_of("a", 0, 1), second}).cube.pings) EXPECT_TRUE(ping.layers.empty());
 }
 
 TEST(MergeCubes, makes_a_cube_that_can_be_written_and_read) {
-  const Cube merged = merge_cubes({run_of("a", 0, 1), run_of("b", 1, 2)});
+  const Cube merged = merge_cubes({run_of("a", 0, 1), run_of("b", 1, 2)}).cube;
   write_cube(own_path("all.h5"), merged);
   EXPECT_THAT(values(read_cube(own_path("all.h5"))), ElementsAre(1, 2));
 }

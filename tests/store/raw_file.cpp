@@ -37,6 +37,17 @@ std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
   return extent;
 }
 
+std::string raw_text(hid_t file, const char* object, const char* name) {
+  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(attribute);
+  char* text = nullptr;
+  H5Aread(attribute, type, &text);
+  const std::string result = text;
+  H5free_memory(text);
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return result;
+}
+
 void expect_same_bytes_a_day_later(const std::function<std::string(const std::string&)>& write) {
   mallopt(M_PERTURB, 0x55);
   const std::string first = file_bytes(write("first.h5"));

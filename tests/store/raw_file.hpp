@@ -22,6 +22,9 @@ class RawFile {
 
 std::vector<hsize_t> raw_extent(hid_t file, const char* dataset);
 
+/// The text of an attribute of variable length.
+std::string raw_text(hid_t file, const char* object, const char* name);
+
 /// write("first.h5") and write("second.h5"), which return the path of what they wrote, must give the same bytes, though
 /// the second is written a day later by the clock of this program, into memory that malloc filled with another byte.
 void expect_same_bytes_a_day_later(const std::function<std::string(const std::string&)>& write);

@@ -120,7 +120,7 @@ TEST_F(Pictures, of_many_pings_come_from_merged_runs) {
   synthesize("a", {{0, 9.5}});
   synthesize("b", {{0, 6.5}});
   synthesize("c", {{0, 4}});
-  EXPECT_THAT(succeed("merge a b c -o all -q"), HasSubstr("all: 3 pings of 3 runs"));
+  EXPECT_THAT(succeed("merge a b c -o all"), HasSubstr("all: 3 pings of 3 runs"));
   EXPECT_EQ(read("all/run.toml"), read("a/run.toml"));
   EXPECT_THAT(read("all/manifest.json"), HasSubstr("follow in the order given"));
   const Cube all = read_cube(path("all/cube.h5"));

@@ -30,7 +30,7 @@ LaidOut lay_out(double field_of_view_deg, int width, int height, FanOutline fan)
 template <typename Check>
 void for_all_fans(Check&& check) {
   const std::pair<int, int> sizes[] = {{600, 500}, {1400, 1050}, {500, 1000}, {1920, 1080}, {4000, 3000}};
-  const FanOutline outlines[] = {{0, 0, 0.5, 9}, {0, 0, 10, 640}};
+  const FanOutline outlines[] = {{0, 0, 0.5, 9}, {0, 0, 10, 640}, {0, 0, 1, 30, true}};
   for (const double field_of_view_deg : {20.0, 45.0, 60.0, 90.0, 120.0, 130.0, 180.0, 210.0, 270.0, 330.0, 360.0})
     for (const auto& [width, height] : sizes)
       for (const FanOutline& outline : outlines) {

@@ -17,7 +17,7 @@ class ShowFan : public PictureTest {
   FanLayout layout_of(const LevelImage& image) const {
     const BeamCells cells = order_beams(image);
     const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
-    return lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range}, options,
+    return lay_out_fan({cells.low(), cells.high(), image.gate.min_range, max_range, image.downwards}, options,
                        colour_scale(image.level_db, options, "test"), image.unit);
   }
 };
@@ -87,6 +87,27 @@ TEST_F(ShowFan, has_starboard_right_and_forward_up_whatever_the_order_of_the_bea
     EXPECT_LT(std::hypot(starboard.x - s.x, starboard.y - s.y), 2);
     EXPECT_LT(std::hypot(ahead.x - a.x, ahead.y - a.y), 2);
   }
+}
+
+TEST_F(ShowFan, has_a_head_that_looks_down_at_the_top_and_starboard_still_right) {
+  options.min_db = 50, options.max_db = 100;
+  options.colour_map = "jet";
+  ThreeCells cells(true);
+  cells.image.downwards = true;
+  const ReadPicture picture = show(cells.image);
+  const FanLayout layout = layout_of(cells.image);
+  const ColourScale scale = colour_scale(cells.image.level_db, options, "test");
+  const double bar = layout.colour_bar.outer().top;
+  const auto find = [&](double db) { return find_colour(picture, scale.colour(db), 0, 1e9, bar, 1e9); };
+  const Blob port = find(ThreeCells::port_db), starboard = find(ThreeCells::starboard_db),
+             ahead = find(ThreeCells::ahead_db);
+  EXPECT_LT(port.x, ahead.x);
+  EXPECT_GT(starboard.x, ahead.x);
+  EXPECT_GT(port.y, ahead.y);  // nearest, so highest
+  EXPECT_GT(ahead.y, starboard.y);
+  const Point2 s = layout.at(radians(30), 9.75), back = layout.from_apex(s);
+  EXPECT_LT(std::hypot(starboard.x - s.x, starboard.y - s.y), 2);
+  EXPECT_NEAR(std::atan2(back.x, back.y), radians(30), 1e-12);
 }
 
 TEST_F(ShowFan, shows_every_cell_in_the_colour_of_its_level) {

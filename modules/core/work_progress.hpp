@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+
+namespace insonify {
+
+/// What the program is doing, for a display.
+struct WorkProgress {
+  const char* stage = "";   ///< that was begun last
+  std::size_t done = 0;     ///< of the outermost parallel loop that is running
+  std::size_t total = 0;    ///< 0: none is running
+  double loop_seconds = 0;  ///< since it began
+};
+
+/// Switches the observation of loops on or off; off at first, when it costs nothing.
+void observe_work(bool on);
+
+/// Names the stage that begins; `name` must live as long as the program. May be called from any thread.
+void begin_stage(const char* name);
+
+/// Returns what the program is doing. May be called from any thread.
+WorkProgress work_progress();
+
+/// A loop of `total` calls, from its construction to its end: it counts if work is observed, it has more than one call, and
+/// no other loop that counts, which may have started this one, is running.
+class ObservedLoop {
+ public:
+  explicit ObservedLoop(std::size_t total);
+  ~ObservedLoop();
+  ObservedLoop(const ObservedLoop&) = delete;
+  ObservedLoop& operator=(const ObservedLoop&) = delete;
+
+  /// Counts a call that is done.
+  void advance() {
+    if (counts_) count();
+  }
+
+ private:
+  static void count();
+  const bool counts_;
+};
+
+}  // namespace insonify
