@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "scene_io/load_scene.hpp"
 #include "tool/parse_values.hpp"
@@ -59,7 +60,10 @@ RunSetting seed_setting(CommonOptions& o) {
   return {"", "seed", "--seed", &o.seed, "of all random numbers; same seed, same bytes"};
 }
 
-std::vector<RunSetting> ping_settings(PingOptions& o) {
+namespace {
+
+/// Where the head is, and what it hears.
+std::vector<RunSetting> sent_settings(PingOptions& o) {
   return {
       {"ping", "pose", "--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down"},
       {"ping", "mount", "--mount", &o.mount,
@@ -86,6 +90,12 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
        "add thermal noise, and the wind's and the platform's if the environment has them"},
       {"ping", "multipath", "--multipath", &o.multipath,
        "add echoes by way of the environment's surface and bottom even where --accuracy-db does not need them"},
+  };
+}
+
+/// What is kept of it, and what is refined, detected and limited.
+std::vector<RunSetting> kept_settings(PingOptions& o) {
+  return {
       {"ping", "keep", "--keep", &o.keep,
        "elements: also write elements.h5, the series of every element of a line array; mask: mark in the cube where "
        "the scan has holes; contributors: write contributors.h5, the strongest surfels of every pixel; insonification: "
@@ -122,6 +132,14 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
       {"ping", "with", "--with", &o.with, "force a stage of the plan in, any number of times", stages},
       {"ping", "without", "--without", &o.without, "force a stage of the plan out, any number of times", stages},
   };
+}
+
+}  // namespace
+
+std::vector<RunSetting> ping_settings(PingOptions& o) {
+  std::vector<RunSetting> all = sent_settings(o);
+  for (RunSetting& setting : kept_settings(o)) all.push_back(std::move(setting));
+  return all;
 }
 
 std::vector<RunSetting> mission_settings(PingOptions& o) {

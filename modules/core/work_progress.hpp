@@ -20,10 +20,10 @@ void begin_stage(const char* name);
 /// Returns what the program is doing. May be called from any thread.
 WorkProgress work_progress();
 
-/// A loop of `total` calls, from its construction to its end: it counts if work is observed, it has more than one call, and
-/// no other loop that counts, which may have started this one, is running.
+/// A loop that counts if work is observed, it has several calls, and it is not inside another loop that counts.
 class ObservedLoop {
  public:
+  /// Begins a loop of `total` calls, which ends with this object.
   explicit ObservedLoop(std::size_t total);
   ~ObservedLoop();
   ObservedLoop(const ObservedLoop&) = delete;
