@@ -8,7 +8,10 @@ set -euo pipefail
 [[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 cd "$(dirname "$0")/.."
 reader=$1 seconds=$2 build=build/fuzz
-command -v clang++ >/dev/null || { echo "tests/fuzz.sh installs clang" >&2; sudo apt-get install -y clang; }
+command -v clang++-16 >/dev/null || {
+  echo "tests/fuzz.sh installs clang-16" >&2
+  $([[ $EUID == 0 ]] || echo sudo) apt-get install -y --no-install-recommends clang-16 libclang-rt-16-dev
+}
 if [[ ! -x ${INSONIFY_TOOL:-build/dev/bin/insonify} ]]; then
   cmake --preset dev >/dev/null && cmake --build --preset dev --target insonify
 fi
@@ -16,7 +19,7 @@ launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 # GCC's name for the address checks says to the sources that they are on; the libraries' types have no type information.
 cmake -S . -B $build -G Ninja -DCMAKE_BUILD_TYPE=Debug -DINSONIFY_VIEW=OFF -DINSONIFY_FUZZ=ON -DCMAKE_UNITY_BUILD=ON \
-  -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DINSONIFY_SANITIZE=address,undefined \
+  -DCMAKE_C_COMPILER=clang-16 -DCMAKE_CXX_COMPILER=clang++-16 -DINSONIFY_SANITIZE=address,undefined \
   -DCMAKE_CXX_FLAGS="-O1 -fsanitize=fuzzer-no-link -fno-sanitize=vptr -D__SANITIZE_ADDRESS__=1" "${launcher[@]}" >/dev/null
 cmake --build $build --target fuzz_readers -- -j "${JOBS:-2}" >$build/log || { tail -30 $build/log >&2; exit 1; }
 ln -sf fuzz_readers "$build/bin/fuzz_$reader"
