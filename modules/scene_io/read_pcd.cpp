@@ -120,7 +120,7 @@ Header read_pcd_header(const std::string& path) {
     }
     read_header_line(header, words, line);
     if (words[0] == "DATA") {
-      header.end = static_cast<std::size_t>(file.tellg());
+      header.end = file.eof() ? file_size_of(path) : static_cast<std::size_t>(file.tellg());
       check_header(header);
       return header;
     }
