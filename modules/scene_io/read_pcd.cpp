@@ -147,9 +147,10 @@ void check_compressed(const Header& header, std::size_t held) {
   const std::string sizes = read_beginning(header.path, header.end + 8).substr(header.end);
   const auto packed = read_as<std::uint32_t>(sizes.data()), unpacked = read_as<std::uint32_t>(sizes.data() + 4);
   if (held - 8 < packed) cut_off(header, packed, held - 8);
-  if (static_cast<double>(unpacked) != static_cast<double>(header.points) * static_cast<double>(header.stride()))
-    fail(ErrorKind::content, header.path, ": the header announces ", header.points, " points of ", header.stride(),
-         " bytes, the compressed block ", unpacked, " bytes; export the file again");
+  const double announced = static_cast<double>(header.points) * static_cast<double>(header.stride());
+  if (announced != static_cast<double>(unpacked))
+    fail(ErrorKind::content, header.path, ": the header announces ", announced,
+         " bytes of points, the compressed block ", unpacked, "; export the file again");
   if (unpacked / lzf_most > packed)
     fail(ErrorKind::content, header.path, ": announces ", unpacked, " bytes of points in a compressed block of ",
          packed, ", which holds at most ", lzf_most, " times its size; copy or export the file again");
@@ -168,10 +169,10 @@ void check_text(const Header& header) {
 void check_data(const Header& header) {
   const std::size_t held = file_size_of(header.path) - header.end, stride = header.stride();
   if (header.data == "ascii") {
-    // A number takes two bytes with the blank that follows.
+    // A number takes two bytes with the blank that follows; which row lacks some, check_text() says.
     std::size_t row = 0;
     for (const Field& f : header.fields) row += 2 * f.count;
-    if (row == 0 || header.points > (held + 1) / row) cut_off(header, header.points * row, held);
+    if (header.points > held || row > held + 1) cut_off(header, std::max(header.points, row), held);
     check_text(header);
   } else if (header.data == "binary_compressed") {
     check_compressed(header, held);
