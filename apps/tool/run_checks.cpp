@@ -57,11 +57,12 @@ RunCheck check_survey(const std::string& run) {
 
 }  // namespace
 
-ordered_json digests_of(const RunDirectory& directory) {
+void write_manifest(const RunDirectory& directory, ordered_json manifest) {
   std::map<std::string, std::string> digests;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory.file("")))
     if (entry.is_regular_file()) digests[entry.path().filename().string()] = sha256_of_file(entry.path().string());
-  return digests;
+  manifest[digests_key] = digests;
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
 }
 
 RunCheck check_run(const std::string& run, const std::string& only) {

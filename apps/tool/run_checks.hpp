@@ -9,8 +9,8 @@
 
 namespace insonify::tool {
 
-/// SHA-256 of all files of a run that is being written, by their names, for its manifest.
-nlohmann::ordered_json digests_of(const RunDirectory& directory);
+/// Writes the last file of a run, manifest.json, with the SHA-256 of all others, by their names. Throws Error(file).
+void write_manifest(const RunDirectory& directory, nlohmann::ordered_json manifest);
 
 /// What has become of the files of a run or survey since it was written.
 struct RunCheck {

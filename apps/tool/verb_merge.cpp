@@ -102,8 +102,7 @@ void merge(const MergeOptions& o) {
   write_cube(directory.file("cube.h5"), merged);
   const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
   if (std::filesystem::exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
-  manifest["sha256"] = digests_of(directory);
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   directory.commit();
   print_result(o.common, manifest,
                [&] { fmt::print("{}: {} pings of {} runs\n", o.output, merged.pings.size(), o.runs.size()); });

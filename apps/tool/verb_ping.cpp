@@ -106,8 +106,7 @@ void ping(const PingCommand& command) {
                          {"detection", result.seconds.detection},
                          {"contributors", result.seconds.contributors},
                          {"output", watch.lap()}};
-  manifest["sha256"] = digests_of(directory);
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   progress.step("done");
   directory.commit();
   print_result(common, manifest, [&] { print_summary(o.run.output, manifest); });

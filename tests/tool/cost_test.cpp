@@ -127,7 +127,7 @@ TEST_F(Cost, under_a_limit_of_memory) {
   const std::string ping = "ping harbour.ply -q --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0 --range 2:5";
   have("whole", ping.substr(0, ping.find(" -q")) + ping.substr(ping.find(" -q") + 3) + " --no-picture");
   int pictures = 0, without = 0;
-  for (const int mib : {400, 500, 600, 700, 800, 1000, 1200, 3000}) {
+  for (const int mib : {500, 700, 900, 3000}) {
     const auto limited = [&](const std::string& arguments) {
       write("line.sh", "cd '" + folder_.string() + "'; ulimit -v " + std::to_string(1024 * mib) +
                            "; exec " INSONIFY_TOOL " " + arguments + " >/dev/null 2>err");
