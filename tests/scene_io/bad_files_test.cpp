@@ -169,6 +169,7 @@ TEST(BadFile, counts_of_legacy_vtk_are_held_against_the_file) {
            {"POLYGONS 1 4\n-3 0 1 2\n", "its cells have other lengths"},
            {"POLYGONS 2 4\n3 0 1 2\n", "its cells have other lengths"},
            {"TRIANGLE_STRIPS 1 4\n5 0 1 2\n", "its cells have other lengths"},
+           {"POLYGONS 2 8\n3 0 1 2\n5 0 1 2\n", "its cells have other lengths"},
            {"POINT_DATA 3\nSCALARS label int 1000000000\nLOOKUP_TABLE default\n1 2 3\n", "label announces"},
            {"POINT_DATA 3\nSCALARS label int x\nLOOKUP_TABLE default\n1 2 3\n", "'x' components"},
            {"POINT_DATA 3\nFIELD f 1\na 1000000 18446744073709551615 int\n1\n", "array a announces"},
@@ -182,6 +183,8 @@ TEST(BadFile, counts_of_legacy_vtk_are_held_against_the_file) {
   std::string binary = replaced(head.substr(0, head.find("0 0 0 1")), "ASCII", "BINARY");
   binary += std::string(36, '\0') + "\nPOLYGONS 1 4\n" + std::string("\0\0\0\x05\0\0\0\0\0\0\0\1\0\0\0\2", 16) + "\n";
   expect_bad(own_file("b.vtk", binary), {"its cells have other lengths"});
+  expect_bad(own_file("s.vtk", replaced(binary.substr(0, 100), "POINTS 3", "POINTS 9")),
+             {"POINTS announces 27 numbers"});
   EXPECT_LT(peak_memory_mib(), 500);
 }
 
