@@ -73,14 +73,20 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
       std::async(std::launch::async, [&, path = directory.file("cube.h5")] { write_cube(path, cube); });
   write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
+  // Without OpenGL or memory for it the data is still written.
+  const auto no_picture = [&](const std::string& reason) {
+    progress.note("no fan.png: " + reason);
+    manifest["notes"].push_back("no fan.png: " + reason);
+  };
   const double absorption = setup.medium.absorption.a0 / nepers_per_db;
   if (!run.no_picture) try {
       PictureOptions options;
       options.title = picture_title(setup.head.name, ping);
       show_fan(level_image(ping, Tvg{40, absorption}), options, directory.file("fan.png"));
-    } catch (const Error& error) {  // without OpenGL the data is still written
-      progress.note(std::string("no fan.png: ") + error.what());
-      manifest["notes"].push_back(std::string("no fan.png: ") + error.what());
+    } catch (const Error& error) {
+      no_picture(error.what());
+    } catch (const std::bad_alloc&) {
+      no_picture("out of memory");
     }
 
   written.get();

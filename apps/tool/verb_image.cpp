@@ -71,6 +71,13 @@ void add_options(OptionList list, ImageOptions& o) {
   add_common(list, o.common);
 }
 
+/// Throws Error(argument) for a title that no picture has room for.
+void require_title(const std::string& title) {
+  constexpr std::size_t most = 1000;
+  if (title.size() > most)
+    fail(ErrorKind::argument, "--title of ", title.size(), " characters, must have at most ", most);
+}
+
 /// --annotate: how many maxima, or the user's own labels.
 struct Annotation {
   std::size_t maxima = 0;
@@ -166,6 +173,7 @@ void require_options_of_view(const ImageOptions& o) {
 void image(const ImageOptions& o) {
   require_options_of_view(o);
   const PictureOptions picture = picture_options(o);
+  require_title(o.title);
   const Annotation annotation = read_annotation(o);
   std::error_code ignored;
   if (!o.animate && !o.force && fs::exists(o.output, ignored))

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "store/cube.hpp"
 #include "store/sonar_file.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/scene_files.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -21,10 +23,12 @@ using nlohmann::ordered_json;
 struct InfoOptions {
   CommonOptions common;
   std::vector<std::string> files;
+  bool verify = false;
 };
 
 void add_options(OptionList list, InfoOptions& o) {
   list.add("FILE", &o.files, "cloud, mesh, sonar .toml, cube.h5 or run directory", {.required = true});
+  list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 of when they were made");
   add_common(list, o.common);
 }
 
@@ -129,7 +133,22 @@ ordered_json tiles_summary(const std::string& path) {
   return json;
 }
 
+/// Compares the files of all runs. Throws Error(content) if one was changed.
+void verify(const InfoOptions& o) {
+  ordered_json all = ordered_json::array();
+  std::vector<std::string> problems;
+  for (const std::string& run : o.files) {
+    const RunCheck check = check_run(run);
+    for (const std::string& problem : check.problems) problems.push_back(run + ": " + problem);
+    all.push_back({{"path", run}, {"files", check.files}, {"problems", check.problems}});
+    if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files as they were made\n", run, check.files);
+  }
+  if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+  if (!problems.empty()) fail(ErrorKind::content, joined(problems), "; copy the run again, or make it again");
+}
+
 void info(const InfoOptions& o) {
+  if (o.verify) return verify(o);
   ordered_json all = ordered_json::array();
   for (const std::string& path : o.files) {
     const std::filesystem::path file(path);
@@ -157,9 +176,10 @@ void info(const InfoOptions& o) {
 }  // namespace
 
 Verb info_verb() {
-  return make_verb<InfoOptions>("info", "what is in a file or run, and what is wrong with it",
-                                {"insonify info reef.pcd", "insonify info reef.pcd --json | jq .bounds"}, add_options,
-                                info);
+  return make_verb<InfoOptions>(
+      "info", "what is in a file or run, and what is wrong with it",
+      {"insonify info reef.pcd", "insonify info reef.pcd --json | jq .bounds", "insonify info --verify out"},
+      add_options, info);
 }
 
 }  // namespace insonify::tool

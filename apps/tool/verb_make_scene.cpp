@@ -1,5 +1,8 @@
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -61,8 +64,29 @@ void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& b
                             options.materials.size()));
 }
 
+/// Throws if the scene fits neither into memory, nor on the disk as tiles.
+void require_room(const MakeSceneOptions& o) {
+  constexpr double bytes_in_memory = 100, bytes_of_tiles = 96, gigabyte = 1e9;  // a surfel, while it is written
+  const double points = static_cast<double>(o.points);
+  if (is_tiles(o.output)) {
+    const std::filesystem::path folder = std::filesystem::path(o.output).parent_path();
+    std::error_code error;
+    const auto space = std::filesystem::space(folder.empty() ? "." : folder, error);
+    if (!error && points * bytes_of_tiles > static_cast<double>(space.available))
+      fail(ErrorKind::file, o.output, ": ", o.points, " surfels take ", points * bytes_of_tiles / gigabyte,
+           " GB while they are sorted, the disk has ", static_cast<double>(space.available) / gigabyte,
+           "; give fewer --points, or another disk");
+  } else {
+    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (points * bytes_in_memory > memory)
+      fail(ErrorKind::argument, "--points = ", o.points, " take ", points * bytes_in_memory / gigabyte,
+           " GB of memory, this computer has ", memory / gigabyte, "; write a .tiles file, or give fewer");
+  }
+}
+
 void make_scene(const MakeSceneOptions& o) {
   require_free(o.output, o.force);
+  require_room(o);
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 40,40");
   const BuiltInSceneOptions built_in{
       o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), o.common.seed};

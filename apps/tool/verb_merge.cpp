@@ -11,6 +11,7 @@
 #include "tool/merge_companions.hpp"
 #include "tool/merge_survey.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 
@@ -93,6 +94,8 @@ void merge(const MergeOptions& o) {
   std::vector<NamedCube> cubes;
   for (const std::string& run : o.runs) {
     progress.step("reading " + run);
+    if (const std::string doubt = doubt_of(run, "cube.h5"); !doubt.empty())
+      fail(ErrorKind::content, doubt, "; copy the run again, or name its cube.h5 to merge it as it is");
     cubes.push_back({run, read_run_cube(run)});
   }
   ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"merged", inputs_json(cubes)}};
@@ -107,7 +110,7 @@ void merge(const MergeOptions& o) {
   manifest["notes"] = notes;
   const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
   if (std::filesystem::exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   directory.commit();
   print_summary(o.common, manifest,
                 fmt::format("{}: {} pings of {} runs", o.output, merged.cube.pings.size(), o.runs.size()));

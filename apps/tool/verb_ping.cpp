@@ -13,6 +13,7 @@
 #include "store/element_file.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/run_files.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
@@ -106,7 +107,7 @@ void ping(const PingCommand& command) {
                          {"detection", result.seconds.detection},
                          {"contributors", result.seconds.contributors},
                          {"output", watch.lap()}};
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   progress.step("done");
   directory.commit();
   print_summary(common, manifest, summary(o.run.output, manifest));

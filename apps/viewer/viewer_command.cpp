@@ -15,6 +15,7 @@
 #include "store/survey_run.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/ping_setup.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/shared_options.hpp"
 #include "viewer/survey_pings.hpp"
@@ -205,6 +206,8 @@ LoadedView load_run(const ViewerCommand& command) {
   if (!command.head.empty())
     fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no survey; leave --head out");
   open_cubes({{finished_cube(command.target), ""}}, view);
+  for (const char* file : {"cube.h5", "returns.ply", "contributors.h5"})
+    if (const std::string doubt = tool::doubt_of(command.target, file); !doubt.empty()) view.notes.push_back(doubt);
   const fs::path run(command.target), returns = run / "returns.ply";
   load_contributors(run, view);
   if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());

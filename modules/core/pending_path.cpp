@@ -74,13 +74,20 @@ void clear_leftovers(const fs::path& target) {
        full ? "; make space on the disk, and run again" : "");
 }
 
-// Waits until a file or folder is on the disk. What cannot be synchronised, a pipe for instance, is left alone.
-void synchronise(const std::string& path, const std::string& target) {
+// Waits until a file or folder is on the disk; returns 0, or why it is not. What cannot be synchronised, a pipe for
+// instance, is left alone.
+int failed_sync(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) fail_to_write(target, errno);
-  const int reason = fsync(file) == 0 ? 0 : errno;
+  if (file < 0) return errno;
+  int reason = 0;
+  while ((reason = fsync(file) == 0 ? 0 : errno) == EINTR) {
+  }
   close(file);
-  if (reason == EIO || reason == ENOSPC || reason == EDQUOT) fail_to_write(target, reason);
+  return reason == EIO || reason == ENOSPC || reason == EDQUOT ? reason : 0;
+}
+
+void synchronise(const std::string& path, const std::string& target) {
+  if (const int reason = failed_sync(path)) fail_to_write(target, reason);
 }
 
 void synchronise_all(const std::string& path, const std::string& target) {
@@ -91,9 +98,13 @@ void synchronise_all(const std::string& path, const std::string& target) {
   if (!fs::is_symlink(path, ignored)) synchronise(path, target);
 }
 
+// The output has its name by then.
 void synchronise_folder_of(const std::string& target) {
   const fs::path folder = fs::path(target).parent_path();
-  synchronise(folder.empty() ? "." : folder.string(), target);
+  if (const int reason = failed_sync(folder.empty() ? "." : folder.string()))
+    fail(ErrorKind::file, target,
+         ": is complete, but may be lost with the power: ", std::generic_category().message(reason),
+         "; check the disk");
 }
 
 }  // namespace

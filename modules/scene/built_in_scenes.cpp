@@ -16,6 +16,9 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
+// Identities of surfels have 32 bits.
+constexpr std::size_t most_points = 4000000000;
+
 enum HarbourMaterial : std::uint16_t { sand, concrete, timber, steel, rock, rubber, calibration };
 
 // Cubic step: rises from 0 at a to 1 at b with zero slope at both ends.
@@ -195,7 +198,8 @@ void require_valid(const std::string& name, const BuiltInSceneOptions& options) 
     for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
     fail(ErrorKind::argument, "make_built_in_scene: no scene '", name, "', must be one of: ", known);
   }
-  if (options.points == 0) fail(ErrorKind::argument, "make_built_in_scene: points = 0, must be at least 1");
+  if (options.points == 0 || options.points > most_points)
+    fail(ErrorKind::argument, "make_built_in_scene: points = ", options.points, ", must be 1 to ", most_points);
   if (!(options.size.minCoeff() > 0) || !options.size.allFinite())
     fail(ErrorKind::argument, "make_built_in_scene: size = ", options.size.x(), " x ", options.size.y(),
          " m, must be positive");

@@ -64,7 +64,7 @@ PlyHeader read_ply_header(const std::string& path) {
       fail(ErrorKind::content, path, ": not a PLY file: expected 'ply' in its first line, found ",
            what_it_looks_like(path));
     if (line == "end_header") {
-      header.end = static_cast<std::size_t>(file.tellg());
+      header.end = file.eof() ? file_size_of(path) : static_cast<std::size_t>(file.tellg());
       return header;
     }
     if (header.lines > 1) read_header_line(header, line);

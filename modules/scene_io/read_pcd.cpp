@@ -120,7 +120,7 @@ Header read_pcd_header(const std::string& path) {
     }
     read_header_line(header, words, line);
     if (words[0] == "DATA") {
-      header.end = static_cast<std::size_t>(file.tellg());
+      header.end = file.eof() ? file_size_of(path) : static_cast<std::size_t>(file.tellg());
       check_header(header);
       return header;
     }
@@ -134,6 +134,9 @@ Header read_pcd_header(const std::string& path) {
        " bytes of data, the file holds ", found, "; copy or export the file again");
 }
 
+// LZF writes at most 264 bytes for three.
+constexpr std::uint32_t lzf_most = 88;
+
 /// Byte counts of the compressed block against the file and the header.
 void check_compressed(const Header& header, std::size_t held) {
   // PCL unpacks such points into the wrong rows, without a message.
@@ -144,9 +147,13 @@ void check_compressed(const Header& header, std::size_t held) {
   const std::string sizes = read_beginning(header.path, header.end + 8).substr(header.end);
   const auto packed = read_as<std::uint32_t>(sizes.data()), unpacked = read_as<std::uint32_t>(sizes.data() + 4);
   if (held - 8 < packed) cut_off(header, packed, held - 8);
-  if (unpacked != header.points * header.stride())
-    fail(ErrorKind::content, header.path, ": the header announces ", header.points * header.stride(),
+  const double announced = static_cast<double>(header.points) * static_cast<double>(header.stride());
+  if (announced != static_cast<double>(unpacked))
+    fail(ErrorKind::content, header.path, ": the header announces ", announced,
          " bytes of points, the compressed block ", unpacked, "; export the file again");
+  if (unpacked / lzf_most > packed)
+    fail(ErrorKind::content, header.path, ": announces ", unpacked, " bytes of points in a compressed block of ",
+         packed, ", which holds at most ", lzf_most, " times its size; copy or export the file again");
 }
 
 void check_text(const Header& header) {
@@ -162,7 +169,10 @@ void check_text(const Header& header) {
 void check_data(const Header& header) {
   const std::size_t held = file_size_of(header.path) - header.end, stride = header.stride();
   if (header.data == "ascii") {
-    if (header.points > held) cut_off(header, header.points, held);
+    // A number takes two bytes with the blank that follows; which row lacks some, check_text() says.
+    std::size_t row = 0;
+    for (const Field& f : header.fields) row += 2 * f.count;
+    if (header.points > held || row > held + 1) cut_off(header, std::max(header.points, row), held);
     check_text(header);
   } else if (header.data == "binary_compressed") {
     check_compressed(header, held);

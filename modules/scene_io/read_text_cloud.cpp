@@ -14,14 +14,17 @@ char delimiter_of(std::string_view line) {
   return line.find(',') != line.npos ? ',' : ' ';
 }
 
-/// The cells of a line; an empty cell after the last delimiter does not count.
+constexpr std::size_t most_columns = 4096;
+
+/// The first most_columns + 1 cells of a line; an empty cell after the last delimiter does not count.
 void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   if (delimiter == ' ') {
-    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) cells.push_back(word);
+    for (std::string_view word = take_word(line); !word.empty() && cells.size() <= most_columns; word = take_word(line))
+      cells.push_back(word);
     return;
   }
-  while (true) {
+  while (cells.size() <= most_columns) {
     const std::size_t end = std::min(line.find(delimiter), line.size());
     cells.push_back(trimmed(line.substr(0, end), " \t\""));
     if (end == line.size()) break;
@@ -79,6 +82,9 @@ TextRows read_rows(const std::string& path, const std::string& text) {
     if (is_comment(line)) continue;
     if (rows.columns == 0) delimiter = delimiter_of(line);
     split(line, delimiter, cells);
+    if (cells.size() > most_columns)
+      fail(ErrorKind::content, path, ":", lines.number(), ": holds more than ", most_columns,
+           " columns; give one point a line");
     if (rows.columns == 0) {
       const bool may_be_count = cells.size() == 1 && rows.announced == 0 && rows.names.empty();
       if (may_be_count && to_number(cells[0], rows.announced)) continue;

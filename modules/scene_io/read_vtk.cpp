@@ -7,29 +7,17 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkSTLReader.h>
-#include <vtkXMLPolyDataReader.h>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
+#include "scene_io/vtk_checks_internal.hpp"
 #include "scene_io/vtk_messages_internal.hpp"
 
 namespace insonify {
 namespace {
-
-void check_legacy(const std::string& path) {
-  const std::string head = read_beginning(path, 2048);
-  if (head.rfind("# vtk DataFile", 0) != 0)
-    fail(ErrorKind::content, path, ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
-         what_it_looks_like(path));
-  const std::size_t at = head.find("DATASET ");
-  const std::string kind = at == head.npos ? "nothing" : head.substr(at + 8, head.find_first_of("\r\n", at) - at - 8);
-  if (kind != "POLYDATA")
-    fail(ErrorKind::content, path, ": holds ", shown(kind),
-         ", expected DATASET POLYDATA; in ParaView apply 'Extract "
-         "Surface' and save again");
-}
 
 void check_xml(const std::string& path) {
   if (read_beginning(path, 4096).find("<VTKFile") == std::string::npos)
@@ -59,15 +47,34 @@ void check_stl(const std::string& path) {
        what_it_looks_like(path));
 }
 
+// What VTK may take: compressed arrays unpack, and text becomes shorter.
+constexpr std::size_t memory_per_byte = 40, memory_at_least = 300 << 20;
+constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
+
 template <typename Reader>
-void run(Reader* reader, const std::string& path, vtkPolyData* out) {
+vtkSmartPointer<vtkPolyData> output_of(Reader* reader, const std::string& path) {
   reader->SetFileName(path.c_str());
   reader->Update();
-  if (reader->GetOutput()) out->ShallowCopy(reader->GetOutput());
+  return reader->GetOutput();
+}
+
+/// What VTK reads; what it says goes to its output window.
+vtkSmartPointer<vtkPolyData> read_polydata(const std::string& path, const std::string& extension) {
+  if (extension == ".vtk") return output_of(vtkNew<vtkPolyDataReader>().Get(), path);
+  if (extension == ".stl") return output_of(vtkNew<vtkSTLReader>().Get(), path);
+  const vtkNew<CheckedXmlReader> reader;
+  const vtkSmartPointer<vtkPolyData> data = output_of(reader.Get(), path);
+  if (!reader->problem.empty())
+    fail(ErrorKind::content, path, ": VTK cannot read it: ", reader->problem,
+         "; the file is damaged or cut off: copy or export it again");
+  return data;
 }
 
 /// Polygons and triangle strips become triangles.
 void add_faces(vtkPolyData* data, RawCloud& raw) {
+  if (!data->GetPolys()->IsValid() || !data->GetStrips()->IsValid())
+    fail(ErrorKind::content, raw.path, ": its polygons begin and end at other places than its corners; the file is ",
+         "damaged: copy or export it again");
   const std::size_t vertices = static_cast<std::size_t>(data->GetNumberOfPoints());
   std::vector<std::int64_t> corners;
   vtkIdType count = 0;
@@ -120,29 +127,25 @@ RowTable table_of(vtkPolyData* data, RawCloud& raw) {
 
 RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
   const std::string extension = extension_of(path);
-  vtkNew<VtkReadMessages> messages;
-  const QuietVtk quiet(messages);
-  vtkNew<vtkPolyData> data;
   RawCloud raw;
   raw.path = path;
-  if (extension == ".vtk") {
-    check_legacy(path);
-    raw.format = "VTK legacy polydata";
-    run(vtkNew<vtkPolyDataReader>().Get(), path, data);
-  } else if (extension == ".vtp") {
-    check_xml(path);
-    raw.format = "VTK XML polydata";
-    run(vtkNew<vtkXMLPolyDataReader>().Get(), path, data);
-  } else {
-    check_stl(path);
-    raw.format = "STL";
-    run(vtkNew<vtkSTLReader>().Get(), path, data);
-  }
+  raw.format = extension == ".vtk" ? "VTK legacy polydata" : extension == ".vtp" ? "VTK XML polydata" : "STL";
+  if (extension == ".vtk") check_legacy_vtk(path);
+  if (extension == ".vtp") check_xml(path);
+  if (extension == ".stl") check_stl(path);
+  // What the checks do not see must not end this process.
+  const std::size_t bytes = file_size_of(path);
+  const ChildLimits limits{memory_per_byte * bytes + memory_at_least,
+                           static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
+  if (extension != ".stl") try_in_child(path, limits, [&] { read_polydata(path, extension); });
+  vtkNew<VtkReadMessages> messages;
+  const QuietVtk quiet(messages);
+  const vtkSmartPointer<vtkPolyData> data = read_polydata(path, extension);
   if (!messages->errors.empty())
     fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(),
          "; the file is damaged or cut off: copy or export it again");
   for (const std::string& warning : messages->warnings) raw.notes.push_back("VTK: " + warning);
-  if (data->GetNumberOfPoints() == 0)
+  if (!data || data->GetNumberOfPoints() == 0)
     fail(ErrorKind::content, path, ": holds no point; export the ", raw.format, " again");
   raw.width = static_cast<std::size_t>(data->GetNumberOfPoints());
   raw.float_coordinates = data->GetPoints()->GetDataType() == VTK_FLOAT;

@@ -36,11 +36,11 @@ void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<Te
       const double numbers = column.is_list ? take(NumberType::uint32) : 1;
       for (double i = 0; i < numbers; ++i) take(column.type);
     }
-    const std::size_t found = words_of(line).size();
+    const std::size_t found = lists ? 0 : count_words(line);
     if (lists ? !take_word(rest).empty() : found != columns.size())
       fail(ErrorKind::content, path, ":", lines.number(), ": expected ", columns.size(),
-           lists ? " columns" : " numbers", " as the header says, found ", found, " words in '", shown(line),
-           "'; correct the line, or export the file again if it is cut off");
+           lists ? " columns" : " numbers", " as the header says, found ", lists ? count_words(line) : found,
+           " words in '", shown(line), "'; correct the line, or export the file again if it is cut off");
   }
 }
 

@@ -55,6 +55,12 @@ inline std::vector<std::string> words_of(std::string_view line) {
   return words;
 }
 
+inline std::size_t count_words(std::string_view line) {
+  std::size_t words = 0;
+  while (!take_word(line).empty()) ++words;
+  return words;
+}
+
 /// Excerpt of a line for a message: at most 60 characters, control characters as '?'.
 std::string shown(std::string_view line);
 

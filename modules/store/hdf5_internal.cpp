@@ -1,9 +1,6 @@
 #include "store/hdf5_internal.hpp"
 
 #include <algorithm>
-#include <filesystem>
-
-#include "core/input_file.hpp"
 
 namespace insonify::hdf5 {
 namespace {
@@ -155,14 +152,6 @@ Handle create_file(const Place& place, const std::string& name) {
           H5Fclose};
 }
 
-Handle open_file(const Place& place) {
-  require_regular_file(place.path);
-  const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
-  if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
-  if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");
-  return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
-}
-
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk, Packing packing) {
   const Handle space(
@@ -190,56 +179,6 @@ Handle create_ordered_group(const Place& place, hid_t file, const char* name) {
   place.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name);
   place.checked(H5Pset_obj_track_times(properties, false), name);
   return {place.checked(H5Gcreate2(file, name, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Gclose};
-}
-
-std::vector<std::string> names_in(const Place& place, hid_t file, const char* group) {
-  std::vector<std::string> names;
-  if (H5Lexists(file, group, H5P_DEFAULT) <= 0) return names;
-  const Handle opened(place.checked(H5Gopen2(file, group, H5P_DEFAULT), group), H5Gclose);
-  const auto note = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
-    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
-    return 0;
-  };
-  place.checked(H5Literate(opened, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, note, &names), group);
-  return names;
-}
-
-namespace {
-
-/// Refuses a dataset whose numbers lie in files that the user did not name: a cube from a stranger must not show others of
-/// the user's files. Blocks of a survey beside the cube are its own.
-void require_own_data(const Place& place, hid_t file, const DatasetName& name, hid_t dataset) {
-  const auto refuse = [&](const char* what) {
-    fail(place.kind, place.path, ": dataset ", name.path, " ", what,
-         ", which is not read; get the file that holds the data itself");
-  };
-  H5L_info_t link;
-  if (H5Lget_info(file, name.path, &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
-    refuse("is a link to elsewhere");
-  const Handle properties(place.checked(H5Dget_create_plist(dataset), name.path), H5Pclose);
-  if (H5Pget_external_count(properties) > 0) refuse("is stored in another file");
-  if (H5Pget_layout(properties) != H5D_VIRTUAL) return;
-  std::size_t sources = 0;
-  place.checked(H5Pget_virtual_count(properties, &sources), name.path);
-  for (std::size_t i = 0; i < sources; ++i) {
-    std::string source(
-        static_cast<std::size_t>(std::max<ssize_t>(0, H5Pget_virtual_filename(properties, i, nullptr, 0))) + 1, '\0');
-    H5Pget_virtual_filename(properties, i, source.data(), source.size());
-    source.pop_back();
-    const std::filesystem::path relative = std::filesystem::path(source).lexically_normal();
-    if (relative.is_absolute() || (!relative.empty() && *relative.begin() == ".."))
-      refuse("is stored outside its folder");
-  }
-}
-
-}  // namespace
-
-Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
-  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
-    fail(place.kind, place.path, ": dataset ", name.path, " is missing");
-  Handle dataset{place.checked(H5Dopen2(file, name.path, H5P_DEFAULT), name.path), H5Dclose};
-  require_own_data(place, file, name, dataset);
-  return dataset;
 }
 
 }  // namespace insonify::hdf5

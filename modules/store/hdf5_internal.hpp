@@ -41,6 +41,10 @@ struct Place {
   }
 };
 
+/// Whether a Handle of this thread could not be closed. HDF5 writes what it has kept of a dataset when that is closed, and
+/// forgets the failure.
+inline thread_local bool failed_to_close = false;
+
 /// Owns an HDF5 identifier and closes it.
 class Handle {
  public:
@@ -49,7 +53,7 @@ class Handle {
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
   Handle& operator=(Handle&&) = delete;
   ~Handle() {
-    if (id_ >= 0) close_(id_);
+    if (id_ >= 0 && close_(id_) < 0) failed_to_close = true;
   }
   operator hid_t() const { return id_; }
   /// Closes the identifier; returns a negative number on failure.
@@ -71,9 +75,11 @@ void write_hdf5(const std::string& path, Body&& body) {
   const QuietErrors quiet;
   const Place place{path, ErrorKind::file};
   PendingFile pending(path);
+  failed_to_close = false;
   Handle file = create_file(place, pending.temporary());
   body(place, file);
   place.checked(file.close(), "cannot be written");  // a full disk shows here
+  place.checked(failed_to_close ? -1 : 0, "cannot be written");
   pending.commit();
 }
 

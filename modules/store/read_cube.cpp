@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <sstream>
@@ -63,24 +62,10 @@ Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
   return ping;
 }
 
-// Refuses a merged dataset of which a part is missing: HDF5 would give fill values in its place.
-void require_sources(const Place& place, hid_t dataset, const std::string& name) {
-  const Handle properties(place.checked(H5Dget_create_plist(dataset), name), H5Pclose);
-  std::size_t parts = 0;
-  if (H5Pget_layout(properties) == H5D_VIRTUAL) place.checked(H5Pget_virtual_count(properties, &parts), name);
-  for (std::size_t part = 0; part < parts; ++part) {
-    std::string source(static_cast<std::size_t>(H5Pget_virtual_filename(properties, part, nullptr, 0)), '\0');
-    place.checked(H5Pget_virtual_filename(properties, part, source.data(), source.size() + 1), name);
-    if (!std::filesystem::exists(std::filesystem::path(place.path).parent_path() / source))
-      fail(place.kind, place.path, ": ", name, ": its part ", source, " is missing");
-  }
-}
-
 // Reads one image per ping, from ping `first` of the cube on, with values of `type`, into the member selected by `part`.
 template <typename Part>
 void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::span<Ping> pings,
                  std::size_t first, Part part) {
-  require_sources(place, dataset, name);
   const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
@@ -250,7 +235,6 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
   const Handle dataset = open_dataset(place, file, pressure_name);
   const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
   require_complex(place, dataset, pressure_name.path);
-  require_sources(place, dataset, pressure_name.path);
   if (beam >= extent[1] || first + count > extent[0])
     fail(ErrorKind::argument, "read_beam: pings ", first, " to ", first + count, ", beam ", beam, ", must be within ",
          extent[0], " and ", extent[1]);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include <EGL/eglext.h>
+#include <sys/mman.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -54,6 +55,16 @@ class MessageCollector : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCollector);
 
+// Mesa does not check that it gets memory, but ends the process: that there is enough must be known before.
+void require_memory(const char* who) {
+  constexpr std::size_t needed = std::size_t{640} << 20;
+  void* const room = mmap(nullptr, needed, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    fail(ErrorKind::runtime, who, ": too little memory for a picture: less than ", needed >> 20,
+         " MiB are left; raise the limit (ulimit -v)");
+  munmap(room, needed);
+}
+
 std::mutex& drawing_turn() {
   static std::mutex turn;
   return turn;
@@ -75,6 +86,7 @@ EglWindow::~EglWindow() {
 }
 
 void EglWindow::open(const char* who) {
+  require_memory(who);
   const EGLDisplay display = surfaceless_display();
   if (display == EGL_NO_DISPLAY) no_gl(who, "eglGetPlatformDisplayEXT");
   if (!eglInitialize(display, nullptr, nullptr)) no_gl(who, "eglInitialize");

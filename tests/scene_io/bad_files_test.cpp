@@ -2,6 +2,7 @@
 #include <vtkSphereSource.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include "core/peak_memory.hpp"
 #include "core/random.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -142,7 +143,7 @@ TEST(BadFile, meshes_cut_off_are_refused) {
   expect_bad(own_file("c.stl", stl), {"cut off", "2 triangles, 184 bytes", "holds 134"});
   expect_bad(own_file("d.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"), {"cut off", "endsolid"});
   expect_bad(own_file("e.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 100 float\n0 0 0 1 0"),
-             {"VTK cannot read it"});
+             {"POINTS announces 100 x 3 numbers", "cut off"});
 }
 
 TEST(BadFile, a_cut_off_vtp_is_refused_and_nothing_is_printed) {
@@ -157,6 +158,78 @@ TEST(BadFile, a_cut_off_vtp_is_refused_and_nothing_is_printed) {
   ::testing::internal::CaptureStderr();
   expect_bad(own_file("cut.vtp", bytes.substr(0, bytes.size() / 2)), {"VTK cannot read it", "cut off"});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(BadFile, counts_of_legacy_vtk_are_held_against_the_file) {
+  const std::string head =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+  forget_peak_memory();
+  for (const auto& [rest, part] : std::vector<std::pair<std::string, std::string>>{
+           {"POLYGONS 1 4\n999999999 0 1 2\n", "polygons announces 1 cells in 4 numbers"},
+           {"POLYGONS 1 4\n-3 0 1 2\n", "its cells have other lengths"},
+           {"POLYGONS 2 4\n3 0 1 2\n", "its cells have other lengths"},
+           {"TRIANGLE_STRIPS 1 4\n5 0 1 2\n", "its cells have other lengths"},
+           {"POLYGONS 2 8\n3 0 1 2\n5 0 1 2\n", "its cells have other lengths"},
+           {"POINT_DATA 3\nSCALARS label int 1000000000\nLOOKUP_TABLE default\n1 2 3\n", "label announces"},
+           {"POINT_DATA 3\nSCALARS label int x\nLOOKUP_TABLE default\n1 2 3\n", "'x' components"},
+           {"POINT_DATA 3\nFIELD f 1\na 1000000 18446744073709551615 int\n1\n", "array a announces"},
+           {"POINT_DATA 3\nFIELD f 2\na 1 1 int\n1\n", "announces 2 arrays, found 1"},
+           {"POINT_DATA 3\nSCALARS label string\nLOOKUP_TABLE default\na\nb\nc\n", "type 'string', expected numbers"},
+           {"POINTZ 3 float\n", "'pointz' is no part"}})
+    expect_bad(own_file("a.vtk", head + rest), {part});
+  const std::string modern = replaced(head, "3.0", "5.1");
+  expect_bad(own_file("m.vtk", modern + "POLYGONS 2 3\nOFFSETS vtktypeint64\n0 99\nCONNECTIVITY vtktypeint64\n0 1 2\n"),
+             {"OFFSETS that do not fit"});
+  std::string binary = replaced(head.substr(0, head.find("0 0 0 1")), "ASCII", "BINARY");
+  binary += std::string(36, '\0') + "\nPOLYGONS 1 4\n" + std::string("\0\0\0\x05\0\0\0\0\0\0\0\1\0\0\0\2", 16) + "\n";
+  expect_bad(own_file("b.vtk", binary), {"its cells have other lengths"});
+  expect_bad(own_file("s.vtk", replaced(binary.substr(0, 100), "POINTS 3", "POINTS 9")),
+             {"POINTS announces 27 numbers"});
+  EXPECT_LT(peak_memory_mib(), 500);
+}
+
+TEST(BadFile, counts_of_vtp_are_held_against_the_file) {
+  const auto vtp = [](const std::string& points, const std::string& components, const std::string& offset) {
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+           "byte_order=\"LittleEndian\">\n<PolyData>\n"
+           "<Piece NumberOfPoints=\"" +
+           points +
+           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+           "NumberOfPolys=\"1\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"" +
+           components +
+           "\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray></Points>\n<Polys><DataArray type=\"Int64\" "
+           "Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int64\" Name=\"offsets\" "
+           "format=\"ascii\">" +
+           offset + "</DataArray></Polys>\n</Piece></PolyData></VTKFile>\n";
+  };
+  EXPECT_EQ(describe_file(own_file("good.vtp", vtp("3", "3", "3"))).points, 3u);
+  forget_peak_memory();
+  for (const auto& [text, part] : std::vector<std::pair<std::string, std::string>>{
+           {vtp("4", "3", "3"), "ends before the numbers that are announced"},
+           {vtp("3000000000", "3", "3"), "NumberOfPoints = 3000000000 is more than the file can hold"},
+           {vtp("-3", "3", "3"), "NumberOfPoints = -3"},
+           {vtp("3", "2000000000", "3"), "announces more numbers than the file can hold"},
+           {vtp("3", "3", "4"), ""},
+           {vtp("3", "3", "4000000000"), ""},
+           {vtp("3", "3", "-5"), ""}})
+    expect_bad(own_file("a.vtp", text), {part});
+  EXPECT_LT(peak_memory_mib(), 500);
+}
+
+TEST(BadFile, arrays_in_a_vtp_that_are_cut_short_are_refused) {
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetFileName(own_path("whole.vtp").c_str());
+  writer->SetInputConnection(sphere->GetOutputPort());
+  for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended}) {
+    writer->SetDataMode(mode);
+    writer->Write();
+    const std::string bytes = file_bytes(own_path("whole.vtp"));
+    EXPECT_EQ(describe_file(own_path("whole.vtp")).points, 50u);
+    // 20 characters of an array less, in an XML that is whole.
+    const std::size_t array = bytes.find(mode == vtkXMLWriter::Appended ? "</AppendedData>" : "</DataArray>");
+    expect_bad(own_file("cut.vtp", bytes.substr(0, array - 40) + bytes.substr(array)), {"VTK cannot read it"});
+  }
 }
 
 TEST(BadFile, clouds_without_a_usable_point_are_refused) {

@@ -1,0 +1,88 @@
+#include "tool/run_checks.hpp"
+
+#include <filesystem>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/sha256.hpp"
+#include "store/survey_run.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* digests_key = "sha256";
+
+/// The digests in a manifest; empty if it has none. Throws Error(content) for one that cannot be understood.
+std::map<std::string, std::string> digests_in(const std::string& manifest) {
+  std::map<std::string, std::string> digests;
+  if (!fs::exists(manifest)) return digests;
+  const ordered_json json = ordered_json::parse(read_text_file(manifest), nullptr, false);
+  if (!json.is_object())
+    fail(ErrorKind::content, manifest, ": is damaged; run the ping again, or copy its folder again");
+  const auto found = json.find(digests_key);
+  if (found == json.end() || !found->is_object()) return digests;
+  for (const auto& [name, digest] : found->items())
+    if (digest.is_string() && fs::path(name).filename() == name) digests[name] = digest.get<std::string>();
+  return digests;
+}
+
+void compare(RunCheck& check, const std::string& path, const std::string& name, const std::string& digest) {
+  ++check.files;
+  if (!fs::exists(path))
+    check.problems.push_back(name + " is missing");
+  else if (sha256_of_file(path) != digest)
+    check.problems.push_back(name + " was changed");
+}
+
+RunCheck check_survey(const std::string& run) {
+  RunCheck check;
+  const SurveyRun survey = load_survey_run(run);
+  for (const SurveyRunHead& head : survey.heads)
+    for (std::size_t b = 0; b < head.blocks(); ++b) {
+      const BlockFiles files = block_files(run, head.name, static_cast<std::int64_t>(b));
+      const auto mark = find_mark(files, survey.mission_sha256);
+      if (!mark) continue;
+      for (const auto& [path, digest] :
+           {std::pair(files.cube, mark->cube_sha256), std::pair(files.returns, mark->returns_sha256),
+            std::pair(files.coverage, mark->coverage_sha256)})
+        if (!digest.empty()) compare(check, path, fs::path(path).lexically_relative(run).string(), digest);
+    }
+  return check;
+}
+
+}  // namespace
+
+void write_manifest(const RunDirectory& directory, ordered_json manifest) {
+  std::map<std::string, std::string> digests;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory.file("")))
+    if (entry.is_regular_file()) digests[entry.path().filename().string()] = sha256_of_file(entry.path().string());
+  manifest[digests_key] = digests;
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+}
+
+RunCheck check_run(const std::string& run, const std::string& only) {
+  if (!fs::is_directory(run))
+    fail(ErrorKind::file, run, ": is no folder of a run, of which --verify compares the files");
+  if (is_survey_run(run)) return check_survey(run);
+  RunCheck check;
+  const std::string manifest = run + "/manifest.json";
+  const auto digests = digests_in(manifest);
+  if (digests.empty() && only.empty())
+    fail(ErrorKind::content, run, ": has no manifest.json with SHA-256 of its files, so nothing can be compared");
+  for (const auto& [name, digest] : digests)
+    if (only.empty() || name == only) compare(check, (fs::path(run) / name).string(), name, digest);
+  return check;
+}
+
+std::string doubt_of(const std::string& run, const std::string& file) {
+  if (!fs::is_directory(run) || is_survey_run(run)) return {};
+  const RunCheck check = check_run(run, file);
+  return check.problems.empty() ? "" : run + ": " + check.problems.front() + " since the run was made";
+}
+
+}  // namespace insonify::tool

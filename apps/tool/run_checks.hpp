@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "store/run_directory.hpp"
+
+namespace insonify::tool {
+
+/// Writes the last file of a run, manifest.json, with the SHA-256 of all others, by their names. Throws Error(file).
+void write_manifest(const RunDirectory& directory, nlohmann::ordered_json manifest);
+
+/// What has become of the files of a run or survey since it was written.
+struct RunCheck {
+  std::size_t files = 0;              ///< that were compared
+  std::vector<std::string> problems;  ///< "cube.h5 was changed", "fan.png is missing"
+};
+
+/// Compares the files of a run with the digests in its manifest, of a survey those of finished blocks with their marks; if
+/// `only` is not empty, this file of a run alone. Throws Error(content) if the folder has no digests, Error(file) if a
+/// file cannot be read.
+RunCheck check_run(const std::string& run, const std::string& only = {});
+
+/// Empty, or in one line what is wrong with `file` of the run directory `run`; empty too for a cube, and for a run whose
+/// manifest has no digests.
+std::string doubt_of(const std::string& run, const std::string& file);
+
+}  // namespace insonify::tool

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <map>
+
+#include "core/error.hpp"
+#include "scene_io/file_probe_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
+#include "scene_io/vtk_checks_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n\v\f";
+
+/// Walks over a file as VTK's reader does, and keeps nothing.
+class LegacyWalk {
+ public:
+  LegacyWalk(const std::string& path, std::string_view text) : path_(path), text_(text) {}
+
+  void walk() {
+    take_header();
+    for (std::string key = lower_case(word()); !key.empty(); key = lower_case(word())) take_section(key);
+  }
+
+ private:
+  template <typename... Parts>
+  [[noreturn]] void refuse(const Parts&... parts) const {
+    fail(ErrorKind::content, path_, ": ", parts..., "; the file is damaged or cut off: copy or export it again");
+  }
+
+  std::string word() {
+    at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size());
+    const std::size_t end = std::min(text_.find_first_of(blanks, at_), text_.size());
+    const std::string_view found = text_.substr(at_, end - at_);
+    at_ = end;
+    return std::string(found.substr(0, 256));
+  }
+
+  std::string line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view found = text_.substr(at_, std::min<std::size_t>(end - at_, 256));
+    at_ = std::min(end + 1, text_.size());
+    return std::string(trimmed(found, " \t\r"));
+  }
+
+  std::size_t count(const std::string& of) {
+    const std::string text = word();
+    std::size_t value = 0;
+    if (!to_number(text, value)) refuse("expected the number of ", of, ", found '", shown(text), "'");
+    return value;
+  }
+
+  void take_header() {
+    if (!text_.starts_with("# vtk DataFile"))
+      fail(ErrorKind::content, path_, ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
+           what_it_looks_like(path_));
+    const std::string first = line();
+    const std::size_t version = first.find("Version ");
+    modern_ = version != first.npos && first.size() > version + 8 && first[version + 8] >= '5';
+    line();
+    binary_ = lower_case(word()) == "binary";
+    std::string key = lower_case(word());
+    for (; key == "field"; key = lower_case(word())) take_field();
+    const std::string kind = key == "dataset" ? word() : "nothing";
+    if (lower_case(kind) != "polydata")
+      fail(ErrorKind::content, path_, ": holds ", shown(kind),
+           ", expected DATASET POLYDATA; in ParaView apply 'Extract Surface' and save again");
+  }
+
+  std::size_t bits_of(const std::string& type) const {
+    static const std::map<std::string, std::size_t> bits = {
+        {"bit", 1},           {"char", 8},           {"unsigned_char", 8}, {"short", 16}, {"unsigned_short", 16},
+        {"int", 32},          {"unsigned_int", 32},  {"vtkidtype", 32},    {"long", 64},  {"unsigned_long", 64},
+        {"vtktypeint64", 64}, {"vtktypeuint64", 64}, {"float", 32},        {"double", 64}};
+    const auto found = bits.find(lower_case(type));
+    if (found == bits.end())
+      fail(ErrorKind::content, path_, ": holds an array of type '", shown(type),
+           "', expected numbers; delete the array, or save the file as .vtp");
+    return found->second;
+  }
+
+  /// Passes over the numbers of an array, and gives each to `use` if there is one.
+  template <typename Use>
+  void take_numbers(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns, Use use) {
+    const std::size_t bits = bits_of(type);
+    if (binary_) line();
+    // Even a bit takes an eighth of a byte; so products of what passes do not overflow.
+    const std::size_t held = 8 * (text_.size() - at_);
+    if (columns > held || (columns > 0 && rows > held / columns))
+      refuse(of, " announces ", rows, " x ", columns, " numbers, the file ends before");
+    const std::size_t numbers = rows * columns,
+                      bytes = binary_ ? (numbers * bits + 7) / 8 : 2 * numbers - (numbers > 0);
+    if (bytes > text_.size() - at_) refuse(of, " announces ", numbers, " numbers, the file ends before");
+    for (std::size_t i = 0; i < numbers; ++i) {
+      if (binary_) {
+        if constexpr (std::is_same_v<Use, std::nullptr_t>)
+          break;
+        else
+          use(big_endian(at_ + i * bits / 8, bits / 8));
+      } else {
+        const std::string number = word();
+        double value = 0;
+        if (!to_number(number, value))
+          refuse(of, " announces ", numbers, " numbers; number ", i, " is '", shown(number), "'");
+        if constexpr (!std::is_same_v<Use, std::nullptr_t>)
+          use(static_cast<std::int64_t>(std::clamp(value, -9e18, 9e18)));
+      }
+    }
+    if (binary_) at_ += bytes;
+  }
+
+  std::int64_t big_endian(std::size_t at, std::size_t bytes) const {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | static_cast<unsigned char>(text_[at + i]);
+    return bytes == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
+  }
+
+  void take_array(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns) {
+    take_numbers(of, type, rows, columns, nullptr);
+  }
+
+  /// Cells as VTK wrote them before version 9: a count and that many corners each.
+  void take_old_cells(const std::string& of, std::size_t cells, std::size_t numbers) {
+    std::size_t found = 0, left = 0;
+    bool good = true;
+    take_numbers(of, "int", numbers, 1, [&](std::int64_t number) {
+      if (left > 0) {
+        --left;
+      } else {
+        ++found;
+        good = good && number >= 0 && static_cast<std::uint64_t>(number) < numbers;
+        left = good ? static_cast<std::size_t>(number) : 0;
+      }
+    });
+    if (!good || left > 0 || found != cells)
+      refuse(of, " announces ", cells, " cells in ", numbers, " numbers, its cells have other lengths");
+  }
+
+  /// Cells of version 5 of the format: where each begins, and the corners of all.
+  void take_cells(const std::string& of, std::size_t offsets, std::size_t corners) {
+    if (offsets == 0) return;
+    if (lower_case(word()) != "offsets") refuse(of, " has no OFFSETS");
+    std::int64_t last = 0, index = 0;
+    bool good = true;
+    take_numbers(of, word(), offsets, 1, [&](std::int64_t offset) {
+      good = good && (index++ == 0 ? offset == 0 : offset >= last);
+      last = offset;
+    });
+    if (!good || static_cast<std::uint64_t>(last) != corners) refuse(of, " has OFFSETS that do not fit its corners");
+    if (lower_case(word()) != "connectivity") refuse(of, " has no CONNECTIVITY");
+    take_array(of, word(), corners, 1);
+  }
+
+  void take_field() {
+    word();
+    const std::size_t arrays = count("arrays of a FIELD");
+    for (std::size_t i = 0; i < arrays; ++i) {
+      std::string name = word();
+      for (; name == "METADATA"; name = word()) take_metadata();
+      if (name.empty()) refuse("FIELD announces ", arrays, " arrays, found ", i);
+      if (name == "NULL_ARRAY") continue;
+      const std::size_t columns = count("components"), rows = count("tuples");
+      take_array("array " + shown(name), word(), rows, columns);
+    }
+  }
+
+  void take_metadata() {
+    line();
+    while (at_ < text_.size() && !line().empty()) {
+    }
+  }
+
+  /// An attribute of the points or cells.
+  bool take_attribute(const std::string& key) {
+    if (key == "scalars") {
+      const std::string name = shown(word()), type = word();
+      std::size_t columns = 1;
+      const std::string rest = line();
+      if (!rest.empty() && !to_number(rest, columns)) refuse("SCALARS ", name, " has '", shown(rest), "' components");
+      if (lower_case(word()) != "lookup_table") refuse("SCALARS ", name, " names no LOOKUP_TABLE");
+      word();
+      take_array(name, type, rows_, columns);
+    } else if (key == "color_scalars") {
+      const std::string name = shown(word());
+      take_array(name, binary_ ? "unsigned_char" : "float", rows_, count("colours"));
+    } else if (key == "lookup_table") {
+      const std::string name = shown(word());
+      take_array(name, binary_ ? "unsigned_char" : "float", count("colours"), 4);
+    } else if (key == "texture_coordinates") {
+      const std::string name = shown(word());
+      const std::size_t columns = count("texture coordinates");
+      take_array(name, word(), rows_, columns);
+    } else {
+      static const std::map<std::string, std::size_t> columns = {
+          {"vectors", 3},    {"normals", 3},      {"tensors", 9},   {"tensors6", 6},
+          {"global_ids", 1}, {"pedigree_ids", 1}, {"edge_flags", 1}};
+      const auto found = columns.find(key);
+      if (found == columns.end()) return false;
+      const std::string name = shown(word());
+      take_array(name, word(), rows_, found->second);
+    }
+    return true;
+  }
+
+  void take_section(const std::string& key) {
+    if (key == "points") {
+      const std::size_t points = count("points");
+      take_array("POINTS", word(), points, 3);
+    } else if (key == "vertices" || key == "lines" || key == "polygons" || key == "triangle_strips") {
+      const std::size_t cells = count("cells"), numbers = count("numbers");
+      modern_ ? take_cells(key, cells, numbers) : take_old_cells(key, cells, numbers);
+    } else if (key == "point_data" || key == "cell_data") {
+      rows_ = count("rows of " + key);
+      in_data_ = true;
+    } else if (key == "field") {
+      take_field();
+    } else if (key == "metadata") {
+      take_metadata();
+    } else if (!in_data_ || !take_attribute(key)) {
+      refuse("'", shown(key), "' is no part of a legacy VTK file");
+    }
+  }
+
+  const std::string& path_;
+  std::string_view text_;
+  std::size_t at_ = 0, rows_ = 0;
+  bool binary_ = false, modern_ = false, in_data_ = false;
+};
+
+}  // namespace
+
+void check_legacy_vtk(const std::string& path) {
+  const std::string text = read_whole_file(path);
+  LegacyWalk(path, text).walk();
+}
+
+}  // namespace insonify

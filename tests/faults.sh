@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Lets every call by which a verb writes fail with ENOSPC, EIO, EACCES, EINTR or a short write, or kills the verb there:
+# exit code 4 and one line, or success and the right bytes; the old output whole, nothing half.
+#
+#   tests/faults.sh [VERB|all] [STEP]     every STEPth failure (1: all)
+set -euo pipefail
+exec "${INSONIFY_FAULTS:-$(dirname "$0")/../build/dev/bin/fault_sweep}" faults "${1:-all}" "${2:-1}"

@@ -1,0 +1,204 @@
+#include "faults/failing_calls.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+using insonify::Failure;
+
+namespace {
+
+// Shared with the processes that are forked.
+struct Plan {
+  std::atomic<long> calls{0}, chosen{0};
+  std::atomic<bool> failed{false};
+  Failure failure = Failure::none;
+  char root[1024] = {};
+};
+
+Plan* plan = nullptr;
+
+bool is_watched(const char* path) {
+  return plan && path && (path[0] != '/' || std::strncmp(path, plan->root, std::strlen(plan->root)) == 0);
+}
+
+bool is_watched(int file) {
+  if (!plan || file <= STDERR_FILENO) return false;
+  char link[64], target[1024] = {};
+  std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+  return readlink(link, target, sizeof target - 1) > 0 && is_watched(target) && target[0] == '/';
+}
+
+enum CallKind { is_write = 1, is_sync = 2, is_name = 4 };  // what the call does; is_name: open, rename, mkdir
+
+// 0, or the error that this call is to report; -1: it shall write less.
+int error_of_call(CallKind kind) {
+  if (++plan->calls != plan->chosen) return 0;
+  plan->failed = true;
+  switch (plan->failure) {
+    case Failure::kill:
+      std::raise(SIGKILL);
+      return 0;
+    case Failure::no_space:
+      return ENOSPC;
+    case Failure::io_error:
+      return EIO;
+    case Failure::no_access:
+      if (kind == is_name) return EACCES;
+      break;
+    case Failure::interrupted:
+      if (kind != is_name) return EINTR;
+      break;
+    case Failure::short_write:
+      if (kind == is_write) return -1;
+      break;
+    case Failure::none:
+      break;
+  }
+  plan->failed = false;
+  return 0;
+}
+
+template <typename Function>
+Function* next(Function*, const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+bool writes(int flags) { return (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0; }
+
+// Fails with `errno`, or calls on.
+template <typename Result, typename Call>
+Result failing(bool watched, CallKind kind, Result failed, const Call& call) {
+  const int error = watched ? error_of_call(kind) : 0;
+  if (error <= 0) return call();
+  errno = error;
+  return failed;
+}
+
+// The same of a write, which may become shorter.
+template <typename Write>
+ssize_t writing(int file, std::size_t count, const Write& write) {
+  const int error = is_watched(file) ? error_of_call(is_write) : 0;
+  if (error > 0) {
+    errno = error;
+    return -1;
+  }
+  return write(error < 0 ? (count + 1) / 2 : count);
+}
+
+}  // namespace
+
+namespace insonify {
+
+void fail_call(const std::string& root, long chosen, Failure failure) {
+  if (!plan) plan = new (mmap(nullptr, sizeof(Plan), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Plan;
+  plan->calls = 0, plan->chosen = chosen, plan->failed = false, plan->failure = failure;
+  std::snprintf(plan->root, sizeof plan->root, "%s", root.c_str());
+}
+
+long counted_calls() { return plan->calls; }
+
+bool has_failed() { return plan->failed; }
+
+}  // namespace insonify
+
+#define NEXT(function) static auto* const on = next(&::function, #function)
+
+extern "C" {
+
+ssize_t write(int file, const void* bytes, size_t count) {
+  NEXT(write);
+  return writing(file, count, [&](size_t n) { return on(file, bytes, n); });
+}
+
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
+  NEXT(pwrite);
+  return writing(file, count, [&](size_t n) { return on(file, bytes, n, at); });
+}
+
+ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
+  NEXT(pwrite64);
+  return writing(file, count, [&](size_t n) { return on(file, bytes, n, at); });
+}
+
+ssize_t writev(int file, const iovec* parts, int count) {
+  NEXT(writev);
+  return failing<ssize_t>(is_watched(file), is_write, -1, [&] { return on(file, parts, count); });
+}
+
+size_t fwrite(const void* bytes, size_t size, size_t count, FILE* file) {
+  NEXT(fwrite);
+  return failing<size_t>(plan && is_watched(fileno(file)), is_write, 0, [&] { return on(bytes, size, count, file); });
+}
+
+int fsync(int file) {
+  NEXT(fsync);
+  return failing(is_watched(file), is_sync, -1, [&] { return on(file); });
+}
+
+int ftruncate(int file, off_t size) noexcept {
+  NEXT(ftruncate);
+  return failing(is_watched(file), is_write, -1, [&] { return on(file, size); });
+}
+
+int ftruncate64(int file, off64_t size) noexcept {
+  NEXT(ftruncate64);
+  return failing(is_watched(file), is_write, -1, [&] { return on(file, size); });
+}
+
+int rename(const char* from, const char* to) noexcept {
+  NEXT(rename);
+  return failing(is_watched(to), is_name, -1, [&] { return on(from, to); });
+}
+
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
+  NEXT(renameat2);
+  return failing(is_watched(to), is_name, -1, [&] { return on(from_folder, from, to_folder, to, flags); });
+}
+
+int mkdir(const char* path, mode_t mode) noexcept {
+  NEXT(mkdir);
+  return failing(is_watched(path), is_name, -1, [&] { return on(path, mode); });
+}
+
+int open(const char* path, int flags, ...) {
+  NEXT(open);
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  return failing(writes(flags) && is_watched(path), is_name, -1, [&] { return on(path, flags, mode); });
+}
+
+int open64(const char* path, int flags, ...) {
+  NEXT(open64);
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  return failing(writes(flags) && is_watched(path), is_name, -1, [&] { return on(path, flags, mode); });
+}
+
+FILE* fopen(const char* path, const char* mode) {
+  NEXT(fopen);
+  return failing<FILE*>(std::strpbrk(mode, "wa+") && is_watched(path), is_name, nullptr,
+                        [&] { return on(path, mode); });
+}
+
+FILE* fopen64(const char* path, const char* mode) {
+  NEXT(fopen64);
+  return failing<FILE*>(std::strpbrk(mode, "wa+") && is_watched(path), is_name, nullptr,
+                        [&] { return on(path, mode); });
+}
+
+}  // extern "C"

@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# Makes small valid files of every format that is read, as FOLDER/READER/*, and for libFuzzer the words in them,
+# FOLDER/READER.dict.
+#
+#   tests/fuzz/make_seeds.sh TOOL FOLDER
+set -euo pipefail
+[[ $# == 2 ]] || { sed -n '5s/^# *//p' "$0" >&2; exit 2; }
+tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
+rm -rf "$2" && mkdir -p "$2" && cd "$2"
+mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials profile \
+  trajectory tum scatterers labels cube contributors aris npy work
+
+# Formats that the tool writes.
+"$tool" make-scene poles --points 40 -o ply/scene.ply -q >/dev/null
+"$tool" make-scene poles --points 40 -o pcd/scene.pcd -q >/dev/null
+"$tool" make-scene poles --points 40 -o tiles/scene.tiles -q >/dev/null
+"$tool" make-scene poles --points 4000 -o work/poles.ply -q >/dev/null
+"$tool" ping work/poles.ply --sonar p900-45 --set sonar.beams=4 --pose=0,0,0,0,0,0 --range 3:5 --layers --noise \
+  --multipath --set surface.height_m=2 --keep contributors --no-picture -q -o work/run >/dev/null
+cp work/run/cube.h5 cube/ && cp work/run/contributors.h5 contributors/ && cp work/run/run.toml environment/
+cp work/run/run.toml sonar/
+"$tool" export work/run --to las --utm 32N -o las/bottom.las -q >/dev/null
+"$tool" export work/run --to geotiff --cell 0.05 --utm 32N -o tiff/bottom.tif -q >/dev/null
+"$tool" export work/run -o work/vtk -q >/dev/null
+find work/vtk -name '*.vtp' -size -64k -exec cp {} vtp/ \;
+cp "$root"/data/sonars/{p900-45,ping360,em2040}.toml sonar/
+cp "$root"/data/materials.toml materials/
+
+# Text, by hand.
+square='0 0 0\n1 0 0\n1 1 0\n0 1 0\n'
+printf "ply\nformat ascii 1.0\ncomment made\nelement vertex 4\nproperty float x\nproperty float y\nproperty double z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n${square}3 0 1 2\n3 0 2 3\n" >ply/mesh.ply
+printf "# .PCD v.7\nVERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA ascii\n$square" >pcd/text.pcd
+printf "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf -1 -2 -3\n" >obj/mesh.obj
+printf "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid a\n" >stl/text.stl
+printf "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n${square}POLYGONS 2 8\n3 0 1 2\n3 0 2 3\nPOINT_DATA 4\nSCALARS label int 1\nLOOKUP_TABLE default\n1 2 3 4\nNORMALS n float\n0 0 1 0 0 1 0 0 1 0 0 1\nFIELD f 1\narea 1 4 float\n1 1 1 1\n" >vtk/old.vtk
+printf "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n${square}TRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nMETADATA\nx y\n\nPOINT_DATA 4\nCOLOR_SCALARS c 2\n0 0 1 1 0 0 1 1\n" >vtk/strip.vtk
+printf '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n<Piece NumberOfPoints="4" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="1">\n<PointData><DataArray type="Int32" Name="label" NumberOfComponents="1" format="ascii">1 2 3 4</DataArray></PointData>\n<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points>\n<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4</DataArray></Polys>\n</Piece></PolyData></VTKFile>\n' >vtp/text.vtp
+printf "4\n$square" >xyz/count.xyz
+printf "x y z nx ny nz area label\n0 0 0 0 0 1 .1 1\n1 0 0 0 0 1 .1 1\n1 1 0 0 0 1 .1 2\n0 1 0 0 0 1 .1 2\n" >xyz/named.xyz
+printf '"x";"y";"z"\n0;0;0\n1;0;0\n1;1;0\n' >csv/quoted.csv
+printf "x,y,z\n0,0,0\n1,0,0\n1,1,0\n" >csv/plain.csv
+printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n-1 -1 -1\n-1 -2 -1\n-1 -1 -9999\n" >asc/grid.asc
+printf "depth_m,sound_speed\n0,1500\n10,1490\n" >profile/speed.csv
+printf "depth_m,temperature_c,salinity_psu\n0,10,35\n10,8,35\n" >profile/ctd.csv
+printf "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n1,1,0,-3,5,10,0\n" >trajectory/track.csv
+printf "0 0 0 -3 0 0 0 1\n1 1 0 -3 0 0 0 1\n" >tum/track.txt
+printf "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n5,0,0,0.1,1,0\n" >scatterers/points.csv
+printf "bearing_deg,range_m,text\n3,4,wreck\n" >labels/labels.csv
+cat >environment/all.toml <<'TOML'
+[water]
+temperature_c = 10
+salinity_psu = 35
+[surface]
+height_m = 0
+[bottom]
+height_m = -10
+[wind]
+speed_m_s = 8
+TOML
+cat >materials/two.toml <<'TOML'
+schema = 1
+[[material]]
+name = "sand"
+lambert_mu_db = -27
+TOML
+
+# Binary, by hand.
+perl -e '
+  sub put { my ($name, $bytes) = @_; open(my $out, ">:raw", $name) or die; print $out $bytes; close $out }
+  my @corner = ([0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]);
+  my $floats = pack("f<*", map { @$_ } @corner);
+  put("stl/binary.stl", "\0" x 80 . pack("V", 2) . (pack("f<12", 0, 0, 1, map { @$_ } @corner[0 .. 2]) . "\0\0") x 2);
+  # By columns, and packed by LZF as literals alone: runs of up to 32 bytes, each behind its length less one.
+  my $columns = pack("f<*", map { my $axis = $_; map { $_->[$axis] } @corner } 0 .. 2);
+  my $packed = join("", map { chr(length($_) - 1) . $_ } unpack("(a32)*", $columns));
+  my $head = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\nPOINTS 4\nDATA ";
+  put("pcd/packed.pcd", $head . "binary_compressed\n" . pack("VV", length $packed, length $columns) . $packed);
+  put("pcd/binary.pcd", $head . "binary\n" . $floats);
+  put("vtk/binary.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nPOINTS 4 float\n"
+    . pack("f>*", map { @$_ } @corner) . "\nPOLYGONS 1 5\n" . pack("N*", 4, 0 .. 3)
+    . "\nPOINT_DATA 4\nSCALARS label int 1\nLOOKUP_TABLE default\n" . pack("N*", 1 .. 4) . "\n");
+  my $ply = "ply\nformat binary_big_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    . "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  put("ply/binary.ply", $ply . pack("f>*", map { @$_ } @corner) . chr(4) . pack("N*", 0 .. 3));
+  my $buffer = $floats . pack("v*", 0, 1, 2, 0, 2, 3);
+  my $json = sub { sprintf(q({"asset":{"version":"2.0"},"buffers":[{%s"byteLength":60}],"bufferViews":[{"buffer":0,"byteLength":48},) .
+    q({"buffer":0,"byteOffset":48,"byteLength":12}],"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},) .
+    q({"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],) .
+    q("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}), $_[0]) };
+  use MIME::Base64;
+  put("gltf/square.gltf", $json->(q("uri":"data:application/octet-stream;base64,) . encode_base64($buffer, "") . q(",)));
+  my $text = $json->(""); $text .= " " while length($text) % 4;
+  put("glb/square.glb", "glTF" . pack("VV", 2, 12 + 8 + length($text) + 8 + 60) . pack("V", length $text) . "JSON" . $text
+    . pack("V", 60) . "BIN\0" . $buffer);
+  my $header = sprintf("%-117s\n", "{\x27descr\x27: \x27<f4\x27, \x27fortran_order\x27: False, \x27shape\x27: (3, 4), }");
+  put("npy/array.npy", "\x93NUMPY\1\0" . pack("v", length $header) . $header . $floats);
+  open(my $in, "<:raw", "'"$root"'/data/records/sample.aris") or die; read($in, my $record, 1 << 20); close $in;
+  put("aris/sample.aris", $record);
+'
+for kind in lawnmower orbit tunnel; do
+  "$tool" make-mission $kind --scene x.ply -o mission/$kind.toml -q >/dev/null
+done
+rm -r work
+
+# Words of text and of binary formats alike.
+for reader in *; do
+  cat "$reader"/* | tr -c '[:alnum:]_. -' '\n' | grep -aoE '[[:alpha:]_]{2,32}' | sort -u | head -500 |
+    sed 's/.*/"&"/' >"$reader.dict" || true  # a table has no words
+done

@@ -1,0 +1,68 @@
+#include "fuzz/readers.hpp"
+
+#include "formats/aris_file.hpp"
+#include "formats/npy_file.hpp"
+#include "scene_io/describe_file.hpp"
+#include "scene_io/load_scene.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "store/contributor_file.hpp"
+#include "store/csv_tables.hpp"
+#include "store/cube.hpp"
+#include "store/environment_file.hpp"
+#include "store/materials_file.hpp"
+#include "store/mission_file.hpp"
+#include "store/sonar_file.hpp"
+
+namespace insonify {
+namespace {
+
+void read_scene(const std::string& path) {
+  LoadOptions options;
+  options.threads = 1;
+  load_scene(path, options);
+}
+
+// As `info` does.
+void read_description(const std::string& path) { describe_file(path); }
+
+void read_tiles(const std::string& path) {
+  const TiledScene tiles(path);
+  tiles.load(tiles.select_all(), 0, 1);
+}
+
+}  // namespace
+
+const std::vector<FuzzedReader>& fuzzed_readers() {
+  static const std::vector<FuzzedReader> readers = {
+      {"pcd", ".pcd", read_description},
+      {"ply", ".ply", read_description},
+      {"obj", ".obj", read_scene},
+      {"stl", ".stl", read_scene},
+      {"vtk", ".vtk", read_description},
+      {"vtp", ".vtp", read_description},
+      {"gltf", ".gltf", read_scene},
+      {"glb", ".glb", read_scene},
+      {"xyz", ".xyz", read_description},
+      {"csv", ".csv", read_scene},
+      {"asc", ".asc", read_scene},
+      {"las", ".las", read_description},
+      {"tiff", ".tif", read_scene},
+      {"tiles", ".tiles", read_tiles},
+      {"sonar", ".toml", [](const std::string& path) { load_sonar_file(path); }},
+      {"environment", ".toml", [](const std::string& path) { load_environment(path); }},
+      {"mission", ".toml", [](const std::string& path) { load_mission(path); }},
+      {"materials", ".toml", [](const std::string& path) { load_materials(path); }},
+      {"profile", ".csv", [](const std::string& path) { load_sound_speed_profile(path); }},
+      {"trajectory", ".csv", [](const std::string& path) { load_trajectory(path); }},
+      {"tum", ".txt", [](const std::string& path) { load_tum_trajectory(path); }},
+      {"scatterers", ".csv", [](const std::string& path) { load_scatterer_table(path); }},
+      {"labels", ".csv", [](const std::string& path) { load_labels(path); }},
+      {"cube", ".h5", [](const std::string& path) { read_cube(path); }},
+      {"contributors", ".h5", [](const std::string& path) { read_contributor_file(path); }},
+      {"aris", ".aris", [](const std::string& path) { read_aris_frame(path, 0); }},
+      {"npy", ".npy", [](const std::string& path) { read_npy(path); }},
+  };
+  return readers;
+}
+
+}  // namespace insonify

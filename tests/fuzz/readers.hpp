@@ -1,0 +1,18 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace insonify {
+
+/// A reader of files that strangers may have made.
+struct FuzzedReader {
+  std::string name;       ///< also of its folders of seeds and regressions
+  std::string extension;  ///< of its files, with the dot
+  std::function<void(const std::string& path)> read;
+};
+
+/// All of them.
+const std::vector<FuzzedReader>& fuzzed_readers();
+
+}  // namespace insonify

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Reads N damaged files per reader (10 000), each in a process of its own. Fails, and keeps the file in the folder where it
+# was started, if one ends otherwise than with 0, 2, 3 or 4, takes 10 s or 1 GB, or says more than one line.
+#
+#   tests/mutants.sh [READER|all] [N] [SEED]
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+bin=$root/build/dev/bin
+seeds=$(mktemp -d)
+trap 'rm -rf "$seeds"' EXIT
+"$root"/tests/fuzz/make_seeds.sh "${INSONIFY_TOOL:-$bin/insonify}" "$seeds/seeds"
+"${INSONIFY_MUTANTS:-$bin/fuzz_mutants}" "${1:-all}" "$seeds/seeds" "$root/tests/fuzz/regressions" "${2:-10000}" "${3:-1}"

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs tests under sanitizers. The suite is in parts, each of which ends within an hour on two cores; without PART, says
+# which there are. The first part of a sanitizer builds what the others use.
+#
+#   tests/sanitize.sh address|thread PART
+set -euo pipefail
+cd "$(dirname "$0")/.."
+declare -A parts=(
+  [core]="core_test scene_test sampling_test:core|scene|sampling"
+  [sound]="acoustics_test beamforming_test returns_test:acoustics|beamforming|returns"
+  [files]="scene_io_test store_test formats_test:scene_io|store|formats"
+  [pings]="simulate_test compare_test accuracy_test:simulate|compare|accuracy"
+  [laws]="laws_test extreme_test:laws|extreme"
+  [tool]="tool_test:tool"
+  [view]="view_test viewer_test:view|viewer"
+)
+if [[ $# != 2 || -z ${parts[${2:-}]:-} || ! ${1:-} =~ ^(address|thread)$ ]]; then
+  echo "usage: tests/sanitize.sh address|thread PART, of: ${!parts[*]}" >&2
+  exit 2
+fi
+preset=asan
+[[ $1 == thread ]] && preset=tsan
+IFS=: read -r targets suites <<<"${parts[$2]}"
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake --preset $preset "${launcher[@]}" >/dev/null
+cmake --build --preset $preset -j "${JOBS:-2}" --target $targets
+# Libraries that are not instrumented keep memory for the life of the process, and run threads of their own.
+export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
+export TSAN_OPTIONS="suppressions=$PWD/tests/support/thread_suppressions.txt history_size=4 die_after_fork=0"
+started=$SECONDS
+ctest --preset $preset -R "^($suites)\." --timeout 3000
+echo "tests/sanitize.sh $1 $2: clean, $((SECONDS - started)) s of tests"
