@@ -27,6 +27,9 @@ void add_options(OptionList list, CompareOptions& o) {
   list.add("--scale", &o.scale, "MIN:MAX [dB] that black and white of a .png or of a grey .npy stand for");
   list.add("--ping", &o.ping, "of A, from 0");
   list.add("--ping-b", &o.ping_b, "of B; default: as of A", {.shown_as = "INT"});
+  list.add("--align", &o.align,
+           "move A by the whole beams and bins at which it correlates best with B, before anything is measured; the "
+           "result says by how many");
   list.add("--frame", &o.frame, "of an .aris recording, from 0", {.within = std::pair(0, 1 << 30), .shown_as = "INT"});
   list.add("--strength", &o.strength,
            "B is a cloud with this field of measured strengths: the levels of A at its points are compared");
@@ -147,6 +150,9 @@ std::string table_of(const ordered_json& r) {
   text += fmt::format("shift of A: {} beams, {} bins (correlation {}, as they are {})\n",
                       r["shift"]["beams"].get<int>(), r["shift"]["bins"].get<int>(),
                       number_text(r["shift"]["correlation"]), number_text(r["shift"]["correlation_at_0"]));
+  if (r.contains("aligned_by"))
+    text += fmt::format("before all this A was moved back by {} beams, {} bins\n", r["aligned_by"]["beams"].get<int>(),
+                        r["aligned_by"]["bins"].get<int>());
   const auto row = [&](const char* name, const ordered_json& a, const ordered_json& b) {
     text += fmt::format("{:<28} {:>10} {:>10}\n", name, number_text(a), number_text(b));
   };
@@ -240,8 +246,16 @@ void compare(const CompareOptions& o) {
   ComparisonOptions options;
   if (!o.window.empty()) options.window = parse_window("--window", o.window);
   options.seed = o.common.seed;
-  const ImageComparison comparison = compare_level_images(a.image, b.image, options);
-  const ordered_json result = json_of(comparison, a, b, o);
+  ImageComparison comparison = compare_level_images(a.image, b.image, options);
+  ordered_json aligned;
+  if (o.align) {
+    const ImageShift shift = comparison.shift;
+    a.image.level_db = without_shift(a.image.level_db, shift);
+    comparison = compare_level_images(a.image, b.image, options);
+    aligned = {{"beams", shift.beams}, {"bins", shift.bins}};
+  }
+  ordered_json result = json_of(comparison, a, b, o);
+  if (o.align) result["aligned_by"] = aligned;
   progress.step("drawing");
   if (directory) write_compare_page(*directory, o, a, b, comparison, table_of(result));
   finish(o, directory, result, table_of(result));

@@ -119,9 +119,12 @@ TwoSeedFloor floor_of(const ComparedImage& a, const ComparedImage& b, const Grid
     const ImageSimilarity same = image_similarity(lb, lb, c.window);
     return {same, same};
   }
-  if (a.expected_level) return two_seed_floor(la, c.window, {1, whole_looks(sb), true, sb.width, seed});
-  if (b.expected_level) return two_seed_floor(lb, c.window, {1, whole_looks(sa), true, sa.width, seed});
-  return two_seed_floor(lb, c.window, {whole_looks(sa), whole_looks(sb), false, sb.width, seed});
+  const auto floor = [&](const ComparedImage& of, const Grid<float>& levels, const FloorOptions& options) {
+    return two_seed_floor(of.level_db, c.window, options, levels.isNaN() && !of.level_db.isNaN());
+  };
+  if (a.expected_level) return floor(a, la, {1, whole_looks(sb), true, sb.width, seed});
+  if (b.expected_level) return floor(b, lb, {1, whole_looks(sa), true, sa.width, seed});
+  return floor(b, lb, {whole_looks(sa), whole_looks(sb), false, sb.width, seed});
 }
 
 }  // namespace

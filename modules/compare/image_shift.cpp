@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compare/local_mean_internal.hpp"
 #include "core/error.hpp"
@@ -45,6 +46,16 @@ ImageShift find_shift(const Grid<float>& a, const Grid<float>& b, int max_beams,
   if (!(gain > 5 / std::sqrt(std::max(1.0, boxes))))
     best.beams = best.bins = 0, best.correlation = best.correlation_at_0;
   return best;
+}
+
+Grid<float> without_shift(const Grid<float>& a, const ImageShift& shift) {
+  Grid<float> moved = Grid<float>::Constant(a.rows(), a.cols(), std::numeric_limits<float>::quiet_NaN());
+  const Eigen::Index beams = shift.beams, bins = shift.bins;
+  const Eigen::Index rows = a.rows() - std::abs(beams), columns = a.cols() - std::abs(bins);
+  if (rows > 0 && columns > 0)
+    moved.block(std::max<Eigen::Index>(0, -beams), std::max<Eigen::Index>(0, -bins), rows, columns) =
+        a.block(std::max<Eigen::Index>(0, beams), std::max<Eigen::Index>(0, bins), rows, columns);
+  return moved;
 }
 
 }  // namespace insonify

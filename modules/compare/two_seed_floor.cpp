@@ -65,10 +65,38 @@ Grid<double> speckle_of_looks(Eigen::Index beams, Eigen::Index bins, const Floor
   return sum / (whole + rest);
 }
 
+// The expected level about which an image of so many looks was drawn, NaN where it is clipped [dB].
+Grid<double> expected_levels(const Grid<double>& level, double looks, const FloorOptions& o) {
+  if (o.expected) return level;
+  const int half_bins = std::max(4, static_cast<int>(std::lround(2 * o.width.bins)));
+  return local_mean(level, {0, half_bins}) - looks_bias_db(looks);
+}
+
 Grid<float> drawn_levels(const Grid<double>& expected, const Grid<double>& speckle) {
   return (expected * speckle)
       .unaryExpr([](double power) { return db_from_power(std::max(power, 1e-30)); })
       .cast<float>();
+}
+
+// Two draws about one expected level.
+struct DrawnPair {
+  Grid<float> first, second;
+};
+
+// The draws about the expected level of `level_db`, which is of so many looks; where `held` they are that level itself.
+DrawnPair drawn_pair(const Grid<float>& level_db, const Grid<bool>& held, double looks, const FloorOptions& o,
+                     std::uint64_t draw) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const Grid<double> level = (held || level_db.isNaN()).select(unknown, level_db.cast<double>());
+  const Grid<double> expected = level.isNaN().select(unknown, expected_levels(level, looks, o)).unaryExpr([](double l) {
+    return power_from_db(l);
+  });
+  const Eigen::Index beams = level_db.rows(), bins = level_db.cols();
+  const auto shown = [&](const Grid<double>& speckle) -> Grid<float> {
+    return held.select(level_db, drawn_levels(expected, speckle));
+  };
+  return {shown(o.expected ? Grid<double>::Ones(beams, bins) : speckle_of_looks(beams, bins, o, o.looks, draw)),
+          shown(speckle_of_looks(beams, bins, o, o.other_looks, draw + 1))};
 }
 
 ImageSimilarity analytic_floor(const GreyWindow& window, const FloorOptions& o) {
@@ -84,17 +112,19 @@ ImageSimilarity analytic_floor(const GreyWindow& window, const FloorOptions& o) 
 
 }  // namespace
 
-TwoSeedFloor two_seed_floor(const Grid<float>& level_db, const GreyWindow& window, const FloorOptions& options) {
-  const Grid<double> intensity = level_db.cast<double>().unaryExpr([](double level) { return power_from_db(level); });
-  const Grid<double> known = options.expected ? intensity : local_mean(intensity, {2, 3});
-  const Grid<double> expected = level_db.isNaN().select(std::numeric_limits<double>::quiet_NaN(), known);
-  const Eigen::Index beams = level_db.rows(), bins = level_db.cols();
-  const auto draw = [&](double looks, std::uint64_t number) {
-    return drawn_levels(expected, speckle_of_looks(beams, bins, options, looks, number));
-  };
-  const Grid<float> first =
-      options.expected ? drawn_levels(expected, Grid<double>::Ones(beams, bins)) : draw(options.looks, 1);
-  return {image_similarity(first, draw(options.other_looks, 2), window), analytic_floor(window, options)};
+TwoSeedFloor two_seed_floor(const Grid<float>& level_db, const GreyWindow& window, const FloorOptions& options,
+                            const Grid<bool>& clipped) {
+  const Grid<bool> held = clipped.size() > 0 ? clipped : Grid<bool>::Constant(level_db.rows(), level_db.cols(), false);
+  const DrawnPair about_image = drawn_pair(level_db, held, options.other_looks, options, 1);
+  ImageSimilarity drawn = image_similarity(about_image.first, about_image.second, window);
+  if (!options.expected) {
+    const DrawnPair about_draw = drawn_pair(about_image.second, held, options.other_looks, options, 3);
+    const ImageSimilarity again = image_similarity(about_draw.first, about_draw.second, window);
+    drawn.mse = std::max(0.0, 2 * drawn.mse - again.mse);  // (E124)
+    drawn.ssim = std::min(1.0, 2 * drawn.ssim - again.ssim);
+    drawn.psnr_db = psnr_db(drawn.mse, window.max_db - window.min_db);
+  }
+  return {drawn, analytic_floor(window, options)};
 }
 
 }  // namespace insonify

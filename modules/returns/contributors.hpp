@@ -23,6 +23,7 @@ struct Contributors {
   std::vector<float> elevation;         ///< direction of arrival [rad], head axes; 0 if unused
   std::vector<std::uint16_t> material;  ///< index into the scene's materials; `no_material` if unused
   std::vector<PathKind> path;
+  std::vector<float> total{};  ///< energy of all contributors of each pixel [Pa^2]; empty if read from a file
 
   /// Returns true if contributors were not asked for.
   bool empty() const { return surfel.empty(); }

@@ -234,6 +234,7 @@ Contributors Search::contributors(const SceneCloud& scene) const {
   c.elevation.assign(entries, 0);
   c.material.assign(entries, Contributors::no_material);
   c.path.assign(entries, PathKind::direct);
+  c.total.assign(found_.total.begin(), found_.total.end());
   parallel_blocks(entries, 1 << 16, options_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (found_.group[i] == Contributors::none) continue;
@@ -254,7 +255,7 @@ void require_options(const SonarHead& head, const ContributorOptions& o) {
     fail(ErrorKind::argument, "find_contributors", ": per_pixel = ", o.per_pixel, ", must be within 1 and 255");
   require(o.floor_db < 0 && o.floor_db >= -200, "find_contributors", "floor_db", o.floor_db, "dB", "within -200 and 0");
   const double pixels = static_cast<double>(head.fan.beams()) * static_cast<double>(head.gate.bins());
-  const double mib = pixels * (31 * o.per_pixel + 16) / (1 << 20);
+  const double mib = pixels * (31 * o.per_pixel + 20) / (1 << 20);
   if (!(mib <= o.max_mib))
     fail(ErrorKind::argument, "find_contributors", ": ", head.fan.beams(), " beams x ", head.gate.bins(), " bins x ",
          o.per_pixel, " contributors take ", std::ceil(mib), " MiB, must be at most ", o.max_mib,

@@ -44,7 +44,7 @@ struct ContributorOptions {
 /// Accurate to 2e-5 of a contributor's own peak, except that parts of a contributor for which beam (or row of beams) or
 /// pulse is below floor_db of its peak may be omitted from list and total. Beams are those of the far field at the
 /// centre frequency, also if the synthesis was element-exact. Cost: echoes x beams above the floor, some 5 ns each;
-/// each row of a head with several rows weights all echoes again. Memory: 31 bytes per entry and 16 per pixel. Throws
+/// each row of a head with several rows weights all echoes again. Memory: 31 bytes per entry and 20 per pixel. Throws
 /// Error(argument) for invalid arguments, echoes that are not finite or lack v or surfel, and if the memory would
 /// exceed max_mib.
 Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEchoes> echoes, const SonarHead& head,

@@ -2,123 +2,271 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numbers>
+#include <utility>
 
+#include "acoustics/pulse.hpp"
+#include "beamforming/head_patterns.hpp"
+#include "beamforming/response_table.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "returns/surfel_arrivals_internal.hpp"
 
+// Labels pixels by what lies in their cells (E125):
+//   1. order the visible parts by direction cosine, with the energy of their pulses in the bins around;
+//   2. mark as shadow the cells that hold surfels that are hidden or face away;
+//   3. for each beam, add the energies of the parts within its main lobe by bin and material, and those in the cell alone;
+//      cells with visible surface are no shadow.
+// Cost: parts x beams of a main lobe x bins of a pulse, some 2 ns each; parallel over beams.
 namespace insonify {
 namespace {
 
-// Places of surfels as a head sees them.
-struct SurfelPlaces {
-  std::vector<float> range, u, elevation, radius;
-};
-
-SurfelPlaces places_of(const SceneCloud& scene, const Pose& world_from_head) {
-  const Pose head_from_world = world_from_head.inverse();
-  SurfelPlaces at;
-  for (auto* column : {&at.range, &at.u, &at.elevation, &at.radius}) column->resize(scene.size());
-  parallel_blocks(scene.size(), 4096, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d p = head_from_world * (scene.origin + scene.point[i].cast<double>());
-      const double range = std::max(p.norm(), 1e-9);
-      at.range[i] = static_cast<float>(range);
-      // Behind the array no beam ahead looks: beyond any direction cosine.
-      at.u[i] = static_cast<float>(p.x() >= 0 ? p.y() / range : 2 + std::abs(p.y() / range));
-      at.elevation[i] = static_cast<float>(std::asin(p.z() / range));
-      at.radius[i] = static_cast<float>(std::sqrt(static_cast<double>(scene.area[i]) / std::numbers::pi));
-    }
-  });
-  return at;
-}
+constexpr double anywhere = std::numeric_limits<double>::infinity();
 
 double direction_cosine(const BeamFan& fan, std::size_t beam) {
   return std::cos(fan.elevation[beam]) * std::sin(fan.azimuth[beam]);
 }
 
-// Whether a contributor lies in the cell of a pixel.
-bool in_cell(const PixelCells& cells, const SurfelPlaces& at, std::uint32_t surfel, std::size_t beam, double u,
-             double range) {
-  const BeamFan& fan = cells.fan;
-  const double radius = static_cast<double>(at.radius[surfel]), far = static_cast<double>(at.range[surfel]);
-  if (std::abs(far - range) > cells.range_resolution + radius) return false;
-  if (std::abs(static_cast<double>(at.u[surfel]) - u) > fan.beam_width + radius / far) return false;
-  return fan.row_width == 0 ||
-         std::abs(static_cast<double>(at.elevation[surfel]) - fan.elevation[beam]) <= fan.row_width + radius / far;
-}
+// Half extents of a cell, or of the main lobe around it.
+struct HalfExtent {
+  double range, u, up;
+};
 
-// The material with most energy in the cell of a pixel.
-void label_pixel(const Contributors& c, const PixelCells& cells, const SurfelPlaces& at, std::size_t beam,
-                 std::size_t bin, PixelLabels& labels) {
-  const double u = direction_cosine(cells.fan, beam), range = cells.gate.centre(bin);
-  std::map<std::uint16_t, double> own;
-  double listed = 0;
-  for (std::size_t k = 0; k < c.per_pixel; ++k) {
-    const std::size_t i = c.at(beam, bin, k);
-    if (c.surfel[i] == Contributors::none) break;
-    const double share = static_cast<double>(c.share[i]);
-    listed += share;
-    if (c.path[i] == PathKind::direct && in_cell(cells, at, c.surfel[i], beam, u, range)) own[c.material[i]] += share;
-  }
-  if (own.empty() || !(listed > 0)) return;
-  const auto most =
-      std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  const auto row = static_cast<Eigen::Index>(beam), column = static_cast<Eigen::Index>(bin);
-  labels.material(row, column) = most->first;
-  labels.share(row, column) = static_cast<float>(most->second / listed);  // (E125)
-  for (std::size_t k = 0; k < c.per_pixel; ++k)
-    if (const std::size_t i = c.at(beam, bin, k); c.material[i] == most->first && c.path[i] == PathKind::direct &&
-                                                  in_cell(cells, at, c.surfel[i], beam, u, range)) {
-      labels.id(row, column) = c.id[i];
-      return;
-    }
-}
-
-// The beams of a row by ascending direction cosine, with half the way to their neighbours.
+// The beams of a row by ascending direction cosine.
 struct BeamRow {
-  double elevation = 0, reach = 0, half_step = 0;
+  double elevation = 0;
+  HalfExtent cell{}, lobe{};
   std::vector<std::pair<double, std::size_t>> beams;
 };
 
-std::vector<BeamRow> beam_rows(const BeamFan& fan) {
-  const bool planar = fan.row_width > 0;
+double half_of_widest_step(const std::vector<double>& ascending) {
+  double widest = 0;
+  for (std::size_t i = 1; i < ascending.size(); ++i) widest = std::max(widest, ascending[i] - ascending[i - 1]);
+  return 0.5 * widest;
+}
+
+std::vector<BeamRow> beam_rows(const SonarHead& head, double resolution) {
+  const BeamFan& fan = head.fan;
   std::vector<BeamRow> rows;
+  std::vector<double> elevations;
   for (const FanRow& fan_row : fan_rows(fan)) {
-    BeamRow row{fan_row.elevation, planar ? 0.5 * fan.row_width : 0.5 * fan.elevation_width, 0, {}};
+    BeamRow row{fan_row.elevation, {}, {}, {}};
+    elevations.push_back(fan_row.elevation);
     for (const std::size_t beam : fan_row.beams) row.beams.emplace_back(direction_cosine(fan, beam), beam);
     std::sort(row.beams.begin(), row.beams.end());
-    row.half_step = 0.5 * fan.beam_width;
-    for (std::size_t b = 1; b < row.beams.size(); ++b)
-      row.half_step = std::max(row.half_step, 0.5 * (row.beams[b].first - row.beams[b - 1].first));
     rows.push_back(std::move(row));
+  }
+  const double width_up = fan.row_width > 0 ? fan.row_width : rows.size() > 1 ? fan.elevation_width : anywhere;
+  const double step_up = half_of_widest_step(elevations);
+  for (BeamRow& row : rows) {
+    std::vector<double> u;
+    for (const auto& [cosine, beam] : row.beams) u.push_back(cosine);
+    const double step_u = half_of_widest_step(u), step_range = 0.5 * head.gate.bin_size;
+    row.cell = {std::max(0.5 * resolution, step_range), std::max(0.5 * fan.beam_width, step_u),
+                std::max(0.5 * width_up, step_up)};
+    row.lobe = {std::max(resolution, step_range), std::max(fan.beam_width, step_u), std::max(width_up, step_up)};
   }
   return rows;
 }
 
-// Marks as shadow the unlabelled pixels that hold surface.
-void mark_shadows(const SurfelPlaces& at, const PixelCells& cells, PixelLabels& labels) {
-  const RangeGate& gate = cells.gate;
-  const auto bins = static_cast<double>(labels.material.cols());
-  const std::vector<BeamRow> rows = beam_rows(cells.fan);
-  for (std::size_t i = 0; i < at.range.size(); ++i) {
-    const double range = static_cast<double>(at.range[i]), radius = static_cast<double>(at.radius[i]);
-    const double first = std::max(0.0, std::floor((range - radius - gate.min_range) / gate.bin_size));
-    const double last = std::min(bins - 1, std::floor((range + radius - gate.min_range) / gate.bin_size));
-    if (first > last) continue;
-    const double u = static_cast<double>(at.u[i]), turn = radius / range;
-    for (const BeamRow& row : rows) {
-      if (std::abs(static_cast<double>(at.elevation[i]) - row.elevation) > row.reach + turn) continue;
-      const double reach = std::max(row.half_step, turn);
-      auto beam = std::lower_bound(row.beams.begin(), row.beams.end(), std::pair(u - reach, std::size_t{0}));
-      for (; beam != row.beams.end() && beam->first <= u + reach; ++beam)
-        for (double n = first; n <= last; ++n) {
-          auto& material = labels.material(static_cast<Eigen::Index>(beam->second), static_cast<Eigen::Index>(n));
-          if (material == PixelLabels::nothing) material = PixelLabels::shadow;
-        }
+double radius_of(const SceneCloud& scene, std::size_t surfel, std::uint32_t parts) {
+  return std::sqrt(static_cast<double>(scene.area[surfel]) / (std::numbers::pi * parts));
+}
+
+// The visible parts by ascending direction cosine, with the energies of their pulses in `length` bins from `first` on.
+struct VisibleParts {
+  std::size_t length = 0;
+  std::vector<double> u, v, range;
+  std::vector<double> radius;  // of the share that a part has of its surfel's area [m]
+  std::vector<std::uint32_t> surfel;
+  std::vector<std::int64_t> first;
+  std::vector<float> energy;
+};
+
+VisibleParts visible_parts(const SceneCloud& scene, const SurfelEchoes& direct, const SonarHead& head,
+                           const Medium& medium, double reach, int threads) {
+  const RangeGate& gate = head.gate;
+  const Echoes& echoes = direct.echoes;
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const double range = 0.5 * medium.sound_speed * echoes.delay[i];
+    if (range > gate.min_range - reach && range < gate.max_range + reach)
+      order.emplace_back(echoes.u[i], static_cast<std::uint32_t>(i));
+  }
+  std::sort(order.begin(), order.end());
+  VisibleParts parts;
+  parts.length = static_cast<std::size_t>(std::floor(2 * reach / gate.bin_size)) + 1;
+  for (auto* column : {&parts.u, &parts.v, &parts.range, &parts.radius}) column->resize(order.size());
+  parts.surfel.resize(order.size()), parts.first.resize(order.size()), parts.energy.resize(order.size() * parts.length);
+  std::vector<std::uint32_t> parts_of(scene.size(), 0);
+  for (const std::uint32_t surfel : direct.surfel) ++parts_of[surfel];
+  const EchoShapes shapes(head.pulse, medium);
+  parallel_blocks(order.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = order[k].second;
+      const double range = 0.5 * medium.sound_speed * echoes.delay[i], power = std::norm(echoes.amplitude[i]);
+      const EchoEnvelope envelope = shapes.of(echoes.delay[i], echoes.doppler_of(i));
+      parts.u[k] = echoes.u[i], parts.v[k] = echoes.v[i], parts.range[k] = range, parts.surfel[k] = direct.surfel[i];
+      parts.radius[k] = radius_of(scene, direct.surfel[i], parts_of[direct.surfel[i]]);
+      parts.first[k] = static_cast<std::int64_t>(std::ceil((range - reach - gate.min_range) / gate.bin_size - 0.5));
+      for (std::size_t n = 0; n < parts.length; ++n) {
+        const double at =
+            gate.min_range + (static_cast<double>(parts.first[k]) + static_cast<double>(n) + 0.5) * gate.bin_size;
+        parts.energy[k * parts.length + n] =
+            static_cast<float>(power * std::norm(envelope.at(2 * (at - range) / medium.sound_speed)));  // (E63)
+      }
+    }
+  });
+  return parts;
+}
+
+// Energies of one material: in the cell of a pixel; there or nearer to it than the radius of a surfel, which closes gaps
+// between surfels; and in the main lobe. And the surfel of the strongest part of the first two.
+struct MaterialHere {
+  double cell = 0, near = 0, lobe = 0;
+  double in_cell = 0, in_near = 0;
+  std::uint32_t of_cell = 0, of_near = 0;
+};
+
+class Labelling {
+ public:
+  Labelling(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head, const Pose& world_from_head,
+            const Medium& medium, int threads)
+      : scene_(scene),
+        seen_(seen),
+        head_(head),
+        head_from_world_(world_from_head.inverse()),
+        wavelength_(medium.sound_speed / head.pulse.centre_frequency),
+        table_(head.array, wavelength_),
+        rows_(beam_rows(head, range_resolution(head.pulse, medium.sound_speed))),
+        parts_(visible_parts(scene, seen.direct, head, medium, rows_.front().lobe.range, threads)),
+        threads_(threads) {
+    const auto beams = static_cast<Eigen::Index>(head.fan.beams()), bins = static_cast<Eigen::Index>(head.gate.bins());
+    labels_ = {Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::nothing),
+               Grid<std::uint32_t>::Constant(beams, bins, PixelLabels::no_id),
+               Grid<float>::Zero(beams, bins),
+               {}};
+    for (const Material& material : scene.materials) labels_.names.push_back(material.name);
+  }
+
+  PixelLabels run() {
+    std::vector<std::pair<std::size_t, std::size_t>> beams;
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      for (std::size_t b = 0; b < rows_[r].beams.size(); ++b) beams.emplace_back(r, b);
+    for (std::size_t i = 0; i < scene_.size(); ++i)
+      if (seen_.others[i] == Visibility::hidden || seen_.others[i] == Visibility::turned_away)
+        mark(i, PixelLabels::shadow);
+    for (std::size_t i = 0; i < scene_.size(); ++i)
+      if (seen_.others[i] == Visibility::seen) mark(i, PixelLabels::nothing);
+    parallel_for(beams.size(), threads_, [&](std::size_t k) {
+      label_beam(rows_[beams[k].first], rows_[beams[k].first].beams[beams[k].second]);
+    });
+    return std::move(labels_);
+  }
+
+ private:
+  // Energies of the visible parts in the main lobe of a beam, by bin and material.
+  void label_beam(const BeamRow& row, std::pair<double, std::size_t> beam) {
+    const std::size_t kinds = scene_.materials.size();
+    const auto bins = static_cast<std::int64_t>(head_.gate.bins());
+    std::vector<MaterialHere> here(static_cast<std::size_t>(bins) * kinds);
+    const bool weighted = rows_.size() > 1 || head_.column;
+    RowResponse response(head_, wavelength_, row.elevation);
+    const auto begin = std::lower_bound(parts_.u.begin(), parts_.u.end(), beam.first - row.lobe.u);
+    for (auto k = static_cast<std::size_t>(begin - parts_.u.begin());
+         k < parts_.u.size() && parts_.u[k] <= beam.first + row.lobe.u; ++k) {
+      const double up =
+          row.lobe.up < anywhere ? std::abs(std::asin(std::clamp(parts_.v[k], -1.0, 1.0)) - row.elevation) : 0;
+      if (up > row.lobe.up) continue;
+      const double turned = weighted ? response.at(parts_.v[k]) : 1;
+      const double weight = turned * turned * table_.intensity(parts_.u[k] - beam.first);
+      const double off = std::abs(parts_.u[k] - beam.first), range = parts_.range[k];
+      const double part = parts_.radius[k], surfel = radius_of(scene_, parts_.surfel[k], 1);
+      const auto lies_within = [&](double radius) {
+        return up <= row.cell.up + radius / range && off <= row.cell.u + radius / range;
+      };
+      const bool of_cell = lies_within(part), of_near = of_cell || lies_within(surfel);
+      const std::size_t material = scene_.material[parts_.surfel[k]];
+      for (std::size_t n = 0; n < parts_.length; ++n) {
+        const std::int64_t bin = parts_.first[k] + static_cast<std::int64_t>(n);
+        if (bin < 0 || bin >= bins) continue;
+        MaterialHere& sum = here[static_cast<std::size_t>(bin) * kinds + material];
+        const double energy = weight * static_cast<double>(parts_.energy[k * parts_.length + n]);
+        sum.lobe += energy;
+        const double away = std::abs(head_.gate.centre(static_cast<std::size_t>(bin)) - range) - row.cell.range;
+        const auto add = [&](double& to, double& strongest, std::uint32_t& by) {
+          to += energy;
+          if (energy > strongest) strongest = energy, by = parts_.surfel[k];
+        };
+        if (of_cell && away <= part) add(sum.cell, sum.in_cell, sum.of_cell);
+        if (of_near && away <= surfel) add(sum.near, sum.in_near, sum.of_near);
+      }
+    }
+    for (std::int64_t n = 0; n < bins; ++n) label_pixel(beam.second, n, &here[static_cast<std::size_t>(n) * kinds]);
+  }
+
+  // The material with most energy in the cell of a pixel; near it, if there is neither visible nor hidden surface.
+  void label_pixel(std::size_t beam, Eigen::Index bin, const MaterialHere* here) {
+    const MaterialHere* end = here + scene_.materials.size();
+    const auto row = static_cast<Eigen::Index>(beam);
+    const MaterialHere* most = std::max_element(here, end, [](auto& a, auto& b) { return a.cell < b.cell; });
+    const bool visible = most->cell > 0;
+    if (!visible && labels_.material(row, bin) == PixelLabels::shadow) return;
+    if (!visible) most = std::max_element(here, end, [](auto& a, auto& b) { return a.near < b.near; });
+    if (!(most->near > 0)) return;
+    const auto total = static_cast<double>(seen_.all.total[beam * seen_.all.bins + static_cast<std::size_t>(bin)]);
+    labels_.material(row, bin) = static_cast<std::uint16_t>(most - here);
+    labels_.id(row, bin) = scene_.id[visible ? most->of_cell : most->of_near];
+    labels_.share(row, bin) = total > 0 ? static_cast<float>(std::min(1.0, most->lobe / total)) : 0.0F;  // (E125)
+  }
+
+  // Marks the cells that a surfel reaches into.
+  void mark(std::size_t i, std::uint16_t label) {
+    const Eigen::Vector3d p = head_from_world_ * (scene_.origin + scene_.point[i].cast<double>());
+    const double range = std::max(p.norm(), 1e-9), u = p.y() / range, elevation = std::asin(p.z() / range);
+    const double radius = radius_of(scene_, i, 1), turn = radius / range;
+    const RangeGate& gate = head_.gate;
+    const double reach = radius + rows_.front().cell.range;
+    const auto first =
+        static_cast<Eigen::Index>(std::max(0.0, std::ceil((range - reach - gate.min_range) / gate.bin_size - 0.5)));
+    const auto last = static_cast<Eigen::Index>(std::min(
+        static_cast<double>(gate.bins()) - 1, std::floor((range + reach - gate.min_range) / gate.bin_size - 0.5)));
+    for (const BeamRow& row : rows_) {
+      if (std::abs(elevation - row.elevation) > row.cell.up + turn) continue;
+      const double across = row.cell.u + turn;
+      auto beam = std::lower_bound(row.beams.begin(), row.beams.end(), std::pair(u - across, std::size_t{0}));
+      for (; beam != row.beams.end() && beam->first <= u + across; ++beam)
+        for (Eigen::Index n = first; n <= last; ++n)
+          labels_.material(static_cast<Eigen::Index>(beam->second), n) = label;
     }
   }
+
+  const SceneCloud& scene_;
+  const SeenSurface& seen_;
+  const SonarHead& head_;
+  Pose head_from_world_;
+  double wavelength_;
+  ResponseTable table_;
+  std::vector<BeamRow> rows_;
+  VisibleParts parts_;
+  int threads_;
+  PixelLabels labels_;
+};
+
+void require_seen(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head) {
+  const Contributors& all = seen.all;
+  require_valid(all, "label_pixels");
+  if (all.beams != head.fan.beams() || all.bins != head.gate.bins())
+    fail(ErrorKind::argument, "label_pixels: contributors of ", all.beams, " beams x ", all.bins, " bins, must be of ",
+         head.fan.beams(), " x ", head.gate.bins());
+  if (all.total.size() != all.beams * all.bins)
+    fail(ErrorKind::argument, "label_pixels: contributors have the total energy of ", all.total.size(),
+         " pixels, must have it of all ", all.beams * all.bins, "; label them with the ping, not from a file");
+  if (seen.others.size() != scene.size())
+    fail(ErrorKind::argument, "label_pixels: visibilities have ", seen.others.size(),
+         " entries, must have one per surfel (", scene.size(), ")");
+  require_arrivals(scene, seen.direct, "label_pixels");
 }
 
 }  // namespace
@@ -138,25 +286,12 @@ Grid<std::uint32_t> instance_image(const PixelLabels& labels, double least_share
   return image;
 }
 
-PixelLabels label_pixels(const SceneCloud& scene, const Contributors& contributors, const PixelCells& cells) {
-  require_valid(contributors, "label_pixels");
-  if (contributors.beams != cells.fan.beams() || contributors.bins != cells.gate.bins())
-    fail(ErrorKind::argument, "label_pixels: contributors of ", contributors.beams, " beams x ", contributors.bins,
-         " bins, must be of ", cells.fan.beams(), " x ", cells.gate.bins());
-  for (const std::uint32_t surfel : contributors.surfel)
-    if (surfel != Contributors::none && surfel >= scene.size())
-      fail(ErrorKind::argument, "label_pixels: surfel ", surfel, " is not in the scene of ", scene.size());
-  const auto beams = static_cast<Eigen::Index>(contributors.beams), bins = static_cast<Eigen::Index>(contributors.bins);
-  PixelLabels labels{Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::nothing),
-                     Grid<std::uint32_t>::Constant(beams, bins, PixelLabels::no_id),
-                     Grid<float>::Zero(beams, bins),
-                     {}};
-  for (const Material& material : scene.materials) labels.names.push_back(material.name);
-  const SurfelPlaces at = places_of(scene, cells.world_from_head);
-  for (std::size_t beam = 0; beam < contributors.beams; ++beam)
-    for (std::size_t bin = 0; bin < contributors.bins; ++bin) label_pixel(contributors, cells, at, beam, bin, labels);
-  mark_shadows(at, cells, labels);
-  return labels;
+PixelLabels label_pixels(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head,
+                         const Pose& world_from_head, const Medium& medium, int threads) {
+  require_valid(head, "label_pixels");
+  require_valid(medium, "label_pixels");
+  require_seen(scene, seen, head);
+  return Labelling(scene, seen, head, world_from_head, medium, threads).run();
 }
 
 }  // namespace insonify

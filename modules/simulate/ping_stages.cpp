@@ -6,6 +6,7 @@
 #include "returns/label_pixels.hpp"
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
+#include "sampling/seen_surfels.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 
@@ -29,6 +30,13 @@ Contributors contributors_of(const SceneCloud& scene, const ResolvedPing& ping, 
   options.per_pixel = ping.options.outputs.contributors;
   options.threads = ping.options.threads;
   return find_contributors(scene, echoes, ping.head, ping.sent.medium, options);
+}
+
+/// Whether surfels without a patch are hidden, face away or are missed by all rays.
+std::vector<Visibility> others_than(const Scatterers& patches, const PreparedScene& prepared, const View& view) {
+  std::vector<std::uint8_t> asked(prepared.scene().size(), 1);
+  for (const std::uint32_t surfel : patches.surfel) asked[surfel] = 0;
+  return find_visibility(prepared, view.world_from_head, view.fan, view.gate, asked, view.sampling);
 }
 
 SoundPaths paths_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
@@ -84,9 +92,10 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (wanted.contributors > 0) {
     StopWatch watch;
     result.contributors = contributors_of(scene, ping, parts, patches);
-    result.ping.labels =
-        label_pixels(scene, result.contributors,
-                     {ping.head.fan, ping.head.gate, ping.view.world_from_head, ping.view.sampling.range_resolution});
+    const SurfelEchoes direct{parts.direct, patches.surfel};
+    const std::vector<Visibility> others = others_than(patches, prepared, ping.view);
+    result.ping.labels = label_pixels(scene, {direct, others, result.contributors}, ping.head,
+                                      ping.view.world_from_head, ping.sent.medium, ping.options.threads);
     result.seconds.contributors = watch.lap();
   }
   if (wanted.paths > 0) result.paths = paths_of(scene, ping, parts, patches);

@@ -21,13 +21,42 @@ TEST(ImageComparison, of_two_seeds_is_their_floor) {
   EXPECT_NEAR(found.psnr_db, c.floor.drawn.psnr_db, 0.15);
   EXPECT_NEAR(found.psnr_db, c.floor.analytic.psnr_db, 0.2);
   EXPECT_NEAR(c.floor.analytic.psnr_db, 20 * std::log10(60 / 7.877), 0.01);
-  EXPECT_NEAR(found.ssim, c.floor.drawn.ssim, 0.03);  // the draws share what speckle the average leaves
+  EXPECT_NEAR(found.ssim, c.floor.drawn.ssim, 0.05);  // the draws share what speckle the average leaves
   EXPECT_NEAR(found.ssim, c.floor.analytic.ssim, 0.02);
   EXPECT_LT(c.wasserstein_db, 0.15);
   EXPECT_GT(c.samples.probability, 0.01);
   EXPECT_NEAR(c.map_slope, 1, 0.02);
   EXPECT_EQ(c.shift.bins, 0);
   EXPECT_EQ(c.shift.beams, 0);
+}
+
+// A scene of steps and a dark, silent part, by speckle as wide as that of a head whose beams overlap: what two seeds reach
+// is printed as their floor, from one of them alone.
+TEST(ImageComparison, floor_keeps_edges_and_silence) {
+  Grid<float> scene(120, 360);
+  for (Eigen::Index i = 0; i < 120; ++i)
+    for (Eigen::Index n = 0; n < 360; ++n)
+      scene(i, n) =
+          n < 70 ? -200.0F
+                 : static_cast<float>(40 - 0.03 * static_cast<double>(n) - ((n / 45 + i / 20) % 2 == 0 ? 0 : 18));
+  const auto seen = [&](std::uint64_t seed) {
+    ComparedImage image{Grid<float>(120, 360)};
+    for (Eigen::Index i = 0; i < 120; ++i)
+      for (Eigen::Index n = 0; n < 360; ++n) {
+        // Means of 6 beams x 2 bins of complex noise.
+        std::complex<double> sum = 0;
+        for (Eigen::Index k = 0; k < 12; ++k)
+          sum += random_complex_normal(seed, RandomStage::scene_points,
+                                       {static_cast<std::uint64_t>((i + k % 6) * 400 + n + k / 6), 0, 0});
+        image.level_db(i, n) = scene(i, n) + (n < 70 ? 0 : static_cast<float>(db_from_power(std::norm(sum) / 12)));
+      }
+    return image;
+  };
+  const ImageComparison c = compare_level_images(seen(1), seen(2), {sixty_db});
+  const ImageSimilarity& found = c.similarity.front().similarity;
+  EXPECT_GT(found.ssim, 0.3);
+  EXPECT_NEAR(c.floor.drawn.psnr_db, found.psnr_db, 0.5);
+  EXPECT_NEAR(c.floor.drawn.ssim, found.ssim, 0.05);
 }
 
 TEST(ImageComparison, floor_of_correlated_speckle_is_that_of_white_speckle) {
@@ -104,6 +133,9 @@ TEST(ImageComparison, finds_a_shift) {
   EXPECT_EQ(shift.bins, 11);
   EXPECT_GT(shift.correlation, 0.999);
   EXPECT_LT(shift.correlation_at_0, 0.99);
+  const Grid<float> moved = without_shift(scene.block(10, 20, 150, 400), shift), b = scene.block(7, 31, 150, 400);
+  EXPECT_TRUE((moved.isNaN() || moved == b).all());
+  EXPECT_EQ(moved.isNaN().count(), 150 * 400 - 147 * 389);
 }
 
 TEST(ImageComparison, resamples_by_mean_intensity_where_it_looked) {
