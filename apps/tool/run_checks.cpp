@@ -59,8 +59,10 @@ RunCheck check_survey(const std::string& run) {
 
 void write_manifest(const RunDirectory& directory, ordered_json manifest) {
   std::map<std::string, std::string> digests;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory.file("")))
-    if (entry.is_regular_file()) digests[entry.path().filename().string()] = sha256_of_file(entry.path().string());
+  const fs::path folder = directory.file("");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      digests[fs::relative(entry.path(), folder).string()] = sha256_of_file(entry.path().string());
   manifest[digests_key] = digests;
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
 }

@@ -120,22 +120,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json write_contributors(const RunDirectory& directory, const SceneCloud& scene, const SimulatedPing& ping) {
-  const Contributors& found = ping.contributors;
-  NamedContributors named{found, {}, ping.ping.labels};
-  for (const Material& material : scene.materials) named.materials.push_back(material.name);
-  write_contributor_file(directory.file("contributors.h5"), named);
-  std::size_t pixels = 0;
-  double share = 0;
-  for (std::size_t i = 0; i < found.share.size(); ++i) {
-    pixels += i % found.per_pixel == 0 && found.share[i] > 0;
-    share += static_cast<double>(found.share[i]);
-  }
-  return {{"per_pixel", found.per_pixel},
-          {"pixels", pixels},
-          {"mean_share_listed", pixels > 0 ? share / static_cast<double>(pixels) : 0}};
-}
-
 ordered_json write_insonification(const RunDirectory& directory, const SceneCloud& scene, const PingSetup& setup,
                                   const SimulatedPing& ping) {
   Insonification map;
@@ -157,9 +141,33 @@ ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths)
 
 }  // namespace
 
+ContributorWriter::ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
+                                     OutputSettings& outputs) {
+  if (outputs.contributors == 0) return;
+  per_pixel_ = outputs.contributors;
+  std::vector<std::string> materials;
+  for (const Material& material : scene.materials) materials.push_back(material.name);
+  file_ = std::make_unique<ContributorFile>(directory.file("contributors.h5"), head.fan.beams(), head.gate.bins(),
+                                            static_cast<std::size_t>(per_pixel_), materials);
+  outputs.take_contributors = [this](const Contributors& band, std::size_t first_beam) {
+    file_->write(band, first_beam);
+    for (std::size_t i = 0; i < band.share.size(); ++i) {
+      pixels_ += i % band.per_pixel == 0 && band.share[i] > 0;
+      share_ += static_cast<double>(band.share[i]);
+    }
+  };
+}
+
+void ContributorWriter::finish(const PixelLabels& labels, ordered_json& manifest) {
+  if (!file_) return;
+  file_->finish(material_image(labels), instance_image(labels));
+  manifest["contributors"] = {{"per_pixel", per_pixel_},
+                              {"pixels", pixels_},
+                              {"mean_share_listed", pixels_ > 0 ? share_ / static_cast<double>(pixels_) : 0}};
+}
+
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {
-  if (setup.simulation.outputs.contributors > 0) manifest["contributors"] = write_contributors(directory, scene, ping);
   if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.paths);
   if (keeps(options, "insonification"))
     manifest["insonification"] = write_insonification(directory, scene, setup, ping);

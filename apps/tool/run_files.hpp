@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "returns/ping.hpp"
 #include "returns/quantise.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
 #include "tool/options.hpp"
@@ -35,7 +37,26 @@ LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 /// Title of the picture of a ping: sonar, number, range.
 std::string picture_title(const std::string& sonar, const Ping& ping);
 
-/// Writes the files of --keep beside the cube: contributors.h5, insonification.ply and .pcd, paths.vtp; `manifest` gets
+/// Writes contributors.h5 of a ping while they are found, band by band of beams.
+class ContributorWriter {
+ public:
+  /// Has `outputs` hand over the contributors, if it asks for any, to this writer, which must outlive the ping.
+  ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
+                    OutputSettings& outputs);
+  ContributorWriter(const ContributorWriter&) = delete;
+  ContributorWriter& operator=(const ContributorWriter&) = delete;
+
+  /// Completes the file with the label images of the ping; `manifest` gets a summary.
+  void finish(const PixelLabels& labels, nlohmann::ordered_json& manifest);
+
+ private:
+  std::unique_ptr<ContributorFile> file_;
+  int per_pixel_ = 0;
+  std::size_t pixels_ = 0;
+  double share_ = 0;
+};
+
+/// Writes the other files of --keep beside the cube: insonification.ply and .pcd, paths.vtp; `manifest` gets
 /// a summary of each.
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, nlohmann::ordered_json& manifest);

@@ -79,10 +79,11 @@ void ping(const PingCommand& command) {
   for (const std::string& note : setup.notes) note_to_user(note);
   for (const std::string& note : loading_notes(loaded.report)) note_to_user(note);
 
-  const PingPlan plan = plan_ping(loaded.scene, setup.head, ready.pose, setup.environment, simulation);
+  PingPlan plan = plan_ping(loaded.scene, setup.head, ready.pose, setup.environment, simulation);
   manifest["plan"] = plan_json(plan);
 
   progress.step("pinging");
+  ContributorWriter contributors(directory, loaded.scene, setup.head, plan.options.outputs);
   const SimulatedPing result = simulate_ping(loaded.scene, setup.head, ready.pose, setup.environment, plan.options);
   for (const std::string& note : ping_notes(result, ready, in_reach.places)) note_to_user(note);
 
@@ -92,6 +93,7 @@ void ping(const PingCommand& command) {
   if (!origin.isZero(0)) note_to_user(origin_note(origin));
   if (simulation.outputs.elements)
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
+  contributors.finish(result.ping.labels, manifest);
   write_kept(directory, o, loaded.scene, ready, result, manifest);
   manifest["sampling"] = sampling_json(result);
   if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);

@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
+#include "core/work_progress.hpp"
 #include "returns/chebyshev_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 
@@ -103,6 +104,7 @@ class Search {
   /// Processes the groups in order, in chunks that fit into memory, in parallel over beams.
   void run() {
     const bool one_row = rows_.size() == 1 && !head_.column;
+    ObservedLoop observed(groups_.size());
     for (std::size_t g = 0; g < groups_.size();) {
       const Pulses pulses = pulses_from(g);
       const std::size_t count = pulses.last_group - g;
@@ -120,7 +122,7 @@ class Search {
           for (const std::size_t b : rows_[r].beams) accumulate(b, g, of_row);
         });
       }
-      g = pulses.last_group;
+      for (; g < pulses.last_group; ++g) observed.advance();
     }
   }
 
@@ -254,8 +256,7 @@ void require_options(const SonarHead& head, const ContributorOptions& o) {
   if (o.per_pixel < 1 || o.per_pixel > 255)
     fail(ErrorKind::argument, "find_contributors", ": per_pixel = ", o.per_pixel, ", must be within 1 and 255");
   require(o.floor_db < 0 && o.floor_db >= -200, "find_contributors", "floor_db", o.floor_db, "dB", "within -200 and 0");
-  const double pixels = static_cast<double>(head.fan.beams()) * static_cast<double>(head.gate.bins());
-  const double mib = pixels * (31 * o.per_pixel + 20) / (1 << 20);
+  const double mib = contributor_mib(head.fan.beams() * head.gate.bins(), o.per_pixel);
   if (!(mib <= o.max_mib))
     fail(ErrorKind::argument, "find_contributors", ": ", head.fan.beams(), " beams x ", head.gate.bins(), " bins x ",
          o.per_pixel, " contributors take ", std::ceil(mib), " MiB, must be at most ", o.max_mib,
@@ -263,6 +264,10 @@ void require_options(const SonarHead& head, const ContributorOptions& o) {
 }
 
 }  // namespace
+
+double contributor_mib(std::size_t pixels, int per_pixel) {
+  return static_cast<double>(pixels) * (31 * per_pixel + 20) / (1 << 20);
+}
 
 Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEchoes> echoes, const SonarHead& head,
                                const Medium& medium, const ContributorOptions& options) {

@@ -26,6 +26,9 @@ struct ContributorOptions {
   int threads = 0;        ///< 0: all cores; the result does not depend on it
 };
 
+/// Memory that find_contributors takes for so many pixels [MiB].
+double contributor_mib(std::size_t pixels, int per_pixel);
+
 /// Returns the strongest contributors of every pixel, by the energy that each alone would have there (E63):
 ///
 ///   E(b, n) = sum_p |A_p|^2 |B_b(u_p, v_p)|^2 |G_p(2 r_n / c - delay_p)|^2

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "acoustics/reverberation_echoes.hpp"
@@ -22,21 +23,96 @@ void mark_holes(const PreparedScene& prepared, const ResolvedPing& ping, Simulat
   result.ping.unknown = mask_holes(holes, view.fan, ping.head.gate);
 }
 
-Contributors contributors_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
-                             const Scatterers& patches) {
-  const Multipath& bounced = parts.bounced;
-  const SurfelEchoes echoes[] = {{parts.direct, patches.surfel}, {bounced.echoes, bounced.surfel, bounced.legs}};
-  ContributorOptions options;
-  options.per_pixel = ping.options.outputs.contributors;
-  options.threads = ping.options.threads;
-  return find_contributors(scene, echoes, ping.head, ping.sent.medium, options);
-}
-
 /// Whether surfels without a patch are hidden, face away or are missed by all rays.
 std::vector<Visibility> others_than(const Scatterers& patches, const PreparedScene& prepared, const View& view) {
   std::vector<std::uint8_t> asked(prepared.scene().size(), 1);
   for (const std::uint32_t surfel : patches.surfel) asked[surfel] = 0;
   return find_visibility(prepared, view.world_from_head, view.fan, view.gate, asked, view.sampling);
+}
+
+using Bands = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// Bands of beams [first, end) of whole rows, of which the contributors fit into `mib` together or are of two rows, since
+/// labels know the step between rows; one band if the rows are not one after the other.
+Bands beam_bands(const SonarHead& head, int per_pixel, double mib) {
+  std::vector<std::size_t> ends;
+  std::size_t beams = 0;
+  std::vector<FanRow> rows = fan_rows(head.fan);
+  std::sort(rows.begin(), rows.end(),
+            [](const FanRow& a, const FanRow& b) { return a.beams.front() < b.beams.front(); });
+  for (const FanRow& row : rows) {
+    if (row.beams.front() != beams || row.beams.back() + 1 != beams + row.beams.size()) return {{0, head.fan.beams()}};
+    ends.push_back(beams += row.beams.size());
+  }
+  Bands bands{{0, ends.front()}};
+  std::size_t in_band = 1;
+  for (std::size_t r = 1; r < ends.size(); ++r) {
+    auto& [first, end] = bands.back();
+    const bool fits = contributor_mib((ends[r] - first) * head.gate.bins(), per_pixel) <= mib;
+    // The last row does not stand alone.
+    if (fits || in_band < 2 || r + 1 == ends.size()) {
+      end = ends[r], ++in_band;
+    } else {
+      bands.emplace_back(ends[r - 1], ends[r]), in_band = 1;
+    }
+  }
+  return bands;
+}
+
+/// The head with the beams [first, end) alone.
+SonarHead with_beams(const SonarHead& head, std::size_t first, std::size_t end) {
+  SonarHead part = head;
+  const auto cut = [&](const std::vector<double>& all) {
+    return std::vector(all.begin() + static_cast<long>(first), all.begin() + static_cast<long>(end));
+  };
+  part.fan.azimuth = cut(head.fan.azimuth);
+  part.fan.elevation = cut(head.fan.elevation);
+  return part;
+}
+
+/// Copies the labels of a band into those of all beams.
+void put_labels(PixelLabels part, std::size_t first_beam, std::size_t beams, PixelLabels& all) {
+  if (static_cast<std::size_t>(part.material.rows()) == beams) {
+    all = std::move(part);
+    return;
+  }
+  const auto first = static_cast<Eigen::Index>(first_beam), rows = static_cast<Eigen::Index>(beams);
+  const auto put = [&](const auto& from, auto& to) {
+    to.conservativeResize(rows, from.cols());
+    to.middleRows(first, from.rows()) = from;
+  };
+  put(part.material, all.material);
+  put(part.id, all.id);
+  put(part.share, all.share);
+  all.names = part.names;
+}
+
+/// Finds contributors and labels (E63, E125): of all beams at once, or band by band if the options take them so.
+void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts,
+                      SimulatedPing& result) {
+  constexpr double band_mib = 512;
+  const SceneCloud& scene = prepared.scene();
+  const OutputSettings& wanted = ping.options.outputs;
+  const std::vector<std::uint32_t>& surfel = parts.sampling.scatterers.surfel;
+  const Multipath& bounced = parts.bounced;
+  const SurfelEchoes echoes[] = {{parts.direct, surfel}, {bounced.echoes, bounced.surfel, bounced.legs}};
+  const std::vector<Visibility> others = others_than(parts.sampling.scatterers, prepared, ping.view);
+  ContributorOptions options;
+  options.per_pixel = wanted.contributors;
+  options.threads = ping.options.threads;
+  const Bands bands =
+      wanted.take_contributors ? beam_bands(ping.head, options.per_pixel, band_mib) : Bands{{0, ping.head.fan.beams()}};
+  for (const auto& [first, end] : bands) {
+    const SonarHead head = with_beams(ping.head, first, end);
+    Contributors found = find_contributors(scene, echoes, head, ping.sent.medium, options);
+    put_labels(label_pixels(scene, {echoes[0], others, found}, head, ping.view.world_from_head, ping.sent.medium,
+                            options.threads),
+               first, ping.head.fan.beams(), result.ping.labels);
+    if (wanted.take_contributors)
+      wanted.take_contributors(found, first);
+    else
+      result.contributors = std::move(found);
+  }
 }
 
 SoundPaths paths_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
@@ -91,11 +167,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (wanted.mask) mark_holes(prepared, ping, result);
   if (wanted.contributors > 0) {
     StopWatch watch;
-    result.contributors = contributors_of(scene, ping, parts, patches);
-    const SurfelEchoes direct{parts.direct, patches.surfel};
-    const std::vector<Visibility> others = others_than(patches, prepared, ping.view);
-    result.ping.labels = label_pixels(scene, {direct, others, result.contributors}, ping.head,
-                                      ping.view.world_from_head, ping.sent.medium, ping.options.threads);
+    add_contributors(prepared, ping, parts, result);
     result.seconds.contributors = watch.lap();
   }
   if (wanted.paths > 0) result.paths = paths_of(scene, ping, parts, patches);

@@ -1,9 +1,12 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/motion.hpp"
 #include "beamforming/synthesize.hpp"
+#include "returns/contributors.hpp"
 #include "returns/detect_soundings.hpp"
 #include "sampling/find_scatterers.hpp"
 
@@ -70,6 +73,9 @@ struct OutputSettings {
   int looks_range = 1, looks_pings = 1;
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
   int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255
+  /// Takes the contributors band by band, rows of beams from `first_beam` on, instead of SimulatedPing::contributors:
+  /// memory holds one band, of at most 512 MiB.
+  std::function<void(const Contributors& band, std::size_t first_beam)> take_contributors{};
 };
 
 /// All that can be chosen for a ping of a given head, place and environment.

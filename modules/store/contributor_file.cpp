@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "store/hdf5_internal.hpp"
@@ -63,43 +64,119 @@ void require_ours(const Place& place, hid_t file) {
          contributor_schema);
 }
 
-void require_named(const NamedContributors& named, const std::string& path) {
-  require_valid(named.contributors, "write_contributor_file");
-  const PixelLabels& labels = named.labels;
-  if (!labels.empty() && (static_cast<std::size_t>(labels.material.rows()) != named.contributors.beams ||
-                          static_cast<std::size_t>(labels.material.cols()) != named.contributors.bins))
-    fail(ErrorKind::argument, "write_contributor_file: ", path, ": labels of ", labels.material.rows(), " x ",
-         labels.material.cols(), " pixels, must be of ", named.contributors.beams, " x ", named.contributors.bins);
-  for (const std::uint16_t m : named.contributors.material)
-    if (m != Contributors::no_material && m >= named.materials.size())
-      fail(ErrorKind::argument, "write_contributor_file: ", path, ": material ", m, " has no name, there are ",
-           named.materials.size());
+/// Chunks of beams of about 256 kB.
+hsize_t beams_per_chunk(const Extent& lists) {
+  return std::clamp<hsize_t>((hsize_t{1} << 16) / (lists[1] * lists[2]), 1, lists[0]);
+}
+
+void require_named_materials(const Contributors& c, std::size_t names, const std::string& path) {
+  for (const std::uint16_t m : c.material)
+    if (m != Contributors::no_material && m >= names)
+      fail(ErrorKind::argument, "write_contributor_file: ", path, ": material ", m, " has no name, there are ", names);
 }
 
 }  // namespace
 
+struct ContributorFile::Open {
+  Place place;
+  Extent lists;
+  std::size_t materials;
+  PendingFile pending;
+  Handle file;
+  std::vector<Handle> datasets{};
+
+  Open(const std::string& path, Extent extent, std::size_t names)
+      : place{path, ErrorKind::file},
+        lists(std::move(extent)),
+        materials(names),
+        pending(path),
+        file(create_file(place, pending.temporary())) {}
+
+  template <typename Number>
+  void add(const DatasetName& name) {
+    datasets.push_back(create_dataset(place, file, name, type_of<Number>(true), lists,
+                                      {beams_per_chunk(lists), lists[1], lists[2]}, Packing::deflate));
+  }
+  /// Writes the lists of a band of beams.
+  template <typename Number>
+  void write(std::size_t dataset, const DatasetName& name, std::size_t first_beam, std::size_t beams,
+             const Number* numbers) {
+    const Extent start = {first_beam, 0, 0}, count = {beams, lists[1], lists[2]};
+    const Handle here(place.checked(H5Screate_simple(3, count.data(), nullptr), name.path), H5Sclose);
+    const Handle there(place.checked(H5Dget_space(datasets[dataset]), name.path), H5Sclose);
+    place.checked(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), name.path);
+    place.checked(H5Dwrite(datasets[dataset], type_of<Number>(false), here, there, H5P_DEFAULT, numbers), name.path);
+  }
+  void write_image(const DatasetName& name, const auto& image) {
+    using Number = typename std::decay_t<decltype(image)>::Scalar;
+    const Extent extent = {lists[0], lists[1]};
+    const Handle dataset = create_dataset(place, file, name, type_of<Number>(true), extent,
+                                          {beams_per_chunk(lists), lists[1]}, Packing::deflate);
+    place.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, image.data()), name.path);
+  }
+};
+
+ContributorFile::ContributorFile(const std::string& path, std::size_t beams, std::size_t bins, std::size_t per_pixel,
+                                 const std::vector<std::string>& materials) {
+  const QuietErrors quiet;
+  failed_to_close = false;
+  open_ = std::make_unique<Open>(path, Extent{beams, bins, per_pixel}, materials.size());
+  write_attribute(open_->place, open_->file, "schema", contributor_schema);
+  write_attribute(open_->place, open_->file, "content", content);
+  write_attribute(open_->place, open_->file, "paths", std::string("0 direct, 1 one bounce, 2 two bounces"));
+  open_->add<std::uint32_t>(surfel_name);
+  open_->add<std::uint32_t>(id_name);
+  open_->add<float>(share_name);
+  open_->add<float>(elevations_name);
+  open_->add<std::uint16_t>(material_name);
+  open_->add<std::uint8_t>(path_name);
+  write_names(open_->place, open_->file, materials);
+}
+
+ContributorFile::~ContributorFile() = default;
+
+void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
+  const QuietErrors quiet;
+  const Extent& lists = open_->lists;
+  require_valid(band, "write_contributor_file");
+  require_named_materials(band, open_->materials, open_->place.path);
+  if (band.bins != lists[1] || band.per_pixel != lists[2] || first_beam + band.beams > lists[0])
+    fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": beams ", first_beam, " to ",
+         first_beam + band.beams, " of ", band.bins, " x ", band.per_pixel, " entries, must be within ", lists[0],
+         " beams of ", lists[1], " x ", lists[2]);
+  open_->write(0, surfel_name, first_beam, band.beams, band.surfel.data());
+  open_->write(1, id_name, first_beam, band.beams, band.id.data());
+  open_->write(2, share_name, first_beam, band.beams, band.share.data());
+  open_->write(3, elevations_name, first_beam, band.beams, band.elevation.data());
+  open_->write(4, material_name, first_beam, band.beams, band.material.data());
+  static_assert(sizeof(PathKind) == 1);
+  open_->write(5, path_name, first_beam, band.beams, reinterpret_cast<const std::uint8_t*>(band.path.data()));
+}
+
+void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image) {
+  const QuietErrors quiet;
+  for (const auto& [rows, columns] : {std::pair(material_image.rows(), material_image.cols()),
+                                      std::pair(instance_image.rows(), instance_image.cols())})
+    if (static_cast<hsize_t>(rows) != open_->lists[0] || static_cast<hsize_t>(columns) != open_->lists[1])
+      fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": labels of ", rows, " x ", columns,
+           " pixels, must be of ", open_->lists[0], " x ", open_->lists[1]);
+  open_->write_image(material_image_name, material_image);
+  open_->write_image(instance_image_name, instance_image);
+  open_->datasets.clear();
+  open_->place.checked(open_->file.close(), "cannot be written");  // a full disk shows here
+  open_->place.checked(failed_to_close ? -1 : 0, "cannot be written");
+  open_->pending.commit();
+}
+
 void write_contributor_file(const std::string& path, const NamedContributors& named) {
-  require_named(named, path);
   const Contributors& c = named.contributors;
-  write_hdf5(path, [&](const Place& place, hid_t file) {
-    write_attribute(place, file, "schema", contributor_schema);
-    write_attribute(place, file, "content", content);
-    write_attribute(place, file, "paths", std::string("0 direct, 1 one bounce, 2 two bounces"));
-    const Extent lists = {c.beams, c.bins, c.per_pixel}, image = {c.beams, c.bins};
-    write_numbers(place, file, surfel_name, lists, c.surfel.data());
-    write_numbers(place, file, id_name, lists, c.id.data());
-    write_numbers(place, file, share_name, lists, c.share.data());
-    write_numbers(place, file, elevations_name, lists, c.elevation.data());
-    write_numbers(place, file, material_name, lists, c.material.data());
-    static_assert(sizeof(PathKind) == 1);
-    write_numbers(place, file, path_name, lists, reinterpret_cast<const std::uint8_t*>(c.path.data()));
-    const bool labelled = !named.labels.empty();
-    write_numbers(place, file, material_image_name, image,
-                  (labelled ? material_image(named.labels) : material_image(c)).data());
-    write_numbers(place, file, instance_image_name, image,
-                  (labelled ? instance_image(named.labels) : instance_image(c)).data());
-    write_names(place, file, named.materials);
-  });
+  require_valid(c, "write_contributor_file");
+  ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials);
+  file.write(c, 0);
+  if (named.labels.empty())
+    file.finish(material_image(c), instance_image(c));
+  else
+    file.finish(material_image(named.labels), instance_image(named.labels));
 }
 
 std::uintmax_t contributor_bytes(const std::string& path) {

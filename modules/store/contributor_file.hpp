@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,26 @@ struct NamedContributors {
 /// Written to a temporary name, then renamed. Throws Error(argument) for invalid contributors or a material without a
 /// name, Error(file) if it cannot write.
 void write_contributor_file(const std::string& path, const NamedContributors& named);
+
+/// The same file, written in bands of beams, so that memory need not hold all of them. Throws as write_contributor_file.
+class ContributorFile {
+ public:
+  /// Begins a file for beams x bins x per_pixel entries, and the names of the materials.
+  ContributorFile(const std::string& path, std::size_t beams, std::size_t bins, std::size_t per_pixel,
+                  const std::vector<std::string>& materials);
+  ~ContributorFile();
+  ContributorFile(const ContributorFile&) = delete;
+  ContributorFile& operator=(const ContributorFile&) = delete;
+
+  /// Writes the contributors of beams from `first_beam` on.
+  void write(const Contributors& band, std::size_t first_beam);
+  /// Writes the label images, of all beams, and gives the file its name; without this call nothing is left.
+  void finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image);
+
+ private:
+  struct Open;
+  std::unique_ptr<Open> open_;
+};
 
 /// Reads what write_contributor_file wrote, bit for bit. Throws Error(file) if missing, Error(content) if it is not
 /// such a file, has another schema or lacks a dataset, naming it.
