@@ -25,9 +25,10 @@ insonify ping "$work/bed.ply" --sonar aris-1800-lf --set sonar.centre_frequency_
   --set sonar.beam_width_deg=0.3 --set sonar.range_resolution_m=0.01 --pose=0,0,2,0,9,0 --range 3.3:23.4 --no-picture -o "$work/bed" >/dev/null
 aris=$(compare bed sample.aris -o aris)
 
-# A 3-D sonar: the geometry that it measured, pinged by a head like it, against the strength that it measured there.
-insonify ping "$work/ship_3dsonar_frame5.pcd" --sonar waterlinked-3d15 --pose=0,0,0,0,0,0 --range 0.3:15 --method incoherent --no-picture \
-  -o "$work/ship" >/dev/null
+# A 3-D sonar: the geometry that it measured, pinged by a head like it, against the strength that it measured there. One place
+# saw all of its points, so none hides another (--viewpoint).
+insonify ping "$work/ship_3dsonar_frame5.pcd" --viewpoint=0,0,0 --sonar waterlinked-3d15 --pose=0,0,0,0,0,0 --range 0.3:15 --method incoherent \
+  --no-picture -o "$work/ship" >/dev/null
 points=$(compare ship ship_3dsonar_frame5.pcd --strength intensity --strength-unit linear -o ship-points)
 
 cp "$work/aris/b.png" docs/images/real-aris.png
@@ -55,7 +56,7 @@ echo "$seeds"
 cat <<'TEXT'
 ```
 
-The harbour has edges and shadows, which raise SSIM: the drawn floor follows them, the analytic one is that of an even scene. Expected levels (`--method incoherent`) against
+The harbour has edges, shadows and silence before the first echo, which raise SSIM: the drawn floor follows them, from one of the images alone; the analytic one is that of an even scene. Expected levels (`--method incoherent`) against
 one seed:
 
 ```
@@ -106,10 +107,12 @@ cat <<'TEXT'
 
 Where insonify is off, and what is not its fault:
 
-- The level falls far more steeply over range than the record, by the time-varied gain of the device, which is not published: the trends are taken off before ranks are compared.
-- One frame is a cloud of one echo for each direction: what lies between is not there, normals are estimated from neighbours, and material is one for all. A rank correlation well below
-  the ceiling says so: geometry alone explains that much of the strength, not more.
-- The deviation after the trends is dominated by points in whose cell the run hears side lobes only, because the surface estimated from its neighbours hides them or turns away.
+- The difference of the slopes over range, 30 dB per decade, is a time-varied gain of 30 log r, as echoes of a surface need it; the device's is not published. Trends are taken off
+  before ranks are compared.
+- The sonar saw every point, so the run may let none hide another: `--viewpoint=0,0,0`. Without it a third of the points are behind the surfels of others, where the run hears side lobes 50 dB
+  below; their share grows with range, which made a slope of -98 dB per decade. `compare` notes points that are predicted 20 dB below the trend.
+- One frame is a cloud of one echo for each direction: what lies between is not there, normals are estimated from neighbours, and material is one for all. What a rank correlation lacks of the
+  ceiling says so: geometry alone explains that much of the strength, not more.
 - One frame alone: the ceiling of a repeated measurement (`--repeat`) is not known; that of one look of speckle is.
 
 ## What is missing

@@ -13,27 +13,15 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "returns/looks.hpp"
+#include "tool/label_pictures.hpp"
 #include "view/grey_file.hpp"
+#include "view/label_colours.hpp"
 
 namespace insonify::tool {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr std::uint8_t shadow_class = 1;
-
-/// The class of every sample: 0 nothing, 1 shadow, then materials by name.
-Grid<std::uint8_t> classes_of(const PixelLabels& labels, double share, const std::vector<std::string>& classes) {
-  std::vector<std::uint8_t> class_of_material;
-  for (const std::string& name : labels.names)
-    class_of_material.push_back(
-        static_cast<std::uint8_t>(std::find(classes.begin() + 2, classes.end(), name) - classes.begin()));
-  return material_image(labels, share).unaryExpr([&](std::uint16_t material) {
-    if (material == PixelLabels::nothing) return std::uint8_t{0};
-    return material == PixelLabels::shadow ? shadow_class : class_of_material.at(material);
-  });
-}
 
 /// The objects of a picture of samples: by the scene's own instances, else connected parts of a class. `stuff` has none.
 Grid<std::uint16_t> objects_of(const DatasetSource& source, const PixelLabels& labels, double share,
@@ -89,12 +77,9 @@ Grid<float> dataset_levels(const Cube& cube, const Ping& ping, const DatasetOpti
 DatasetWriter::DatasetWriter(const RunDirectory& directory, const DatasetOptions& options,
                              std::vector<std::string> classes, GreyWindow window)
     : directory_(directory), options_(options), classes_(std::move(classes)), window_(window) {
-  if (classes_.size() > 256)
-    fail(ErrorKind::content, "the scenes have ", classes_.size() - 2,
-         " materials, must be at most 254 for masks of 8 bits");
   for (Form* form : {&polar_, &fan_}) {
     form->pixels.resize(classes_.size());
-    for (const char* folder : {"images", "masks", "instances", "labels", "annotations"})
+    for (const char* folder : {"images", "masks", "colours", "instances", "labels", "annotations"})
       fs::create_directories(directory_.file(form->name + "/" + folder));
   }
 }
@@ -108,7 +93,8 @@ const FanRaster& DatasetWriter::raster_of(const Ping& ping) {
   return at->second;
 }
 
-void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name) {
+void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
+                        std::optional<std::size_t> row) {
   const Grid<float> level = dataset_levels(cube, ping, options_);
   std::set<std::uint8_t> stuff;
   for (std::size_t k = 2; k < classes_.size(); ++k)
@@ -128,7 +114,7 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   ++images_;
   add_form(polar_, source, name, polar);
   add_form(fan_, source, name, fan);
-  add_meta(source, cube, ping, name, polar);
+  add_meta(source, cube, ping, name, row, polar);
 }
 
 void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std::string& name, const LabelMap& map) {
@@ -136,6 +122,7 @@ void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std:
     return directory_.file(form.name + "/" + folder + "/" + name + ending);
   };
   save_grey_png(path("masks", ".png"), map.category);
+  save_label_png(path("colours", ".png"), map.category);
   save_grey_png(path("instances", ".png"), map.instance);
   for (const std::uint8_t category : map.category.reshaped()) ++form.pixels[category];
 
@@ -162,7 +149,7 @@ void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std:
 }
 
 void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                             const LabelMap& map) {
+                             std::optional<std::size_t> row, const LabelMap& map) {
   std::vector<std::size_t> pixels(classes_.size());
   for (const std::uint8_t category : map.category.reshaped()) ++pixels[category];
   ordered_json meta = {{"name", name},
@@ -188,6 +175,7 @@ void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, cons
                          {"max_db", window_.max_db},
                          {"tvg_db_per_decade", options_.raw ? ordered_json() : ordered_json(options_.tvg)}}},
                        {"polar_pixels", pixels}};
+  if (row) meta["row"] = *row, meta["row_elevation_deg"] = degrees(ping.fan.elevation.front());
   if (source.randomisation && source.randomisation->spread.any())
     meta["randomised"] = randomised_json(randomised(source.randomisation->spread, source.randomisation->seed,
                                                     {.head = source.head_index, .number = ping.number}));
@@ -221,18 +209,20 @@ std::string DatasetWriter::card() const {
       options_.raw ? "levels as received (re 1 uPa)"
                    : fmt::format("levels with a time-varied gain of {:g} log r + 2 a r", options_.tvg));
   text += fmt::format(
-      "## Labels\n\nA pixel has the class of a material if at least {:g} of the energy of its strongest contributors "
-      "is of that material and lies in the "
-      "pixel's own cell; it is shadow if surface of the scene lies there but none is heard; else nothing (water, or "
-      "side lobes and multipath stronger "
-      "than what is there). Objects are the scene's field `instance`, or without it connected parts of a class, of {} "
+      "## Labels\n\nA pixel has the class of a material if visible surface of it lies in the pixel's own cell "
+      "(half-power "
+      "widths of beam and pulse) and at least {:g} of the energy heard there is of it, within the main lobe; it is "
+      "shadow if surface of the scene lies there but none is visible from the head; else nothing (water, or side lobes "
+      "and multipath stronger than what is there). Objects are the scene's field `instance`, or without it connected "
+      "parts of a class, of {} "
       "pixels of the polar image at least. "
       "Holes of a scan count as nothing.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
       options_.share, options_.least_pixels);
   for (std::size_t k = 0; k < classes_.size(); ++k)
     text += fmt::format("| {} | {} | {} | {} |\n", k, classes_[k], polar_.pixels[k], fan_.pixels[k]);
   text += fmt::format(
-      "\n`masks`: class; `instances`: number of the object, 16 bits; `annotations`: COCO with run lengths; `labels`: "
+      "\n`masks`: class; `colours`: the same in the colours of `palette.json`; `instances`: number of the object, 16 "
+      "bits; `annotations`: COCO with run lengths; `labels`: "
       "YOLO, classes counted from shadow = 0. In masks alone: {}.\n\n",
       options_.stuff.empty() ? "none" : joined(options_.stuff));
   text += "## Split\n\nBy scene: no scene is in two of train, val and test.\n\n| split | images |\n|---|---|\n";
@@ -262,6 +252,7 @@ void DatasetWriter::finish() {
     write_file(directory_.file(form->name + "/data.yaml"), yaml);
   }
   write_file(directory_.file("meta.jsonl"), meta_);
+  write_file(directory_.file("palette.json"), palette_json(classes_).dump(2) + "\n");
   ordered_json mappings = ordered_json::array();
   for (const auto& [key, r] : rasters_)
     mappings.push_back({{"width", r.beam.cols()},

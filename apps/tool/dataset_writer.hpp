@@ -10,6 +10,7 @@
 #include "returns/quantise.hpp"
 #include "store/run_directory.hpp"
 #include "tool/dataset_runs.hpp"
+#include "tool/label_pictures.hpp"
 #include "tool/options.hpp"
 #include "view/picture_grid.hpp"
 
@@ -20,12 +21,13 @@ struct DatasetOptions {
   CommonOptions common;
   std::vector<std::string> runs;
   std::string output, window;
-  double share = 0.5;              ///< of a pixel's energy, at least, for its class
-  int least_pixels = 20;           ///< of an object
-  int columns = 512;               ///< of fan pictures
-  double tvg = 40;                 ///< [dB per decade of range]
-  bool raw = false;                ///< no TVG
-  std::vector<std::string> stuff;  ///< materials that are in masks alone
+  double share = least_label_share;  ///< of a pixel's energy, at least, for its class
+  int least_pixels = 20;             ///< of an object
+  int columns = 512;                 ///< of fan pictures
+  double tvg = 40;                   ///< [dB per decade of range]
+  bool raw = false;                  ///< no TVG
+  std::vector<std::string> stuff;    ///< materials that are in masks alone
+  std::string row;                   ///< of heads with several rows of beams: a number, all, or empty: the middle one
   std::string split = "80:10:10";
   bool force = false;
 };
@@ -37,7 +39,9 @@ class DatasetWriter {
   DatasetWriter(const RunDirectory& directory, const DatasetOptions& options, std::vector<std::string> classes,
                 GreyWindow window);
 
-  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name);
+  /// Adds a ping of one row of beams: `row` of its head, if that has several.
+  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
+           std::optional<std::size_t> row = {});
   /// Writes what lists all images. Throws Error(content) if no pixel of any image shows a surface.
   void finish();
 
@@ -54,7 +58,7 @@ class DatasetWriter {
   };
   void add_form(Form& form, const DatasetSource& source, const std::string& name, const LabelMap& map);
   void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                const LabelMap& map);
+                std::optional<std::size_t> row, const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
   std::string card() const;
   const FanRaster& raster_of(const Ping& ping);

@@ -7,14 +7,18 @@
 #include "beamforming/beam_pattern.hpp"
 #include "beamforming/beam_spectrum.hpp"
 #include "core/error.hpp"
+#include "core/pending_file.hpp"
 #include "core/units.hpp"
 #include "tool/image.hpp"
+#include "tool/label_pictures.hpp"
 #include "tool/run_files.hpp"
 #include "tool/run_pings.hpp"
 #include "tool/scan_image.hpp"
 #include "tool/side_scan.hpp"
 #include "tool/track_image.hpp"
 #include "view/colour_maps_internal.hpp"
+#include "view/label_colours.hpp"
+#include "view/picture_grid.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {
@@ -43,6 +47,26 @@ void draw_grey(const ViewJob& job) {
     show_grey(quantise_8(levels.level_db, window), levels.fan, job.path);
   else
     show_grey(quantise_16(levels.level_db, window), levels.fan, job.path);
+}
+
+/// Draws the classes of the pixels in true geometry, as view fan lies, and writes what the colours mean beside it.
+void draw_labels(const ViewJob& job) {
+  const Ping& whole = job.run.cube.pings[job.ping];
+  if (whole.labels.empty())
+    fail(ErrorKind::content, job.run.path, ": ping ", job.ping,
+         " has no labels: make the run with --keep contributors");
+  const Ping ping = row_of(whole, rows_of(whole) / 2);
+  const std::vector<std::string> classes = class_names(ping.labels);
+  const Grid<std::uint8_t> category = classes_of(ping.labels, least_label_share, classes);
+  const FanRaster raster = fan_raster(ping.fan, ping.gate, job.picture.width);
+  save_label_png(job.path, fan_picture(category, raster, std::uint8_t{0}));
+  nlohmann::ordered_json palette{{"least_share", least_label_share},
+                                 {"metres_per_pixel", raster.metres_per_pixel},
+                                 {"head_column", raster.head_column},
+                                 {"head_row", raster.head_row},
+                                 {"classes", palette_json(classes)}};
+  for (auto& row : palette["classes"]) row["samples"] = (category == row["value"].get<std::uint8_t>()).count();
+  write_file(std::filesystem::path(job.path).replace_extension(".json").string(), palette.dump(2) + "\n");
 }
 
 std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
@@ -163,6 +187,10 @@ const std::vector<ViewSpec>& all_views() {
        .shows = "the scene in 3-D with returns, or as the head sees it",
        .options = {"--scene", "--sonar", "--pose", "--range", "--camera", "--colour", "--normals"},
        .draw_alone = image_scene},
+      {.name = "labels",
+       .shows =
+           "what every pixel shows by class, in the colours of a .json beside it, of a run with --keep contributors",
+       .draw = draw_labels},
       {.name = "grey", .shows = "the bare samples as 8- or 16-bit .png or .pgm", .draw = draw_grey},
   };
   return views;

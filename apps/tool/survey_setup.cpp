@@ -28,7 +28,9 @@ SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, s
   options.run.profile = file.profile;
   options.pose = "0,0,0,0,0,0";  // every ping has its own
   SurveyHead head{options, set_up_ping(options)};
-  head.setup.simulation.outputs.scatterers |= file.coverage;
+  OutputSettings& outputs = head.setup.simulation.outputs;
+  outputs.scatterers |= file.coverage;
+  outputs.take_contributors = [](const Contributors&, std::size_t) {};  // the labels that follow from them are kept
   return head;
 }
 

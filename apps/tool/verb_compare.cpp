@@ -200,6 +200,7 @@ void compare_with_points(const CompareOptions& o, std::optional<RunDirectory>& d
                          {"predicted_db_per_decade", c.predicted_slope_db},
                          {"measured_db_per_decade", c.measured_slope_db},
                          {"fitted_tvg_db_per_decade", c.predicted_slope_db - c.measured_slope_db},
+                         {"share_20_db_below_trend", c.far_below},
                          {"ceiling_of_speckle", c.ceiling},
                          {"ceiling_of_speckle_without_trend", c.ceiling_without_trend}};
   if (!o.repeat.empty()) {
@@ -224,6 +225,12 @@ void compare_with_points(const CompareOptions& o, std::optional<RunDirectory>& d
       c.points, p.in_cloud, c.rank, c.ceiling, c.rank_without_trend, c.ceiling_without_trend, c.bias_db, c.deviation_db,
       c.deviation_without_trend_db, c.predicted_slope_db, c.measured_slope_db,
       c.measured_slope_db - c.predicted_slope_db);
+  if (c.far_below > 0.02)
+    table += fmt::format(
+        "note: {:.0f} % of the points are predicted more than 20 dB below the trend: surface before them hides them in "
+        "the "
+        "run, and they make the slope; if one place saw them all, ping with --viewpoint of that place\n",
+        100 * c.far_below);
   if (result.contains("ceiling_of_repeat"))
     table +=
         fmt::format("ceiling of the repeated record: {:.3f}, without the trends {:.3f}, of {} points\n",

@@ -9,6 +9,7 @@
 #include "core/peak_memory.hpp"
 #include "tool/compared_files.hpp"
 #include "tool/dataset_writer.hpp"
+#include "tool/label_pictures.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/shared_options.hpp"
@@ -33,6 +34,9 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
   list.add("--stuff", &o.stuff, "materials that have no boxes, e.g. sand; several with commas",
            {.comma_separated = true});
+  list.add("--row", &o.row,
+           "of heads with several rows of beams: the number of one, from 0 at the bottom, or all: an image of each; "
+           "default: the middle one");
   list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of the scenes");
   list.add("--force", &o.force, "replace an existing data set");
   add_common(list, o.common);
@@ -45,6 +49,24 @@ std::vector<double> parse_split(const std::string& text) {
   if (!(shares[0] > 0 && shares[1] >= 0 && shares[2] >= 0))
     fail(ErrorKind::argument, "--split = ", text, ", must be three shares, the first > 0, e.g. 80:10:10");
   return shares;
+}
+
+/// The rows of beams of a ping that become images.
+std::vector<std::size_t> chosen_rows(const Ping& ping, const DatasetOptions& o) {
+  const std::size_t rows = rows_of(ping);
+  std::vector<std::size_t> chosen;
+  if (o.row == "all") {
+    for (std::size_t r = 0; r < rows; ++r) chosen.push_back(r);
+  } else if (o.row.empty()) {
+    chosen.push_back(rows / 2);
+  } else {
+    const double row = parse_number("--row", o.row);
+    if (!(row >= 0 && row < static_cast<double>(rows) && row == std::floor(row)))
+      fail(ErrorKind::argument, "--row = ", o.row, ", must be all or from 0 and below ", rows,
+           ", the number of rows of beams");
+    chosen.push_back(static_cast<std::size_t>(row));
+  }
+  return chosen;
 }
 
 /// All classes in the order of the sources, and the window of the first ping.
@@ -68,7 +90,7 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
         if (std::find(plan.classes.begin(), plan.classes.end(), name) == plan.classes.end())
           plan.classes.push_back(name);
       if (plan.window.max_db > plan.window.min_db) return;
-      const Grid<float> level = dataset_levels(cube, ping, o);
+      const Grid<float> level = dataset_levels(cube, row_of(ping, chosen_rows(ping, o).front()), o);
       std::vector<float> sorted(level.data(), level.data() + level.size());
       const auto top = sorted.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sorted.size() - 1));
       std::nth_element(sorted.begin(), top, sorted.end());
@@ -97,7 +119,10 @@ void dataset(const DatasetOptions& o) {
     const DatasetSource& source = sources[s];
     progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
     for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping) {
-      writer.add(source, cube, ping, fmt::format("{:03}_{:06}", s, ping.number));
+      const std::string name = fmt::format("{:03}_{:06}", s, ping.number);
+      if (rows_of(ping) == 1 && o.row.empty()) return writer.add(source, cube, ping, name);
+      for (const std::size_t row : chosen_rows(ping, o))
+        writer.add(source, cube, row_of(ping, row), name + fmt::format("_row{:02}", row), row);
     });
   }
   progress.step("listing");

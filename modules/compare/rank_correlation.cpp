@@ -83,6 +83,11 @@ PointComparison compare_points(const std::vector<double>& predicted_db, const st
   c.rank = rank_correlation(predicted_db, measured_db);
   c.rank_without_trend = rank_correlation(p, m);
   c.deviation_without_trend_db = mean_and_deviation(rest).deviation;
+  std::vector<double> sorted = p;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(n / 2), sorted.end());
+  const double median = sorted[n / 2];
+  c.far_below = static_cast<double>(std::count_if(p.begin(), p.end(), [&](double l) { return l < median - 20; })) /
+                static_cast<double>(n);
   c.ceiling = rank_correlation(predicted_db, drawn);
   c.ceiling_without_trend = rank_correlation(p, without_range_trend(drawn, range));
   return c;

@@ -90,7 +90,6 @@ void put_labels(PixelLabels part, std::size_t first_beam, std::size_t beams, Pix
 /// Finds contributors and labels (E63, E125): of all beams at once, or band by band if the options take them so.
 void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts,
                       SimulatedPing& result) {
-  constexpr double band_mib = 512;
   const SceneCloud& scene = prepared.scene();
   const OutputSettings& wanted = ping.options.outputs;
   const std::vector<std::uint32_t>& surfel = parts.sampling.scatterers.surfel;
@@ -100,8 +99,8 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
   ContributorOptions options;
   options.per_pixel = wanted.contributors;
   options.threads = ping.options.threads;
-  const Bands bands =
-      wanted.take_contributors ? beam_bands(ping.head, options.per_pixel, band_mib) : Bands{{0, ping.head.fan.beams()}};
+  const Bands bands = wanted.take_contributors ? beam_bands(ping.head, options.per_pixel, wanted.contributor_band_mib)
+                                               : Bands{{0, ping.head.fan.beams()}};
   for (const auto& [first, end] : bands) {
     const SonarHead head = with_beams(ping.head, first, end);
     Contributors found = find_contributors(scene, echoes, head, ping.sent.medium, options);

@@ -74,8 +74,9 @@ struct OutputSettings {
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
   int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255
   /// Takes the contributors band by band, rows of beams from `first_beam` on, instead of SimulatedPing::contributors:
-  /// memory holds one band, of at most 512 MiB.
+  /// memory holds one band, of at most so many MiB, or of two rows.
   std::function<void(const Contributors& band, std::size_t first_beam)> take_contributors{};
+  double contributor_band_mib = 512;
 };
 
 /// All that can be chosen for a ping of a given head, place and environment.

@@ -8,17 +8,24 @@
 #include <vtkPNGWriter.h>
 
 #include "core/error.hpp"
+#include "view/label_colours.hpp"
 #include "view/off_screen_internal.hpp"
+#include "view/scene_colours_internal.hpp"
 
 namespace insonify {
 namespace {
 
 // VTK's origin is the lower left corner.
+template <typename Value>
+void require_pixels(const Grid<Value>& picture, const std::string& path, const char* who) {
+  if (picture.size() == 0)
+    fail(ErrorKind::argument, who, ": ", path, ": picture of ", picture.rows(), " x ", picture.cols(),
+         " values, must have one at least");
+}
+
 template <typename Grey>
 void save_png_of(const std::string& path, const Grid<Grey>& grey) {
-  if (grey.size() == 0)
-    fail(ErrorKind::argument, "save_grey_png: ", path, ": picture of ", grey.rows(), " x ", grey.cols(),
-         " values, must have one at least");
+  require_pixels(grey, path, "save_grey_png");
   const VtkMessages messages;
   vtkNew<vtkImageData> image;
   image->SetDimensions(static_cast<int>(grey.cols()), static_cast<int>(grey.rows()), 1);
@@ -69,5 +76,25 @@ GreyPicture load_grey_png(const std::string& path) {
 
 void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { save_png_of(path, grey); }
 void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey) { save_png_of(path, grey); }
+
+std::array<std::uint8_t, 3> label_colour(std::uint8_t category) {
+  if (category == 0) return {0, 0, 0};
+  return category == 1 ? Rgb{42, 66, 138} : material_colours[(category - 2U) % std::size(material_colours)];
+}
+
+void save_label_png(const std::string& path, const Grid<std::uint8_t>& category) {
+  require_pixels(category, path, "save_label_png");
+  const VtkMessages messages;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(category.cols()), static_cast<int>(category.rows()), 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* pixel = static_cast<std::uint8_t*>(image->GetScalarPointer());
+  for (Eigen::Index row = category.rows() - 1; row >= 0; --row)
+    for (Eigen::Index column = 0; column < category.cols(); ++column)
+      for (const std::uint8_t channel : label_colour(category(row, column))) *pixel++ = channel;
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  write_png(writer, path, messages, "save_label_png");
+}
 
 }  // namespace insonify

@@ -11,9 +11,6 @@ namespace {
 
 constexpr std::size_t colours_at_once = 1 << 16;
 
-// Ten colours distinguishable with most colour-vision deficiencies, the first for the commonest material.
-constexpr Rgb material_colours[] = {{203, 180, 135}, {86, 140, 185}, {214, 104, 74},  {104, 160, 92},  {150, 116, 176},
-                                    {222, 170, 50},  {60, 165, 160}, {206, 122, 160}, {128, 128, 128}, {140, 96, 66}};
 constexpr std::size_t most_entries = 10;  // of a legend
 
 struct VisibilityColour {

@@ -9,6 +9,11 @@
 
 namespace insonify {
 
+/// Ten colours distinguishable with most colour-vision deficiencies, the first for the commonest material.
+inline constexpr Rgb material_colours[] = {{203, 180, 135}, {86, 140, 185}, {214, 104, 74}, {104, 160, 92},
+                                           {150, 116, 176}, {222, 170, 50}, {60, 165, 160}, {206, 122, 160},
+                                           {128, 128, 128}, {140, 96, 66}};
+
 /// A colour and its meaning.
 struct LegendEntry {
   std::string text;

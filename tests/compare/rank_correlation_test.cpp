@@ -32,6 +32,9 @@ TEST(RankCorrelation, of_points_is_that_of_what_the_range_does_not_explain) {
   // Spearman of a normal pair with correlation r: 6 / pi asin(r / 2), r = 3 / sqrt(10).
   EXPECT_NEAR(c.rank_without_trend, 6 / std::numbers::pi * std::asin(1.5 / std::sqrt(10.0)), 0.01);
   EXPECT_LT(c.ceiling_without_trend, c.ceiling);
+  EXPECT_EQ(c.far_below, 0);
+  for (std::size_t i = 0; i < predicted.size(); i += 10) predicted[i] -= 60;  // hidden in the prediction
+  EXPECT_NEAR(compare_points(predicted, measured, range, 1).far_below, 0.1, 1e-9);
   EXPECT_NEAR(c.ceiling_without_trend, 0.53, 0.05);  // 3.2 dB of surface under 5.6 dB of speckle
 }
 

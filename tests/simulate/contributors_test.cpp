@@ -33,6 +33,41 @@ TEST(SimulatedContributors, are_kept_when_asked_for) {
   EXPECT_TRUE((with.ping.pressure == without.ping.pressure).all());
 }
 
+// Rows of beams are found a few at a time, so that memory does not grow with their number.
+TEST(SimulatedContributors, in_bands_of_rows_are_those_of_all_rows_at_once) {
+  const SceneCloud scene = two_materials();
+  SonarHead head = contributing_head;
+  head.fan = {};
+  for (int row = 0; row < 7; ++row)
+    for (int beam = 0; beam < 6; ++beam) {
+      head.fan.azimuth.push_back(radians(6 * beam - 15));
+      head.fan.elevation.push_back(radians(3 * row - 9));
+    }
+  head.fan.beam_width = radians(4), head.fan.elevation_width = radians(6);
+  const SimulatedPing whole = simulate_ping(scene, head, over_plane, {}, {.outputs = {.contributors = 2}});
+  Contributors joined;
+  std::size_t bands = 0;
+  SimulationOptions options{.outputs = {.contributors = 2}};
+  options.outputs.contributor_band_mib = 0.01;  // two rows, and three at last
+  options.outputs.take_contributors = [&](const Contributors& band, std::size_t first_beam) {
+    EXPECT_EQ(first_beam, joined.beams);
+    joined.beams += band.beams, joined.bins = band.bins, joined.per_pixel = band.per_pixel;
+    joined.surfel.insert(joined.surfel.end(), band.surfel.begin(), band.surfel.end());
+    joined.share.insert(joined.share.end(), band.share.begin(), band.share.end());
+    ++bands;
+  };
+  const SimulatedPing parts = simulate_ping(scene, head, over_plane, {}, options);
+  EXPECT_EQ(bands, 3u);
+  EXPECT_TRUE(parts.contributors.empty());
+  EXPECT_EQ(joined.beams, head.fan.beams());
+  EXPECT_EQ(joined.surfel, whole.contributors.surfel);
+  EXPECT_EQ(joined.share, whole.contributors.share);
+  EXPECT_TRUE((parts.ping.labels.material == whole.ping.labels.material).all());
+  EXPECT_TRUE((parts.ping.labels.id == whole.ping.labels.id).all());
+  EXPECT_TRUE((parts.ping.labels.share == whole.ping.labels.share).all());
+  EXPECT_GT((parts.ping.labels.material < 2).count(), 100);
+}
+
 // Port is positive azimuth: beams that look to port show the mud there.
 TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
   const SimulatedPing p =

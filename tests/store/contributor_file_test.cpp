@@ -53,6 +53,30 @@ TEST(ContributorFile, comes_back_bit_for_bit) {
   EXPECT_EQ(named.materials, back.materials);
 }
 
+TEST(ContributorFile, in_bands_is_the_same_file) {
+  const NamedContributors named = make_contributors();
+  const Contributors& c = named.contributors;
+  const std::string path = own_path("bands.h5");
+  ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials);
+  for (const auto& [first, end] : {std::pair<std::size_t, std::size_t>{0, 2}, {2, 5}}) {
+    Contributors band;
+    band.beams = end - first, band.bins = c.bins, band.per_pixel = c.per_pixel;
+    const auto cut = [&, begin = static_cast<long>(c.at(first, 0)), stop = static_cast<long>(c.at(end, 0))](
+                         const auto& from, auto& to) { to.assign(from.begin() + begin, from.begin() + stop); };
+    cut(c.surfel, band.surfel);
+    cut(c.id, band.id);
+    cut(c.share, band.share);
+    cut(c.elevation, band.elevation);
+    cut(c.material, band.material);
+    cut(c.path, band.path);
+    file.write(band, first);
+    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_THAT(error_with_kind([&] { file.write(band, 4); }), testing::HasSubstr("must be within 5 beams of 7 x 3"));
+  }
+  file.finish(material_image(c), instance_image(c));
+  EXPECT_EQ(file_bytes(path), file_bytes(write(named)));
+}
+
 TEST(ContributorFile, has_the_documented_layout) {
   const NamedContributors named = make_contributors();
   change(write(named), [&](hid_t file) {

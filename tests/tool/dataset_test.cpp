@@ -29,7 +29,7 @@ class DatasetRun : public ToolTest {
   void SetUp() override {
     have("harbour.ply", "make-scene harbour --points 30000");
     write("mission.toml", mission());
-    if (!file_exists(path("survey"))) succeed("survey mission.toml -o survey -q");
+    have("survey", "survey mission.toml");
   }
   static std::string mission(const std::string& keep = "keep = [\"contributors\"]\n") {
     return "schema = 1\n[survey]\nscene = \"harbour.ply\"\nseed = 4\n[trajectory]\nwaypoints_m = [[0, 0, -3], [4, 0, "
@@ -94,6 +94,71 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
     EXPECT_EQ(areas, instances) << form;
     EXPECT_GT(areas, 0U);
   }
+}
+
+// As training programs load it, where their package is installed: Debian 12 has none.
+TEST_F(DatasetRun, is_loaded_by_pycocotools) {
+  if (std::system("python3 -c 'import pycocotools, numpy' 2>/dev/null") != 0)
+    GTEST_SKIP() << "pycocotools is not installed";
+  succeed("dataset survey -o set");
+  write("load.py", R"(import sys
+import numpy
+from pycocotools.coco import COCO
+for form in ("polar", "fan"):
+    coco = COCO("set/%s/annotations/instances_train.json" % form)
+    assert len(coco.getImgIds()) == 4 and len(coco.getAnnIds()) > 0
+    for a in coco.loadAnns(coco.getAnnIds()):
+        mask = coco.annToMask(a)
+        rows, columns = numpy.nonzero(mask)
+        box = [columns.min(), rows.min(), columns.max() - columns.min() + 1, rows.max() - rows.min() + 1]
+        assert mask.sum() == a["area"] and box == a["bbox"], a["id"]
+)");
+  const std::string line = "cd " + folder_.string() + " && python3 load.py >load.txt 2>&1";
+  EXPECT_EQ(std::system(line.c_str()), 0) << read("load.txt");
+}
+
+TEST_F(DatasetRun, of_a_head_with_several_rows_of_beams_is_of_its_rows) {
+  have("floor.ply", "make-scene plane --size 12,12 --points 8000");
+  succeed(
+      "ping floor.ply --sonar waterlinked-3d15 --set sonar.beams=32 --set sonar.elevations_deg=[-12,-4,4] "
+      "--pose=1,0,2,0,20,0 --range 3:7 --no-picture -q --keep contributors -o head");
+  succeed("dataset head -o set");
+  EXPECT_EQ(coco("polar")["images"].size(), 1U);
+  EXPECT_EQ(coco("polar")["images"][0]["file_name"], "000_000000_row01.png");
+  EXPECT_THAT(read("set/meta.jsonl"), HasSubstr("\"row\":1,\"row_elevation_deg\":-4"));
+  EXPECT_EQ(png("polar/images/000_000000_row01.png").value.cols(), 32);
+  succeed("dataset head -o set --row all --force");
+  EXPECT_EQ(coco("fan")["images"].size(), 3U);
+  // The lower a row looks, the nearer its bed begins: its image has more of it.
+  const auto bed = [&](const std::string& row) {
+    return (png("polar/masks/000_000000_row" + row + ".png").value == 2).count();
+  };
+  EXPECT_GT(bed("00"), 0);
+  EXPECT_NE(png("polar/images/000_000000_row00.png").value.cast<int>().sum(),
+            png("polar/images/000_000000_row02.png").value.cast<int>().sum());
+  expect_refused("dataset head -o set --row 3 --force", 2, {"--row = 3", "below 3"});
+  expect_refused("dataset head -o set --row top --force", 2, {"--row"});
+}
+
+TEST_F(DatasetRun, colours_of_masks_are_those_of_the_palette_and_of_view_labels) {
+  succeed("dataset survey -o set --columns 400");
+  const nlohmann::json palette = nlohmann::json::parse(read("set/palette.json"));
+  const auto classes = nlohmann::json::parse(read("set/manifest.json"))["classes"].get<std::vector<std::string>>();
+  ASSERT_EQ(palette.size(), classes.size());
+  for (std::size_t k = 0; k < classes.size(); ++k) EXPECT_EQ(palette[k]["name"], classes[k]);
+  EXPECT_EQ(palette[0]["rgb"], nlohmann::json::parse("[0, 0, 0]"));
+  EXPECT_TRUE(file_exists(path("set/polar/colours/000_000003.png")));
+  // The picture of one ping: the same pixels in the same colours.
+  succeed("merge survey");
+  succeed("image survey/fls/cube.h5 --ping 3 --view labels --size 400x400 -o labels.png");
+  EXPECT_EQ(read("labels.png"), read("set/fan/colours/000_000003.png"));
+  const nlohmann::json key = nlohmann::json::parse(read("labels.json"));
+  EXPECT_EQ(key["least_share"], 0.5);
+  EXPECT_EQ(key["classes"][1]["rgb"], palette[1]["rgb"]);
+  EXPECT_GT(key["classes"][2]["samples"], 1000);
+  succeed(
+      "ping harbour.ply --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0 --range 2:6 --no-picture -q -o bare");
+  expect_refused("image bare --view labels -o none.png", 3, {"bare", "no labels", "--keep contributors"});
 }
 
 TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
