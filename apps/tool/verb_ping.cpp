@@ -52,6 +52,16 @@ std::string origin_note(const Eigen::Vector3d& origin) {
                      origin.x(), origin.y(), origin.z());
 }
 
+/// Adds what the ping was made of to the manifest.
+void describe(const SimulatedPing& result, const SimulationOptions& simulation, ordered_json& manifest) {
+  manifest["sampling"] = sampling_json(result);
+  if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);
+  if (simulation.outputs.mask) manifest["holes"] = holes_json(result.holes);
+  manifest["layers"] = layers_json(result.layers);
+  if (!simulation.effects.motion.none()) manifest["motion"] = motion_json(simulation.effects.motion);
+  manifest["peak_level_db"] = peak_level_db(result.ping);
+}
+
 void ping(const PingCommand& command) {
   PingOptions o = settled_options(command);
   const CommonOptions& common = o.common;
@@ -95,12 +105,7 @@ void ping(const PingCommand& command) {
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
   contributors.finish(result.ping.labels, manifest);
   write_kept(directory, o, loaded.scene, ready, result, manifest);
-  manifest["sampling"] = sampling_json(result);
-  if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);
-  if (simulation.outputs.mask) manifest["holes"] = holes_json(result.holes);
-  manifest["layers"] = layers_json(result.layers);
-  if (!simulation.effects.motion.none()) manifest["motion"] = motion_json(simulation.effects.motion);
-  manifest["peak_level_db"] = peak_level_db(result.ping);
+  describe(result, simulation, manifest);
   write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);
   manifest["seconds"] = {{"load", load_seconds},
                          {"sampling", result.seconds.sampling},
