@@ -175,7 +175,7 @@ void BendSamples::undo_rows(const WidebandPlan& plan) {
       auto values =
           value.block(static_cast<Eigen::Index>(j) * count_r, static_cast<Eigen::Index>(f) * count_y, count_r, count_y);
       const Eigen::MatrixXcd before = values.transpose();
-      // As many powers as count: the steepest slope tells.
+      // Powers are added until those that follow are smaller than their share, by the steepest slope.
       const double steepest = std::abs(per_row) * ((slope * before.real()).cwiseAbs().maxCoeff() +
                                                    (slope * before.imag()).cwiseAbs().maxCoeff());
       double size = 1;

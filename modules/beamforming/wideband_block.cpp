@@ -11,6 +11,8 @@ using kernels::lines_at_once;
 
 constexpr std::size_t chunk_row = 2 * lines_at_once;  // numbers of a harmonic in a chunk of frequencies
 
+constexpr std::size_t beams_ahead = 8, rows_ahead = 6;  // that are fetched into the cache
+
 kernels::TimeFactor factor_of(const BendSeries& bend, std::size_t term) {
   return {bend.along.data() + term * bend.powers * 2 * bend.stride, bend.powers, bend.stride};
 }
@@ -116,6 +118,8 @@ void WidebandRoom::receive(const BendSeries& bend) {
       for (std::size_t r = 0; r < plan.rows(); ++r) {
         const Complex* from = mixed_.data() + s * tile + place_[r];
         Complex* to = spectrum_.data() + (s * plan.rows() + r) * plan.fine_row + n0;
+        __builtin_prefetch(to + rows_ahead * plan.fine_row, 1);
+        __builtin_prefetch(to + rows_ahead * plan.fine_row + 8, 1);
         for (std::size_t n = 0; n < count; ++n) to[n] = touched ? from[n * plan.grid_stride] : Complex(0);
       }
   }
@@ -204,6 +208,9 @@ void WidebandRoom::add_beams(const WidebandBlock& block, ComplexGrid& pressure) 
       kernels::take_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width, across_.data(),
                          2 * wideband_tile, 2 * wideband_tile, beam_.data());
       double* sum = reinterpret_cast<double*>(&pressure(static_cast<Eigen::Index>(b), from));
+      // Rows of the image are far apart in memory.
+      const auto later = static_cast<Eigen::Index>(std::min(b + beams_ahead, plan.u_beam.size() - 1));
+      for (std::ptrdiff_t n = from; n < to; n += 4) __builtin_prefetch(&pressure(later, n), 1);
       const float* part = beam_.data() + 2 * (from - first);
       for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * static_cast<double>(part[n]);
     }

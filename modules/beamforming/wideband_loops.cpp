@@ -139,6 +139,7 @@ void add_powers(LinePowers powers, const float* rows, std::size_t count, float* 
     load(rows + lines, im);
     float* back = to;
     for (std::size_t s = 0; s < powers.powers; ++s, back += 2 * plane) {
+      __builtin_prefetch(back + 16 * stride, 1);
       load(powers.power + s * lines, power);
       const Eight part_re = power * re, part_im = power * im;
       load(back, low);

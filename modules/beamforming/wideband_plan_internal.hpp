@@ -57,8 +57,8 @@ struct WidebandSizes {
 /// What the synthesis with true delays has in common for all blocks of time of one length.
 struct WidebandPlan : WidebandSizes {
   static constexpr std::size_t moments = 12;
-  static constexpr std::size_t band_nodes = 13;  ///< frequencies at which smooth functions of it are known
-  static constexpr std::size_t fit_nodes = 32;   ///< at which they are fitted by powers of it,
+  static constexpr std::size_t band_nodes = 13;   ///< frequencies at which smooth functions of it are known
+  static constexpr std::size_t fit_nodes = 32;    ///< at which they are fitted by powers of it,
   static constexpr std::size_t most_powers = 12;  ///< at most so many
 
   SonarHead head;

@@ -12,7 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr double term_share = 0.4;   // of the tolerance, for the terms left out
-constexpr double band_share = 0.2;   // of the tolerance, for the powers of frequency left out
+constexpr double band_share = 0.35;  // of the tolerance, for the powers of frequency left out
 constexpr double first_share = 0.1;  // of what terms may leave, for elimination before singular values
 constexpr double hardly = 1e-5;      // weight of frequencies at which a row of harmonics lies off the array
 
