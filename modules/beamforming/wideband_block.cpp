@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "beamforming/wideband_block_internal.hpp"
-#include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
 using kernels::lines_at_once;
 
-constexpr std::size_t chunk_row = 2 * lines_at_once;  // numbers of a harmonic, or element, in a chunk of frequencies
-constexpr std::size_t elements_at_once = 64;          // whose taps stay in the cache from term to term
+constexpr std::size_t chunk_row = 2 * lines_at_once;  // numbers of a harmonic in a chunk of frequencies
+
+constexpr std::size_t beams_ahead = 8, rows_ahead = 6;  // that are fetched into the cache
 
 kernels::TimeFactor factor_of(const BendSeries& bend, std::size_t term) {
   return {bend.along.data() + term * bend.powers * 2 * bend.stride, bend.powers, bend.stride};
@@ -22,12 +22,22 @@ float place_in(const BendSeries& bend, double time) {
   return static_cast<float>(std::clamp((time - bend.middle) / bend.half, -1.0, 1.0));
 }
 
+template <typename Numbers>
+void grow(Numbers& numbers, std::size_t size) {
+  if (numbers.size() < size) numbers.resize(size);
+}
+
+template <typename Complex>
+float* floats_of(Complex* numbers) {
+  return reinterpret_cast<float*>(numbers);
+}
+
 }  // namespace
 
 WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
     : to_harmonics(plan.grid, wideband_tile, plan.grid_stride, FFTW_FORWARD),
       to_frequencies(plan.fine, 1, plan.fine, FFTW_FORWARD),
-      to_directions(plan.grid, wideband_tile, wideband_tile_row, FFTW_BACKWARD),
+      to_directions(plan.grid, wideband_tile, plan.grid_stride, FFTW_BACKWARD),
       to_bins(plan.cycle, 1, FFTW_BACKWARD) {}
 
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
@@ -35,207 +45,173 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
       transforms_(transforms),
       re_((plan.fine + wideband_tile) * plan.grid_stride),
       im_((plan.fine + wideband_tile) * plan.grid_stride),
-      tile_(plan.grid_stride * wideband_tile_row),
-      harmonics_(plan.grid_stride * wideband_tile),
-      spectrum_(plan.rows() * plan.fine_row),
-      row_(plan.fine),
-      elements_(plan.chunks.size() * plan.elements() * chunk_row),
-      line_(lines_at_once),
+      tile_(plan.grid_stride * wideband_tile),
+      lines_(plan.chunks.size() * plan.rows() * chunk_row),
+      chunk_(plan.rows() * chunk_row),
+      sum_re_(plan.grid_stride * wideband_tile),
+      sum_im_(plan.grid_stride * wideband_tile),
+      across_(plan.grid * 2 * wideband_tile),
       scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
-      sums_(plan.u_beam.size() * 2 * wideband_tile),
+      beam_(2 * wideband_tile),
       touched_(plan.fine / wideband_tile + 2),
-      bins_row_((plan.cycle + 15) / 8 * 8) {}
+      bins_row_((plan.cycle + 15) / 8 * 8) {
+  for (std::size_t r = 0; r < plan.rows(); ++r) place_.push_back((r + plan.grid - plan.most) % plan.grid);
+}
 
 WidebandBlock::WidebandBlock(const WidebandPlan& plan, double first_in, double last_in)
-    : first(first_in), last(last_in) {
-  const auto guard = static_cast<double>(plan.guard), bins = static_cast<double>(plan.axis.bins);
-  received = bend_of_echoes(plan, plan.time_of(first) - plan.reach, plan.time_of(last) + plan.reach);
-  undone = bend_of_beams(plan, plan.time_of(std::max(first - guard, 0.0)), plan.time_of(std::min(last + guard, bins)));
-}
-
-void WidebandRoom::make_room(std::size_t terms) {
-  const std::size_t elements = plan_.elements(),
-                    room = std::max(plan_.rows() * bins_row_, plan_.chunks.size() * plan_.rows() * lines_at_once);
-  while (term_.size() < terms) term_.push_back(std::make_unique<Spectrum>(room));
-  chunk_.resize(std::max(chunk_.size(), terms * plan_.rows() * chunk_row));
-  start_.resize(std::max(start_.size(), terms * 2 * elements));
-  step_.resize(std::max(step_.size(), terms * chunk_row * elements));
-}
+    : first(first_in),
+      last(last_in),
+      received(bend_of_echoes(plan, first, last)),
+      undone(bend_of_beams(plan, first, last)) {}
 
 void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) {
   if (unit_ == 0) return;
-  make_room(std::max(block.received.terms, block.undone.terms));
-  for (std::size_t q = 0; q < block.received.terms; ++q)
-    receive_term(block.received, q, reinterpret_cast<float*>(term_[q]->data()));
-  gather_elements(block.received);
-  form_beam_terms(block.undone);
+  const WidebandPlan& plan = plan_;
+  const BendSeries &received = block.received, &undone = block.undone;
+  const std::size_t tile = wideband_tile * plan.grid_stride;
+  grow(harmonics_, std::max(received.terms, undone.band[0]) * tile);
+  grow(mixed_, std::max(received.band[0], undone.terms) * tile);
+  grow(spectrum_, received.band[0] * plan.rows() * plan.fine_row);
+  grow(row_, received.band[0] * plan.fine);
+  grow(bins_, undone.band[0] * plan.rows() * bins_row_);
+  receive(received);
+  to_chunks(received);
+  through_elements(undone);
   add_beams(block, pressure);
 }
 
-template <typename Visit, typename Done>
-void WidebandRoom::each_chunk(const BendSeries& bend, Visit&& visit, Done&& done) {
-  const WidebandPlan& plan = plan_;
-  const std::size_t elements = plan.elements(), all = bend.terms * elements;
-  // exp(2 pi i F delay), F = f_c - line / seconds: from chunk to chunk by a factor, away from the carrier.
-  carrier_.resize(all);
-  turn_.resize(all);
-  for (std::size_t m = 0; m < all; ++m) {
-    const double cycles = plan.head.pulse.centre_frequency * bend.delay[m], each = -bend.delay[m] / plan.seconds();
-    carrier_[m] = std::polar(1.0, 2 * pi * (cycles - std::floor(cycles)));
-    turn_[m] = std::polar(1.0, 2 * pi * each * static_cast<double>(lines_at_once));
-    const std::complex<double> one = std::polar(1.0, 2 * pi * each);
-    std::complex<double> power = 1;
-    for (std::size_t l = 0; l < lines_at_once; ++l, power *= one) {
-      step_[m * chunk_row + l] = static_cast<float>(power.real());
-      step_[m * chunk_row + lines_at_once + l] = static_cast<float>(power.imag());
-    }
-  }
-  const auto one_chunk = [&](std::size_t i) {
-    const std::size_t line = plan.chunks[i] * lines_at_once;
-    for (std::size_t l = 0; l < lines_at_once; ++l)
-      line_[l] = static_cast<float>(plan.line_of(line + l) / (plan.seconds() * plan.half_band));
-    for (std::size_t m = 0; m < all; ++m) {
-      start_[2 * m] = static_cast<float>(now_[m].real());
-      start_[2 * m + 1] = static_cast<float>(now_[m].imag());
-    }
-    for (std::size_t m = 0; m < elements; m += elements_at_once)
-      for (std::size_t q = 0; q < bend.terms; ++q) {
-        const std::size_t at = q * elements + m, tap = i * elements + m;
-        const kernels::ElementTaps taps{std::min(elements_at_once, elements - m), plan.taps, plan.tap_row.data() + tap,
-                                        plan.tap_weight.data() + tap * plan.taps * lines_at_once};
-        const float* rest = bend.rest.empty() ? nullptr : bend.rest.data() + at * 2 * bend.rest_powers;
-        const kernels::ElementTurns turns{start_.data() + 2 * at, step_.data() + at * chunk_row, rest, bend.rest_powers,
-                                          line_.data()};
-        visit(i, q, taps, turns, elements_.data() + tap * chunk_row);
-      }
-    done(i);
-  };
-  now_ = carrier_;
-  std::size_t i = 0;
-  for (; i < plan.chunks.size() && 2 * plan.chunks[i] * lines_at_once < plan.fine; ++i) {
-    one_chunk(i);
-    for (std::size_t m = 0; m < all; ++m) now_[m] *= turn_[m];
-  }
-  now_ = carrier_;
-  for (std::size_t back = plan.chunks.size(); back-- > i;) {
-    for (std::size_t m = 0; m < all; ++m) now_[m] *= std::conj(turn_[m]);
-    one_chunk(back);
-  }
+void WidebandRoom::mix(const BendSeries& bend) {
+  const std::size_t tile = wideband_tile * plan_.grid_stride, below = plan_.most / 8 + 1;
+  const kernels::RowMix rows{bend.rows.data(), bend.ins.size(), bend.ins.data(), bend.most_ins};
+  kernels::MixedPlanes planes{floats_of(harmonics_.data()),
+                              floats_of(mixed_.data()),
+                              2 * tile,
+                              2 * tile,
+                              2 * plan_.grid_stride,
+                              wideband_tile,
+                              0,
+                              below};
+  kernels::mix_rows(rows, planes);
+  planes.first = std::max(below, (plan_.grid - plan_.most) / 8);
+  planes.last = plan_.grid / 8;
+  kernels::mix_rows(rows, planes);
 }
 
-void WidebandRoom::receive_term(const BendSeries& bend, std::size_t term, float* lines) {
+void WidebandRoom::receive(const BendSeries& bend) {
   const WidebandPlan& plan = plan_;
-  const kernels::TimeFactor factor = factor_of(bend, term);
+  const std::size_t tile = wideband_tile * plan.grid_stride, powers = bend.band[0];
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
     const std::size_t count = std::min(wideband_tile, plan.fine - n0);
-    if (!touched_[n0 / wideband_tile]) {
-      for (std::size_t r = 0; r < plan.rows(); ++r)
-        std::fill_n(spectrum_.data() + r * plan.fine_row + n0, count, Complex(0));
-      continue;
+    const bool touched = touched_[n0 / wideband_tile];
+    for (std::size_t q = 0; touched && q < bend.terms; ++q) {
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::size_t at = (n0 + n) * plan.grid_stride;
+        const double time = start_time_ + static_cast<double>(n0 + n) * plan.fine_step;
+        kernels::weigh_row(factor_of(bend, q), place_in(bend, time), re_.data() + at, im_.data() + at, plan.grid,
+                           floats_of(tile_.data() + n * plan.grid_stride));
+      }
+      transforms_.to_harmonics.run(tile_.data(), harmonics_.data() + q * tile);
     }
-    for (std::size_t n = 0; n < count; ++n) {
-      const double time = start_time_ + static_cast<double>(n0 + n) * plan.fine_step;
-      kernels::weigh_row(factor, place_in(bend, time), re_.data() + (n0 + n) * plan.grid_stride,
-                         im_.data() + (n0 + n) * plan.grid_stride, plan.grid,
-                         reinterpret_cast<float*>(tile_.data() + n * plan.grid_stride));
-    }
-    transforms_.to_harmonics.run(tile_.data(), harmonics_.data());
-    // One row per harmonic now; directions are counted from the middle of the period.
-    for (std::size_t r = 0; r < plan.rows(); ++r) {
-      const Complex* from = harmonics_.data() + (r + plan.grid - plan.most) % plan.grid;
-      Complex* to = spectrum_.data() + r * plan.fine_row + n0;
-      const float sign = (r + plan.most) % 2 == 0 ? 1.0F : -1.0F;
-      for (std::size_t n = 0; n < count; ++n) to[n] = sign * from[n * plan.grid_stride];
-    }
+    if (touched) mix(bend);
+    // One row per harmonic.
+    for (std::size_t s = 0; s < powers; ++s)
+      for (std::size_t r = 0; r < plan.rows(); ++r) {
+        const Complex* from = mixed_.data() + s * tile + place_[r];
+        Complex* to = spectrum_.data() + (s * plan.rows() + r) * plan.fine_row + n0;
+        __builtin_prefetch(to + rows_ahead * plan.fine_row, 1);
+        __builtin_prefetch(to + rows_ahead * plan.fine_row + 8, 1);
+        for (std::size_t n = 0; n < count; ++n) to[n] = touched ? from[n * plan.grid_stride] : Complex(0);
+      }
   }
+}
+
+void WidebandRoom::to_chunks(const BendSeries& bend) {
+  const WidebandPlan& plan = plan_;
+  const std::size_t powers = bend.band[0];
   for (std::size_t r = 0; r < plan.rows(); ++r) {
-    transforms_.to_frequencies.run(spectrum_.data() + r * plan.fine_row, row_.data());
-    kernels::split_chunks(reinterpret_cast<const float*>(row_.data()), plan.chunks.data(), plan.chunks.size(),
-                          lines + r * chunk_row, plan.rows() * chunk_row);
+    for (std::size_t s = 0; s < powers; ++s)
+      transforms_.to_frequencies.run(spectrum_.data() + (s * plan.rows() + r) * plan.fine_row,
+                                     row_.data() + s * plan.fine);
+    kernels::sum_powers({powers, WidebandPlan::most_powers, plan.line_power.data()}, floats_of(row_.data()),
+                        2 * plan.fine, plan.chunks.data(), plan.chunks.size(), lines_.data() + r * chunk_row,
+                        plan.rows() * chunk_row);
   }
 }
 
-void WidebandRoom::gather_elements(const BendSeries& bend) {
+void WidebandRoom::through_elements(const BendSeries& bend) {
   const WidebandPlan& plan = plan_;
-  const std::size_t chunk = plan.rows() * chunk_row, elements = plan.elements();
-  std::fill(elements_.begin(), elements_.end(), 0.0F);
-  each_chunk(
-      bend,
-      [&](std::size_t i, std::size_t q, const auto& taps, const auto& turns, float* x) {
-        kernels::gather_elements(taps, turns, reinterpret_cast<const float*>(term_[q]->data()) + i * chunk, x);
-      },
-      [&](std::size_t i) {
-        const float* weight = plan.element_weight.data() + i * elements * lines_at_once;
-        float* x = elements_.data() + i * elements * chunk_row;
-        for (std::size_t m = 0; m < elements; ++m, weight += lines_at_once, x += chunk_row)
-          for (std::size_t l = 0; l < lines_at_once; ++l) x[l] *= weight[l], x[lines_at_once + l] *= weight[l];
-      });
+  const std::size_t chunk = plan.rows() * chunk_row, elements = plan.elements(), powers = bend.band[0];
+  const auto cycle = static_cast<std::ptrdiff_t>(plan.cycle);
+  std::fill_n(bins_.data(), powers * plan.rows() * bins_row_, Complex(0));
+  for (std::size_t i = 0; i < plan.chunks.size(); ++i) {
+    std::fill(chunk_.begin(), chunk_.end(), 0.0F);
+    const kernels::ElementTaps taps{elements, plan.taps, plan.tap_row.data() + i * elements,
+                                    plan.tap_weight.data() + i * elements * plan.taps * lines_at_once};
+    kernels::through_elements(taps, plan.element_weight.data() + i * elements * lines_at_once,
+                              lines_.data() + i * chunk, chunk_.data());
+    // Frequencies beyond what bins can tell fold, as they do in any sampled image.
+    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(plan.line_of((plan.chunks[i] + 1) * lines_at_once - 1)) -
+                                static_cast<std::ptrdiff_t>(lines_at_once - 1);
+    const std::ptrdiff_t bin = (line % cycle + cycle) % cycle;
+    kernels::add_powers(
+        {powers, WidebandPlan::most_powers, plan.line_power.data() + i * WidebandPlan::most_powers * lines_at_once},
+        chunk_.data(), plan.rows(), floats_of(bins_.data() + bin), bins_row_, plan.rows() * bins_row_);
+  }
+  for (std::size_t r = 0; r < powers * plan.rows(); ++r) {
+    Complex* bin = bins_.data() + r * bins_row_;
+    for (std::size_t k = 0; k < lines_at_once; ++k) bin[k] += bin[plan.cycle + k];
+    transforms_.to_bins.run(bin);
+  }
 }
 
-void WidebandRoom::form_beam_terms(const BendSeries& bend) {
+void WidebandRoom::form_directions(const BendSeries& bend, std::size_t n0, double first) {
   const WidebandPlan& plan = plan_;
-  const std::size_t chunk = plan.rows() * chunk_row;
-  const auto cycle = static_cast<std::ptrdiff_t>(plan.cycle);
-  for (std::size_t q = 0; q < bend.terms; ++q) std::fill_n(term_[q]->data(), plan.rows() * bins_row_, Complex(0));
-  std::fill_n(chunk_.begin(), bend.terms * chunk, 0.0F);
-  each_chunk(
-      bend,
-      [&](std::size_t, std::size_t q, const auto& taps, const auto& turns, const float* x) {
-        kernels::scatter_elements(taps, turns, x, chunk_.data() + q * chunk);
-      },
-      [&](std::size_t i) {
-        // Frequencies beyond what bins can tell fold, as they do in any sampled image.
-        const std::ptrdiff_t line =
-            static_cast<std::ptrdiff_t>(plan.line_of((plan.chunks[i] + 1) * lines_at_once - 1)) -
-            static_cast<std::ptrdiff_t>(lines_at_once - 1);
-        const std::ptrdiff_t bin = (line % cycle + cycle) % cycle;
-        for (std::size_t q = 0; q < bend.terms; ++q)
-          kernels::add_chunk(chunk_.data() + q * chunk, plan.row_factor.data(), plan.rows(),
-                             reinterpret_cast<float*>(term_[q]->data() + bin), bins_row_);
-        std::fill_n(chunk_.begin(), bend.terms * chunk, 0.0F);
-      });
-  for (std::size_t q = 0; q < bend.terms; ++q)
-    for (std::size_t r = 0; r < plan.rows(); ++r) {
-      Complex* bin = term_[q]->data() + r * bins_row_;
-      for (std::size_t k = 0; k < lines_at_once; ++k) bin[k] += bin[plan.cycle + k];
-      transforms_.to_bins.run(bin);
+  const std::size_t tile = wideband_tile * plan.grid_stride, rows = plan.rows(), at_once = 8,
+                    count = std::min(wideband_tile, plan.cycle - n0);
+  for (std::size_t s = 0; s < bend.band[0]; ++s)
+    for (std::size_t r0 = 0; r0 < rows; r0 += at_once)
+      for (std::size_t n = 0; n < count; ++n)
+        for (std::size_t r = r0; r < std::min(r0 + at_once, rows); ++r)
+          harmonics_[s * tile + n * plan.grid_stride + place_[r]] = bins_[(s * rows + r) * bins_row_ + n0 + n];
+  mix(bend);
+  std::fill(sum_re_.begin(), sum_re_.end(), 0.0F);
+  std::fill(sum_im_.begin(), sum_im_.end(), 0.0F);
+  for (std::size_t q = 0; q < bend.terms; ++q) {
+    transforms_.to_directions.run(mixed_.data() + q * tile, tile_.data());
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::size_t at = n * plan.grid_stride;
+      const float time = place_in(bend, plan.time_of(first + static_cast<double>(n)));
+      kernels::weigh_back(factor_of(bend, q), time, floats_of(tile_.data() + at), plan.grid, sum_re_.data() + at,
+                          sum_im_.data() + at);
     }
+  }
 }
 
 void WidebandRoom::add_beams(const WidebandBlock& block, ComplexGrid& pressure) {
   const WidebandPlan& plan = plan_;
-  const BendSeries& bend = block.undone;
   const std::size_t width = plan.kernel.width();
   const auto begin = static_cast<std::ptrdiff_t>(block.first) - static_cast<std::ptrdiff_t>(plan.guard);
   const auto end = std::min(static_cast<std::ptrdiff_t>(block.last) + static_cast<std::ptrdiff_t>(plan.guard),
                             static_cast<std::ptrdiff_t>(plan.axis.bins));
-  std::array<float, wideband_tile> time;
   for (std::size_t n0 = 0; n0 < plan.cycle; n0 += wideband_tile) {
     const std::ptrdiff_t first = begin + static_cast<std::ptrdiff_t>(n0);
     const std::ptrdiff_t from = std::max<std::ptrdiff_t>(first, 0),
                          to = std::min<std::ptrdiff_t>(first + static_cast<std::ptrdiff_t>(wideband_tile), end);
     if (from >= to) continue;
-    const std::size_t count = std::min(wideband_tile, plan.cycle - n0);
-    for (std::size_t n = 0; n < wideband_tile; ++n)
-      time[n] = place_in(bend, plan.time_of(static_cast<double>(first) + static_cast<double>(n)));
-    std::fill(sums_.begin(), sums_.end(), 0.0F);
-    for (std::size_t q = 0; q < bend.terms; ++q) {
-      std::fill_n(tile_.data() + (plan.most + 1) * wideband_tile_row, (plan.grid - plan.rows()) * wideband_tile_row,
-                  Complex(0));
-      for (std::size_t r = 0; r < plan.rows(); ++r)
-        std::copy_n(term_[q]->data() + r * bins_row_ + n0, count,
-                    tile_.data() + (r + plan.grid - plan.most) % plan.grid * wideband_tile_row);
-      transforms_.to_directions.run(tile_.data());
-      const kernels::TimeFactor factor = factor_of(bend, q);
-      for (std::size_t b = 0; b < plan.u_beam.size(); ++b)
-        kernels::add_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width,
-                          reinterpret_cast<const float*>(tile_.data()), wideband_tile_row,
-                          {factor.power + b, factor.powers, factor.stride}, time.data(), wideband_tile,
-                          sums_.data() + 2 * b * wideband_tile);
-    }
+    form_directions(block.undone, n0, static_cast<double>(first));
+    for (std::size_t g = 0; g < plan.grid; ++g)
+      for (std::size_t n = 0; n < wideband_tile; ++n) {
+        across_[2 * (g * wideband_tile + n)] = sum_re_[n * plan.grid_stride + g];
+        across_[2 * (g * wideband_tile + n) + 1] = sum_im_[n * plan.grid_stride + g];
+      }
     for (std::size_t b = 0; b < plan.u_beam.size(); ++b) {
+      kernels::take_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width, across_.data(),
+                         2 * wideband_tile, 2 * wideband_tile, beam_.data());
       double* sum = reinterpret_cast<double*>(&pressure(static_cast<Eigen::Index>(b), from));
-      const float* part = sums_.data() + 2 * (b * wideband_tile + static_cast<std::size_t>(from - first));
+      // Rows of the image are far apart in memory.
+      const auto later = static_cast<Eigen::Index>(std::min(b + beams_ahead, plan.u_beam.size() - 1));
+      for (std::ptrdiff_t n = from; n < to; n += 4) __builtin_prefetch(&pressure(later, n), 1);
+      const float* part = beam_.data() + 2 * (from - first);
       for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * static_cast<double>(part[n]);
     }
   }

@@ -14,13 +14,12 @@
 
 namespace insonify {
 
-constexpr std::size_t wideband_tile = 32;          ///< samples that are turned into harmonics at once
-constexpr std::size_t wideband_tile_row = 32 + 8;  ///< numbers from one grid step to the next
+constexpr std::size_t wideband_tile = 16;  ///< samples whose directions are turned into harmonics at once
 
 /// The transforms of a plan.
 struct WidebandTransforms {
-  FftOfRows<float> to_harmonics, to_frequencies;
-  FftAlongRows<float> to_directions, to_bins;
+  FftOfRows<float> to_harmonics, to_frequencies, to_directions;
+  FftAlongRows<float> to_bins;
 
   explicit WidebandTransforms(const WidebandPlan& plan);
 };
@@ -49,7 +48,7 @@ class WidebandRoom {
 
  private:
   using Complex = std::complex<float>;
-  using Spectrum = AlignedArray<Complex, float>;
+  using Numbers = std::vector<Complex, LineAllocator<Complex>>;
 
   // Gaussian pulses that are alike, those that are not, and sweeps, sample by sample.
   void grid_alike(const Echoes& echoes, List list);
@@ -57,30 +56,29 @@ class WidebandRoom {
   void grid_sweeps(const Echoes& echoes, List list);
   /// Fine samples that hold something.
   void touch(std::size_t row, std::size_t rows);
-  /// What harmonics receive of one term of the bend, by chunk of frequencies.
-  void receive_term(const BendSeries& bend, std::size_t term, float* lines);
-  void gather_elements(const BendSeries& bend);
-  /// What elements received, as each term of the bend undoes it: bins of all harmonics.
-  void form_beam_terms(const BendSeries& bend);
-  /// Calls visit(chunk, term, taps, turns, x) for some elements of every chunk of frequencies that counts, by its number
-  /// among those, and all terms, so that what interpolates these elements stays in the cache; then done(chunk).
-  template <typename Visit, typename Done>
-  void each_chunk(const BendSeries& bend, Visit&& visit, Done&& done);
-  /// Begins with so many terms.
-  void make_room(std::size_t terms);
+  /// What harmonics receive, by power of frequency and fine sample.
+  void receive(const BendSeries& bend);
+  /// The same by chunk of frequencies.
+  void to_chunks(const BendSeries& bend);
+  /// What elements send to harmonics, by power of frequency and bin.
+  void through_elements(const BendSeries& bend);
   void add_beams(const WidebandBlock& block, ComplexGrid& pressure);
+  /// The grid of directions at the bins from n0 on, each term of the bend undone, in sums_; `first` is the bin of n0.
+  void form_directions(const BendSeries& bend, std::size_t n0, double first);
+  /// From terms to powers of frequency, or back, for rows of harmonics: from harmonics_ to mixed_.
+  void mix(const BendSeries& bend);
 
   const WidebandPlan& plan_;
   const WidebandTransforms& transforms_;
-  AlignedArray<float, float> re_, im_;           ///< fine samples x grid_stride
-  Spectrum tile_, harmonics_;                    ///< some samples by direction, and by harmonic
-  Spectrum spectrum_, row_;                      ///< harmonics x fine samples, and one of them by frequency
-  std::vector<std::unique_ptr<Spectrum>> term_;  ///< of each: by chunk, harmonic and line; then harmonics x bins
-  AlignedFloats elements_;                       ///< by chunk and element
-  AlignedFloats chunk_;                          ///< of one chunk: by term and harmonic
-  AlignedFloats start_, step_, line_;            ///< of one chunk and element group: by term and element
-  std::vector<std::complex<double>> carrier_, turn_, now_;
-  std::vector<float> scratch_, samples_, sums_;
+  AlignedArray<float, float> re_, im_;      ///< fine samples x grid_stride
+  Numbers tile_;                            ///< some samples by direction
+  Numbers harmonics_, mixed_;               ///< some samples by harmonic, of each term, or power of frequency
+  Numbers spectrum_, row_;                  ///< powers x harmonics x fine samples, and one harmonic by frequency
+  Numbers bins_;                            ///< powers x harmonics x bins
+  AlignedFloats lines_, chunk_;             ///< by chunk, harmonic and line; of one chunk
+  AlignedFloats sum_re_, sum_im_, across_;  ///< some bins x grid_stride; by grid step and bin
+  std::vector<std::size_t> place_;          ///< of rows of harmonics in a transform
+  std::vector<float> scratch_, samples_, beam_;
   std::vector<double> pulse_re_, pulse_im_;
   std::vector<char> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;

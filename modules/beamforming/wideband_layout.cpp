@@ -9,12 +9,15 @@ namespace {
 
 constexpr double most_phase =
     5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
+constexpr double widest_band = 1.35;      // off the carrier, of it: up to there, blocks keep the tolerance
 constexpr std::size_t longest_level = 2;  // blocks are doubled so often at most
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.
 double nearest_range(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes) {
   // Curvature that changes with range moves the frequencies of the outermost elements: by 0.3 of the band at most. What
   // is of third order over a pulse is left out: measured at 0.01 of that part of the band times (reach / range)^2.
+  // Where the band reaches so far below zero, the array is shorter than the rows between which it is interpolated.
+  if (sizes.half_band > widest_band * head.pulse.centre_frequency) return head.gate.max_range + sizes.aperture;
   const double length = sizes.aperture, reach = 0.5 * medium.sound_speed * sizes.reach,
                moved = length * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
   return std::max({3 * length, moved / std::sqrt(0.3), std::sqrt(moved * reach / std::sqrt(50 * sizes.tolerance))}) +
@@ -45,11 +48,15 @@ WidebandLayout::WidebandLayout(const SonarHead& head, const Medium& medium, doub
   do {
     const double range = std::max(nearest, head.gate.min_range + first * head.gate.bin_size);
     const double allowed = range / head.gate.bin_size, wanted = bins + guard - first;
+    const auto sizes_of = [&](std::size_t level) -> const WidebandSizes& {
+      while (levels.size() <= level) levels.emplace_back(head, medium, tolerance, widest, 2 * ends << levels.size());
+      return levels[level];
+    };
     std::size_t level = 0;
-    while (level < longest_level && static_cast<double>(2 * ends << level) < wanted &&
+    while (level < longest_level && static_cast<double>(sizes_of(level).block) < wanted &&
            static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1))
       ++level;
-    while (levels.size() <= level) levels.emplace_back(head, medium, tolerance, widest, 2 * ends << levels.size());
+    (void)sizes_of(level);
     const double last = first + static_cast<double>(levels[level].block);
     blocks.push_back({first, last, level});
     first = last;

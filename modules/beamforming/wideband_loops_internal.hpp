@@ -18,6 +18,26 @@ struct TimeFactor {
 /// line(g) = factor(g, t) (re(g) + i im(g)), real and imaginary in turn; `count` a multiple of 8.
 void weigh_row(TimeFactor factor, float t, const float* re, const float* im, std::size_t count, float* line);
 
+/// Adds to re + i im what `factor` makes of a line of complex numbers.
+void weigh_back(TimeFactor factor, float t, const float* line, std::size_t count, float* re, float* im);
+
+/// Sums of complex rows, eight numbers at a time: out o = sum over i < ins[o] of factor(o, i) in i. `factor` has, by eight
+/// numbers, out and in (of which there are `stride`), each real part twice, then of each imaginary part -im and im.
+struct RowMix {
+  const float* factor;
+  std::size_t outs;
+  const std::size_t* ins;
+  std::size_t stride;
+};
+
+/// `in` and `out` are planes of `times` rows, `row` numbers apart; only numbers 8 first to 8 last are made.
+struct MixedPlanes {
+  const float* in;
+  float* out;
+  std::size_t in_plane, out_plane, row, times, first, last;
+};
+void mix_rows(RowMix mix, MixedPlanes planes);
+
 /// How a chunk of frequencies is interpolated between harmonics to elements: `taps` rows from row[m] on, by line.
 struct ElementTaps {
   std::size_t elements, taps;
@@ -25,33 +45,28 @@ struct ElementTaps {
   const float* weight;       ///< by element, tap and line
 };
 
-/// Complex factors of elements and lines: start(m) step(m, l) rest(m, t(l)), the last a polynomial of `powers` complex
-/// coefficients, highest first; none: 1.
-struct ElementTurns {
-  const float* start;  ///< by element: real, imaginary
-  const float* step;   ///< by element: lines_at_once real parts, as many imaginary ones
-  const float* rest;   ///< by element
-  std::size_t powers;
-  const float* t;  ///< by line
+/// Powers of frequency at the lines of chunks.
+struct LinePowers {
+  std::size_t powers, stride;  ///< how many, and of how many by chunk
+  const float* power;          ///< by chunk, power and line
 };
 
-/// Chunks of a line of complex numbers, those of `chunk`: of each lines_at_once real parts and as many imaginary ones,
-/// `stride` numbers apart.
-void split_chunks(const float* line, const std::size_t* chunk, std::size_t count, float* to, std::size_t stride);
+/// Sums lines of complex numbers `plane` numbers apart, one for each power of frequency, times those powers, in the chunks
+/// of `chunk`: of each lines_at_once real parts and as many imaginary ones, `stride` numbers apart.
+void sum_powers(LinePowers powers, const float* line, std::size_t plane, const std::size_t* chunk, std::size_t count,
+                float* to, std::size_t stride);
 
-/// Adds what elements take from the rows of a chunk, each lines_at_once real parts and as many imaginary ones, times their
-/// factors, to `x`: by element, in the same order.
-void gather_elements(ElementTaps taps, ElementTurns turns, const float* rows, float* x);
+/// Adds to the rows `to` of a chunk, each lines_at_once real parts and as many imaginary ones, what elements give that
+/// take it from `rows`, times `factor` by element and line.
+void through_elements(ElementTaps taps, const float* factor, const float* rows, float* to);
 
-/// The reverse: adds `x`, times its factors, to the rows.
-void scatter_elements(ElementTaps taps, ElementTurns turns, const float* x, float* rows);
+/// Adds `count` rows of a chunk, times each power of frequency, to rows of complex numbers `stride` of them apart, and
+/// `plane` of them from power to power.
+void add_powers(LinePowers powers, const float* rows, std::size_t count, float* to, std::size_t stride,
+                std::size_t plane);
 
-/// Adds the rows of a chunk, times a factor each, to rows of complex numbers `stride` of them apart.
-void add_chunk(const float* rows, const float* factor, std::size_t count, float* to, std::size_t stride);
-
-/// Adds to `sum` a beam at `count` (at most 32) times: the row of a grid interpolated by weights, times a polynomial
-/// of time, `stride` of `factor` apart.
-void add_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,
-              TimeFactor factor, const float* t, std::size_t count, float* sum);
+/// A beam at `count` numbers, a multiple of 8: rows of a grid, `stride` apart, interpolated by weights.
+void take_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,
+               std::size_t count, float* beam);
 
 }  // namespace insonify::kernels

@@ -2,7 +2,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Dense>
+
 #include "beamforming/head_patterns.hpp"
+#include "beamforming/node_functions_internal.hpp"
 #include "beamforming/wideband_loops_internal.hpp"
 #include "beamforming/wideband_plan_internal.hpp"
 #include "core/units.hpp"
@@ -95,7 +98,7 @@ WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, do
   plan_pulse();
   plan_directions();
   plan_elements();
-  plan_moments();
+  plan_band();
 }
 
 void WidebandPlan::plan_pulse() {
@@ -122,14 +125,10 @@ void WidebandPlan::plan_directions() {
   const auto factor = [this](double frequency) { return 1 / kernel_moments(frequency)[0].real(); };
   for (std::size_t g = 0; g < grid; ++g)
     place_factor.push_back(factor(static_cast<double>(g) / static_cast<double>(grid) - 0.5));
-  for (std::size_t r = 0; r < rows(); ++r) {
-    const double k = static_cast<double>(r) - static_cast<double>(most);
-    row_factor.push_back(static_cast<float>(((r + most) % 2 == 0 ? 1 : -1) * factor(k / static_cast<double>(grid))));
-  }
   for (const double u : u_beam) {
-    const double first = std::ceil(column_of(u) - half_width), undo = factor(u / period);
+    const double first = std::ceil(column_of(u) - half_width);
     for (std::size_t k = 0; k < kernel.width(); ++k) {
-      beam_weight.push_back(static_cast<float>(undo * kernel.at(first + static_cast<double>(k) - column_of(u))));
+      beam_weight.push_back(static_cast<float>(kernel.at(first + static_cast<double>(k) - column_of(u))));
       beam_row.push_back(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(k));
     }
   }
@@ -156,10 +155,10 @@ void WidebandPlan::plan_elements() {
   tap_row.assign(chunks.size() * n, 0);
   tap_weight.assign(chunks.size() * n * taps * lines_at_once, 0);
   element_weight.assign(chunks.size() * n * lines_at_once, 0);
-  // What undoes the kernel on the grid, at eighths of harmonics.
+  // What undoes the kernel on the grid, at 32nds of harmonics.
   std::vector<double> undo;
-  for (std::size_t k = 0; k <= 8 * most + 8; ++k)
-    undo.push_back(1 / kernel_moments(static_cast<double>(k) / 8 / static_cast<double>(grid))[0].real());
+  for (std::size_t k = 0; k <= 32 * most + 32; ++k)
+    undo.push_back(1 / kernel_moments(static_cast<double>(k) / 32 / static_cast<double>(grid))[0].real());
   for (std::size_t i = 0; i < chunks.size(); ++i)
     for (std::size_t m = 0; m < n; ++m) {
       std::array<double, lines_at_once> place;
@@ -180,33 +179,45 @@ void WidebandPlan::plan_elements() {
         const auto skipped = static_cast<std::size_t>(first - base);
         for (std::size_t k = 0; k < width && skipped + k < taps; ++k)
           tap_weight[((i * n + m) * taps + skipped + k) * lines_at_once + l] = value[k];
-        const double at = 8 * std::abs(place[l] - static_cast<double>(most)), part = at - std::floor(at);
+        const double at = 32 * std::abs(place[l] - static_cast<double>(most)), part = at - std::floor(at);
         const double* here = undo.data() + static_cast<std::size_t>(at);
         element_weight[(i * n + m) * lines_at_once + l] = static_cast<float>(
-            (here[0] + part * (here[1] - here[0])) * head.array.shading[m] / static_cast<double>(n * fine));
+            std::pow(here[0] + part * (here[1] - here[0]), 2) * head.array.shading[m] / static_cast<double>(n * fine));
       }
     }
 }
 
-void WidebandPlan::plan_moments() {
-  for (std::size_t j = 0; j < band_nodes; ++j)
-    node_frequency.push_back(half_band * std::cos(pi * (static_cast<double>(j) + 0.5) / band_nodes));
-  for (const double place : y)
-    for (const double off : node_frequency) {
-      const double harmonic = period * place * (head.pulse.centre_frequency - off) / medium.sound_speed,
-                   end = static_cast<double>(most);
-      const auto all = kernel_moments(std::clamp(harmonic, -end, end) / static_cast<double>(grid));
-      // Gridding multiplies by a power series of the slope of phases; this is its reciprocal.
-      std::array<std::complex<double>, moments> inverse = {1};
-      for (std::size_t j = 1; j < moments; ++j) {
-        double factorial = 1;
-        for (std::size_t k = 1; k <= j; ++k) {
-          factorial *= static_cast<double>(k);
-          inverse[j] -= all[k] / (factorial * all[0]) * inverse[j - k];
-        }
-      }
-      moment.insert(moment.end(), inverse.begin(), inverse.end());
-    }
+void WidebandPlan::plan_band() {
+  const auto most_of = static_cast<Eigen::Index>(most_powers);
+  const auto weights = [this](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    const Eigen::ArrayXd square = x.array().square();
+    const Eigen::VectorXd weight = (-spectral_width2 * half_band * half_band * square).exp() * (1 - square).pow(0.25);
+    return weight / weight.norm();
+  };
+  const Eigen::VectorXd nodes = chebyshev_points(band_nodes), at_nodes = weights(nodes);
+  const Eigen::VectorXd fit = chebyshev_points(fit_nodes), at_fit = weights(fit);
+  for (const double x : nodes) node_frequency.push_back(half_band * x);
+  for (const double x : fit) fit_frequency.push_back(half_band * x);
+  node_weight.assign(at_nodes.begin(), at_nodes.end());
+  fit_weight.assign(at_fit.begin(), at_fit.end());
+  // Orthonormal by weight; and the same polynomials at lines.
+  const Eigen::MatrixXd weighted = at_fit.asDiagonal() * chebyshev_polynomials(fit, most_of);
+  const Eigen::MatrixXd root = weighted.householderQr().matrixQR().topRows(most_of);
+  const auto orthonormal = [&](const Eigen::VectorXd& at) -> Eigen::MatrixXd {
+    return root.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(chebyshev_polynomials(at, most_of));
+  };
+  const Eigen::MatrixXd powers = orthonormal(fit);
+  for (Eigen::Index j = 0; j < fit.size(); ++j)
+    for (Eigen::Index s = 0; s < most_of; ++s) fit_power.push_back(powers(j, s));
+  for (const std::size_t chunk : chunks) {
+    Eigen::VectorXd lines(lines_at_once);
+    for (std::size_t l = 0; l < lines_at_once; ++l)
+      lines[static_cast<Eigen::Index>(l)] =
+          std::clamp(line_of(chunk * lines_at_once + l) / (seconds() * half_band), -1.0, 1.0);
+    const Eigen::MatrixXd at_lines = orthonormal(lines);
+    for (Eigen::Index s = 0; s < most_of; ++s)
+      for (Eigen::Index l = 0; l < at_lines.rows(); ++l) line_power.push_back(static_cast<float>(at_lines(l, s)));
+  }
 }
 
 }  // namespace insonify

@@ -56,8 +56,10 @@ struct WidebandSizes {
 
 /// What the synthesis with true delays has in common for all blocks of time of one length.
 struct WidebandPlan : WidebandSizes {
-  static constexpr std::size_t band_nodes = 7;  ///< frequencies at which smooth functions of it are known
   static constexpr std::size_t moments = 12;
+  static constexpr std::size_t band_nodes = 13;   ///< frequencies at which smooth functions of it are known
+  static constexpr std::size_t fit_nodes = 32;    ///< at which they are fitted by powers of it,
+  static constexpr std::size_t most_powers = 12;  ///< at most so many
 
   SonarHead head;
   Medium medium;
@@ -73,16 +75,18 @@ struct WidebandPlan : WidebandSizes {
 
   GriddingKernel kernel;             ///< of directions on the grid, and of places between harmonics
   std::vector<double> place_factor;  ///< undoes it between harmonics, by step of the grid
-  std::vector<float> row_factor;     ///< undoes it on the grid, by row
   std::vector<float> beam_weight;    ///< of each beam, kernel.width() grid steps
   std::vector<std::uint32_t> beam_row;
 
-  std::vector<std::size_t> chunks;           ///< those of lines_at_once frequencies that count
-  std::vector<std::uint32_t> tap_row;        ///< the first of the taps, by chunk and element
-  AlignedFloats tap_weight;                  ///< by chunk, element, tap and line
-  AlignedFloats element_weight;              ///< by chunk, element and line: shading, and undoes gridding
-  std::vector<double> node_frequency;        ///< off the carrier, against the sign of lines [Hz]
-  std::vector<std::complex<double>> moment;  ///< of the kernel by element, node and order, relative to order 0
+  std::vector<std::size_t> chunks;                ///< those of lines_at_once frequencies that count
+  std::vector<std::uint32_t> tap_row;             ///< the first of the taps, by chunk and element
+  AlignedFloats tap_weight;                       ///< by chunk, element, tap and line
+  AlignedFloats element_weight;                   ///< by chunk, element and line: shading, and undoes gridding
+  std::vector<double> node_frequency;             ///< off the carrier, against the sign of lines [Hz]
+  std::vector<double> node_weight;                ///< of the spectrum there, and of the node
+  std::vector<double> fit_frequency, fit_weight;  ///< as these, where functions are fitted
+  std::vector<double> fit_power;  ///< polynomials of frequency, orthonormal there by weight: node x power
+  AlignedFloats line_power;       ///< the same at lines: by chunk, power and line
 
   /// As WidebandSizes.
   WidebandPlan(const SonarHead& head, const Medium& medium, double tolerance, double widest, std::size_t block_bins);
@@ -95,7 +99,7 @@ struct WidebandPlan : WidebandSizes {
   void plan_pulse();
   void plan_directions();
   void plan_elements();
-  void plan_moments();
+  void plan_band();
 
   std::vector<double> node_, node_weight_;  ///< for integrals of the kernel over positive x
 };
