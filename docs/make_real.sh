@@ -107,7 +107,7 @@ cat <<'TEXT'
 
 Where insonify is off, and what is not its fault:
 
-- The difference of the slopes over range, 30 dB per decade, is a time-varied gain of 30 log r, as echoes of a surface need it; the device's is not published. Trends are taken off
+- The difference of the slopes over range, 30 dB per decade, is that of a time-varied gain of 30 log r, absorption included; the device's is not published. Trends are taken off
   before ranks are compared.
 - The sonar saw every point, so the run may let none hide another: `--viewpoint=0,0,0`. Without it a third of the points are behind the surfels of others, where the run hears side lobes 50 dB
   below; their share grows with range, which made a slope of -98 dB per decade. `compare` notes points that are predicted 20 dB below the trend.

@@ -10,12 +10,12 @@ namespace insonify {
 /// What surface every pixel of a ping shows, beams x bins.
 struct PixelLabels {
   static constexpr std::uint16_t nothing = 0xffff;  ///< no surface of the scene in this cell
-  static constexpr std::uint16_t shadow = 0xfffe;   ///< surface, none of which is heard in this cell
+  static constexpr std::uint16_t shadow = 0xfffe;   ///< surface in this cell, none of which the head sees
   static constexpr std::uint32_t no_id = 0xffffffff;
 
   Grid<std::uint16_t> material;    ///< index into names, or nothing or shadow
   Grid<std::uint32_t> id;          ///< of the strongest surfel of that material in this cell; no_id if there is none
-  Grid<float> share;               ///< of the pixel's energy that is of that material and in this cell; else 0
+  Grid<float> share;               ///< of the pixel's energy that is of that material and in the main lobe; else 0
   std::vector<std::string> names;  ///< of the materials
 
   /// Whether there are no labels.
