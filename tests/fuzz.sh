@@ -28,6 +28,8 @@ ln -sf fuzz_readers "$build/bin/fuzz_$reader"
 mkdir -p "$build/corpus/$reader" "$build/found/$reader"
 folders=("$build/corpus/$reader" "$build/seeds/$reader")
 [[ -d tests/fuzz/regressions/$reader ]] && folders+=("tests/fuzz/regressions/$reader")
+words=()  # a table of numbers has none
+[[ -s $build/seeds/$reader.dict ]] && words=("-dict=$build/seeds/$reader.dict")
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=0 UBSAN_OPTIONS=print_stacktrace=1
 exec "$build/bin/fuzz_$reader" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=65536 -print_final_stats=1 \
-  -dict="$build/seeds/$reader.dict" -artifact_prefix="$build/found/$reader/" "${folders[@]}"
+  "${words[@]}" -artifact_prefix="$build/found/$reader/" "${folders[@]}"

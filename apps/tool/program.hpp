@@ -19,6 +19,13 @@ struct SomeFailed {
   std::string which;
 };
 
+/// The text with a blank for every control character: what a file holds cannot make two lines of a message, nor colour it.
+inline std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+  return text;
+}
+
 /// Runs a program, reports on stderr what it throws, and returns the exit code (docs/troubles.md). `less` says what
 /// takes less memory.
 inline int run_program(const std::function<int()>& run, const char* less) {
@@ -32,12 +39,12 @@ inline int run_program(const std::function<int()>& run, const char* less) {
     std::fprintf(stderr, "insonify: %s\n", failed.which.c_str());
     return 5;
   } catch (const Error& error) {
-    std::fprintf(stderr, "insonify: %s\n", error.what());
+    std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
     return exit_codes[static_cast<int>(error.kind())];
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "insonify: %s\n", error.what());
+    std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
   }
   return 1;
 }

@@ -39,7 +39,11 @@ bool CheckedXmlReader::fits(vtkXMLDataElement* element, double rows, double most
     }
     rows = std::max(rows, value);
   }
-  const double components = std::max(1.0, count_in(element, "NumberOfComponents"));
+  const double components = element->GetAttribute("NumberOfComponents") ? count_in(element, "NumberOfComponents") : 1;
+  if (!(components >= 1)) {
+    problem = "array " + name_of_array(element) + " has no components";
+    return false;
+  }
   const double tuples = std::max(rows, count_in(element, "NumberOfTuples"));
   if (!(components * std::max(1.0, tuples) <= most)) {
     problem = "array " + name_of_array(element) + " announces more numbers than the file can hold";

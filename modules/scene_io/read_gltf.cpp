@@ -15,6 +15,7 @@
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
+#include "scene_io/vtk_checks_internal.hpp"
 #include "scene_io/vtk_messages_internal.hpp"
 
 // Reads glTF 2.0 (Khronos; ISO/IEC 12113) by VTK, which does not check that accessors lie within their buffers: the
@@ -178,10 +179,22 @@ void check_gltf(const GltfDocument& document) {
         document.refuse("a primitive has no positions");
       for (const auto& [name, index] : attributes->items())
         check_accessor(document, document.number(*attributes, name.c_str()));
-      if (primitive.contains("indices")) check_accessor(document, document.number(primitive, "indices"));
+      if (!primitive.contains("indices")) continue;
+      const std::uint64_t indices = document.number(primitive, "indices");
+      check_accessor(document, indices);
+      if (document.entry("accessors", indices).value("type", "") != "SCALAR")
+        document.refuse("accessor " + std::to_string(indices) + " holds no indices");
     }
   }
   check_nodes(document);
+}
+
+/// Size of a document and its buffers.
+std::size_t bytes_of(const GltfDocument& document) {
+  std::size_t bytes = file_size_of(document.path);
+  for (std::size_t b = 0; b < document.size_of_list("buffers"); ++b)
+    bytes += document.number(document.entry("buffers", b), "byteLength");
+  return bytes;
 }
 
 /// Appends the points and faces of a part.
@@ -213,11 +226,15 @@ RawCloud read_gltf(const std::string& path, const ReadOptions& options) {
   } catch (const json::exception& wrong) {
     document.refuse(std::string("its document has a value of another type (") + wrong.what() + ")");
   }
+  const auto read_by = [&](vtkGLTFReader* reader) {
+    reader->SetFileName(path.c_str());
+    reader->Update();
+  };
+  try_in_child(path, limits_of_vtk(bytes_of(document)), [&] { read_by(vtkNew<vtkGLTFReader>().Get()); });
   vtkNew<VtkReadMessages> messages;
   const QuietVtk quiet(messages);
   vtkNew<vtkGLTFReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
+  read_by(reader);
   if (!messages->errors.empty())
     fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(), "; export it again");
 

@@ -194,11 +194,13 @@ pcl::PCLPointCloud2 read_data(const Header& header, std::size_t checked_bytes) {
     fail(ErrorKind::content, header.path, ": changed while it was read; wait until it is complete");
   pcl::PCDReader reader;
   try {
-    std::istringstream stream(bytes);
-    result = reader.readHeader(stream, cloud, origin, orientation, version, type, begin);
-    stream.clear();
-    stream.seekg(begin);
-    if (result == 0 && type == 0) result = reader.readBodyASCII(stream, cloud, version);
+    // The header alone: PCL takes data that look like a header for one.
+    std::istringstream head(bytes.substr(0, header.end));
+    result = reader.readHeader(head, cloud, origin, orientation, version, type, begin);
+    std::istringstream data(bytes);
+    data.seekg(static_cast<std::streamoff>(header.end));
+    if (begin != header.end) result = -1;
+    if (result == 0 && type == 0) result = reader.readBodyASCII(data, cloud, version);
     if (result == 0 && type != 0)
       result =
           reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), cloud, version, type == 2, begin);

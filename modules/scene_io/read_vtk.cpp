@@ -8,7 +8,6 @@
 #include <vtkPolyDataReader.h>
 #include <vtkSTLReader.h>
 
-#include "core/child_process.hpp"
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
@@ -46,10 +45,6 @@ void check_stl(const std::string& path) {
   fail(ErrorKind::content, path, ": not an STL file: expected 'solid ...' or a binary header of 84 bytes, found ",
        what_it_looks_like(path));
 }
-
-// What VTK may take: compressed arrays unpack, and text becomes shorter.
-constexpr std::size_t memory_per_byte = 40, memory_at_least = 300 << 20;
-constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
 
 template <typename Reader>
 vtkSmartPointer<vtkPolyData> output_of(Reader* reader, const std::string& path) {
@@ -125,6 +120,14 @@ RowTable table_of(vtkPolyData* data, RawCloud& raw) {
 
 }  // namespace
 
+ChildLimits limits_of_vtk(std::size_t bytes) {
+  // Compressed arrays unpack, and text becomes shorter.
+  constexpr std::size_t memory_per_byte = 40, memory_at_least = 300 << 20;
+  constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
+  return {memory_per_byte * bytes + memory_at_least,
+          static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
+}
+
 RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
   const std::string extension = extension_of(path);
   RawCloud raw;
@@ -134,10 +137,8 @@ RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
   if (extension == ".vtp") check_xml(path);
   if (extension == ".stl") check_stl(path);
   // What the checks do not see must not end this process.
-  const std::size_t bytes = file_size_of(path);
-  const ChildLimits limits{memory_per_byte * bytes + memory_at_least,
-                           static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
-  if (extension != ".stl") try_in_child(path, limits, [&] { read_polydata(path, extension); });
+  if (extension != ".stl")
+    try_in_child(path, limits_of_vtk(file_size_of(path)), [&] { read_polydata(path, extension); });
   vtkNew<VtkReadMessages> messages;
   const QuietVtk quiet(messages);
   const vtkSmartPointer<vtkPolyData> data = read_polydata(path, extension);
@@ -145,7 +146,7 @@ RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
     fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(),
          "; the file is damaged or cut off: copy or export it again");
   for (const std::string& warning : messages->warnings) raw.notes.push_back("VTK: " + warning);
-  if (!data || data->GetNumberOfPoints() == 0)
+  if (!data || !data->GetPoints() || data->GetNumberOfPoints() == 0)
     fail(ErrorKind::content, path, ": holds no point; export the ", raw.format, " again");
   raw.width = static_cast<std::size_t>(data->GetNumberOfPoints());
   raw.float_coordinates = data->GetPoints()->GetDataType() == VTK_FLOAT;
