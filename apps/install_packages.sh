@@ -7,7 +7,7 @@ set -euo pipefail
 declare -A why=(
   [build-essential]="compiler" [cmake]="build system" [ninja-build]="build system" [pkg-config]="finds FFTW and EGL"
   [ca-certificates]="certificates" [libpcl-dev]="point clouds, normals (PCL)" [libvtk9-dev]="pictures, mesh readers (VTK)"
-  [libflann-dev]="KD-trees (FLANN)" [liblz4-dev]="FLANN's headers ask for it" [libeigen3-dev]="linear algebra (Eigen)"
+  [libflann-dev]="KD-trees (FLANN)" [liblz4-dev]="FLANN's headers ask for it" [libssl-dev]="SHA-256 (OpenSSL)" [libeigen3-dev]="linear algebra (Eigen)"
   [libfftw3-dev]="Fourier transforms (FFTW)" [libhdf5-dev]="ping cubes (HDF5)" [librandom123-dev]="counter-based random numbers"
   [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
   [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
