@@ -31,7 +31,7 @@ std::map<std::string, std::string> digests_in(const std::string& manifest) {
   return digests;
 }
 
-void compare(RunCheck& check, const std::string& path, const std::string& name, const std::string& digest) {
+void compare_file(RunCheck& check, const std::string& path, const std::string& name, const std::string& digest) {
   ++check.files;
   if (!fs::exists(path))
     check.problems.push_back(name + " is missing");
@@ -50,7 +50,7 @@ RunCheck check_survey(const std::string& run) {
       for (const auto& [path, digest] :
            {std::pair(files.cube, mark->cube_sha256), std::pair(files.returns, mark->returns_sha256),
             std::pair(files.coverage, mark->coverage_sha256)})
-        if (!digest.empty()) compare(check, path, fs::path(path).lexically_relative(run).string(), digest);
+        if (!digest.empty()) compare_file(check, path, fs::path(path).lexically_relative(run).string(), digest);
     }
   return check;
 }
@@ -77,7 +77,7 @@ RunCheck check_run(const std::string& run, const std::string& only) {
   if (digests.empty() && only.empty())
     fail(ErrorKind::content, run, ": has no manifest.json with SHA-256 of its files, so nothing can be compared");
   for (const auto& [name, digest] : digests)
-    if (only.empty() || name == only) compare(check, (fs::path(run) / name).string(), name, digest);
+    if (only.empty() || name == only) compare_file(check, (fs::path(run) / name).string(), name, digest);
   return check;
 }
 

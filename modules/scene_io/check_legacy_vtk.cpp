@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n\v\f";
+constexpr std::string_view vtk_blanks = " \t\r\n\v\f";
 
 /// Walks over a file as VTK's reader does, and keeps nothing.
 class LegacyWalk {
@@ -28,8 +28,8 @@ class LegacyWalk {
   }
 
   std::string word() {
-    at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size());
-    const std::size_t end = std::min(text_.find_first_of(blanks, at_), text_.size());
+    at_ = std::min(text_.find_first_not_of(vtk_blanks, at_), text_.size());
+    const std::size_t end = std::min(text_.find_first_of(vtk_blanks, at_), text_.size());
     const std::string_view found = text_.substr(at_, end - at_);
     at_ = end;
     return std::string(found.substr(0, 256));

@@ -190,7 +190,7 @@ void check_gltf(const GltfDocument& document) {
 }
 
 /// Size of a document and its buffers.
-std::size_t bytes_of(const GltfDocument& document) {
+std::size_t bytes_with_buffers(const GltfDocument& document) {
   std::size_t bytes = file_size_of(document.path);
   for (std::size_t b = 0; b < document.size_of_list("buffers"); ++b)
     bytes += document.number(document.entry("buffers", b), "byteLength");
@@ -230,7 +230,7 @@ RawCloud read_gltf(const std::string& path, const ReadOptions& options) {
     reader->SetFileName(path.c_str());
     reader->Update();
   };
-  try_in_child(path, limits_of_vtk(bytes_of(document)), [&] { read_by(vtkNew<vtkGLTFReader>().Get()); });
+  try_in_child(path, limits_of_vtk(bytes_with_buffers(document)), [&] { read_by(vtkNew<vtkGLTFReader>().Get()); });
   vtkNew<VtkReadMessages> messages;
   const QuietVtk quiet(messages);
   vtkNew<vtkGLTFReader> reader;
