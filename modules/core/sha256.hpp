@@ -10,6 +10,7 @@ namespace insonify {
 /// SHA-256 (FIPS 180-4) of bytes that are added piece by piece, by OpenSSL.
 class Sha256 {
  public:
+  /// Begins with no bytes.
   Sha256();
   /// Adds bytes after those added before.
   void add(std::string_view bytes);
