@@ -11,7 +11,6 @@ namespace insonify {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr std::size_t nodes_of_band = WidebandPlan::band_nodes;
 constexpr double node_share = 0.05;  // of the tolerance, for nodes in range
 constexpr double row_share = 0.01;   // of the tolerance, for what rows of harmonics undo
 constexpr double nothing = 1e-20;    // square of a part of a series that does not count
@@ -127,19 +126,20 @@ void BendSamples::place_nodes(const WidebandPlan& plan, const BendSpan& span) {
                far = std::max(0.5 * c * span.last_time, near);
   const BendPhase phase(plan.head, plan.medium, near, far);
   const auto nodes = [](double turn) { return static_cast<std::size_t>(std::ceil(1.4 * turn)); };
-  const std::size_t count_u = 14 + 2 * nodes(0.5 * phase.all * span.widest * span.widest),
+  const std::size_t count_u = static_cast<std::size_t>(std::max(8.0, 3.7 + 2 * plan.digits)) +
+                              2 * nodes(0.5 * phase.all * span.widest * span.widest),
                     count_r = range_nodes(phase, near, far, plan.tolerance);
   for (std::size_t j = 0; j < count_u; ++j) u.push_back(span.widest * chebyshev_node(j, count_u));
   for (std::size_t j = 0; j < count_r; ++j)
     r.push_back(std::max(0.5 * c * (middle + half * chebyshev_node(j, count_r)), least));
-  places = 16 + count_u / 2;
+  places = count_u / 2 + static_cast<std::size_t>(std::max(9.0, 5.7 + 2 * plan.digits));
 }
 
 void BendSamples::sample(const WidebandPlan& plan, const BendSpan& span) {
   const double c = plan.medium.sound_speed;
   std::vector<std::vector<Complex>> moment;  // by column
   std::vector<double> y, mean;
-  for (std::size_t f = 0; f < nodes_of_band; ++f)
+  for (std::size_t f = 0; f < plan.node_frequency.size(); ++f)
     for (std::size_t i = 0; i < places; ++i) {
       const double node = chebyshev_node(i, places);
       y.push_back(RowPlaces(plan, plan.node_frequency[f]).reach * node);
@@ -169,7 +169,7 @@ void BendSamples::undo_rows(const WidebandPlan& plan) {
   Eigen::MatrixXcd all(count_y, count_y);
   for (std::size_t j = 0; j < u.size(); ++j) {
     const std::vector<Complex> inverse = inverse_series(plan, u[j] / plan.period);
-    for (std::size_t f = 0; f < nodes_of_band; ++f) {
+    for (std::size_t f = 0; f < plan.node_frequency.size(); ++f) {
       const RowPlaces rows(plan, plan.node_frequency[f]);
       const double per_row = rows.row / rows.reach;
       auto values =

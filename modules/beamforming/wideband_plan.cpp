@@ -194,7 +194,9 @@ void WidebandPlan::plan_band() {
     const Eigen::VectorXd weight = (-spectral_width2 * half_band * half_band * square).exp() * (1 - square).pow(0.25);
     return weight / weight.norm();
   };
-  const Eigen::VectorXd nodes = chebyshev_points(band_nodes), at_nodes = weights(nodes);
+  digits = -std::log10(tolerance);
+  const Eigen::VectorXd nodes = chebyshev_points(static_cast<std::size_t>(std::ceil(std::max(7.0, 6 + 1.6 * digits)))),
+                        at_nodes = weights(nodes);
   const Eigen::VectorXd fit = chebyshev_points(fit_nodes), at_fit = weights(fit);
   for (const double x : nodes) node_frequency.push_back(half_band * x);
   for (const double x : fit) fit_frequency.push_back(half_band * x);

@@ -57,8 +57,7 @@ struct WidebandSizes {
 /// What the synthesis with true delays has in common for all blocks of time of one length.
 struct WidebandPlan : WidebandSizes {
   static constexpr std::size_t moments = 12;
-  static constexpr std::size_t band_nodes = 13;   ///< frequencies at which smooth functions of it are known
-  static constexpr std::size_t fit_nodes = 32;    ///< at which they are fitted by powers of it,
+  static constexpr std::size_t fit_nodes = 32;    ///< frequencies at which functions of it are fitted by powers,
   static constexpr std::size_t most_powers = 12;  ///< at most so many
 
   SonarHead head;
@@ -82,6 +81,7 @@ struct WidebandPlan : WidebandSizes {
   std::vector<std::uint32_t> tap_row;             ///< the first of the taps, by chunk and element
   AlignedFloats tap_weight;                       ///< by chunk, element, tap and line
   AlignedFloats element_weight;                   ///< by chunk, element and line: shading, and undoes gridding
+  double digits = 0;                              ///< of the tolerance
   std::vector<double> node_frequency;             ///< off the carrier, against the sign of lines [Hz]
   std::vector<double> node_weight;                ///< of the spectrum there, and of the node
   std::vector<double> fit_frequency, fit_weight;  ///< as these, where functions are fitted

@@ -70,7 +70,7 @@ struct BandRows {
     const auto nodes = static_cast<Eigen::Index>(WidebandPlan::fit_nodes),
                rows = static_cast<Eigen::Index>(plan.rows()), count_y = static_cast<Eigen::Index>(samples.places);
     const Eigen::Map<const Eigen::VectorXd> fit(plan.fit_frequency.data(), nodes);
-    const Eigen::MatrixXd between = from_nodes(fit / plan.half_band, WidebandPlan::band_nodes);
+    const Eigen::MatrixXd between = from_nodes(fit / plan.half_band, plan.node_frequency.size());
     // Where rows lie on the array, by frequency, and what they are there.
     Eigen::MatrixXd place(rows, nodes);
     Eigen::ArrayXXd within(rows, nodes);  // 1: near the array

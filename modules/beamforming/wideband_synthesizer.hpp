@@ -14,9 +14,10 @@ namespace insonify {
 ///
 ///   1. Time is cut into blocks, shorter the nearer; each echo belongs to one. Its pulse, sampled as finely as its band
 ///      needs, is gridded once over direction.
-///   2. The bend of wavefronts over a block is a short sum of products of one factor along direction and time and one
-///      along the array and frequency (BendSeries). Each term's first factor multiplies the grid; transforms over
-///      direction and time make harmonics and frequencies of it, between which the elements are interpolated.
+///   2. The bend of wavefronts over a block is a short sum of products of one factor along direction and time, one along
+///      the rows of harmonics, and powers of frequency (BendSeries). The first multiplies the grid; a transform over
+///      direction makes harmonics of it, whose sums for each power are transformed over time; between harmonics the
+///      elements are interpolated, frequency by frequency.
 ///   3. Beams are formed from the elements by the same steps in reverse, with their own sum.
 ///
 /// Cost relative to PingSynthesizer: docs/accuracy.md. Plans and sums are made at the first ping that needs them.
