@@ -96,7 +96,7 @@ TEST_F(AccuracyVerb, errors_do_not_depend_on_threads) {
 }
 
 TEST_F(AccuracyVerb, methods_and_tolerances_can_be_chosen) {
-  const std::string out = succeed("accuracy --quick -q --no-picture --methods gridded,direct --tolerances 1e-3 -o run");
+  const std::string out = succeed("accuracy --quick --no-picture --methods gridded,direct --tolerances 1e-3 -o run");
   EXPECT_THAT(out, HasSubstr("tolerance 1e-03"));
   for (auto& row : rows_of("run/sweep.csv")) {
     EXPECT_TRUE(row["method"] == "gridded" || row["method"] == "direct") << row["method"];

@@ -22,7 +22,7 @@ void change(const RunSetting& setting) {
     else if constexpr (std::is_same_v<Value, double*>)
       *value += 0.1;
     else if constexpr (std::is_same_v<Value, int*>)
-      *value += 1;
+      *value += setting.rules.within && *value == setting.rules.within->second ? -1 : 1;
     else if constexpr (std::is_same_v<Value, std::uint64_t*>)
       *value = ~std::uint64_t{0};
     else if constexpr (std::is_same_v<Value, bool*>)

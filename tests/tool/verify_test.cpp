@@ -40,7 +40,7 @@ TEST_F(Verify, needs_digests) {
 
 TEST_F(Verify, merge_refuses_a_changed_cube_and_view_says_so) {
   succeed("merge run run -o whole -q");
-  EXPECT_THAT(succeed("info --verify whole"), HasSubstr("2 files as they were made"));
+  EXPECT_THAT(succeed("info --verify whole"), HasSubstr("4 files as they were made"));
   damage("run/cube.h5");
   expect_refused("merge run run -o both", 3, {"run: cube.h5 was changed since the run was made", "cube.h5 to merge"});
   const std::string line = "'" INSONIFY_TOOL "' view '" + path("run") + "' --no-scene --screenshot '" + path("v.png") +
