@@ -170,7 +170,7 @@ next to that of the narrow-band image at 1e-3. The promise holds against element
 echo and focus: a line array of point elements, Gaussian pulses, echoes at rest or moving, tolerances from 1e-5. Sweeps are held to 1e-2 only.
 Rows of a rough field: all surfels seen of a bed that is rough at its own spacing of 2 cm, unsplit, from 2 m above; errors for 3000 of them. So few echoes leave
 nearly all of the cost in transforms. A default ping splits them, to millions: of the built-in harbour, 27 million echoes at 0.5 to 40 m, oculus-m750d, it takes 1.3 times the processor
-time of the ping with \`--method gridded\`. Tables are made once for each head; images of the first ping take up to 1.4 times as long.
+time of the ping with \`--method gridded\`. Tables are made once for each head; they cost the first image of a head some 30 to 160 ms more.
 
 TEXT
 "$(dirname "$tool")/true_delays_accuracy"

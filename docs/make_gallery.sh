@@ -38,6 +38,8 @@ picture fan "The fan in its true geometry, starboard on the right; the three str
 picture rect "Bearing against range, dark theme." "insonify image ping --view rect --dark --colormap viridis --size 900x700 -o rect.png"
 picture ascan "One beam: level against range." "insonify image ping --view ascan --beam 140 --size 900x500 -o ascan.png"
 picture spectrum "Power spectra of all beams and of the pulse." "insonify image ping --view spectrum --size 900x500 -o spectrum.png"
+picture labels "What every pixel shows, in the same place as in the fan: materials, shadow and nothing." \
+  "insonify image ping --view labels -o labels.png"
 picture panels "Summary of the ping on one page." "insonify image ping --view panels --size 1200x900 -o panels.png"
 picture scene "The returns in the scene, with head, fan and its footprint on the bed (blue)." "insonify image ping --view scene --size 1000x750 -o scene.png"
 picture viewer "The viewer (insonify view ping): a click on a pixel names the surfels behind it." \
