@@ -53,7 +53,7 @@ WidebandCost wideband_cost(const SonarHead& head, const Medium& medium, const Sy
     const double nodes = 14 + 1.4 * phase.all * s.widest * s.widest, powers = 3 + 2 * phase.over_range;
     nanoseconds +=
         terms * (1.8 * (per_grid_sample * fine * grid + per_tap * taps) + 0.8 * per_beam_sample * beams * cycle);
-    nanoseconds += 7 * (per_place * nodes * powers * (14 + 0.5 * nodes) + per_element_node * terms * elements);
+    nanoseconds += 28 * (per_place * nodes * powers * (14 + 0.5 * nodes) + per_element_node * terms * elements);
     kept += terms * (16 * powers * (grid + beams) + 72 * elements);
     room = std::max(room, 8 * (2 * fine * grid + 80 * grid + rows * fine + terms * rows * std::max(cycle, 8 * chunks)) +
                               64 * (chunks * elements + terms * (rows + elements)));
