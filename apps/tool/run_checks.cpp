@@ -17,6 +17,12 @@ using nlohmann::ordered_json;
 
 constexpr const char* digests_key = "sha256";
 
+/// Whether a name in a manifest is of a file below its folder.
+bool lies_below(const std::string& name) {
+  const fs::path path = fs::path(name).lexically_normal();
+  return !path.empty() && path.is_relative() && *path.begin() != "..";
+}
+
 /// The digests in a manifest; empty if it has none. Throws Error(content) for one that cannot be understood.
 std::map<std::string, std::string> digests_in(const std::string& manifest) {
   std::map<std::string, std::string> digests;
@@ -27,7 +33,7 @@ std::map<std::string, std::string> digests_in(const std::string& manifest) {
   const auto found = json.find(digests_key);
   if (found == json.end() || !found->is_object()) return digests;
   for (const auto& [name, digest] : found->items())
-    if (digest.is_string() && fs::path(name).filename() == name) digests[name] = digest.get<std::string>();
+    if (digest.is_string() && lies_below(name)) digests[name] = digest.get<std::string>();
   return digests;
 }
 
