@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/sha256.hpp"
-#include "scene_io/cloud_field.hpp"
 #include "store/survey_run.hpp"
 #include "tool/image.hpp"
 #include "tool/ping_setup.hpp"
@@ -25,11 +24,7 @@ void find_scene(DatasetSource& source, const std::string& settings_folder) {
   const bool there = !source.scene.empty() && fs::is_regular_file(source.scene, error);
   source.scene_digest =
       there ? sha256_of_file(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
-  if (!there || is_tiles(source.scene) || !has_cloud_field(source.scene, "instance")) return;
-  const CloudField field = load_cloud_field(source.scene, "instance");
-  for (std::size_t i = 0; i < field.value.size(); ++i)
-    if (const double value = field.value[i]; value >= 0 && value < 4294967295.0 && value == std::floor(value))
-      source.instance[field.id[i]] = static_cast<std::uint32_t>(value) + 1;
+  if (there) source.instances = instances_of_scene(source.scene);
 }
 
 std::vector<DatasetSource> sources_of_survey(const std::string& run) {

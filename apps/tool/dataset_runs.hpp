@@ -3,9 +3,9 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
+#include "returns/label_objects.hpp"
 #include "simulate/randomise.hpp"
 #include "store/cube.hpp"
 #include "store/mission_file.hpp"
@@ -22,8 +22,7 @@ struct DatasetSource {
   std::string scene_digest;  ///< of the file; of a run without its scene that of the run's name
   std::string split;         ///< train, val or test
   std::optional<SurveyRandomisation> randomisation{};  ///< of a mission
-  std::unordered_map<std::uint32_t, std::uint32_t>
-      instance{};  ///< of ids of the scene + 1, if its cloud has a field `instance`
+  SceneInstances instances{};                          ///< if the scene's cloud has a field `instance`
 };
 
 /// The heads of runs, surveys and cubes. Throws Error(file) for one that is not there, Error(content) for a survey that is

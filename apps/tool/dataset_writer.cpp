@@ -27,25 +27,12 @@ using nlohmann::ordered_json;
 Grid<std::uint16_t> objects_of(const DatasetSource& source, const PixelLabels& labels, double share,
                                const Grid<std::uint8_t>& category, const std::set<std::uint8_t>& stuff,
                                std::size_t least_pixels) {
-  const Grid<std::uint32_t> id = instance_image(labels, share);
-  Grid<std::uint32_t> parts(category.rows(), category.cols()),
-      keys = Grid<std::uint32_t>::Zero(category.rows(), category.cols());
-  std::map<std::pair<std::uint8_t, std::uint32_t>, std::uint32_t> key_of;
-  for (Eigen::Index i = 0; i < category.size(); ++i) {
-    const bool counts = category(i) != 0 && !stuff.contains(category(i));
-    parts(i) = counts ? category(i) : 0;
-    const auto found = counts ? source.instance.find(id(i)) : source.instance.end();
-    if (found == source.instance.end()) continue;
-    parts(i) = 0;
-    keys(i) =
-        key_of.try_emplace({category(i), found->second}, static_cast<std::uint32_t>(key_of.size() + 1)).first->second;
-  }
-  Grid<std::uint16_t> objects = numbered_keys(keys, least_pixels);
-  const std::uint16_t named = objects.size() > 0 ? objects.maxCoeff() : std::uint16_t{0};
-  const Grid<std::uint16_t> connected = connected_parts(parts, least_pixels);
-  if (named + int{connected.maxCoeff()} > 65535)
+  const Grid<std::uint32_t> kind = category.unaryExpr(
+      [&](std::uint8_t value) { return value != 0 && !stuff.contains(value) ? std::uint32_t{value} : 0; });
+  const Grid<std::uint32_t> objects = number_objects(kind, id_image(labels, share), source.instances, least_pixels);
+  if (objects.size() > 0 && objects.maxCoeff() > 65535)
     fail(ErrorKind::content, "an image has more than 65535 objects; ask for more with --least-pixels");
-  return (connected > 0).select(connected + named, objects);
+  return objects.cast<std::uint16_t>();
 }
 
 ordered_json pose_json(const Pose& pose) {

@@ -10,12 +10,14 @@
 #include "core/peak_memory.hpp"
 #include "core/units.hpp"
 #include "returns/insonification.hpp"
+#include "returns/label_objects.hpp"
 #include "returns/looks.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
 #include "tool/run_settings.hpp"
+#include "tool/scene_files.hpp"
 #include "view/save_vtk.hpp"
 #include "view/show_image.hpp"
 
@@ -158,9 +160,9 @@ ContributorWriter::ContributorWriter(const RunDirectory& directory, const SceneC
   };
 }
 
-void ContributorWriter::finish(const PixelLabels& labels, ordered_json& manifest) {
+void ContributorWriter::finish(const PixelLabels& labels, const std::string& scene, ordered_json& manifest) {
   if (!file_) return;
-  file_->finish(material_image(labels), instance_image(labels));
+  file_->finish(material_image(labels), instance_image(labels, instances_of_scene(scene)));
   manifest["contributors"] = {{"per_pixel", per_pixel_},
                               {"pixels", pixels_},
                               {"mean_share_listed", pixels_ > 0 ? share_ / static_cast<double>(pixels_) : 0}};

@@ -46,8 +46,9 @@ class ContributorWriter {
   ContributorWriter(const ContributorWriter&) = delete;
   ContributorWriter& operator=(const ContributorWriter&) = delete;
 
-  /// Completes the file with the label images of the ping; `manifest` gets a summary.
-  void finish(const PixelLabels& labels, nlohmann::ordered_json& manifest);
+  /// Completes the file with the label images of the ping, whose objects are the instances of the scene's file if it has
+  /// them; `manifest` gets a summary.
+  void finish(const PixelLabels& labels, const std::string& scene, nlohmann::ordered_json& manifest);
 
  private:
   std::unique_ptr<ContributorFile> file_;

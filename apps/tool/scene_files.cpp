@@ -1,11 +1,13 @@
 #include "tool/scene_files.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "scene_io/cloud_field.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/run_settings.hpp"
@@ -34,6 +36,16 @@ bool is_tiles(const std::string& path) { return std::filesystem::path(path).exte
 void require_free(const std::string& output, bool force) {
   if (!force && std::filesystem::exists(output))
     fail(ErrorKind::file, output, ": exists already; choose another name or add --force");
+}
+
+SceneInstances instances_of_scene(const std::string& path) {
+  if (is_tiles(path) || !has_cloud_field(path, "instance")) return {};
+  const CloudField field = load_cloud_field(path, "instance");
+  SceneInstances instances;
+  for (std::size_t i = 0; i < field.value.size(); ++i)
+    if (const double value = field.value[i]; value >= 0 && value < 4294967295.0 && value == std::floor(value))
+      instances[field.id[i]] = static_cast<std::uint32_t>(value);
+  return instances;
 }
 
 PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup, const TiledScene& tiled) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
+#include "returns/label_objects.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "tool/options.hpp"
@@ -17,6 +18,9 @@ bool is_tiles(const std::string& path);
 
 /// Throws Error(file) if `output` exists already and may not be replaced.
 void require_free(const std::string& output, bool force);
+
+/// The instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 0.
+SceneInstances instances_of_scene(const std::string& path);
 
 /// The scene of a ping: a whole cloud or mesh, or the tiles of a .tiles file within the region of the ping.
 struct PingScene {

@@ -103,7 +103,7 @@ void ping(const PingCommand& command) {
   if (!origin.isZero(0)) note_to_user(origin_note(origin));
   if (simulation.outputs.elements)
     write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
-  contributors.finish(result.ping.labels, manifest);
+  contributors.finish(result.ping.labels, o.scene.path, manifest);
   write_kept(directory, o, loaded.scene, ready, result, manifest);
   describe(result, simulation, manifest);
   write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);

@@ -23,13 +23,6 @@ struct Annotation {
       counts;  ///< run lengths of the mask, column by column, beginning with pixels that are not of it
 };
 
-/// Numbers the parts of a picture that are of one key and connected by sides or corners, from 1 in the order of their
-/// first pixels; pixels of key 0 and parts of less than `least_pixels` get 0. Throws Error(content) for more than 65535.
-Grid<std::uint16_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t least_pixels);
-
-/// Numbers the keys of a picture from 1 in their order; keys of less than `least_pixels` get 0, as does key 0.
-Grid<std::uint16_t> numbered_keys(const Grid<std::uint32_t>& key, std::size_t least_pixels);
-
 /// The objects of a picture by ascending instance: those that have a pixel in it. Throws Error(argument) if the maps differ in
 /// size, or if an instance has pixels of two categories.
 std::vector<Annotation> annotations_of(const LabelMap& map);

@@ -30,8 +30,8 @@ Grid<std::uint16_t> material_image(const Contributors& contributors) {
   return image_of(contributors, contributors.material);
 }
 
-Grid<std::uint32_t> instance_image(const Contributors& contributors) {
-  require_valid(contributors, "instance_image");
+Grid<std::uint32_t> id_image(const Contributors& contributors) {
+  require_valid(contributors, "id_image");
   return image_of(contributors, contributors.id);
 }
 

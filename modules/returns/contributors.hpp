@@ -41,6 +41,6 @@ void require_valid(const Contributors& contributors, const char* who);
 Grid<std::uint16_t> material_image(const Contributors& contributors);
 
 /// Returns the id of the strongest contributor of every pixel, beams x bins; `none` where there is none.
-Grid<std::uint32_t> instance_image(const Contributors& contributors);
+Grid<std::uint32_t> id_image(const Contributors& contributors);
 
 }  // namespace insonify

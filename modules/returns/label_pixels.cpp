@@ -279,7 +279,7 @@ Grid<std::uint16_t> material_image(const PixelLabels& labels, double least_share
   return image;
 }
 
-Grid<std::uint32_t> instance_image(const PixelLabels& labels, double least_share) {
+Grid<std::uint32_t> id_image(const PixelLabels& labels, double least_share) {
   Grid<std::uint32_t> image = labels.id;
   for (Eigen::Index i = 0; i < image.size(); ++i)
     if (static_cast<double>(labels.share(i)) < least_share) image(i) = PixelLabels::no_id;

@@ -27,6 +27,6 @@ struct PixelLabels {
 Grid<std::uint16_t> material_image(const PixelLabels& labels, double least_share = 0.5);
 
 /// The id of the strongest surfel of every pixel, by the same rule; no_id elsewhere.
-Grid<std::uint32_t> instance_image(const PixelLabels& labels, double least_share = 0.5);
+Grid<std::uint32_t> id_image(const PixelLabels& labels, double least_share = 0.5);
 
 }  // namespace insonify

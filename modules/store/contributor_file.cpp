@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "returns/label_objects.hpp"
 #include "store/hdf5_internal.hpp"
 
 namespace insonify {
@@ -173,10 +174,11 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
   require_valid(c, "write_contributor_file");
   ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials);
   file.write(c, 0);
-  if (named.labels.empty())
-    file.finish(material_image(c), instance_image(c));
-  else
-    file.finish(material_image(named.labels), instance_image(named.labels));
+  const Grid<std::uint16_t> materials = material_image(c);
+  file.finish(materials, number_objects(materials.unaryExpr([](std::uint16_t material) {
+                return material == Contributors::no_material ? 0 : std::uint32_t{material} + 1;
+              }),
+                                        id_image(c), {}));
 }
 
 std::uintmax_t contributor_bytes(const std::string& path) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "returns/contributors.hpp"
-#include "returns/pixel_labels.hpp"
 
 namespace insonify {
 
@@ -13,14 +12,13 @@ namespace insonify {
 struct NamedContributors {
   Contributors contributors;
   std::vector<std::string> materials;
-  PixelLabels labels{};  ///< of the ping, if there are; else the label images are of the strongest contributors
 };
 
 /// Writes /surfel, /id (uint32), /share, /elevation (float32), /material (uint16) and /path (uint8) as beams x bins x
 /// per_pixel, the label images /material_image (uint16) and /instance_image (uint32) as beams x bins, /material_names
 /// (text), and the root attributes schema, content "contributors" and paths, the meaning of the numbers of /path.
-/// Unused entries have surfel, id and instance 4294967295 and material 65535. With labels the images are theirs: 65535 is
-/// nothing and 65534 shadow, where less than half of the energy is of one material in the pixel's own cell (E125). Byte-identical for identical input.
+/// Unused entries have surfel and id 4294967295 and material 65535. The images are of the strongest contributors: their
+/// material, and connected parts of one material, from 1. Byte-identical for identical input.
 /// Written to a temporary name, then renamed. Throws Error(argument) for invalid contributors or a material without a
 /// name, Error(file) if it cannot write.
 void write_contributor_file(const std::string& path, const NamedContributors& named);
@@ -37,7 +35,8 @@ class ContributorFile {
 
   /// Writes the contributors of beams from `first_beam` on.
   void write(const Contributors& band, std::size_t first_beam);
-  /// Writes the label images, of all beams, and gives the file its name; without this call nothing is left.
+  /// Writes the label images of all beams, material_image and instance_image of the ping's labels, say, and gives the file
+  /// its name; without this call nothing is left.
   void finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image);
 
  private:

@@ -1,6 +1,7 @@
 // Objects in pictures, checked by an independent decoder of run lengths.
 #include "formats/label_map.hpp"
 
+#include "returns/label_objects.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -16,30 +17,9 @@ Grid<std::uint32_t> two_parts() {
 
 }  // namespace
 
-TEST(LabelMap, parts_are_connected_by_sides_and_corners) {
-  Grid<std::uint16_t> expected(4, 5);
-  expected << 0, 1, 1, 0, 2,  //
-      0, 1, 0, 2, 0,          //
-      0, 0, 0, 0, 0,          //
-      3, 3, 0, 0, 4;
-  EXPECT_TRUE((connected_parts(two_parts(), 1) == expected).all());
-  const Grid<std::uint16_t> large = connected_parts(two_parts(), 2);
-  EXPECT_EQ(large.maxCoeff(), 3);
-  EXPECT_EQ(large(3, 4), 0);
-  EXPECT_EQ(large(3, 0), 3);
-}
-
-TEST(LabelMap, keys_are_numbered_in_their_order) {
-  const Grid<std::uint16_t> number = numbered_keys(two_parts() * 100, 1);
-  EXPECT_EQ(number(0, 1), 1);
-  EXPECT_EQ(number(3, 4), 1);
-  EXPECT_EQ(number(0, 4), 2);
-  EXPECT_EQ(numbered_keys(two_parts(), 3).maxCoeff(), 1);  // key 3 has two pixels
-}
-
 TEST(LabelMap, annotations_hold_box_area_and_every_pixel) {
   const Grid<std::uint32_t> key = two_parts();
-  const LabelMap map{key.cast<std::uint8_t>(), connected_parts(key, 1)};
+  const LabelMap map{key.cast<std::uint8_t>(), connected_parts(key, 1).cast<std::uint16_t>()};
   const std::vector<Annotation> annotations = annotations_of(map);
   ASSERT_EQ(annotations.size(), 4U);
   const Annotation& corner = annotations[1];

@@ -257,7 +257,7 @@ TEST(FindContributors, label_images_put_materials_at_their_bearing) {
   SonarHead head = contributor_head();
   const Contributors c = set.find(head);
   const auto materials = material_image(c);
-  const auto ids = instance_image(c);
+  const auto ids = id_image(c);
   for (int b = 0; b < 11; ++b) {
     // On the cone of the beam, the boundary is seen at its own direction cosine.
     const double u = std::sin(head.fan.azimuth[static_cast<std::size_t>(b)]);

@@ -181,8 +181,8 @@ TEST_F(PixelLabelling, images_keep_what_has_the_share_asked_for) {
   EXPECT_EQ(material_image(l, 0.5)(ahead, bin), 1);
   EXPECT_EQ(material_image(l, 0.7)(ahead, bin), PixelLabels::nothing);
   EXPECT_EQ(material_image(l, 0.7)(ahead, bin + 40), PixelLabels::shadow);
-  EXPECT_EQ(instance_image(l, 0.5)(ahead, bin), 100U);
-  EXPECT_EQ(instance_image(l, 0.7)(ahead, bin), PixelLabels::no_id);
+  EXPECT_EQ(id_image(l, 0.5)(ahead, bin), 100U);
+  EXPECT_EQ(id_image(l, 0.7)(ahead, bin), PixelLabels::no_id);
 }
 
 TEST_F(PixelLabelling, is_the_same_for_any_number_of_threads) {

@@ -1,4 +1,5 @@
 // Data sets to learn from, opened by readers of their own: the formats as their definitions have them.
+#include <hdf5.h>
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.hpp"
@@ -20,6 +21,16 @@ Grid<std::uint8_t> decoded_mask(const nlohmann::json& segmentation) {
   }
   EXPECT_EQ(at, rows * columns);
   return mask;
+}
+
+/// A label image as HDF5 reads it.
+std::vector<std::uint32_t> raw_labels(const std::string& path, const char* name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, name, H5P_DEFAULT),
+              space = H5Dget_space(set);
+  std::vector<std::uint32_t> labels(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(set, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, labels.data());
+  H5Sclose(space), H5Dclose(set), H5Fclose(file);
+  return labels;
 }
 
 }  // namespace
@@ -275,6 +286,17 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
   const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
   ASSERT_EQ(classes.size(), 4U);
   EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
+  // So they are in the images of the run itself, where surfels of a ball are of its instance.
+  const std::vector<std::uint32_t> material = raw_labels(path("balls/contributors.h5"), "/material_image"),
+                                   object = raw_labels(path("balls/contributors.h5"), "/instance_image");
+  std::map<std::uint32_t, int> pixels_of;
+  for (std::size_t i = 0; i < object.size(); ++i)
+    if (material[i] == 1) ++pixels_of[object[i]];
+  EXPECT_EQ(pixels_of.size(), 2U);
+  for (const auto& [number, pixels] : pixels_of) {
+    EXPECT_GT(number, 0U);
+    EXPECT_GT(pixels, 30);
+  }
 }
 
 TEST_F(DatasetRun, refuses_runs_without_labels_and_wrong_options) {
