@@ -12,7 +12,7 @@
 #include "tool/dataset_runs.hpp"
 #include "tool/label_pictures.hpp"
 #include "tool/options.hpp"
-#include "view/picture_grid.hpp"
+#include "returns/picture_grid.hpp"
 
 namespace insonify::tool {
 

@@ -18,7 +18,7 @@
 #include "tool/track_image.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/label_colours.hpp"
-#include "view/picture_grid.hpp"
+#include "returns/picture_grid.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {

@@ -65,10 +65,6 @@ namespace fs = std::filesystem;
 // Reads the cube of a complete run; runs appear atomically, including the manifest.
 std::string finished_cube(const std::string& target) {
   if (!fs::is_directory(target)) return target;
-  for (const auto& entry : fs::directory_iterator(target))
-    if (entry.path().filename().string().find("cube.h5.tmp") == 0)
-      fail(ErrorKind::content, target, ": the run is unfinished (", entry.path().filename().string(),
-           "); wait for it, or ping again");
   const fs::path cube = fs::path(target) / "cube.h5";
   if (!fs::exists(cube)) fail(ErrorKind::content, target, ": holds no cube.h5, so it is no run directory");
   if (!fs::exists(fs::path(target) / "manifest.json"))

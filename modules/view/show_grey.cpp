@@ -11,7 +11,7 @@
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
 #include "view/off_screen_internal.hpp"
-#include "view/picture_grid.hpp"
+#include "returns/picture_grid.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify {

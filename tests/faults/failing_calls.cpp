@@ -171,34 +171,26 @@ int mkdir(const char* path, mode_t mode) noexcept {
   return failing(is_watched(path), is_name, -1, [&] { return on(path, mode); });
 }
 
-int open(const char* path, int flags, ...) {
-  NEXT(open);
-  va_list rest;
-  va_start(rest, flags);
-  const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
-  va_end(rest);
-  return failing(writes(flags) && is_watched(path), is_name, -1, [&] { return on(path, flags, mode); });
-}
+// Both names of a function that opens.
+#define OPENING(open)                                                                                      \
+  int open(const char* path, int flags, ...) {                                                             \
+    NEXT(open);                                                                                            \
+    va_list rest;                                                                                          \
+    va_start(rest, flags);                                                                                 \
+    const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;                   \
+    va_end(rest);                                                                                          \
+    return failing(writes(flags) && is_watched(path), is_name, -1, [&] { return on(path, flags, mode); }); \
+  }
+OPENING(open)
+OPENING(open64)
 
-int open64(const char* path, int flags, ...) {
-  NEXT(open64);
-  va_list rest;
-  va_start(rest, flags);
-  const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
-  va_end(rest);
-  return failing(writes(flags) && is_watched(path), is_name, -1, [&] { return on(path, flags, mode); });
-}
-
-FILE* fopen(const char* path, const char* mode) {
-  NEXT(fopen);
-  return failing<FILE*>(std::strpbrk(mode, "wa+") && is_watched(path), is_name, nullptr,
-                        [&] { return on(path, mode); });
-}
-
-FILE* fopen64(const char* path, const char* mode) {
-  NEXT(fopen64);
-  return failing<FILE*>(std::strpbrk(mode, "wa+") && is_watched(path), is_name, nullptr,
-                        [&] { return on(path, mode); });
-}
+#define OPENING_STREAM(fopen)                                                              \
+  FILE* fopen(const char* path, const char* mode) {                                        \
+    NEXT(fopen);                                                                           \
+    return failing<FILE*>(std::strpbrk(mode, "wa+") && is_watched(path), is_name, nullptr, \
+                          [&] { return on(path, mode); });                                 \
+  }
+OPENING_STREAM(fopen)
+OPENING_STREAM(fopen64)
 
 }  // extern "C"

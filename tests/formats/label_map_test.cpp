@@ -1,25 +1,22 @@
 // Objects in pictures, checked by an independent decoder of run lengths.
 #include "formats/label_map.hpp"
 
-#include "returns/label_objects.hpp"
 #include "support/test.hpp"
 
 namespace {
 
-Grid<std::uint32_t> two_parts() {
-  Grid<std::uint32_t> key(4, 5);
-  key << 0, 2, 2, 0, 3,  //
-      0, 2, 0, 3, 0,     //
-      0, 0, 0, 0, 0,     //
-      2, 2, 0, 0, 2;
-  return key;
+// Two categories in four objects.
+LabelMap four_objects() {
+  LabelMap map{Grid<std::uint8_t>(4, 5), Grid<std::uint16_t>(4, 5)};
+  map.category << 0, 2, 2, 0, 3, 0, 2, 0, 3, 0, 0, 0, 0, 0, 0, 2, 2, 0, 0, 2;
+  map.instance << 0, 1, 1, 0, 2, 0, 1, 0, 2, 0, 0, 0, 0, 0, 0, 3, 3, 0, 0, 4;
+  return map;
 }
 
 }  // namespace
 
 TEST(LabelMap, annotations_hold_box_area_and_every_pixel) {
-  const Grid<std::uint32_t> key = two_parts();
-  const LabelMap map{key.cast<std::uint8_t>(), connected_parts(key, 1).cast<std::uint16_t>()};
+  const LabelMap map = four_objects();
   const std::vector<Annotation> annotations = annotations_of(map);
   ASSERT_EQ(annotations.size(), 4U);
   const Annotation& corner = annotations[1];
@@ -49,6 +46,6 @@ TEST(LabelMap, refuses_maps_that_do_not_fit) {
     annotations_of({Grid<std::uint8_t>::Zero(4, 5), Grid<std::uint16_t>::Zero(5, 4)});
   });
   expect_error(ErrorKind::argument, {"instance 1 has pixels of categories"}, [] {
-    annotations_of({two_parts().cast<std::uint8_t>(), Grid<std::uint16_t>::Ones(4, 5)});
+    annotations_of({four_objects().category, Grid<std::uint16_t>::Ones(4, 5)});
   });
 }

@@ -35,6 +35,11 @@ struct FanRaster {
 /// Error(argument) for a fan of several elevations, one that looks astern, or columns not within 16 and 8192.
 FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns);
 
+/// The same in a picture of so many rows that reaches from the head to the far end of the gate, with the head below the middle
+/// of the last row; outermost beams show half a beam width beyond their axes. Throws Error(argument) for a fan of several
+/// elevations, or without rows.
+FanRaster fan_raster_from_head(const BeamFan& fan, const RangeGate& gate, int rows);
+
 /// Values of samples at the pixels of a raster, `outside` beside the fan.
 template <typename Value>
 Grid<Value> fan_picture(const Grid<Value>& samples, const FanRaster& raster, Value outside) {

@@ -1,8 +1,7 @@
-// Samples as pixels of pictures, and grey pictures as files.
-#include "view/picture_grid.hpp"
+// Samples as pixels of pictures.
+#include "returns/picture_grid.hpp"
 
 #include "support/test.hpp"
-#include "view/grey_file.hpp"
 
 namespace {
 
@@ -46,23 +45,4 @@ TEST(PictureGrid, fans_of_several_elevations_or_astern_are_refused) {
   });
   expect_error(ErrorKind::argument, {"must look ahead"}, [&] { fan_raster({{-2, 2}, {0, 0}, 0.1, 0.1}, gate, 64); });
   expect_error(ErrorKind::argument, {"columns = 8", "16 and 8192"}, [&] { fan_raster(three_beams, gate, 8); });
-}
-
-TEST(GreyFile, reads_what_it_wrote_in_8_and_16_bits) {
-  Grid<std::uint8_t> eight(2, 3);
-  eight << 0, 1, 2, 253, 254, 255;
-  save_grey_png(own_path("8.png"), eight);
-  EXPECT_EQ(load_grey_png(own_path("8.png")).bits, 8);
-  EXPECT_TRUE((load_grey_png(own_path("8.png")).value == eight.cast<std::uint16_t>()).all());
-  const Grid<std::uint16_t> sixteen = eight.cast<std::uint16_t>() * 257;
-  save_grey_png(own_path("16.png"), sixteen);
-  EXPECT_EQ(load_grey_png(own_path("16.png")).bits, 16);
-  EXPECT_TRUE((load_grey_png(own_path("16.png")).value == sixteen).all());
-  const auto load = [](const std::string& path) { load_grey_png(path); };
-  const std::string png = file_bytes(own_path("16.png"));
-  EXPECT_THAT(error_of_file(load, "cut.png", png.substr(0, png.size() - 5)),
-              HasSubstr("content: cut.png: does not end as a PNG does"));
-  EXPECT_THAT(error_of_file(load, "other.png", "GIF89a"),
-              HasSubstr("content: other.png: does not begin as a PNG does"));
-  EXPECT_THAT(error_with_kind([&] { load("none.png"); }), HasSubstr("file: none.png"));
 }
