@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/label_map.hpp"
+#include "returns/picture_grid.hpp"
 #include "returns/quantise.hpp"
 #include "store/run_directory.hpp"
 #include "tool/dataset_runs.hpp"
 #include "tool/label_pictures.hpp"
 #include "tool/options.hpp"
-#include "returns/picture_grid.hpp"
 
 namespace insonify::tool {
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/units.hpp"
+#include "returns/picture_grid.hpp"
 #include "tool/image.hpp"
 #include "tool/label_pictures.hpp"
 #include "tool/run_files.hpp"
@@ -18,7 +19,6 @@
 #include "tool/track_image.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/label_colours.hpp"
-#include "returns/picture_grid.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {

@@ -10,8 +10,8 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
-#include "view/off_screen_internal.hpp"
 #include "returns/picture_grid.hpp"
+#include "view/off_screen_internal.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify {
