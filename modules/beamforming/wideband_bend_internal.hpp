@@ -22,7 +22,7 @@ struct BendSeries {
   std::size_t stride = 0;         ///< steps of the grid of directions, filled up to a multiple of 8
   std::vector<float> along;       ///< terms x powers x 2 (real, imaginary) x stride
   std::vector<std::size_t> band;  ///< powers of frequency of each term, not growing
-  AlignedFloats rows;             ///< for kernels::mix_rows
+  AlignedFloats rows;             ///< for kernels::RowMix
   std::vector<std::size_t> ins;   ///< of each out of it,
   std::size_t most_ins = 0;       ///< out of so many
 };

@@ -142,7 +142,7 @@ struct BandRows {
   }
 };
 
-/// Factors for kernels::mix_rows: terms to powers of frequency, or back.
+/// Factors for kernels::RowMix: terms to powers of frequency, or back.
 void fill_rows(const WidebandPlan& plan, const BandRows& from, bool echoes, BendSeries& series) {
   const std::size_t terms = series.terms, most_band = series.band[0];
   const std::size_t outs = echoes ? most_band : terms, ins = echoes ? terms : most_band;
@@ -150,7 +150,7 @@ void fill_rows(const WidebandPlan& plan, const BandRows& from, bool echoes, Bend
   series.most_ins = ins;
   for (std::size_t q = 0; q < terms; ++q)
     for (std::size_t s = 0; s < series.band[q]; ++s) ++series.ins[echoes ? s : q];
-  series.rows.assign(series.stride / 8 * outs * ins * 32, 0);
+  series.rows.assign(series.stride / 8 * outs * ins * 16, 0);
   for (std::size_t k = 0; k < plan.rows(); ++k) {
     const std::size_t g = (k + plan.grid - plan.most) % plan.grid;
     const double sign = (k + plan.most) % 2 == 0 ? 1 : -1;
@@ -159,10 +159,9 @@ void fill_rows(const WidebandPlan& plan, const BandRows& from, bool echoes, Bend
         const std::complex<double> value =
             sign * from.row[q](static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(s));
         const std::size_t out = echoes ? s : q, in = echoes ? q : s;
-        float* to = series.rows.data() + ((g / 8 * outs + out) * ins + in) * 32 + 2 * (g % 8);
-        const auto im = static_cast<float>(echoes ? value.imag() : -value.imag());
-        to[0] = to[1] = static_cast<float>(value.real());
-        to[16] = -im, to[17] = im;
+        float* to = series.rows.data() + ((g / 8 * outs + out) * ins + in) * 16 + g % 8;
+        to[0] = static_cast<float>(value.real());
+        to[8] = static_cast<float>(echoes ? value.imag() : -value.imag());
       }
   }
 }
