@@ -137,9 +137,11 @@ void WidebandRoom::to_chunks(const BendSeries& bend) {
   const WidebandPlan& plan = plan_;
   const std::size_t powers = bend.band[0];
   for (std::size_t r = 0; r < plan.rows(); ++r) {
-    for (std::size_t s = 0; s < powers; ++s)
-      transforms_.to_frequencies.run(spectrum_.data() + (s * (plan.rows() + 1) + r) * plan.fine_row,
-                                     row_.data() + s * plan.fine);
+    for (std::size_t s = 0; s < powers; ++s) {
+      Complex* row = spectrum_.data() + (s * (plan.rows() + 1) + r) * plan.fine_row;
+      for (std::size_t n = 0; n < plan.fine; n += 8) __builtin_prefetch(row + plan.fine_row + n, 0, 2);
+      transforms_.to_frequencies.run(row, row_.data() + s * plan.fine);
+    }
     kernels::sum_powers({powers, WidebandPlan::most_powers, plan.line_power.data()}, floats_of(row_.data()),
                         2 * plan.fine, plan.chunks.data(), plan.chunks.size(), lines_.data() + r * chunk_row,
                         plan.rows() * chunk_row);
@@ -163,8 +165,11 @@ void WidebandRoom::to_bins(const BendSeries& bend) {
   const WidebandPlan& plan = plan_;
   const std::size_t rows = plan.rows(), count = plan.chunks.size();
   for (std::size_t r = 0; r < rows; ++r) {
-    for (std::size_t i = 0; i < count; ++i)
-      std::copy_n(lines_.data() + (i * rows + r) * chunk_row, chunk_row, chunk_.data() + i * chunk_row);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* line = lines_.data() + (i * rows + r) * chunk_row;
+      __builtin_prefetch(line + 2 * chunk_row);
+      std::copy_n(line, chunk_row, chunk_.data() + i * chunk_row);
+    }
     for (std::size_t s = 0; s < bend.band[0]; ++s) {
       std::fill(bin_row_.begin(), bin_row_.end(), Complex(0));
       kernels::add_power(chunk_.data(), count, plan.line_power.data() + s * lines_at_once,

@@ -11,6 +11,7 @@ constexpr double most_phase =
     5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
 constexpr double widest_band = 1.35;      // off the carrier, of it: up to there, blocks keep the tolerance
 constexpr std::size_t longest_level = 2;  // blocks are doubled so often at most
+constexpr std::size_t largest_plane = 180000;  // harmonics by samples of a block: larger ones leave the caches
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.
 double nearest_range(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes) {
@@ -54,7 +55,8 @@ WidebandLayout::WidebandLayout(const SonarHead& head, const Medium& medium, doub
     };
     std::size_t level = 0;
     while (level < longest_level && static_cast<double>(sizes_of(level).block) < wanted &&
-           static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1))
+           static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1) &&
+           sizes_of(level + 1).rows() * sizes_of(level + 1).fine <= largest_plane)
       ++level;
     (void)sizes_of(level);
     const double last = first + static_cast<double>(levels[level].block);

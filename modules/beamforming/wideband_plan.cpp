@@ -31,6 +31,8 @@ double oversampling_for(double tolerance) {
   return 1 / (1 - root * root);
 }
 
+constexpr double band_kept = 0.97;  // of the band at least, where a shorter transform holds that much
+
 /// Highest frequency off the carrier that counts [Hz]: there the spectrum is down to the tolerance.
 double band_of(const Pulse& pulse, double tolerance) {
   if (pulse.shape == PulseShape::linear_fm)
@@ -65,11 +67,12 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
   cycle = fast_grid_length(block_bins + 2 * guard);
   block = cycle - 2 * guard;
+  const double duration = static_cast<double>(cycle) * axis.step;
   half_band = band_of(head.pulse, tolerance);
-  fine =
-      fast_grid_length(static_cast<std::size_t>(std::ceil(2 * half_band * static_cast<double>(cycle) * axis.step)) + 2);
+  fine = fast_grid_length(static_cast<std::size_t>(std::ceil(band_kept * 2 * half_band * duration)) + 2);
   while (fine % (2 * lines_at_once) != 0) fine = fast_grid_length(fine + 1);  // no chunk holds both ends of the band
-  fine_step = static_cast<double>(cycle) * axis.step / static_cast<double>(fine);
+  fine_step = duration / static_cast<double>(fine);
+  half_band = std::min(half_band, (0.5 * static_cast<double>(fine) - 1) / duration);
   fine_row = fine + 8;
 
   // A period that the kernel between harmonics needs, and the array as long as it is at the highest frequency.
