@@ -21,8 +21,8 @@ kernels::TimeFactor factor_of(const BendSeries& bend, std::size_t term) {
 std::array<float, wideband_tile> places_in(const BendSeries& bend, double first, double step) {
   std::array<float, wideband_tile> place;
   for (std::size_t n = 0; n < wideband_tile; ++n)
-    place[n] = static_cast<float>(
-        std::clamp((first + static_cast<double>(n) * step - bend.middle) / bend.half, -1.0, 1.0));
+    place[n] =
+        static_cast<float>(std::clamp((first + static_cast<double>(n) * step - bend.middle) / bend.half, -1.0, 1.0));
   return place;
 }
 
@@ -74,11 +74,11 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
   }
 }
 
-WidebandBlock::WidebandBlock(const WidebandPlan& plan, double first_in, double last_in)
+WidebandBlock::WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first_in, double last_in)
     : first(first_in),
       last(last_in),
-      received(bend_of_echoes(plan, first, last)),
-      undone(bend_of_beams(plan, first, last)) {}
+      received(bend_of_echoes(plan, fits, first, last)),
+      undone(bend_of_beams(plan, fits, first, last)) {}
 
 void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) {
   if (unit_ == 0) return;

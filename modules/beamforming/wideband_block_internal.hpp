@@ -14,7 +14,8 @@
 
 namespace insonify {
 
-constexpr std::size_t wideband_tile = kernels::times_at_once;  ///< samples whose directions are turned into harmonics at once
+constexpr std::size_t wideband_tile =
+    kernels::times_at_once;  ///< samples whose directions are turned into harmonics at once
 
 /// The transforms of a plan.
 struct WidebandTransforms {
@@ -28,7 +29,7 @@ struct WidebandBlock {
   double first, last;           ///< bins of the gate; they may begin before it
   BendSeries received, undone;  ///< by echoes, and for beams
 
-  WidebandBlock(const WidebandPlan& plan, double first, double last);
+  WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first, double last);
 };
 
 /// Room of one thread for one block.

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double most_phase =
     5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
-constexpr double widest_band = 1.35;      // off the carrier, of it: up to there, blocks keep the tolerance
-constexpr std::size_t longest_level = 2;  // blocks are doubled so often at most
+constexpr double widest_band = 1.35;           // off the carrier, of it: up to there, blocks keep the tolerance
+constexpr std::size_t longest_level = 1;       // blocks are doubled so often at most
 constexpr std::size_t largest_plane = 180000;  // harmonics by samples of a block: larger ones leave the caches
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.

@@ -169,7 +169,8 @@ void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* room) {
     for (std::size_t i = 0; any && i < mix.stride; ++i)
       for (std::size_t n = 0; n < times_at_once; n += four) {
         FourTimes in;
-        for (std::size_t k = 0; k < 8; ++k) load(from.value + i * from.plane + from.row[g + k] * from.length + 2 * n, in[k]);
+        for (std::size_t k = 0; k < 8; ++k)
+          load(from.value + i * from.plane + from.row[g + k] * from.length + 2 * n, in[k]);
         turn(in);
         for (std::size_t k = 0; k < 8; ++k) store(in[k], room + 16 * (i * times_at_once + n) + 8 * k);
       }

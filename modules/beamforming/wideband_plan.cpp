@@ -125,7 +125,7 @@ void WidebandPlan::plan_directions() {
     node_.push_back(half_width * std::sin(s));
     node_weight_.push_back((k == 0 ? 1 : 2) * half_width * 0.5 * pi / steps * kernel.at(node_.back()) * std::cos(s));
   }
-  const auto factor = [this](double frequency) { return 1 / kernel_moments(frequency)[0].real(); };
+  const auto factor = [this](double frequency) { return 1 / kernel_transform(frequency); };
   for (std::size_t g = 0; g < grid; ++g)
     place_factor.push_back(factor(static_cast<double>(g) / static_cast<double>(grid) - 0.5));
   for (const double u : u_beam) {
@@ -148,6 +148,12 @@ std::array<std::complex<double>, WidebandPlan::moments> WidebandPlan::kernel_mom
   return result;
 }
 
+double WidebandPlan::kernel_transform(double frequency) const {
+  double result = 0;
+  for (std::size_t k = 0; k < node_.size(); ++k) result += node_weight_[k] * std::cos(2 * pi * frequency * node_[k]);
+  return result;
+}
+
 void WidebandPlan::plan_elements() {
   const std::size_t width = kernel.width(), n = elements();
   const double c = medium.sound_speed, top = half_band * seconds(), half_width = 0.5 * static_cast<double>(width);
@@ -161,7 +167,7 @@ void WidebandPlan::plan_elements() {
   // What undoes the kernel on the grid, at 32nds of harmonics.
   std::vector<double> undo;
   for (std::size_t k = 0; k <= 32 * most + 32; ++k)
-    undo.push_back(1 / kernel_moments(static_cast<double>(k) / 32 / static_cast<double>(grid))[0].real());
+    undo.push_back(1 / kernel_transform(static_cast<double>(k) / 32 / static_cast<double>(grid)));
   for (std::size_t i = 0; i < chunks.size(); ++i)
     for (std::size_t m = 0; m < n; ++m) {
       std::array<double, lines_at_once> place;
