@@ -7,11 +7,13 @@
 namespace insonify {
 namespace {
 
-constexpr double most_phase =
-    5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
-constexpr double widest_band = 1.35;           // off the carrier, of it: up to there, blocks keep the tolerance
-constexpr std::size_t longest_level = 1;       // blocks are doubled so often at most
-constexpr std::size_t largest_plane = 180000;  // harmonics by samples of a block: larger ones leave the caches
+// Phase of the bend over a block's ranges: powers of time up to it fit single precision [rad].
+constexpr double most_phase = 5;
+constexpr double widest_band = 1.35;  // off the carrier, of it: up to there, blocks keep the tolerance
+// Blocks are doubled so often at most; the last time only where the bend has no more phase than this: where terms and
+// powers are many, longer ones leave the caches.
+constexpr std::size_t longest_level = 2;
+constexpr double most_bend = 2;
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.
 double nearest_range(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes) {
@@ -41,7 +43,9 @@ WidebandLayout::WidebandLayout(const SonarHead& head, const Medium& medium, doub
   guard = static_cast<double>(ends);
   const auto fits = [&](double range, std::size_t level) {
     const double far = range + static_cast<double>(2 * ends << level) * head.gate.bin_size;
-    return BendPhase(head, medium, range, far).over_range <= most_phase;
+    const BendPhase phase(head, medium, range, far);
+    return phase.over_range <= most_phase &&
+           (level < longest_level || phase.all * any.widest * any.widest <= most_bend);
   };
   nearest = std::max(nearest_range(head, medium, any), 1e-3 * head.gate.bin_size);
   while (!fits(nearest, 0)) nearest *= 1.02;
@@ -55,8 +59,7 @@ WidebandLayout::WidebandLayout(const SonarHead& head, const Medium& medium, doub
     };
     std::size_t level = 0;
     while (level < longest_level && static_cast<double>(sizes_of(level).block) < wanted &&
-           static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1) &&
-           sizes_of(level + 1).rows() * sizes_of(level + 1).fine <= largest_plane)
+           static_cast<double>(2 * ends << (level + 1)) <= allowed && fits(range, level + 1))
       ++level;
     (void)sizes_of(level);
     const double last = first + static_cast<double>(levels[level].block);
