@@ -24,14 +24,15 @@ std::size_t fast_grid_length(std::size_t least) {
   return std::bit_ceil(least);
 }
 
+/// Others, that take twice as long: good where they are few beside other transforms.
+constexpr std::size_t fair_lengths[] = {300, 480, 600, 960};
+
 /// How much finer than needed a grid is, for a kernel of width 8 to be good to a fiftieth of the tolerance: its error
 /// is exp(-8 pi sqrt(1 - 1 / oversampling)).
 double oversampling_for(double tolerance) {
   const double root = std::clamp(-std::log(0.02 * tolerance) / (8 * pi), 0.4, 0.62);
   return 1 / (1 - root * root);
 }
-
-constexpr double band_kept = 0.97;  // of the band at least, where a shorter transform holds that much
 
 /// Highest frequency off the carrier that counts [Hz]: there the spectrum is down to the tolerance.
 double band_of(const Pulse& pulse, double tolerance) {
@@ -65,14 +66,24 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
-  cycle = fast_grid_length(block_bins + 2 * guard);
-  block = cycle - 2 * guard;
-  const double duration = static_cast<double>(cycle) * axis.step;
   half_band = band_of(head.pulse, tolerance);
-  fine = fast_grid_length(static_cast<std::size_t>(std::ceil(band_kept * 2 * half_band * duration)) + 2);
-  while (fine % (2 * lines_at_once) != 0) fine = fast_grid_length(fine + 1);  // no chunk holds both ends of the band
-  fine_step = duration / static_cast<double>(fine);
-  half_band = std::min(half_band, (0.5 * static_cast<double>(fine) - 1) / duration);
+  // Of cycles that hold the block, the one with the fewest samples for its bins.
+  const auto fine_of = [this](std::size_t bins) {
+    const double lines = 2 * half_band * static_cast<double>(bins) * axis.step;
+    std::size_t length = fast_grid_length(static_cast<std::size_t>(std::ceil(lines)) + 2);
+    while (length % (2 * lines_at_once) != 0) length = fast_grid_length(length + 1);  // no chunk holds both ends
+    return length;
+  };
+  cycle = fast_grid_length(block_bins + 2 * guard);
+  fine = fine_of(cycle);
+  for (const std::size_t other : fair_lengths)
+    if (other >= block_bins + 2 * guard && other < cycle &&
+        (fine_of(other) + other) * (cycle - 2 * guard) < (fine + cycle) * (other - 2 * guard)) {
+      cycle = other;
+      fine = fine_of(other);
+    }
+  block = cycle - 2 * guard;
+  fine_step = static_cast<double>(cycle) * axis.step / static_cast<double>(fine);
   fine_row = fine + 8;
 
   // A period that the kernel between harmonics needs, and the array as long as it is at the highest frequency.
