@@ -114,7 +114,7 @@ void WidebandRoom::receive(const BendSeries& bend) {
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
     if (!touched_[n0 / wideband_tile]) {
       for (std::size_t r = 0; r < bend.band[0] * rows; ++r)
-        std::fill_n(spectrum_.data() + r * plan.fine_row + n0, wideband_tile, Complex(0));
+        std::fill_n(floats_of(spectrum_.data() + r * plan.fine_row + n0), 2 * wideband_tile, 0.0F);
       continue;
     }
     const auto time = places_in(bend, start_time_ + static_cast<double>(n0) * plan.fine_step, plan.fine_step);
