@@ -165,12 +165,12 @@ cat <<TEXT
 ## True delays
 
 Method \`true-delays\` (E68) against element-exact at 1e-7, made by \`true_delays_accuracy\`: relative L2 error of 24 beams for 100 echoes within ten
-degrees of the direction, over 60 bins to either side of the range; processor time of the image on one thread for 200 000 echoes over half the range, median of three,
+degrees of the direction, over 60 bins to either side of the range; processor time of the image on one thread for 200 000 echoes over half the range, median of seven,
 next to that of the narrow-band image at 1e-3. The promise holds against element-exact, whose image is that of delays of every element to
 echo and focus: a line array of point elements, Gaussian pulses, echoes at rest or moving, tolerances from 1e-5. Sweeps are held to 1e-2 only.
 Rows of a rough field: all surfels seen of a bed that is rough at its own spacing of 2 cm, unsplit, from 2 m above; errors for 3000 of them. So few echoes leave
 nearly all of the cost in transforms. A default ping splits them, to millions: of the built-in harbour, 27 million echoes at 0.5 to 40 m, oculus-m750d, it takes 1.3 times the processor
-time of the ping with \`--method gridded\`. Tables are made once for each head; they cost the first image of a head some 30 to 160 ms more.
+time of the ping with \`--method gridded\`. Tables are made once for each head; they cost the first image of a head some 20 to 100 ms more.
 
 TEXT
 "$(dirname "$tool")/true_delays_accuracy"

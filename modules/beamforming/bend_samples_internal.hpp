@@ -38,6 +38,9 @@ struct BendSamples {
   void place_nodes(const WidebandPlan& plan, const BendSpan& span);
   void sample(const WidebandPlan& plan, const BendSpan& span);
   void undo_rows(const WidebandPlan& plan);
+  /// The other directions: at (-u, -y) the bend is that at (u, y).
+  void mirror();
+  std::size_t half_of_u() const { return (u.size() + 1) / 2; }
 };
 
 /// Where rows of harmonics lie on the array at a frequency `off` below the carrier.

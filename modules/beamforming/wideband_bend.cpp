@@ -37,9 +37,9 @@ double mean_bend(const BendSpan& span, double y) {
   return 0.5 * (Bend(span.mean_range, span.mean_u, y).b + Bend(span.mean_range, -span.mean_u, y).b);
 }
 
-/// What undoes gridding, beside exp(2 pi i F b / c): the kernel of directions, around which the phase is a parabola, and
+/// exp(i phase), and what undoes gridding beside it: the kernel of directions, around which the phase is a parabola, and
 /// of echoes the time of their pulses.
-Complex undone(const WidebandPlan& plan, const Bend& bend, double off, const std::vector<Complex>& moment,
+Complex undone(const WidebandPlan& plan, const Bend& bend, double phase, double off, const std::vector<Complex>& moment,
                bool echoes) {
   const double wave = 2 * pi * (plan.head.pulse.centre_frequency - off) / plan.medium.sound_speed;
   const double step = plan.period / static_cast<double>(plan.grid);
@@ -57,14 +57,15 @@ Complex undone(const WidebandPlan& plan, const Bend& bend, double off, const std
     before = now;
     now = next;
   }
-  if (!echoes) return sum;
+  if (!echoes) return std::polar(1.0, phase) * sum;
   // A Gaussian pulse whose samples are turned by a phase that grows with time: its spectrum is moved. Then what is of
   // second order in time, and in both.
   const double speed = 0.5 * plan.medium.sound_speed, width = plan.spectral_width2, turn = speed * wave * bend.by_r;
   const double late = width * (off / pi - turn / (4 * pi * pi)), later = late - width * turn / (4 * pi * pi);
   const Complex second = 0.5 * speed * speed * wave * bend.by_r2 * Complex(0, width / (2 * pi * pi) + later * later) +
                          speed * step * wave * bend.by_ur * later * slope * std::conj(sum) / std::norm(sum);
-  return std::exp(-turn * late - second) * sum;
+  const Complex power = -turn * late - second;
+  return std::polar(std::exp(power.real()), phase + power.imag()) * sum;
 }
 
 /// Nodes in range: what interpolation between n of them leaves of a phase that goes by `over_range` to either side,
@@ -115,6 +116,7 @@ BendSamples::BendSamples(const WidebandPlan& plan, const BendSpan& span) {
   place_nodes(plan, span);
   sample(plan, span);
   undo_rows(plan);
+  mirror();
 }
 
 void BendSamples::place_nodes(const WidebandPlan& plan, const BendSpan& span) {
@@ -149,14 +151,14 @@ void BendSamples::sample(const WidebandPlan& plan, const BendSpan& span) {
       weight.push_back(shading_at(plan, y.back()) * plan.node_weight[f] * std::pow(1 - node * node, 0.25));
     }
   value.resize(static_cast<Eigen::Index>(u.size() * r.size()), static_cast<Eigen::Index>(y.size()));
-  for (std::size_t j = 0; j < u.size(); ++j)
+  for (std::size_t j = 0; j < half_of_u(); ++j)
     for (std::size_t k = 0; k < r.size(); ++k)
       for (std::size_t at = 0; at < y.size(); ++at) {
         const Bend bend(r[k], u[j], y[at]);
         const double off = plan.node_frequency[at / places];
         const double turn = 2 * pi * (plan.head.pulse.centre_frequency - off) / c * (bend.b - mean[at]);
         value(static_cast<Eigen::Index>(j * r.size() + k), static_cast<Eigen::Index>(at)) =
-            std::polar(1.0, turn) * undone(plan, bend, off, moment[at], span.echoes);
+            undone(plan, bend, turn, off, moment[at], span.echoes);
       }
 }
 
@@ -167,7 +169,7 @@ void BendSamples::undo_rows(const WidebandPlan& plan) {
   std::vector<Eigen::MatrixXd> power = {Eigen::MatrixXd::Identity(count_y, count_y)};
   while (power.size() < WidebandPlan::moments) power.push_back(slope * power.back());
   Eigen::MatrixXcd all(count_y, count_y);
-  for (std::size_t j = 0; j < u.size(); ++j) {
+  for (std::size_t j = 0; j < half_of_u(); ++j) {
     const std::vector<Complex> inverse = inverse_series(plan, u[j] / plan.period);
     for (std::size_t f = 0; f < plan.node_frequency.size(); ++f) {
       const RowPlaces rows(plan, plan.node_frequency[f]);
@@ -191,6 +193,16 @@ void BendSamples::undo_rows(const WidebandPlan& plan) {
       values = (all * before).transpose();
     }
   }
+}
+
+void BendSamples::mirror() {
+  const auto count_y = static_cast<Eigen::Index>(places), count_r = static_cast<Eigen::Index>(r.size());
+  for (std::size_t j = half_of_u(); j < u.size(); ++j)
+    for (Eigen::Index first = 0; first < value.cols(); first += count_y)
+      value.block(static_cast<Eigen::Index>(j) * count_r, first, count_r, count_y) =
+          value.block(static_cast<Eigen::Index>(u.size() - 1 - j) * count_r, first, count_r, count_y)
+              .rowwise()
+              .reverse();
 }
 
 }  // namespace insonify

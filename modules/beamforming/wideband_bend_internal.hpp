@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "beamforming/wideband_plan_internal.hpp"
 
 namespace insonify {
@@ -22,16 +24,30 @@ struct BendSeries {
   std::size_t stride = 0;         ///< steps of the grid of directions, filled up to a multiple of 8
   std::vector<float> along;       ///< terms x powers x 2 (real, imaginary) x stride
   std::vector<std::size_t> band;  ///< powers of frequency of each term, not growing
-  AlignedFloats rows;             ///< for kernels::mix_rows
+  AlignedFloats rows;             ///< for kernels::RowMix
   std::vector<std::size_t> ins;   ///< of each out of it,
   std::size_t most_ins = 0;       ///< out of so many
 };
 
+/// How functions of frequency are fitted by powers of it for each row of harmonics: of a plan, for all of its blocks.
+struct RowFits {
+  struct Row {
+    Eigen::VectorXd weight;        ///< of frequencies
+    Eigen::MatrixXd across, root;  ///< root x coefficients = across x weighted values
+    double counts = 0;             ///< how much the row counts
+  };
+  Eigen::MatrixXd place;  ///< where rows lie on the array, by row and frequency [m]
+  std::vector<Row> row;
+  double all = 0;  ///< square of what errors are relative to
+
+  explicit RowFits(const WidebandPlan& plan);
+};
+
 /// For echoes of a block from `first` to `last` bin: terms become powers of frequency. Gridding smears echoes over the
 /// time of a pulse too, over which the bend changes: that is undone.
-BendSeries bend_of_echoes(const WidebandPlan& plan, double first, double last);
+BendSeries bend_of_echoes(const WidebandPlan& plan, const RowFits& fits, double first, double last);
 
 /// The conjugate, for beams: powers of frequency become terms.
-BendSeries bend_of_beams(const WidebandPlan& plan, double first, double last);
+BendSeries bend_of_beams(const WidebandPlan& plan, const RowFits& fits, double first, double last);
 
 }  // namespace insonify

@@ -11,15 +11,23 @@ using kernels::lines_at_once;
 
 constexpr std::size_t chunk_row = 2 * lines_at_once;  // numbers of a harmonic in a chunk of frequencies
 
-constexpr std::size_t beams_ahead = 8, rows_ahead = 6;  // that are fetched into the cache
+constexpr std::size_t beams_ahead = 8;  // that are fetched into the cache
 
 kernels::TimeFactor factor_of(const BendSeries& bend, std::size_t term) {
   return {bend.along.data() + term * bend.powers * 2 * bend.stride, bend.powers, bend.stride};
 }
 
-/// A time within the block, from -1 to 1.
-float place_in(const BendSeries& bend, double time) {
-  return static_cast<float>(std::clamp((time - bend.middle) / bend.half, -1.0, 1.0));
+/// Times of a tile within the block, from -1 to 1.
+std::array<float, wideband_tile> places_in(const BendSeries& bend, double first, double step) {
+  std::array<float, wideband_tile> place;
+  for (std::size_t n = 0; n < wideband_tile; ++n)
+    place[n] =
+        static_cast<float>(std::clamp((first + static_cast<double>(n) * step - bend.middle) / bend.half, -1.0, 1.0));
+  return place;
+}
+
+kernels::RowMix mix_of(const BendSeries& bend) {
+  return {bend.rows.data(), bend.ins.size(), bend.ins.data(), bend.most_ins};
 }
 
 template <typename Numbers>
@@ -37,8 +45,8 @@ float* floats_of(Complex* numbers) {
 WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
     : to_harmonics(plan.grid, wideband_tile, plan.grid_stride, FFTW_FORWARD),
       to_frequencies(plan.fine, 1, plan.fine, FFTW_FORWARD),
-      to_directions(plan.grid, wideband_tile, plan.grid_stride, FFTW_BACKWARD),
-      to_bins(plan.cycle, 1, FFTW_BACKWARD) {}
+      to_bins(plan.cycle, 1, plan.cycle, FFTW_BACKWARD),
+      to_directions(plan.grid, wideband_tile, plan.grid_stride, FFTW_BACKWARD) {}
 
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
     : plan_(plan),
@@ -46,145 +54,141 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
       re_((plan.fine + wideband_tile) * plan.grid_stride),
       im_((plan.fine + wideband_tile) * plan.grid_stride),
       tile_(plan.grid_stride * wideband_tile),
+      bin_row_(plan.cycle + lines_at_once),
       lines_(plan.chunks.size() * plan.rows() * chunk_row),
-      chunk_(plan.rows() * chunk_row),
-      sum_re_(plan.grid_stride * wideband_tile),
-      sum_im_(plan.grid_stride * wideband_tile),
+      chunk_(std::max(plan.rows(), plan.chunks.size()) * chunk_row),
       across_(plan.grid * 2 * wideband_tile),
+      place_(plan.grid, static_cast<std::uint32_t>(plan.rows())),
       scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
       beam_(2 * wideband_tile),
       touched_(plan.fine / wideband_tile + 2),
-      bins_row_((plan.cycle + 15) / 8 * 8) {
-  for (std::size_t r = 0; r < plan.rows(); ++r) place_.push_back((r + plan.grid - plan.most) % plan.grid);
+      bins_row_((plan.cycle + wideband_tile - 1) / wideband_tile * wideband_tile + 8) {
+  for (std::size_t r = 0; r < plan.rows(); ++r)
+    place_[(r + plan.grid - plan.most) % plan.grid] = static_cast<std::uint32_t>(r);
+  // Frequencies beyond what bins can tell fold, as they do in any sampled image.
+  const auto cycle = static_cast<std::ptrdiff_t>(plan.cycle);
+  for (const std::size_t chunk : plan.chunks) {
+    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(plan.line_of((chunk + 1) * lines_at_once - 1)) -
+                                static_cast<std::ptrdiff_t>(lines_at_once - 1);
+    bin_.push_back(static_cast<std::uint32_t>((line % cycle + cycle) % cycle));
+  }
 }
 
-WidebandBlock::WidebandBlock(const WidebandPlan& plan, double first_in, double last_in)
+WidebandBlock::WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first_in, double last_in)
     : first(first_in),
       last(last_in),
-      received(bend_of_echoes(plan, first, last)),
-      undone(bend_of_beams(plan, first, last)) {}
+      received(bend_of_echoes(plan, fits, first, last)),
+      undone(bend_of_beams(plan, fits, first, last)) {}
 
 void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) {
   if (unit_ == 0) return;
   const WidebandPlan& plan = plan_;
   const BendSeries &received = block.received, &undone = block.undone;
-  const std::size_t tile = wideband_tile * plan.grid_stride;
-  grow(harmonics_, std::max(received.terms, undone.band[0]) * tile);
-  grow(mixed_, std::max(received.band[0], undone.terms) * tile);
-  grow(spectrum_, received.band[0] * plan.rows() * plan.fine_row);
+  const std::size_t tile = wideband_tile * plan.grid_stride, rows = plan.rows() + 1;
+  grow(harmonics_, std::max(received.terms, undone.terms) * tile);
+  grow(directions_, undone.terms * tile);
+  grow(mixed_, std::max(received.most_ins, undone.most_ins) * wideband_tile * chunk_row);
+  grow(spectrum_, received.band[0] * rows * plan.fine_row);
   grow(row_, received.band[0] * plan.fine);
-  grow(bins_, undone.band[0] * plan.rows() * bins_row_);
+  grow(bins_, undone.band[0] * rows * bins_row_);
   receive(received);
   to_chunks(received);
-  through_elements(undone);
+  through_elements();
+  to_bins(undone);
   add_beams(block, pressure);
 }
 
-void WidebandRoom::mix(const BendSeries& bend) {
-  const std::size_t tile = wideband_tile * plan_.grid_stride, below = plan_.most / 8 + 1;
-  const kernels::RowMix rows{bend.rows.data(), bend.ins.size(), bend.ins.data(), bend.most_ins};
-  kernels::MixedPlanes planes{floats_of(harmonics_.data()),
-                              floats_of(mixed_.data()),
-                              2 * tile,
-                              2 * tile,
-                              2 * plan_.grid_stride,
-                              wideband_tile,
-                              0,
-                              below};
-  kernels::mix_rows(rows, planes);
-  planes.first = std::max(below, (plan_.grid - plan_.most) / 8);
-  planes.last = plan_.grid / 8;
-  kernels::mix_rows(rows, planes);
+kernels::TimePlanes WidebandRoom::planes_of(Numbers& numbers) const {
+  return {floats_of(numbers.data()), plan_.grid, 2 * plan_.grid_stride, 2 * wideband_tile * plan_.grid_stride};
+}
+
+kernels::PlaceRows WidebandRoom::rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const {
+  const std::size_t rows = plan_.rows();
+  return {floats_of(numbers.data() + n0), place_.data(), static_cast<std::uint32_t>(rows), 2 * length,
+          2 * (rows + 1) * length};
 }
 
 void WidebandRoom::receive(const BendSeries& bend) {
   const WidebandPlan& plan = plan_;
-  const std::size_t tile = wideband_tile * plan.grid_stride, powers = bend.band[0];
+  const std::size_t tile = wideband_tile * plan.grid_stride, rows = plan.rows() + 1;
   for (std::size_t n0 = 0; n0 < plan.fine; n0 += wideband_tile) {
-    const std::size_t count = std::min(wideband_tile, plan.fine - n0);
-    const bool touched = touched_[n0 / wideband_tile];
-    for (std::size_t q = 0; touched && q < bend.terms; ++q) {
-      for (std::size_t n = 0; n < count; ++n) {
-        const std::size_t at = (n0 + n) * plan.grid_stride;
-        const double time = start_time_ + static_cast<double>(n0 + n) * plan.fine_step;
-        kernels::weigh_row(factor_of(bend, q), place_in(bend, time), re_.data() + at, im_.data() + at, plan.grid,
-                           floats_of(tile_.data() + n * plan.grid_stride));
-      }
+    if (!touched_[n0 / wideband_tile]) {
+      for (std::size_t r = 0; r < bend.band[0] * rows; ++r)
+        std::fill_n(floats_of(spectrum_.data() + r * plan.fine_row + n0), 2 * wideband_tile, 0.0F);
+      continue;
+    }
+    const auto time = places_in(bend, start_time_ + static_cast<double>(n0) * plan.fine_step, plan.fine_step);
+    for (std::size_t q = 0; q < bend.terms; ++q) {
+      kernels::weigh(factor_of(bend, q), time.data(), re_.data() + n0 * plan.grid_stride,
+                     im_.data() + n0 * plan.grid_stride, plan.grid, plan.grid_stride, floats_of(tile_.data()));
       transforms_.to_harmonics.run(tile_.data(), harmonics_.data() + q * tile);
     }
-    if (touched) mix(bend);
-    // One row per harmonic.
-    for (std::size_t s = 0; s < powers; ++s)
-      for (std::size_t r = 0; r < plan.rows(); ++r) {
-        const Complex* from = mixed_.data() + s * tile + place_[r];
-        Complex* to = spectrum_.data() + (s * plan.rows() + r) * plan.fine_row + n0;
-        __builtin_prefetch(to + rows_ahead * plan.fine_row, 1);
-        __builtin_prefetch(to + rows_ahead * plan.fine_row + 8, 1);
-        for (std::size_t n = 0; n < count; ++n) to[n] = touched ? from[n * plan.grid_stride] : Complex(0);
-      }
+    kernels::mix_to_rows(mix_of(bend), planes_of(harmonics_), rows_of(spectrum_, plan.fine_row, n0), mixed_.data());
   }
+  // For the next block, while it is near.
+  for (std::size_t k = 0; k <= plan.fine / wideband_tile; ++k)
+    if (touched_[k]) {
+      std::fill_n(re_.data() + k * tile, tile, 0.0F);
+      std::fill_n(im_.data() + k * tile, tile, 0.0F);
+    }
 }
 
 void WidebandRoom::to_chunks(const BendSeries& bend) {
   const WidebandPlan& plan = plan_;
   const std::size_t powers = bend.band[0];
   for (std::size_t r = 0; r < plan.rows(); ++r) {
-    for (std::size_t s = 0; s < powers; ++s)
-      transforms_.to_frequencies.run(spectrum_.data() + (s * plan.rows() + r) * plan.fine_row,
-                                     row_.data() + s * plan.fine);
+    for (std::size_t s = 0; s < powers; ++s) {
+      Complex* row = spectrum_.data() + (s * (plan.rows() + 1) + r) * plan.fine_row;
+      for (std::size_t n = 0; n < plan.fine; n += 8) __builtin_prefetch(row + plan.fine_row + n, 0, 2);
+      transforms_.to_frequencies.run(row, row_.data() + s * plan.fine);
+    }
     kernels::sum_powers({powers, WidebandPlan::most_powers, plan.line_power.data()}, floats_of(row_.data()),
                         2 * plan.fine, plan.chunks.data(), plan.chunks.size(), lines_.data() + r * chunk_row,
                         plan.rows() * chunk_row);
   }
 }
 
-void WidebandRoom::through_elements(const BendSeries& bend) {
+void WidebandRoom::through_elements() {
   const WidebandPlan& plan = plan_;
-  const std::size_t chunk = plan.rows() * chunk_row, elements = plan.elements(), powers = bend.band[0];
-  const auto cycle = static_cast<std::ptrdiff_t>(plan.cycle);
-  std::fill_n(bins_.data(), powers * plan.rows() * bins_row_, Complex(0));
+  const std::size_t chunk = plan.rows() * chunk_row, elements = plan.elements();
   for (std::size_t i = 0; i < plan.chunks.size(); ++i) {
-    std::fill(chunk_.begin(), chunk_.end(), 0.0F);
+    std::fill_n(chunk_.data(), chunk, 0.0F);
     const kernels::ElementTaps taps{elements, plan.taps, plan.tap_row.data() + i * elements,
                                     plan.tap_weight.data() + i * elements * plan.taps * lines_at_once};
     kernels::through_elements(taps, plan.element_weight.data() + i * elements * lines_at_once,
                               lines_.data() + i * chunk, chunk_.data());
-    // Frequencies beyond what bins can tell fold, as they do in any sampled image.
-    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(plan.line_of((plan.chunks[i] + 1) * lines_at_once - 1)) -
-                                static_cast<std::ptrdiff_t>(lines_at_once - 1);
-    const std::ptrdiff_t bin = (line % cycle + cycle) % cycle;
-    kernels::add_powers(
-        {powers, WidebandPlan::most_powers, plan.line_power.data() + i * WidebandPlan::most_powers * lines_at_once},
-        chunk_.data(), plan.rows(), floats_of(bins_.data() + bin), bins_row_, plan.rows() * bins_row_);
+    std::copy_n(chunk_.data(), chunk, lines_.data() + i * chunk);
   }
-  for (std::size_t r = 0; r < powers * plan.rows(); ++r) {
-    Complex* bin = bins_.data() + r * bins_row_;
-    for (std::size_t k = 0; k < lines_at_once; ++k) bin[k] += bin[plan.cycle + k];
-    transforms_.to_bins.run(bin);
+}
+
+void WidebandRoom::to_bins(const BendSeries& bend) {
+  const WidebandPlan& plan = plan_;
+  const std::size_t rows = plan.rows(), count = plan.chunks.size();
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* line = lines_.data() + (i * rows + r) * chunk_row;
+      __builtin_prefetch(line + 2 * chunk_row);
+      std::copy_n(line, chunk_row, chunk_.data() + i * chunk_row);
+    }
+    for (std::size_t s = 0; s < bend.band[0]; ++s) {
+      std::fill(bin_row_.begin(), bin_row_.end(), Complex(0));
+      kernels::add_power(chunk_.data(), count, plan.line_power.data() + s * lines_at_once,
+                         WidebandPlan::most_powers * lines_at_once, bin_.data(), floats_of(bin_row_.data()));
+      for (std::size_t k = 0; k < lines_at_once; ++k) bin_row_[k] += bin_row_[plan.cycle + k];
+      transforms_.to_bins.run(bin_row_.data(), bins_.data() + (s * (rows + 1) + r) * bins_row_);
+    }
   }
 }
 
 void WidebandRoom::form_directions(const BendSeries& bend, std::size_t n0, double first) {
   const WidebandPlan& plan = plan_;
-  const std::size_t tile = wideband_tile * plan.grid_stride, rows = plan.rows(), at_once = 8,
-                    count = std::min(wideband_tile, plan.cycle - n0);
-  for (std::size_t s = 0; s < bend.band[0]; ++s)
-    for (std::size_t r0 = 0; r0 < rows; r0 += at_once)
-      for (std::size_t n = 0; n < count; ++n)
-        for (std::size_t r = r0; r < std::min(r0 + at_once, rows); ++r)
-          harmonics_[s * tile + n * plan.grid_stride + place_[r]] = bins_[(s * rows + r) * bins_row_ + n0 + n];
-  mix(bend);
-  std::fill(sum_re_.begin(), sum_re_.end(), 0.0F);
-  std::fill(sum_im_.begin(), sum_im_.end(), 0.0F);
-  for (std::size_t q = 0; q < bend.terms; ++q) {
-    transforms_.to_directions.run(mixed_.data() + q * tile, tile_.data());
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t at = n * plan.grid_stride;
-      const float time = place_in(bend, plan.time_of(first + static_cast<double>(n)));
-      kernels::weigh_back(factor_of(bend, q), time, floats_of(tile_.data() + at), plan.grid, sum_re_.data() + at,
-                          sum_im_.data() + at);
-    }
-  }
+  const std::size_t tile = wideband_tile * plan.grid_stride;
+  kernels::mix_from_rows(mix_of(bend), rows_of(bins_, bins_row_, n0), planes_of(harmonics_), mixed_.data());
+  for (std::size_t q = 0; q < bend.terms; ++q)
+    transforms_.to_directions.run(harmonics_.data() + q * tile, directions_.data() + q * tile);
+  const auto time = places_in(bend, plan.time_of(first), plan.axis.step);
+  kernels::weigh_back(factor_of(bend, 0), time.data(), floats_of(directions_.data()), bend.terms, 2 * tile, plan.grid,
+                      plan.grid_stride, across_.data());
 }
 
 void WidebandRoom::add_beams(const WidebandBlock& block, ComplexGrid& pressure) {
@@ -199,11 +203,6 @@ void WidebandRoom::add_beams(const WidebandBlock& block, ComplexGrid& pressure) 
                          to = std::min<std::ptrdiff_t>(first + static_cast<std::ptrdiff_t>(wideband_tile), end);
     if (from >= to) continue;
     form_directions(block.undone, n0, static_cast<double>(first));
-    for (std::size_t g = 0; g < plan.grid; ++g)
-      for (std::size_t n = 0; n < wideband_tile; ++n) {
-        across_[2 * (g * wideband_tile + n)] = sum_re_[n * plan.grid_stride + g];
-        across_[2 * (g * wideband_tile + n) + 1] = sum_im_[n * plan.grid_stride + g];
-      }
     for (std::size_t b = 0; b < plan.u_beam.size(); ++b) {
       kernels::take_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width, across_.data(),
                          2 * wideband_tile, 2 * wideband_tile, beam_.data());

@@ -14,12 +14,12 @@
 
 namespace insonify {
 
-constexpr std::size_t wideband_tile = 16;  ///< samples whose directions are turned into harmonics at once
+constexpr std::size_t wideband_tile =
+    kernels::times_at_once;  ///< samples whose directions are turned into harmonics at once
 
 /// The transforms of a plan.
 struct WidebandTransforms {
-  FftOfRows<float> to_harmonics, to_frequencies, to_directions;
-  FftAlongRows<float> to_bins;
+  FftOfRows<float> to_harmonics, to_frequencies, to_bins, to_directions;
 
   explicit WidebandTransforms(const WidebandPlan& plan);
 };
@@ -29,7 +29,7 @@ struct WidebandBlock {
   double first, last;           ///< bins of the gate; they may begin before it
   BendSeries received, undone;  ///< by echoes, and for beams
 
-  WidebandBlock(const WidebandPlan& plan, double first, double last);
+  WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first, double last);
 };
 
 /// Room of one thread for one block.
@@ -60,24 +60,28 @@ class WidebandRoom {
   void receive(const BendSeries& bend);
   /// The same by chunk of frequencies.
   void to_chunks(const BendSeries& bend);
-  /// What elements send to harmonics, by power of frequency and bin.
-  void through_elements(const BendSeries& bend);
+  /// What elements make of chunks, by harmonic.
+  void through_elements();
+  /// The same by power of frequency and bin.
+  void to_bins(const BendSeries& bend);
   void add_beams(const WidebandBlock& block, ComplexGrid& pressure);
-  /// The grid of directions at the bins from n0 on, each term of the bend undone, in sums_; `first` is the bin of n0.
+  /// The grid of directions at the bins from n0 on, the bend undone, in across_; `first` is the bin of n0.
   void form_directions(const BendSeries& bend, std::size_t n0, double first);
-  /// From terms to powers of frequency, or back, for rows of harmonics: from harmonics_ to mixed_.
-  void mix(const BendSeries& bend);
+  /// A tile by direction or harmonic, and rows of harmonics from time `n0` on.
+  kernels::TimePlanes planes_of(Numbers& numbers) const;
+  kernels::PlaceRows rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const;
 
   const WidebandPlan& plan_;
   const WidebandTransforms& transforms_;
-  AlignedArray<float, float> re_, im_;      ///< fine samples x grid_stride
-  Numbers tile_;                            ///< some samples by direction
-  Numbers harmonics_, mixed_;               ///< some samples by harmonic, of each term, or power of frequency
-  Numbers spectrum_, row_;                  ///< powers x harmonics x fine samples, and one harmonic by frequency
-  Numbers bins_;                            ///< powers x harmonics x bins
-  AlignedFloats lines_, chunk_;             ///< by chunk, harmonic and line; of one chunk
-  AlignedFloats sum_re_, sum_im_, across_;  ///< some bins x grid_stride; by grid step and bin
-  std::vector<std::size_t> place_;          ///< of rows of harmonics in a transform
+  AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride; 0 between images
+  Numbers tile_;                        ///< some samples by direction
+  Numbers harmonics_, directions_;      ///< some samples by harmonic or direction, of each term
+  Numbers spectrum_, row_;              ///< powers x harmonics x fine samples, and one harmonic by frequency
+  Numbers bins_, bin_row_;              ///< powers x harmonics x bins, and one harmonic
+  AlignedFloats lines_, chunk_;         ///< by chunk, harmonic and line; of one chunk, or one harmonic
+  AlignedFloats across_, mixed_;        ///< by grid step and bin; room of mixes
+  std::vector<std::uint32_t> place_;    ///< rows of harmonics of a transform
+  std::vector<std::uint32_t> bin_;      ///< first of each chunk
   std::vector<float> scratch_, samples_, beam_;
   std::vector<double> pulse_re_, pulse_im_;
   std::vector<char> touched_;  ///< tiles of fine samples that hold anything

@@ -11,8 +11,9 @@
 namespace insonify {
 namespace {
 
-constexpr double per_grid_sample = 1.4, per_tap = 2.5, per_beam_sample = 2.8;  // of each term of a block
-constexpr double per_place = 200, per_element_node = 150, per_tap_made = 450;
+constexpr double per_grid_sample = 2.6;  // of each term of a block
+constexpr double per_tap = 3.5, per_beam_sample = 2;
+constexpr double per_place = 120, per_row = 1000, per_tap_made = 500;
 constexpr double per_pulse = 30, per_pulse_sample = 3, per_own_sample = 3;
 constexpr double out_of_cache = 4;  // for pulses on planes above 1 MiB
 constexpr double per_exact_sample = 35, per_exact_pair = 90;
@@ -51,16 +52,16 @@ WidebandCost wideband_cost(const SonarHead& head, const Medium& medium, const Sy
     const double chunks = 2 * static_cast<double>(s.top_line()) / kernels::lines_at_once + 2,
                  taps = chunks * elements * static_cast<double>(s.taps);
     const double nodes = 14 + 1.4 * phase.all * s.widest * s.widest, powers = 3 + 2 * phase.over_range;
-    nanoseconds +=
-        terms * (1.8 * (per_grid_sample * fine * grid + per_tap * taps) + 0.8 * per_beam_sample * beams * cycle);
-    nanoseconds += 28 * (per_place * nodes * powers * (14 + 0.5 * nodes) + per_element_node * terms * elements);
-    kept += terms * (16 * powers * (grid + beams) + 72 * elements);
-    room = std::max(room, 8 * (2 * fine * grid + 80 * grid + rows * fine + terms * rows * std::max(cycle, 8 * chunks)) +
-                              64 * (chunks * elements + terms * (rows + elements)));
+    const double filled = fine * static_cast<double>(s.block) / cycle, frequencies = 0.5 * terms;
+    nanoseconds += terms * per_grid_sample * (filled + cycle) * grid + per_tap * taps + per_beam_sample * beams * cycle;
+    nanoseconds += 28 * per_place * nodes * powers * (14 + 0.5 * nodes) + per_row * terms * rows;
+    kept += terms * grid * (16 * powers + 64);
+    room = std::max(room, 8 * (fine * grid + 32 * terms * grid + frequencies * rows * (fine + cycle)) +
+                              64 * chunks * (rows + 0.5 * elements));
     if (used[level]) continue;
     used[level] = true;
     nanoseconds += per_tap_made * chunks * elements;
-    kept += 32 * taps;
+    kept += 32 * taps + 4500 * rows;
   }
   cost.bytes = room + kept;
 

@@ -20,8 +20,6 @@ kernels::Pieces<float> wideband_pieces(const PolynomialPieces<float>& p) {
 void WidebandRoom::begin(const WidebandBlock& block) {
   start_time_ = plan_.time_of(block.first - static_cast<double>(plan_.guard));
   unit_ = 0;
-  re_.clear();
-  im_.clear();
   std::fill(touched_.begin(), touched_.end(), false);
 }
 

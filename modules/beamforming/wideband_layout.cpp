@@ -7,10 +7,13 @@
 namespace insonify {
 namespace {
 
-constexpr double most_phase =
-    5;  // of the bend over a block's ranges: powers of time up to it fit single precision [rad]
-constexpr double widest_band = 1.35;      // off the carrier, of it: up to there, blocks keep the tolerance
-constexpr std::size_t longest_level = 2;  // blocks are doubled so often at most
+// Phase of the bend over a block's ranges: powers of time up to it fit single precision [rad].
+constexpr double most_phase = 5;
+constexpr double widest_band = 1.35;  // off the carrier, of it: up to there, blocks keep the tolerance
+// Blocks are doubled so often at most; the last time only where the bend has no more phase than this: where terms and
+// powers are many, longer ones leave the caches.
+constexpr std::size_t longest_level = 2;
+constexpr double most_bend = 2;
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.
 double nearest_range(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes) {
@@ -40,7 +43,9 @@ WidebandLayout::WidebandLayout(const SonarHead& head, const Medium& medium, doub
   guard = static_cast<double>(ends);
   const auto fits = [&](double range, std::size_t level) {
     const double far = range + static_cast<double>(2 * ends << level) * head.gate.bin_size;
-    return BendPhase(head, medium, range, far).over_range <= most_phase;
+    const BendPhase phase(head, medium, range, far);
+    return phase.over_range <= most_phase &&
+           (level < longest_level || phase.all * any.widest * any.widest <= most_bend);
   };
   nearest = std::max(nearest_range(head, medium, any), 1e-3 * head.gate.bin_size);
   while (!fits(nearest, 0)) nearest *= 1.02;

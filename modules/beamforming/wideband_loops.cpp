@@ -11,78 +11,177 @@ constexpr std::size_t lines = lines_at_once;
 using Eight = float __attribute__((vector_size(32)));
 using Places = int __attribute__((vector_size(32)));
 constexpr Places real_parts = {0, 2, 4, 6, 8, 10, 12, 14}, imaginary_parts = {1, 3, 5, 7, 9, 11, 13, 15};
-constexpr Places swapped = {1, 0, 3, 2, 5, 4, 7, 6};
 constexpr Places low_mixed = {0, 8, 1, 9, 2, 10, 3, 11}, high_mixed = {4, 12, 5, 13, 6, 14, 7, 15};
 
 INSONIFY_INLINE void load(const float* from, Eight& eight) { __builtin_memcpy(&eight, from, sizeof eight); }
 INSONIFY_INLINE void store(const Eight& eight, float* to) { __builtin_memcpy(to, &eight, sizeof eight); }
 
+constexpr std::size_t four = 4;  // times whose numbers stay in registers
+// Numbers by time, real and imaginary, and eight places; turned, by place and time.
+using FourTimes = Eight[2 * four];
+
+INSONIFY_INLINE void turn(FourTimes& x) {
+  constexpr Places low1 = {0, 8, 1, 9, 4, 12, 5, 13}, high1 = {2, 10, 3, 11, 6, 14, 7, 15};
+  constexpr Places low2 = {0, 1, 8, 9, 4, 5, 12, 13}, high2 = {2, 3, 10, 11, 6, 7, 14, 15};
+  constexpr Places low4 = {0, 1, 2, 3, 8, 9, 10, 11}, high4 = {4, 5, 6, 7, 12, 13, 14, 15};
+  FourTimes y, z;
+  for (int k = 0; k < 4; ++k) {
+    y[2 * k] = __builtin_shuffle(x[2 * k], x[2 * k + 1], low1);
+    y[2 * k + 1] = __builtin_shuffle(x[2 * k], x[2 * k + 1], high1);
+  }
+  for (int k = 0; k < 8; k += 4)
+    for (int j = 0; j < 2; ++j) {
+      z[k + 2 * j] = __builtin_shuffle(y[k + j], y[k + j + 2], low2);
+      z[k + 2 * j + 1] = __builtin_shuffle(y[k + j], y[k + j + 2], high2);
+    }
+  for (int k = 0; k < 4; ++k) {
+    x[k] = __builtin_shuffle(z[k], z[k + 4], low4);
+    x[k + 4] = __builtin_shuffle(z[k], z[k + 4], high4);
+  }
+}
+
+/// Eight places from `power` on, at four times.
+INSONIFY_INLINE void factors_at(TimeFactor factor, const float* power, const float* time, FourTimes& at) {
+  Eight next;
+  for (Eight& x : at) x = Eight{};
+  for (std::size_t k = 0; k < factor.powers; ++k, power += 2 * factor.stride) {
+    load(power, next);
+    for (std::size_t n = 0; n < four; ++n) at[2 * n] = at[2 * n] * time[n] + next;
+    load(power + factor.stride, next);
+    for (std::size_t n = 0; n < four; ++n) at[2 * n + 1] = at[2 * n + 1] * time[n] + next;
+  }
+}
+
+/// One out of a mix at four times, of numbers by in, time, and real and imaginary part.
+INSONIFY_INLINE void mix_four(const float* factor, std::size_t ins, const float* in, FourTimes& sum) {
+  Eight by_re, by_im, re, im;
+  for (Eight& x : sum) x = Eight{};
+  for (std::size_t i = 0; i < ins; ++i, factor += 16, in += 16 * times_at_once) {
+    load(factor, by_re);
+    load(factor + 8, by_im);
+    for (std::size_t n = 0; n < four; ++n) {
+      load(in + 16 * n, re);
+      load(in + 16 * n + 8, im);
+      sum[2 * n] += by_re * re - by_im * im;
+      sum[2 * n + 1] += by_re * im + by_im * re;
+    }
+  }
+}
+
+INSONIFY_INLINE bool holds_rows(PlaceRows rows, std::size_t g) {
+  for (std::size_t k = 0; k < 8; ++k)
+    if (rows.row[g + k] != rows.none) return true;
+  return false;
+}
+
+/// Fetches the rows of eight places into the cache: one after another they are far apart in memory.
+INSONIFY_INLINE void fetch_rows(PlaceRows rows, std::size_t g, std::size_t planes) {
+  for (std::size_t o = 0; o < planes; ++o)
+    for (std::size_t k = 0; k < 8; ++k) {
+      const float* row = rows.value + o * rows.plane + rows.row[g + k] * rows.length;
+      __builtin_prefetch(row);
+      __builtin_prefetch(row + times_at_once);
+    }
+}
+
+INSONIFY_INLINE void store_in_turn(const Eight& re, const Eight& im, float* to) {
+  store(__builtin_shuffle(re, im, low_mixed), to);
+  store(__builtin_shuffle(re, im, high_mixed), to + 8);
+}
+
+INSONIFY_INLINE void load_in_turn(const float* from, Eight& re, Eight& im) {
+  Eight low, high;
+  load(from, low);
+  load(from + 8, high);
+  re = __builtin_shuffle(low, high, real_parts), im = __builtin_shuffle(low, high, imaginary_parts);
+}
+
 }  // namespace
 
 INSONIFY_CLONES
-void weigh_row(TimeFactor factor, float t, const float* re, const float* im, std::size_t count, float* line) {
-  for (std::size_t g = 0; g < count; g += 8) {
-    Eight factor_re = {}, factor_im = {}, next, x_re, x_im;
-    const float* power = factor.power + g;
-    for (std::size_t k = 0; k < factor.powers; ++k, power += 2 * factor.stride) {
-      load(power, next);
-      factor_re = factor_re * t + next;
-      load(power + factor.stride, next);
-      factor_im = factor_im * t + next;
-    }
-    load(re + g, x_re);
-    load(im + g, x_im);
-    const Eight y_re = factor_re * x_re - factor_im * x_im, y_im = factor_re * x_im + factor_im * x_re;
-    store(__builtin_shuffle(y_re, y_im, low_mixed), line + 2 * g);
-    store(__builtin_shuffle(y_re, y_im, high_mixed), line + 2 * g + 8);
-  }
-}
-
-INSONIFY_CLONES
-void weigh_back(TimeFactor factor, float t, const float* line, std::size_t count, float* re, float* im) {
-  for (std::size_t g = 0; g < count; g += 8) {
-    Eight factor_re = {}, factor_im = {}, next, low, high, sum_re, sum_im;
-    const float* power = factor.power + g;
-    for (std::size_t k = 0; k < factor.powers; ++k, power += 2 * factor.stride) {
-      load(power, next);
-      factor_re = factor_re * t + next;
-      load(power + factor.stride, next);
-      factor_im = factor_im * t + next;
-    }
-    load(line + 2 * g, low);
-    load(line + 2 * g + 8, high);
-    const Eight x_re = __builtin_shuffle(low, high, real_parts), x_im = __builtin_shuffle(low, high, imaginary_parts);
-    load(re + g, sum_re);
-    load(im + g, sum_im);
-    store(sum_re + (factor_re * x_re - factor_im * x_im), re + g);
-    store(sum_im + (factor_re * x_im + factor_im * x_re), im + g);
-  }
-}
-
-INSONIFY_CLONES
-void mix_rows(RowMix mix, MixedPlanes planes) {
-  for (std::size_t eight = planes.first; eight < planes.last; ++eight)
-    for (std::size_t o = 0; o < mix.outs; ++o)
-      for (std::size_t n = 0; n < planes.times; ++n) {
-        const float* factor = mix.factor + (eight * mix.outs + o) * mix.stride * 32;
-        const float* in = planes.in + n * planes.row + 16 * eight;
-        Eight low = {}, high = {}, x, y, times;
-        for (std::size_t i = 0; i < mix.ins[o]; ++i, in += planes.in_plane, factor += 32) {
-          load(in, x);
-          load(in + 8, y);
-          load(factor, times);
-          low += times * x;
-          load(factor + 8, times);
-          high += times * y;
-          load(factor + 16, times);
-          low += times * __builtin_shuffle(x, swapped);
-          load(factor + 24, times);
-          high += times * __builtin_shuffle(y, swapped);
-        }
-        float* out = planes.out + o * planes.out_plane + n * planes.row + 16 * eight;
-        store(low, out);
-        store(high, out + 8);
+void weigh(TimeFactor factor, const float* time, const float* re, const float* im, std::size_t count,
+           std::size_t stride, float* line) {
+  for (std::size_t g = 0; g < count; g += 8)
+    for (std::size_t n0 = 0; n0 < times_at_once; n0 += four) {
+      FourTimes by;
+      factors_at(factor, factor.power + g, time + n0, by);
+      for (std::size_t n = 0; n < four; ++n) {
+        const std::size_t at = (n0 + n) * stride + g;
+        Eight x_re, x_im;
+        load(re + at, x_re);
+        load(im + at, x_im);
+        store_in_turn(by[2 * n] * x_re - by[2 * n + 1] * x_im, by[2 * n] * x_im + by[2 * n + 1] * x_re, line + 2 * at);
       }
+    }
+}
+
+INSONIFY_CLONES
+void weigh_back(TimeFactor factor, const float* time, const float* line, std::size_t terms, std::size_t plane,
+                std::size_t count, std::size_t stride, float* across) {
+  for (std::size_t g = 0; g < count; g += 8)
+    for (std::size_t n0 = 0; n0 < times_at_once; n0 += four) {
+      FourTimes sum = {};
+      const float* power = factor.power + g;
+      for (std::size_t q = 0; q < terms; ++q, power += 2 * factor.powers * factor.stride) {
+        FourTimes by;
+        factors_at(factor, power, time + n0, by);
+        for (std::size_t n = 0; n < four; ++n) {
+          Eight re, im;
+          load_in_turn(line + q * plane + 2 * ((n0 + n) * stride + g), re, im);
+          sum[2 * n] += by[2 * n] * re - by[2 * n + 1] * im;
+          sum[2 * n + 1] += by[2 * n] * im + by[2 * n + 1] * re;
+        }
+      }
+      turn(sum);
+      for (std::size_t k = 0; k < 8; ++k) store(sum[k], across + 2 * ((g + k) * times_at_once + n0));
+    }
+}
+
+INSONIFY_CLONES
+void mix_to_rows(RowMix mix, TimePlanes from, PlaceRows to, float* room) {
+  for (std::size_t g = 0; g < from.places; g += 8) {
+    if (!holds_rows(to, g)) continue;
+    fetch_rows(to, g, mix.outs);
+    for (std::size_t i = 0; i < mix.stride; ++i)
+      for (std::size_t n = 0; n < times_at_once; ++n) {
+        Eight re, im;
+        load_in_turn(from.value + i * from.plane + n * from.row + 2 * g, re, im);
+        store(re, room + 16 * (i * times_at_once + n));
+        store(im, room + 16 * (i * times_at_once + n) + 8);
+      }
+    for (std::size_t o = 0; o < mix.outs; ++o) {
+      float* plane = to.value + o * to.plane;
+      for (std::size_t n = 0; n < times_at_once; n += four) {
+        FourTimes sum;
+        mix_four(mix.factor + 2 * (g * mix.outs + 8 * o) * mix.stride, mix.ins[o], room + 16 * n, sum);
+        turn(sum);
+        for (std::size_t k = 0; k < 8; ++k) store(sum[k], plane + to.row[g + k] * to.length + 2 * n);
+      }
+    }
+  }
+}
+
+INSONIFY_CLONES
+void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* room) {
+  for (std::size_t g = 0; g < to.places; g += 8) {
+    const bool any = holds_rows(from, g);
+    if (g + 8 < to.places) fetch_rows(from, g + 8, mix.stride);
+    for (std::size_t i = 0; any && i < mix.stride; ++i)
+      for (std::size_t n = 0; n < times_at_once; n += four) {
+        FourTimes in;
+        for (std::size_t k = 0; k < 8; ++k)
+          load(from.value + i * from.plane + from.row[g + k] * from.length + 2 * n, in[k]);
+        turn(in);
+        for (std::size_t k = 0; k < 8; ++k) store(in[k], room + 16 * (i * times_at_once + n) + 8 * k);
+      }
+    for (std::size_t o = 0; o < mix.outs; ++o)
+      for (std::size_t n0 = 0; n0 < times_at_once; n0 += four) {
+        FourTimes sum = {};
+        if (any) mix_four(mix.factor + 2 * (g * mix.outs + 8 * o) * mix.stride, mix.ins[o], room + 16 * n0, sum);
+        for (std::size_t n = 0; n < four; ++n)
+          store_in_turn(sum[2 * n], sum[2 * n + 1], to.value + o * to.plane + (n0 + n) * to.row + 2 * g);
+      }
+  }
 }
 
 INSONIFY_CLONES
@@ -131,22 +230,19 @@ void through_elements(ElementTaps taps, const float* factor, const float* rows, 
 }
 
 INSONIFY_CLONES
-void add_powers(LinePowers powers, const float* rows, std::size_t count, float* to, std::size_t stride,
-                std::size_t plane) {
-  for (std::size_t r = 0; r < count; ++r, rows += 2 * lines, to += 2 * stride) {
-    Eight re, im, low, high, power;
-    load(rows, re);
-    load(rows + lines, im);
-    float* back = to;
-    for (std::size_t s = 0; s < powers.powers; ++s, back += 2 * plane) {
-      __builtin_prefetch(back + 16 * stride, 1);
-      load(powers.power + s * lines, power);
-      const Eight part_re = power * re, part_im = power * im;
-      load(back, low);
-      load(back + lines, high);
-      store(low + __builtin_shuffle(part_re, part_im, low_mixed), back);
-      store(high + __builtin_shuffle(part_re, part_im, high_mixed), back + lines);
-    }
+void add_power(const float* line, std::size_t count, const float* power, std::size_t stride, const std::uint32_t* place,
+               float* to) {
+  for (std::size_t i = 0; i < count; ++i, line += 2 * lines, power += stride) {
+    Eight re, im, times, low, high;
+    float* at = to + 2 * place[i];
+    load(line, re);
+    load(line + lines, im);
+    load(power, times);
+    load(at, low);
+    load(at + lines, high);
+    re *= times, im *= times;
+    store(low + __builtin_shuffle(re, im, low_mixed), at);
+    store(high + __builtin_shuffle(re, im, high_mixed), at + lines);
   }
 }
 

@@ -6,23 +6,28 @@
 // wider registers are safe here; without fused multiply-add every variant gives the same bits.
 namespace insonify::kernels {
 
-constexpr std::size_t lines_at_once = 8;  ///< neighbouring frequencies of a chunk
+constexpr std::size_t lines_at_once = 8;   ///< neighbouring frequencies of a chunk
+constexpr std::size_t times_at_once = 16;  ///< rows of a tile
 
-/// A complex factor along a row of places that depends on time: polynomials of it, highest power first, each a plane of
+/// Complex factors along a row of places that depend on time: polynomials of it, highest power first, each a plane of
 /// real and one of imaginary parts, `stride` numbers long.
 struct TimeFactor {
   const float* power;
   std::size_t powers, stride;
 };
 
-/// line(g) = factor(g, t) (re(g) + i im(g)), real and imaginary in turn; `count` a multiple of 8.
-void weigh_row(TimeFactor factor, float t, const float* re, const float* im, std::size_t count, float* line);
+/// line(n, g) = factor(g, time[n]) (re(n, g) + i im(n, g)), real and imaginary in turn, for a tile of times whose rows
+/// have `stride` numbers; `count` a multiple of 8.
+void weigh(TimeFactor factor, const float* time, const float* re, const float* im, std::size_t count,
+           std::size_t stride, float* line);
 
-/// Adds to re + i im what `factor` makes of a line of complex numbers.
-void weigh_back(TimeFactor factor, float t, const float* line, std::size_t count, float* re, float* im);
+/// Sums over `terms`, whose lines lie `plane` numbers apart, of factor(g, time[n]) line(n, g): of each place g the times
+/// one after another, real and imaginary in turn. The factors of terms follow one another.
+void weigh_back(TimeFactor factor, const float* time, const float* line, std::size_t terms, std::size_t plane,
+                std::size_t count, std::size_t stride, float* across);
 
 /// Sums of complex rows, eight numbers at a time: out o = sum over i < ins[o] of factor(o, i) in i. `factor` has, by eight
-/// numbers, out and in (of which there are `stride`), each real part twice, then of each imaginary part -im and im.
+/// numbers, out and in (of which there are `stride`), eight real parts and eight imaginary ones.
 struct RowMix {
   const float* factor;
   std::size_t outs;
@@ -30,13 +35,21 @@ struct RowMix {
   std::size_t stride;
 };
 
-/// `in` and `out` are planes of `times` rows, `row` numbers apart; only numbers 8 first to 8 last are made.
-struct MixedPlanes {
-  const float* in;
-  float* out;
-  std::size_t in_plane, out_plane, row, times, first, last;
+/// A tile by time and place, several planes of it.
+struct TimePlanes {
+  float* value;
+  std::size_t places, row, plane;  ///< a multiple of 8; numbers from row to row, and from plane to plane
 };
-void mix_rows(RowMix mix, MixedPlanes planes);
+/// Rows of places by time, several planes of them: place g is row[g], or `none`, which is one, too.
+struct PlaceRows {
+  float* value;
+  const std::uint32_t* row;
+  std::uint32_t none;
+  std::size_t length, plane;  ///< numbers from row to row, and from plane to plane
+};
+/// Mixes a tile into rows, or rows into a tile; `room` for 2 * times_at_once * 8 numbers of each in.
+void mix_to_rows(RowMix mix, TimePlanes from, PlaceRows to, float* room);
+void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* room);
 
 /// How a chunk of frequencies is interpolated between harmonics to elements: `taps` rows from row[m] on, by line.
 struct ElementTaps {
@@ -60,10 +73,10 @@ void sum_powers(LinePowers powers, const float* line, std::size_t plane, const s
 /// take it from `rows`, times `factor` by element and line.
 void through_elements(ElementTaps taps, const float* factor, const float* rows, float* to);
 
-/// Adds `count` rows of a chunk, times each power of frequency, to rows of complex numbers `stride` of them apart, and
-/// `plane` of them from power to power.
-void add_powers(LinePowers powers, const float* rows, std::size_t count, float* to, std::size_t stride,
-                std::size_t plane);
+/// Adds lines of complex numbers, as sum_powers makes them, times one power of frequency, to a line, each chunk from
+/// number place[i] on.
+void add_power(const float* line, std::size_t count, const float* power, std::size_t stride, const std::uint32_t* place,
+               float* to);
 
 /// A beam at `count` numbers, a multiple of 8: rows of a grid, `stride` apart, interpolated by weights.
 void take_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,

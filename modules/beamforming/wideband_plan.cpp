@@ -24,6 +24,9 @@ std::size_t fast_grid_length(std::size_t least) {
   return std::bit_ceil(least);
 }
 
+/// Others, that take twice as long: good where they are few beside other transforms.
+constexpr std::size_t fair_lengths[] = {300, 480, 600, 960};
+
 /// How much finer than needed a grid is, for a kernel of width 8 to be good to a fiftieth of the tolerance: its error
 /// is exp(-8 pi sqrt(1 - 1 / oversampling)).
 double oversampling_for(double tolerance) {
@@ -63,12 +66,23 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
-  cycle = fast_grid_length(block_bins + 2 * guard);
-  block = cycle - 2 * guard;
   half_band = band_of(head.pulse, tolerance);
-  fine =
-      fast_grid_length(static_cast<std::size_t>(std::ceil(2 * half_band * static_cast<double>(cycle) * axis.step)) + 2);
-  while (fine % (2 * lines_at_once) != 0) fine = fast_grid_length(fine + 1);  // no chunk holds both ends of the band
+  // Of cycles that hold the block, the one with the fewest samples for its bins.
+  const auto fine_of = [this](std::size_t bins) {
+    const double lines = 2 * half_band * static_cast<double>(bins) * axis.step;
+    std::size_t length = fast_grid_length(static_cast<std::size_t>(std::ceil(lines)) + 2);
+    while (length % (2 * lines_at_once) != 0) length = fast_grid_length(length + 1);  // no chunk holds both ends
+    return length;
+  };
+  cycle = fast_grid_length(block_bins + 2 * guard);
+  fine = fine_of(cycle);
+  for (const std::size_t other : fair_lengths)
+    if (other >= block_bins + 2 * guard && other < cycle &&
+        (fine_of(other) + other) * (cycle - 2 * guard) < (fine + cycle) * (other - 2 * guard)) {
+      cycle = other;
+      fine = fine_of(other);
+    }
+  block = cycle - 2 * guard;
   fine_step = static_cast<double>(cycle) * axis.step / static_cast<double>(fine);
   fine_row = fine + 8;
 
@@ -122,7 +136,7 @@ void WidebandPlan::plan_directions() {
     node_.push_back(half_width * std::sin(s));
     node_weight_.push_back((k == 0 ? 1 : 2) * half_width * 0.5 * pi / steps * kernel.at(node_.back()) * std::cos(s));
   }
-  const auto factor = [this](double frequency) { return 1 / kernel_moments(frequency)[0].real(); };
+  const auto factor = [this](double frequency) { return 1 / kernel_transform(frequency); };
   for (std::size_t g = 0; g < grid; ++g)
     place_factor.push_back(factor(static_cast<double>(g) / static_cast<double>(grid) - 0.5));
   for (const double u : u_beam) {
@@ -145,6 +159,12 @@ std::array<std::complex<double>, WidebandPlan::moments> WidebandPlan::kernel_mom
   return result;
 }
 
+double WidebandPlan::kernel_transform(double frequency) const {
+  double result = 0;
+  for (std::size_t k = 0; k < node_.size(); ++k) result += node_weight_[k] * std::cos(2 * pi * frequency * node_[k]);
+  return result;
+}
+
 void WidebandPlan::plan_elements() {
   const std::size_t width = kernel.width(), n = elements();
   const double c = medium.sound_speed, top = half_band * seconds(), half_width = 0.5 * static_cast<double>(width);
@@ -158,7 +178,7 @@ void WidebandPlan::plan_elements() {
   // What undoes the kernel on the grid, at 32nds of harmonics.
   std::vector<double> undo;
   for (std::size_t k = 0; k <= 32 * most + 32; ++k)
-    undo.push_back(1 / kernel_moments(static_cast<double>(k) / 32 / static_cast<double>(grid))[0].real());
+    undo.push_back(1 / kernel_transform(static_cast<double>(k) / 32 / static_cast<double>(grid)));
   for (std::size_t i = 0; i < chunks.size(); ++i)
     for (std::size_t m = 0; m < n; ++m) {
       std::array<double, lines_at_once> place;

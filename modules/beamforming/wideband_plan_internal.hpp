@@ -93,6 +93,7 @@ struct WidebandPlan : WidebandSizes {
 
   /// Transforms of the kernel times x^j, x in its steps, j < moments; `frequency` in cycles per step.
   std::array<std::complex<double>, moments> kernel_moments(double frequency) const;
+  double kernel_transform(double frequency) const;  ///< the first of them
   std::size_t elements() const { return y.size(); }
 
  private:

@@ -66,83 +66,60 @@ struct BandRows {
   std::vector<std::size_t> band;      ///< powers of each term
   std::vector<Eigen::MatrixXcd> row;  ///< of each term: harmonic by power
 
-  BandRows(const WidebandPlan& plan, const BendSamples& samples, const Factors& factors) {
+  BandRows(const WidebandPlan& plan, const RowFits& fits, const BendSamples& samples, const Factors& factors) {
     const auto nodes = static_cast<Eigen::Index>(WidebandPlan::fit_nodes),
                rows = static_cast<Eigen::Index>(plan.rows()), count_y = static_cast<Eigen::Index>(samples.places);
     const Eigen::Map<const Eigen::VectorXd> fit(plan.fit_frequency.data(), nodes);
     const Eigen::MatrixXd between = from_nodes(fit / plan.half_band, plan.node_frequency.size());
-    // Where rows lie on the array, by frequency, and what they are there.
-    Eigen::MatrixXd place(rows, nodes);
-    Eigen::ArrayXXd within(rows, nodes);  // 1: near the array
-    std::vector<Eigen::MatrixXcd> value(static_cast<std::size_t>(factors.terms()), Eigen::MatrixXcd(rows, nodes));
+    // What rows of harmonics are, by frequency.
+    std::vector<Eigen::MatrixXcd> value(static_cast<std::size_t>(factors.terms()), Eigen::MatrixXcd(nodes, rows));
     for (Eigen::Index f = 0; f < nodes; ++f) {
-      const RowPlaces on_array(plan, fit[f]);
-      place.col(f) = (Eigen::VectorXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)).array() -
-                      static_cast<double>(plan.most)) *
-                     on_array.row;
-      within.col(f) = (place.col(f).array().abs() <= on_array.reach).cast<double>();
       Eigen::MatrixXcd here = Eigen::MatrixXcd::Zero(factors.terms(), count_y);
       for (Eigen::Index n = 0; n < between.cols(); ++n)
         here += between(f, n) * factors.across.middleCols(n * count_y, count_y);
+      const Eigen::VectorXd place = fits.place.col(f) / RowPlaces(plan, fit[f]).reach;
       const Eigen::MatrixXcd at_rows =
-          from_nodes((place.col(f) / on_array.reach).cwiseMax(-1.0).cwiseMin(1.0), samples.places) * here.transpose();
-      for (Eigen::Index q = 0; q < factors.terms(); ++q) value[static_cast<std::size_t>(q)].col(f) = at_rows.col(q);
+          from_nodes(place.cwiseMax(-1.0).cwiseMin(1.0), samples.places) * here.transpose();
+      for (Eigen::Index q = 0; q < factors.terms(); ++q) value[static_cast<std::size_t>(q)].row(f) = at_rows.col(q);
     }
-    fit_powers(plan, place, within, value);
+    fit_powers(plan, fits, value);
   }
 
  private:
-  void fit_powers(const WidebandPlan& plan, const Eigen::MatrixXd& place, const Eigen::ArrayXXd& within,
-                  const std::vector<Eigen::MatrixXcd>& value) {
-    const Eigen::Index rows = place.rows(), nodes = place.cols(), powers = WidebandPlan::most_powers;
-    const Eigen::Map<const Eigen::VectorXd> node_weight(plan.fit_weight.data(), nodes);
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> power(
-        plan.fit_power.data(), nodes, powers);
-    std::vector<Eigen::MatrixXcd> part(value.size(), Eigen::MatrixXcd(rows, powers));
-    std::vector<Eigen::MatrixXd> root(static_cast<std::size_t>(rows));
+  void fit_powers(const WidebandPlan& plan, const RowFits& fits, const std::vector<Eigen::MatrixXcd>& value) {
+    const auto powers = static_cast<Eigen::Index>(WidebandPlan::most_powers);
+    std::vector<Eigen::MatrixXcd> part(value.size(), Eigen::MatrixXcd(powers, fits.place.rows()));
     Eigen::MatrixXd left = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(value.size()), powers + 1);
-    double all = 0;
-    for (Eigen::Index k = 0; k < rows; ++k) {
-      // Frequencies at which the row lies off the array hardly count beside those at which it does not.
-      const Eigen::ArrayXd heard = within.row(k).transpose() * node_weight.array();
-      const Eigen::VectorXd weight =
-          heard + (1 - within.row(k).transpose()) * node_weight.array().min(hardly * heard.maxCoeff());
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(weight.asDiagonal() * power);
-      const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(nodes, powers);
-      root[static_cast<std::size_t>(k)] = qr.matrixQR().topRows(powers);
-      double counts = 0;
-      for (Eigen::Index f = 0; f < nodes; ++f)
-        counts = std::max(counts, node_weight[f] * BendSamples::shading_at(plan, place(k, f)));
-      counts *= counts / node_weight.squaredNorm();
-      all += counts * weight.squaredNorm();
-      for (std::size_t t = 0; t < value.size(); ++t) {
-        const Eigen::VectorXcd weighed = weight.asDiagonal() * value[t].row(k).transpose();
-        part[t].row(k) = (q.transpose() * weighed).transpose();
+    for (std::size_t t = 0; t < value.size(); ++t)
+      for (std::size_t k = 0; k < fits.row.size(); ++k) {
+        const RowFits::Row& fit = fits.row[k];
+        const auto here = static_cast<Eigen::Index>(k);
+        const Eigen::VectorXcd weighed = fit.weight.asDiagonal() * value[t].col(here);
+        part[t].col(here).noalias() = fit.across * weighed;
         double rest = weighed.squaredNorm();
         for (Eigen::Index s = 0; s <= powers; ++s) {
-          left(static_cast<Eigen::Index>(t), s) += counts * std::max(rest, 0.0);
-          if (s < powers) rest -= std::norm(part[t](k, s));
+          left(static_cast<Eigen::Index>(t), s) += fit.counts * std::max(rest, 0.0);
+          if (s < powers) rest -= std::norm(part[t](s, here));
         }
       }
-    }
-    const double enough = std::pow(band_share * plan.tolerance, 2) * all / static_cast<double>(value.size());
+    const double enough = std::pow(band_share * plan.tolerance, 2) * fits.all / static_cast<double>(value.size());
     for (std::size_t t = 0; t < value.size(); ++t) {
       Eigen::Index n = 1;
       while (n < powers && left(static_cast<Eigen::Index>(t), n) > enough) ++n;
       if (t > 0) n = std::min(n, static_cast<Eigen::Index>(band.back()));
       band.push_back(static_cast<std::size_t>(n));
-      row.emplace_back(rows, n);
-      for (Eigen::Index k = 0; k < rows; ++k)
-        row.back().row(k) = root[static_cast<std::size_t>(k)]
-                                .topLeftCorner(n, n)
-                                .triangularView<Eigen::Upper>()
-                                .solve(part[t].row(k).head(n).transpose())
-                                .transpose();
+      row.emplace_back(fits.place.rows(), n);
+      for (std::size_t k = 0; k < fits.row.size(); ++k)
+        row.back().row(static_cast<Eigen::Index>(k)) = fits.row[k]
+                                                           .root.topLeftCorner(n, n)
+                                                           .triangularView<Eigen::Upper>()
+                                                           .solve(part[t].col(static_cast<Eigen::Index>(k)).head(n))
+                                                           .transpose();
     }
   }
 };
 
-/// Factors for kernels::mix_rows: terms to powers of frequency, or back.
+/// Factors for kernels::RowMix: terms to powers of frequency, or back.
 void fill_rows(const WidebandPlan& plan, const BandRows& from, bool echoes, BendSeries& series) {
   const std::size_t terms = series.terms, most_band = series.band[0];
   const std::size_t outs = echoes ? most_band : terms, ins = echoes ? terms : most_band;
@@ -150,7 +127,7 @@ void fill_rows(const WidebandPlan& plan, const BandRows& from, bool echoes, Bend
   series.most_ins = ins;
   for (std::size_t q = 0; q < terms; ++q)
     for (std::size_t s = 0; s < series.band[q]; ++s) ++series.ins[echoes ? s : q];
-  series.rows.assign(series.stride / 8 * outs * ins * 32, 0);
+  series.rows.assign(series.stride / 8 * outs * ins * 16, 0);
   for (std::size_t k = 0; k < plan.rows(); ++k) {
     const std::size_t g = (k + plan.grid - plan.most) % plan.grid;
     const double sign = (k + plan.most) % 2 == 0 ? 1 : -1;
@@ -159,10 +136,9 @@ void fill_rows(const WidebandPlan& plan, const BandRows& from, bool echoes, Bend
         const std::complex<double> value =
             sign * from.row[q](static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(s));
         const std::size_t out = echoes ? s : q, in = echoes ? q : s;
-        float* to = series.rows.data() + ((g / 8 * outs + out) * ins + in) * 32 + 2 * (g % 8);
-        const auto im = static_cast<float>(echoes ? value.imag() : -value.imag());
-        to[0] = to[1] = static_cast<float>(value.real());
-        to[16] = -im, to[17] = im;
+        float* to = series.rows.data() + ((g / 8 * outs + out) * ins + in) * 16 + g % 8;
+        to[0] = static_cast<float>(value.real());
+        to[8] = static_cast<float>(echoes ? value.imag() : -value.imag());
       }
   }
 }
@@ -193,7 +169,7 @@ void fill_along(const WidebandPlan& plan, const BendSamples& samples, const Fact
   }
 }
 
-BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first, double last) {
+BendSeries bend_of(const WidebandPlan& plan, const RowFits& fits, bool echoes, double first, double last) {
   const auto guard = static_cast<double>(plan.guard), bins = static_cast<double>(plan.axis.bins);
   BendSpan span;
   span.echoes = echoes;
@@ -208,7 +184,7 @@ BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first, double l
   span.mean_u = std::min(plan.widest, 1.0) / std::sqrt(2.0);
   const BendSamples samples(plan, span);
   const Factors factors(samples, term_share * plan.tolerance);
-  BandRows rows(plan, samples, factors);
+  BandRows rows(plan, fits, samples, factors);
 
   BendSeries series;
   series.terms = static_cast<std::size_t>(factors.terms());
@@ -224,12 +200,42 @@ BendSeries bend_of(const WidebandPlan& plan, bool echoes, double first, double l
 
 }  // namespace
 
-BendSeries bend_of_echoes(const WidebandPlan& plan, double first, double last) {
-  return bend_of(plan, true, first, last);
+RowFits::RowFits(const WidebandPlan& plan) {
+  const auto nodes = static_cast<Eigen::Index>(WidebandPlan::fit_nodes), rows = static_cast<Eigen::Index>(plan.rows()),
+             powers = static_cast<Eigen::Index>(WidebandPlan::most_powers);
+  place.resize(rows, nodes);
+  Eigen::ArrayXXd within(rows, nodes);  // 1: near the array
+  for (Eigen::Index f = 0; f < nodes; ++f) {
+    const RowPlaces on_array(plan, plan.fit_frequency[static_cast<std::size_t>(f)]);
+    const auto most = static_cast<double>(plan.most);
+    place.col(f) = on_array.row * Eigen::VectorXd::LinSpaced(rows, -most, most);
+    within.col(f) = (place.col(f).array().abs() <= on_array.reach).cast<double>();
+  }
+  const Eigen::Map<const Eigen::VectorXd> node_weight(plan.fit_weight.data(), nodes);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> power(
+      plan.fit_power.data(), nodes, powers);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    Row fit;
+    // Frequencies at which the row lies off the array hardly count beside those at which it does not.
+    const Eigen::ArrayXd heard = within.row(k).transpose() * node_weight.array();
+    fit.weight = heard + (1 - within.row(k).transpose()) * node_weight.array().min(hardly * heard.maxCoeff());
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.weight.asDiagonal() * power);
+    fit.across = (qr.householderQ() * Eigen::MatrixXd::Identity(nodes, powers)).transpose();
+    fit.root = qr.matrixQR().topRows(powers);
+    for (Eigen::Index f = 0; f < nodes; ++f)
+      fit.counts = std::max(fit.counts, node_weight[f] * BendSamples::shading_at(plan, place(k, f)));
+    fit.counts *= fit.counts / node_weight.squaredNorm();
+    all += fit.counts * fit.weight.squaredNorm();
+    row.push_back(std::move(fit));
+  }
 }
 
-BendSeries bend_of_beams(const WidebandPlan& plan, double first, double last) {
-  return bend_of(plan, false, first, last);
+BendSeries bend_of_echoes(const WidebandPlan& plan, const RowFits& fits, double first, double last) {
+  return bend_of(plan, fits, true, first, last);
+}
+
+BendSeries bend_of_beams(const WidebandPlan& plan, const RowFits& fits, double first, double last) {
+  return bend_of(plan, fits, false, first, last);
 }
 
 }  // namespace insonify

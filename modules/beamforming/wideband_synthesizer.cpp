@@ -43,11 +43,12 @@ class Rooms {
 /// A plan and its transforms, for blocks of one length.
 struct LevelTables {
   WidebandPlan plan;
+  RowFits fits;
   WidebandTransforms transforms;
   mutable Rooms rooms;
 
   LevelTables(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes)
-      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.block), transforms(plan) {}
+      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.block), fits(plan), transforms(plan) {}
 };
 
 /// Made when it is first used.
@@ -145,8 +146,10 @@ const LevelTables& WidebandSynthesizer::Plan::tables_of(std::size_t level) const
 
 const WidebandBlock& WidebandSynthesizer::Plan::block(std::size_t number) const {
   const WidebandLayout::Block& span = layout.blocks[number];
-  return blocks[number].get(
-      [&] { return std::make_unique<WidebandBlock>(tables_of(span.level).plan, span.first, span.last); });
+  return blocks[number].get([&] {
+    const LevelTables& tables = tables_of(span.level);
+    return std::make_unique<WidebandBlock>(tables.plan, tables.fits, span.first, span.last);
+  });
 }
 
 ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed) const {

@@ -22,7 +22,7 @@ using namespace insonify;
 
 constexpr double c = 1500;
 constexpr std::size_t checked_beams = 24, few = 100, some_of_field = 3000, many = 200000;
-constexpr int repeats = 3;
+constexpr int repeats = 7;
 
 /// Echoes within ten degrees of `azimuth`, all over the gate.
 Echoes patch(const SonarHead& head, double azimuth, std::size_t count) {
