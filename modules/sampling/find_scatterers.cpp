@@ -46,6 +46,7 @@ void require_valid(const SamplingOptions& options, const BeamFan& fan) {
           ">= 0 rad");
   require(at_least_0(options.relief_outer_scale), "relief_outer_scale", options.relief_outer_scale, ">= 0 m");
   require(at_least_0(options.azimuth_margin), "azimuth_margin", options.azimuth_margin, ">= 0 rad");
+  require(at_least_0(options.lobe_margin), "lobe_margin", options.lobe_margin, ">= 0");
   require(options.footprint > 0 && std::isfinite(options.footprint), "footprint", options.footprint, "> 0");
   require(options.rays_per_beam >= 1, "rays_per_beam", options.rays_per_beam, "at least 1");
   const double rays = static_cast<double>(fan.beams()) * options.rays_per_beam;
@@ -108,12 +109,6 @@ SamplingReport report_of(const SceneCloud& scene, const std::vector<GatedSurfel>
   return report;
 }
 
-SplitOptions split_options(const View& view) {
-  const SamplingOptions& o = view.options;
-  const double cell = o.range_resolution > 0 ? o.range_resolution : 2 * view.gate.bin_size;
-  return {o.scatterers_per_cell, cell, view.fan.beam_width, o.seed, o.threads, view.fan.row_width};
-}
-
 // Samples the visible part of the gated surfels.
 Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
   const SamplingOptions& options = view.options;
@@ -130,9 +125,9 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
     report.visible = cast.hit_surfels;
   } else {
     const auto visible = select_visible(surfels, options, report);
-    const SplitOptions split = split_options(view);
-    const PartCounts parts = count_parts(scene, view.head, visible, split);
-    result.scatterers = split_surfels(scene, view.head, visible, parts.first, split);
+    const SampledCells cells(view.fan, view.gate, options);
+    const PartCounts parts = count_parts(scene, view.head, visible, cells, options.threads);
+    result.scatterers = split_surfels(scene, view.head, visible, parts.first, options.seed, options.threads);
     report.capped = parts.capped;
   }
   report.scatterers = result.scatterers.size();
@@ -218,17 +213,14 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   const auto gated = gate_surfels(prepared, view.head, view.sector, gate, options.footprint, options.threads);
   VisibleSurfels result;
   result.report = report_of(scene, gated, view);
-  const SplitOptions split = split_options(view);
+  const SampledCells cells(fan, gate, options);
   sort_by_place(scene, view, select_visible(gated, options, result.report), result);
-  PartCounts parts = count_parts(scene, view.head, result.surfel, split);
+  PartCounts parts = count_parts(scene, view.head, result.surfel, cells, options.threads);
   result.first = std::move(parts.first);
   result.report.capped = parts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;
-  result.options.range_resolution = split.range_resolution;
   result.options.relief_outer_scale = outer_scale(prepared, options);
-  result.beam_width = fan.beam_width;
-  result.row_width = fan.row_width;
   result.relief = relief_of(scene, {options.seed, result.options.relief_outer_scale});
   return result;
 }
@@ -241,10 +233,8 @@ Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, cons
     surfels.push_back(visible.surfel[k]);
     first.push_back(first.back() + visible.first[k + 1] - visible.first[k]);
   }
-  const SamplingOptions& o = visible.options;
-  Scatterers parts = split_surfels(
-      scene, HeadFrame(scene, world_from_head), surfels, first,
-      {o.scatterers_per_cell, o.range_resolution, visible.beam_width, o.seed, threads, visible.row_width});
+  Scatterers parts =
+      split_surfels(scene, HeadFrame(scene, world_from_head), surfels, first, visible.options.seed, threads);
   if (visible.relief) tilt_by_relief(scene, world_from_head, *visible.relief, threads, parts);
   return parts;
 }

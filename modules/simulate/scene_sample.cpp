@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "sampling/sampled_cells.hpp"
 #include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
@@ -108,14 +109,6 @@ double left_in_gate(const ResolvedPing& ping, double r) {
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
 }
 
-/// How many scatterers surfels of the area `area` are split into, on average.
-double parts_of(const ResolvedPing& ping, double area, double range, double cosine) {
-  const SamplingOptions& sampling = ping.view.sampling;
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), cell = sampling.range_resolution;
-  const double length = std::min(cell / std::max(sine, 1e-6), 2 * std::sqrt(2 * range * cell));
-  return std::max(1.0, sampling.scatterers_per_cell * area / (length * range * ping.head.fan.beam_width));
-}
-
 }  // namespace
 
 SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
@@ -130,6 +123,7 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
   const Echoes echoes = direct_echoes(patches, scene.materials, ping.sent.pulse, medium, mean_power);
 
   // Energies and numbers, by where the echoes come from.
+  const SampledCells cells(view.fan, view.gate, view.sampling);
   SceneSample s;
   ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
@@ -146,7 +140,8 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
         std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) * left_in_gate(ping, r);
     const double energy = power * received.at(echoes.u[i], std::sin(patches.elevation[i]));
     *energies[kind] += energy;
-    *numbers[kind] += times * parts_of(ping, sampled.scene.area[surfel] / times, r, patches.cos_incidence[i]);
+    const Eigen::Vector3d p = r * unit_vector({patches.azimuth[i], patches.elevation[i]});
+    *numbers[kind] += times * cells.parts(p, sampled.scene.area[surfel] / times, patches.cos_incidence[i]);
     if (kind != in_view) continue;
     s.surfels += times;
     s.energy.back() = energy;
