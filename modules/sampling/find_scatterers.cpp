@@ -158,22 +158,37 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
     std::uint32_t band, surfel;
     PatchPlace at;
   };
+  constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
   std::vector<Placed> placed(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
-      const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, 4e9);
+      const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands);
       placed[s] = {static_cast<std::uint32_t>(band), surfels[s], {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)}};
     }
   });
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return std::tuple(a.band, a.at.u, a.surfel) < std::tuple(b.band, b.at.u, b.surfel);
-  });
+  // Each band by itself.
+  std::vector<std::size_t> first{0};
   for (const Placed& p : placed) {
-    sorted.surfel.push_back(p.surfel);
-    sorted.place.push_back(p.at);
+    if (p.band + std::size_t{2} > first.size()) first.resize(p.band + std::size_t{2}, 0);
+    ++first[p.band + 1];
   }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Placed> by_band(placed.size());
+  std::vector<std::size_t> next = first;
+  for (const Placed& p : placed) by_band[next[p.band]++] = p;
+  sorted.surfel.resize(placed.size());
+  sorted.place.resize(placed.size());
+  parallel_for(first.size() - 1, view.options.threads, [&](std::size_t band) {
+    const auto begin = by_band.begin() + static_cast<std::ptrdiff_t>(first[band]),
+               end = by_band.begin() + static_cast<std::ptrdiff_t>(first[band + 1]);
+    std::sort(begin, end, [](const Placed& a, const Placed& b) {
+      return std::tuple(a.at.u, a.surfel) < std::tuple(b.at.u, b.surfel);
+    });
+    for (std::size_t k = first[band]; k < first[band + 1]; ++k)
+      sorted.surfel[k] = by_band[k].surfel, sorted.place[k] = by_band[k].at;
+  });
 }
 
 }  // namespace

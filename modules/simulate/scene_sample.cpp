@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "sampling/sampled_cells.hpp"
 #include "simulate/received_energy_internal.hpp"
@@ -12,7 +13,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t most_of_a_kind = 4096;
+constexpr std::size_t most_of_a_kind = 4096, surfels_at_once = 16384;
 constexpr double nearest = 1e-2;  // [m]: what is nearer is left to simulate_ping
 
 enum Kind : std::uint8_t { in_view, other_range, off_azimuth, off_elevation, elsewhere, kinds };
@@ -72,13 +73,21 @@ Sampled sampled_surfels(const SceneCloud& scene, const ResolvedPing& ping, const
   const Eigen::Vector3d shift = scene.origin - ping.view.world_from_head.translation();
   const double legs = has_boundary(ping.environment) ? longest_leg(ping.environment, ping.view, ping.sent) : 0;
   const double farthest = std::max(sorter.reach().max_range, legs);
-  std::array<std::vector<std::uint32_t>, kinds> members;
-  for (std::size_t i = 0; i < scene.size(); ++i) {
-    const Eigen::Vector3d p = shift + scene.point[i].cast<double>();
-    if (p.squaredNorm() > farthest * farthest) continue;
-    const Kind kind = sorter.kind_of(to_head * p);
-    if (kind != elsewhere || legs > 0) members[kind].push_back(static_cast<std::uint32_t>(i));
-  }
+  // Block by block, joined in the order of the scene.
+  using Members = std::array<std::vector<std::uint32_t>, kinds>;
+  std::vector<Members> blocks((scene.size() + surfels_at_once - 1) / surfels_at_once);
+  parallel_blocks(scene.size(), surfels_at_once, ping.options.threads, [&](std::size_t begin, std::size_t end) {
+    Members& of_block = blocks[begin / surfels_at_once];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d p = shift + scene.point[i].cast<double>();
+      if (p.squaredNorm() > farthest * farthest) continue;
+      const Kind kind = sorter.kind_of(to_head * p);
+      if (kind != elsewhere || legs > 0) of_block[kind].push_back(static_cast<std::uint32_t>(i));
+    }
+  });
+  Members members;
+  for (const Members& of_block : blocks)
+    for (std::size_t k = 0; k < kinds; ++k) members[k].insert(members[k].end(), of_block[k].begin(), of_block[k].end());
 
   Sampled sampled;
   std::vector<std::uint32_t> keep;
