@@ -20,10 +20,9 @@ inline constexpr double main_lobe_reach = 1.5;
 /// the cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x
 /// range x the narrower of both widths.
 ///
-/// What side lobes alone receive adds up in one bin from everywhere, so it needs no finer cells than it is wide there:
-/// at a distance d from the end of the nearest main lobe, in u (of a planar array's rows in v), its width is range d
-/// where that is more. A bin that hears a surface through side lobes only, from d to 2 d and beyond, then still
-/// holds scatterers_per_cell of its parts.
+/// What side lobes alone receive adds up in one bin from everywhere, so no part of it need be as narrow as a main lobe: at
+/// a distance d from the end of the nearest main lobe, in u (of a planar array's rows in v), the width is range d / 2 where
+/// that is more. Whatever is the nearest that a bin hears, as many parts lie between there and twice as far off.
 class SampledCells {
  public:
   /// Cells of a fan, as long as options.range_resolution [m], or two bins of the gate if that is 0.
