@@ -8,13 +8,12 @@
 #include "core/error.hpp"
 #include "core/pose.hpp"
 #include "core/units.hpp"
+#include "sampling/sampled_cells.hpp"
 
 namespace insonify {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double main_lobe = 1.5;  // from its axis to its end, in widths: a Taylor pattern's first null is at 1.25
 
 Direction direction(const BeamFan& fan, std::size_t beam) { return {fan.azimuth[beam], fan.elevation[beam]}; }
 
@@ -124,7 +123,7 @@ Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, doubl
     least = b == 0 ? cone : std::min(least, cone);
     most = b == 0 ? cone : std::max(most, cone);
   }
-  const double wide = margin > 0 ? margin : main_lobe * fan.beam_width;
+  const double wide = margin > 0 ? margin : main_lobe_reach * fan.beam_width;
   least = -farther_round(-least, wide);
   most = farther_round(most, wide);
   if (most - least >= 2 * pi) least = centre - pi, most = centre + pi;

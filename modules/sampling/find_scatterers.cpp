@@ -46,6 +46,7 @@ void require_valid(const SamplingOptions& options, const BeamFan& fan) {
           ">= 0 rad");
   require(at_least_0(options.relief_outer_scale), "relief_outer_scale", options.relief_outer_scale, ">= 0 m");
   require(at_least_0(options.azimuth_margin), "azimuth_margin", options.azimuth_margin, ">= 0 rad");
+  require(at_least_0(options.lobe_margin), "lobe_margin", options.lobe_margin, ">= 0");
   require(options.footprint > 0 && std::isfinite(options.footprint), "footprint", options.footprint, "> 0");
   require(options.rays_per_beam >= 1, "rays_per_beam", options.rays_per_beam, "at least 1");
   const double rays = static_cast<double>(fan.beams()) * options.rays_per_beam;
@@ -108,12 +109,6 @@ SamplingReport report_of(const SceneCloud& scene, const std::vector<GatedSurfel>
   return report;
 }
 
-SplitOptions split_options(const View& view) {
-  const SamplingOptions& o = view.options;
-  const double cell = o.range_resolution > 0 ? o.range_resolution : 2 * view.gate.bin_size;
-  return {o.scatterers_per_cell, cell, view.fan.beam_width, o.seed, o.threads, view.fan.row_width};
-}
-
 // Samples the visible part of the gated surfels.
 Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
   const SamplingOptions& options = view.options;
@@ -130,9 +125,9 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
     report.visible = cast.hit_surfels;
   } else {
     const auto visible = select_visible(surfels, options, report);
-    const SplitOptions split = split_options(view);
-    const PartCounts parts = count_parts(scene, view.head, visible, split);
-    result.scatterers = split_surfels(scene, view.head, visible, parts.first, split);
+    const SampledCells cells(view.fan, view.gate, options);
+    const PartCounts parts = count_parts(scene, view.head, visible, cells, options.threads);
+    result.scatterers = split_surfels(scene, view.head, visible, parts.first, options.seed, options.threads);
     report.capped = parts.capped;
   }
   report.scatterers = result.scatterers.size();
@@ -163,22 +158,37 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
     std::uint32_t band, surfel;
     PatchPlace at;
   };
+  constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
   std::vector<Placed> placed(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
-      const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, 4e9);
+      const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands);
       placed[s] = {static_cast<std::uint32_t>(band), surfels[s], {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)}};
     }
   });
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return std::tuple(a.band, a.at.u, a.surfel) < std::tuple(b.band, b.at.u, b.surfel);
-  });
+  // Each band by itself.
+  std::vector<std::size_t> first{0};
   for (const Placed& p : placed) {
-    sorted.surfel.push_back(p.surfel);
-    sorted.place.push_back(p.at);
+    if (p.band + std::size_t{2} > first.size()) first.resize(p.band + std::size_t{2}, 0);
+    ++first[p.band + 1];
   }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Placed> by_band(placed.size());
+  std::vector<std::size_t> next = first;
+  for (const Placed& p : placed) by_band[next[p.band]++] = p;
+  sorted.surfel.resize(placed.size());
+  sorted.place.resize(placed.size());
+  parallel_for(first.size() - 1, view.options.threads, [&](std::size_t band) {
+    const auto begin = by_band.begin() + static_cast<std::ptrdiff_t>(first[band]),
+               end = by_band.begin() + static_cast<std::ptrdiff_t>(first[band + 1]);
+    std::sort(begin, end, [](const Placed& a, const Placed& b) {
+      return std::tuple(a.at.u, a.surfel) < std::tuple(b.at.u, b.surfel);
+    });
+    for (std::size_t k = first[band]; k < first[band + 1]; ++k)
+      sorted.surfel[k] = by_band[k].surfel, sorted.place[k] = by_band[k].at;
+  });
 }
 
 }  // namespace
@@ -218,17 +228,14 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   const auto gated = gate_surfels(prepared, view.head, view.sector, gate, options.footprint, options.threads);
   VisibleSurfels result;
   result.report = report_of(scene, gated, view);
-  const SplitOptions split = split_options(view);
+  const SampledCells cells(fan, gate, options);
   sort_by_place(scene, view, select_visible(gated, options, result.report), result);
-  PartCounts parts = count_parts(scene, view.head, result.surfel, split);
+  PartCounts parts = count_parts(scene, view.head, result.surfel, cells, options.threads);
   result.first = std::move(parts.first);
   result.report.capped = parts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;
-  result.options.range_resolution = split.range_resolution;
   result.options.relief_outer_scale = outer_scale(prepared, options);
-  result.beam_width = fan.beam_width;
-  result.row_width = fan.row_width;
   result.relief = relief_of(scene, {options.seed, result.options.relief_outer_scale});
   return result;
 }
@@ -241,10 +248,8 @@ Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, cons
     surfels.push_back(visible.surfel[k]);
     first.push_back(first.back() + visible.first[k + 1] - visible.first[k]);
   }
-  const SamplingOptions& o = visible.options;
-  Scatterers parts = split_surfels(
-      scene, HeadFrame(scene, world_from_head), surfels, first,
-      {o.scatterers_per_cell, o.range_resolution, visible.beam_width, o.seed, threads, visible.row_width});
+  Scatterers parts =
+      split_surfels(scene, HeadFrame(scene, world_from_head), surfels, first, visible.options.seed, threads);
   if (visible.relief) tilt_by_relief(scene, world_from_head, *visible.relief, threads, parts);
   return parts;
 }

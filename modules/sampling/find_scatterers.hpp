@@ -39,6 +39,8 @@ struct SamplingOptions {
   int threads = 0;                   ///< 0: all cores
   double relief_outer_scale = 0;     ///< longest wavelength of micro-relief [m]; 0: the mean surfel spacing sqrt(area)
   double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
+  /// Beside main lobes, in u and v, surfels are split as inside up to this distance (E17); 2: everywhere.
+  double lobe_margin = 0;
 };
 
 /// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin and

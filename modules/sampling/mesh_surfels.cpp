@@ -9,7 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "sampling/gate_surfels_internal.hpp"
-#include "sampling/split_surfels_internal.hpp"
+#include "sampling/sampled_cells.hpp"
 
 // Surfels of a mesh for one ping (E70): each triangle is a binary tree of parts, halved across the longest edge. The tree
 // is fixed to the mesh; the ping visits the nodes that reach into its region and stops where they are small enough.
@@ -56,10 +56,10 @@ std::vector<IdRange> share_out_ids(const SceneMesh& mesh) {
   return ranges;
 }
 
-/// Angle that the side of a surfel may fill, by the main lobes [rad].
-double widest_surfel(const BeamFan& fan) {
-  const double height = fan.row_width > 0 ? std::min(fan.row_width, fan.elevation_width) : fan.elevation_width;
-  return std::min(lobe_share * std::min(fan.beam_width, height), std::sqrt(fan.beam_width * height / per_lobe));
+/// Angle that the side of a surfel may fill, by lobes of these widths [rad].
+double widest_surfel(const SampledCells::Widths& lobe, double elevation_width) {
+  const double height = lobe.row > 0 ? std::min(lobe.row, elevation_width) : elevation_width;
+  return std::min(lobe_share * std::min(lobe.beam, height), std::sqrt(lobe.beam * height / per_lobe));
 }
 
 struct MeshSurfel {
@@ -78,13 +78,9 @@ class MeshSampler {
         region_(region),
         ids_(share_out_ids(mesh)),
         seed_(options.seed),
-        cell_{1,
-              options.range_resolution > 0 ? options.range_resolution : 2 * region.gate.bin_size,
-              fan.beam_width,
-              seed_,
-              options.threads,
-              fan.row_width},
-        widest_(widest_surfel(fan)) {
+        threads_(options.threads),
+        cells_(fan, region.gate, options),
+        elevation_width_(fan.elevation_width) {
     while (mesh.triangle.size() << task_depth_ < wanted_tasks && task_depth_ < 10) ++task_depth_;
   }
 
@@ -95,7 +91,7 @@ class MeshSampler {
     count_ = 0;
     const std::size_t tasks = mesh_.triangle.size() << task_depth_, block = 1 + tasks / (4 * wanted_tasks);
     std::vector<std::vector<MeshSurfel>> found((tasks + block - 1) / block);
-    parallel_blocks(tasks, block, cell_.threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(tasks, block, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t task = begin; task < end; ++task) start(task, found[begin / block]);
     });
     if (count_ > most_) found.clear();
@@ -143,21 +139,22 @@ class MeshSampler {
 
   /// What of a part decides: where it is, and how large.
   struct Extent {
-    Vector3d centre;  ///< in head axes [m]
-    double radius = 0, longest2 = 0;
+    Vector3d centre;               ///< in head axes [m]
+    double radius = 0, reach = 0;  ///< of the part, and of what it may hide [m]
+    double longest2 = 0;
     bool reaches = false;
   };
 
   Extent extent_of(const Part& part) const {
     const Vector3d middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3;
-    Extent extent{head_.position(middle.cast<float>()), 0, 0, false};
+    Extent extent{head_.position(middle.cast<float>()), 0, 0, 0, false};
     for (int c = 0; c < 3; ++c) {
       extent.radius = std::max(extent.radius, (part.corner[c] - middle).norm());
       extent.longest2 = std::max(extent.longest2, (part.corner[c] - part.corner[(c + 1) % 3]).squaredNorm());
     }
-    const double reach = extent.radius + hiding_reach * region_.footprint * std::sqrt(part.area);
+    extent.reach = extent.radius + hiding_reach * region_.footprint * std::sqrt(part.area);
     extent.reaches =
-        extent.centre.norm() <= region_.gate.max_range + extent.radius && sector_.holds(extent.centre, reach);
+        extent.centre.norm() <= region_.gate.max_range + extent.radius && sector_.holds(extent.centre, extent.reach);
     return extent;
   }
 
@@ -167,8 +164,10 @@ class MeshSampler {
     const double range = std::max({distance - extent.radius, region_.gate.min_range, nearest_range});
     const Vector3d across = (part.corner[1] - part.corner[0]).cross(part.corner[2] - part.corner[0]).normalized();
     const double cosine = std::abs(head_.direction(across).dot(extent.centre)) / std::max(distance, nearest_range);
-    const double side = widest_ * range;
-    const double allowed = scale_ * std::min(side * side, cell_area(range, std::min(1.0, cosine), cell_));  // (E70)
+    const SampledCells::Widths lobe = cells_.widths(extent.centre, extent.reach);
+    const double side = widest_surfel(lobe, elevation_width_) * range;
+    const double cell = cells_.area(range, std::min(1.0, cosine), lobe);
+    const double allowed = scale_ * std::min(side * side, cell);  // (E70)
     return part.area <= allowed && extent.longest2 <= longest_squared * allowed;
   }
 
@@ -206,8 +205,9 @@ class MeshSampler {
   const InsonifiedRegion& region_;
   const std::vector<IdRange> ids_;
   const std::uint64_t seed_;
-  const SplitOptions cell_;
-  const double widest_;  // side of the widest surfel [rad]
+  const int threads_;
+  const SampledCells cells_;
+  const double elevation_width_;
   int task_depth_ = 0;
   double scale_ = 1;
   std::size_t most_ = 0;

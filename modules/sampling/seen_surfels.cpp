@@ -67,11 +67,9 @@ std::vector<Visibility> find_visibility(const PreparedScene& prepared, const Pos
 
 Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
                         const std::vector<std::uint32_t>& surfels, const SamplingOptions& options) {
-  const double cell = options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size;
   const HeadFrame head(scene, world_from_head);
-  const SplitOptions split{
-      options.scatterers_per_cell, cell, fan.beam_width, options.seed, options.threads, fan.row_width};
-  return split_surfels(scene, head, surfels, count_parts(scene, head, surfels, split).first, split);
+  const PartCounts parts = count_parts(scene, head, surfels, SampledCells(fan, gate, options), options.threads);
+  return split_surfels(scene, head, surfels, parts.first, options.seed, options.threads);
 }
 
 Scatterers split_listed(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,

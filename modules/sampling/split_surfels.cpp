@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t max_parts = 4096;
+constexpr double max_parts = 4096;
 constexpr double min_range = 1e-6;  // lower bound of range and horizontal distance [m]
 constexpr std::size_t surfels_at_once = 512;
 constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
@@ -39,29 +39,12 @@ struct Turns {
   }
 };
 
-// Number of parts before limits are applied (E17).
-double parts_wanted(double area, double range, double cos_incidence, const SplitOptions& options) {
-  if (!(options.scatterers_per_cell > 0)) return 1;
-  return std::ceil(options.scatterers_per_cell * area / cell_area(range, cos_incidence, options));  // (E17)
-}
-
-std::uint32_t bounded(double parts) {
-  return parts < max_parts ? std::max(1u, static_cast<std::uint32_t>(parts)) : max_parts;
-}
-
 constexpr double step_radius = 0.75487766624669276;  // of the R2 sequence, as in place_parts
 
 struct Splitter {
   const SceneCloud& scene;
   const HeadFrame& head;
-  const SplitOptions& options;
-
-  double wanted(std::uint32_t surfel) const {
-    const Vector3d p = head.position(scene.point[surfel]);
-    const double range = p.norm();
-    const Vector3d normal = head.direction(scene.normal[surfel].cast<double>());
-    return parts_wanted(scene.area[surfel], range, cos_incidence_of(normal, p, range, false), options);
-  }
+  std::uint64_t seed;
 
   void write(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel) const {
     const Vector3d world_normal = scene.normal[surfel].cast<double>().normalized();
@@ -103,7 +86,7 @@ struct Splitter {
     copy(head.direction(tangent), frame.t1);
     copy(head.direction(c.world_normal.cross(tangent)), frame.t2);
     copy(c.normal, frame.normal);
-    const auto drawn = random_uniform(options.seed, RandomStage::surfel_split, {scene.id[surfel], 0, 0});
+    const auto drawn = random_uniform(seed, RandomStage::surfel_split, {scene.id[surfel], 0, 0});
     const std::complex<double> turn = std::polar(1.0, 2 * pi * drawn[1]);
     frame.radius = std::sqrt(scene.area[surfel] / pi);
     frame.shift = drawn[0], frame.turn_re = turn.real(), frame.turn_im = turn.imag();
@@ -161,34 +144,17 @@ void resize(Scatterers& s, std::size_t n, int threads) {
 
 }  // namespace
 
-double cell_area(double range, double cos_incidence, const SplitOptions& options) {
-  const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence));
-  const double dr = options.range_resolution, level = 2 * std::sqrt(2 * range * dr);
-  const double length = sine * level > dr ? dr / sine : level;
-  double cell = length * range * options.beam_width;
-  if (options.row_width > 0) {
-    const double narrower = std::min(options.beam_width, options.row_width);
-    const double cross_section = range * options.beam_width * range * options.row_width;
-    cell = cross_section < cos_incidence * length * range * narrower ? cross_section / cos_incidence
-                                                                     : length * range * narrower;
-  }
-  return cell;
-}
-
-std::uint32_t parts_of(double area, double range, double cos_incidence, const SplitOptions& options) {
-  return bounded(parts_wanted(area, range, cos_incidence, options));
-}
-
 PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
-                       const SplitOptions& options) {
-  const Splitter splitter{scene, head, options};
+                       const SampledCells& cells, int threads) {
   PartCounts counts{std::vector<std::size_t>(surfels.size() + 1, 0)};
   std::atomic<std::size_t> capped{0};
-  parallel_blocks(surfels.size(), surfels_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(surfels.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
     std::size_t capped_here = 0;
     for (std::size_t s = begin; s < end; ++s) {
-      const double wanted = splitter.wanted(surfels[s]);
-      counts.first[s + 1] = bounded(wanted);
+      const Vector3d p = head.position(scene.point[surfels[s]]);
+      const Vector3d normal = head.direction(scene.normal[surfels[s]].cast<double>());
+      const double wanted = cells.parts(p, scene.area[surfels[s]], cos_incidence_of(normal, p, p.norm(), false));
+      counts.first[s + 1] = static_cast<std::size_t>(std::ceil(std::min(wanted, max_parts)));
       capped_here += wanted > max_parts;
     }
     capped += capped_here;
@@ -198,17 +164,17 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
   if (counts.first.back() > max_scatterers)
     fail(ErrorKind::argument, "split_surfels: ", surfels.size(), " surfels make ", counts.first.back(), " scatterers (",
          counts.first.back() * bytes_per_scatterer >> 30,
-         " GiB), must be at most 2^28; lower scatterers_per_cell = ", options.scatterers_per_cell,
+         " GiB), must be at most 2^28; lower scatterers_per_cell = ", cells.scatterers_per_cell(),
          ", or thin the scene");
   return counts;
 }
 
 Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
-                         std::span<const std::size_t> first, const SplitOptions& options) {
+                         std::span<const std::size_t> first, std::uint64_t seed, int threads) {
   Scatterers scatterers;
-  const Splitter splitter{scene, head, options};
-  resize(scatterers, first.back() - first.front(), options.threads);
-  parallel_blocks(surfels.size(), surfels_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+  const Splitter splitter{scene, head, seed};
+  resize(scatterers, first.back() - first.front(), threads);
+  parallel_blocks(surfels.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
       splitter.write(scatterers, first[s] - first[0], first[s + 1] - first[s], surfels[s]);
   });

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "core/parallel.hpp"
 #include "sampling/direction_index_internal.hpp"
@@ -68,29 +71,56 @@ class DepthTile {
   void find_covers(const DirectionTile& tile, std::vector<Cover>& covers) {
     nearest_.fill(0);
     for (const TileBox& box : tile.boxes) draw(tile, box);
-    for (const std::uint32_t query : tile.queries) {
-      const CubePoint& q = queries_[query];
-      const std::size_t cell = tile.cell_of(q);
-      if (q.depth * nearest_[cell] >= 1) open_.add({q, LineOfSight(surfels_[asked_[query]]), asked_[query]}, cell);
-    }
+    sort_open(tile);
     if (open_.empty()) return;
     for (const TileBox& box : tile.boxes) {
       const GatedSurfel& front = surfels_[box.surfel];
       const HidingDepth depth(front, tile.face);
-      open_.for_each(box, [&](Open& behind) {
-        Cover& so_far = covers[behind.surfel];
-        if (!hides(so_far) && depth.before(behind.place)) so_far |= cover(front, behind.line);
-      });
+      for (std::size_t y = box.y0; y <= box.y1; ++y) {
+        // Those of a row stand side by side; few of them are behind.
+        std::size_t found = 0;
+        for (std::uint32_t i = first_[y * side + box.x0]; i < first_[y * side + box.x1 + 1]; ++i) {
+          behind_[found] = i;
+          found += depth.before(places_[i]);
+        }
+        for (std::size_t k = 0; k < found; ++k) {
+          Open& behind = open_[behind_[k]];
+          if (!hides(behind.so_far)) behind.so_far |= cover(front, behind.line);
+        }
+      }
     }
+    for (const Open& o : open_) covers[o.surfel] = o.so_far;
   }
 
  private:
   struct Open {
-    CubePoint place;
     LineOfSight line;
     std::uint32_t surfel;
+    Cover so_far;
   };
   static constexpr std::size_t side = DirectionTile::side;
+
+  /// Lists the queries behind the buffer, by counting sort cell by cell.
+  void sort_open(const DirectionTile& tile) {
+    std::vector<std::pair<std::size_t, std::uint32_t>> found;  // cell, query
+    first_.fill(0);
+    for (const std::uint32_t query : tile.queries) {
+      const std::size_t cell = tile.cell_of(queries_[query]);
+      if (!(queries_[query].depth * nearest_[cell] >= 1)) continue;
+      found.emplace_back(cell, query);
+      ++first_[cell];
+    }
+    std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0U);
+    std::vector<std::uint32_t> sorted(found.size());
+    for (const auto& [cell, query] : found) sorted[first_[cell]++] = query;
+    std::shift_right(first_.begin(), first_.end(), 1);
+    first_[0] = 0;
+    for (const std::uint32_t query : sorted) {
+      places_.push_back(queries_[query]);
+      open_.push_back({LineOfSight(surfels_[asked_[query]]), asked_[query], 0});
+    }
+    behind_.resize(open_.size() + 1);
+  }
 
   void draw(const DirectionTile& tile, const TileBox& box) {
     const HidingDepth depth(surfels_[box.surfel], tile.face);
@@ -109,7 +139,10 @@ class DepthTile {
   std::span<const std::uint32_t> asked_;
   std::span<const CubePoint> queries_;
   std::array<float, side * side> nearest_;
-  CellLists<Open> open_;
+  std::vector<Open> open_;                            // by cells
+  std::vector<CubePoint> places_;                     // of these
+  std::array<std::uint32_t, side * side + 1> first_;  // of each cell
+  std::vector<std::uint32_t> behind_;
 };
 
 std::vector<Cover> covers_by_raster(const std::vector<GatedSurfel>& surfels, int threads) {

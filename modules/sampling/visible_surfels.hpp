@@ -21,8 +21,7 @@ struct VisibleSurfels {
   std::vector<std::size_t> first;     ///< number of the first part of each, and of all parts
   std::vector<PatchPlace> place;      ///< of each
   SamplingReport report;
-  SamplingOptions options;  ///< with the range resolution and the outer scale of the relief that were left open
-  double beam_width = 0, row_width = 0;
+  SamplingOptions options;  ///< with the outer scale of the relief that was left open
   std::optional<ReliefField> relief;
 };
 

@@ -5,9 +5,13 @@
 #include <complex>
 #include <numbers>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "beamforming/element_series.hpp"
+#include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "simulate/narrow_band_loops_internal.hpp"
 #include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 #include "simulate/pulse_spectrum_internal.hpp"
@@ -42,84 +46,106 @@ class NarrowBandError {
  public:
   explicit NarrowBandError(const PlanFacts& facts) : head_(facts.ping.head), nodes_(spectrum_nodes(head_.pulse)) {
     const double c = facts.ping.sent.medium.sound_speed;
-    wavenumber_ = 2 * pi * head_.pulse.centre_frequency / c;
+    cycles_per_m_ = head_.pulse.centre_frequency / c;
     off_focus_ = std::sqrt(3 * std::numbers::ln2 / 2) * c / (2 * pi * head_.pulse.bandwidth);
     for (std::size_t b = 0; b < head_.fan.beams(); ++b)
       u_beam_.push_back(std::cos(head_.fan.elevation[b]) * std::sin(head_.fan.azimuth[b]));
+    for (std::size_t m = 0; m < head_.array.elements(); ++m)
+      y_.push_back(head_.array.spacing * element_place(m, head_.array.elements()));
   }
 
   /// How many places to add.
   double places() const { return std::max(32.0, 768.0 / static_cast<double>(std::min(u_beam_.size(), near_beams))); }
 
-  /// Adds an echo from (range, u) that stands for `times`: all beams that have it in or near their main lobes, and a
+  /// Sums of squares over beams.
+  struct Sums {
+    double error = 0, image = 0;
+  };
+  /// Those of an echo from (range, u) that stands for `times`: all beams that have it in or near their main lobes, and a
   /// few that stand for the rest.
-  void add(double range, double u, double times) {
-    const std::size_t beams = u_beam_.size(), near = std::min(near_beams, beams);
-    std::sort(u_beam_.begin(), u_beam_.end(), [u](double a, double b) { return std::abs(a - u) < std::abs(b - u); });
-    for (std::size_t b = 0; b < near; ++b) add_beam(range, u, u_beam_[b], times);
+  Sums of(double range, double u, double times) const {
+    std::vector<double> u_beam = u_beam_;
+    const std::size_t beams = u_beam.size(), near = std::min(near_beams, beams);
+    std::sort(u_beam.begin(), u_beam.end(), [u](double a, double b) { return std::abs(a - u) < std::abs(b - u); });
+    Sums sums;
+    std::vector<double> room(2 * Phasors::rows * y_.size());
+    for (std::size_t b = 0; b < near; ++b) add_beam(range, u, u_beam[b], times, room, sums);
     const std::size_t rest = beams - near, step = std::max<std::size_t>(1, rest / far_beams);
     for (std::size_t b = near + step / 2; b < beams; b += step)
-      add_beam(range, u, u_beam_[b], times * static_cast<double>(step));
+      add_beam(range, u, u_beam[b], times * static_cast<double>(step), room, sums);
+    return sums;
   }
-  /// Squared error relative to the energy.
-  double squared() const { return image_ > 0 ? error_ / image_ : 0; }
 
  private:
+  using Phasors = kernels::EchoPhasors;
   static constexpr std::size_t near_beams = 16, far_beams = 8;
 
   // Nodes of the spectrum with the focus at the echo, and nodes of the pulse's length at the carrier: both at once are
   // of higher order.
-  void add_beam(double range, double u, double u_beam, double weight) {
+  void add_beam(double range, double u, double u_beam, double weight, std::vector<double>& room, Sums& sums) const {
+    Phasors p{};
+    for (std::size_t row = 0; row < Phasors::rows; ++row)
+      p.cosine[row] = room.data() + 2 * row * y_.size(), p.sine[row] = p.cosine[row] + y_.size();
+    const double carrier = head_.pulse.centre_frequency;
+    kernels::echo_phasors(y_.data(), y_.size(),
+                          {range, u, u_beam, std::max(range - off_focus_, 0.3 * range), range + off_focus_,
+                           cycles_per_m_, nodes_[3].frequency / carrier, nodes_[4].frequency / carrier},
+                          p);
     std::complex<double> truth[5] = {}, before = 0, behind = 0, narrow = 0;
-    const std::size_t elements = head_.array.elements();
-    for (std::size_t m = 0; m < elements; ++m) {
-      const double y = head_.array.spacing * element_place(m, elements), w = head_.array.shading[m];
-      const double there = way_to(y, range, u), carrier = wavenumber_ * (there - way_to(y, range, u_beam));
-      const std::complex<double> centre = w * unit(carrier);
-      narrow += w * unit(-wavenumber_ * y * (u - u_beam));
-      before += w * unit(wavenumber_ * (there - way_to(y, std::max(range - off_focus_, 0.3 * range), u_beam)));
-      behind += w * unit(wavenumber_ * (there - way_to(y, range + off_focus_, u_beam)));
+    for (std::size_t m = 0; m < y_.size(); ++m) {
+      const double w = head_.array.shading[m];
+      const auto phasor = [&](Phasors::Row row) { return std::complex(w * p.cosine[row][m], w * p.sine[row][m]); };
+      const std::complex<double> centre = phasor(Phasors::carrier);
+      narrow += phasor(Phasors::narrow);
+      before += phasor(Phasors::before);
+      behind += phasor(Phasors::behind);
       truth[2] += centre;
-      for (const std::size_t n : {std::size_t{3}, std::size_t{4}}) {  // nodes come in pairs
-        const std::complex<double> off = unit(carrier * nodes_[n].frequency / head_.pulse.centre_frequency);
-        truth[n] += centre * off;
-        truth[4 - n] += centre * std::conj(off);
+      for (const int n : {1, 2}) {  // nodes come in pairs
+        const Phasors::Row row = n == 1 ? Phasors::near_off : Phasors::far_off;
+        const std::complex<double> by_cosine = centre * p.cosine[row][m];
+        const std::complex<double> by_sine(-centre.imag() * p.sine[row][m], centre.real() * p.sine[row][m]);
+        truth[2 + n] += by_cosine + by_sine;
+        truth[2 - n] += by_cosine - by_sine;
       }
     }
     const auto add_node = [&](const std::complex<double>& t, double part) {
-      error_ += weight * part * std::norm(t - narrow);
-      image_ += weight * part * std::norm(t);
+      sums.error += weight * part * std::norm(t - narrow);
+      sums.image += weight * part * std::norm(t);
     };
     for (std::size_t n = 0; n < nodes_.size(); ++n) add_node(truth[n], nodes_[n].weight - (n == 2 ? 1.0 / 3 : 0));
     add_node(before, 1.0 / 6);
     add_node(behind, 1.0 / 6);
   }
-  static std::complex<double> unit(double phase) { return {std::cos(phase), std::sin(phase)}; }
-  static double way_to(double y, double range, double u) {
-    const double squared = y * y - 2 * range * y * u;
-    return squared / (std::sqrt(std::max(0.0, range * range + squared)) + range);
-  }
 
   const SonarHead& head_;
   std::array<SpectrumNode, 5> nodes_;
-  double wavenumber_, off_focus_, error_ = 0, image_ = 0;
-  std::vector<double> u_beam_;
+  double cycles_per_m_, off_focus_;
+  std::vector<double> u_beam_, y_;
 };
 
 /// Some places of the sample, each standing for the same power at an element.
 double narrow_band_bound(const PlanFacts& facts) {
   const SceneSample& s = facts.sample;
-  NarrowBandError error(facts);
+  const NarrowBandError error(facts);
   const double all = std::accumulate(s.power.begin(), s.power.end(), 0.0), part = all / error.places();
   double passed = -0.5 * part;
+  std::vector<std::pair<std::size_t, double>> places;  // and how many each stands for
   for (std::size_t i = 0; i < s.power.size(); ++i) {
     passed += s.power[i];
     if (s.power[i] == 0 || passed < 0) continue;
-    const double times = std::floor(passed / part) + 1;
-    error.add(s.places.range[i], std::cos(s.places.elevation[i]) * std::sin(s.places.azimuth[i]), times);
-    passed -= times * part;
+    places.emplace_back(i, std::floor(passed / part) + 1);
+    passed -= places.back().second * part;
   }
-  return added_bound(facts, error.squared() * s.in_view);
+  std::vector<NarrowBandError::Sums> sums(places.size());
+  parallel_blocks(places.size(), 8, facts.ping.options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto [i, times] = places[k];
+      sums[k] = error.of(s.places.range[i], std::cos(s.places.elevation[i]) * std::sin(s.places.azimuth[i]), times);
+    }
+  });
+  NarrowBandError::Sums sum;
+  for (const auto& of_place : sums) sum.error += of_place.error, sum.image += of_place.image;
+  return added_bound(facts, (sum.image > 0 ? sum.error / sum.image : 0) * s.in_view);
 }
 
 StageVerdict judge_true_delays(const PlanFacts& facts) {

@@ -37,12 +37,24 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength) {
   const std::vector<complex> terms = beam_terms(head, step);
   const std::vector<FanRow> rows = fan_rows(head.fan);
   table_.resize(8 * terms.size() + 2);
-  for (std::size_t t = 0; t < table_.size(); ++t) {
-    const double u = 2 * static_cast<double>(t) / static_cast<double>(table_.size() - 1) - 1;
-    const complex turn = std::polar(1.0, step * u);
-    complex phase = 1, sum = 0;
-    for (const complex& term : terms) sum += term * phase, phase *= turn;
-    table_[t] = std::max(0.0, sum.real()) / static_cast<double>(rows.size());
+  // Some entries side by side; real and imaginary parts apart, which needs no test for infinities.
+  constexpr std::size_t lanes = 8;
+  for (std::size_t begin = 0; begin < table_.size(); begin += lanes) {
+    double turn[lanes][2], phase[lanes][2], sum[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const double u = 2 * static_cast<double>(begin + l) / static_cast<double>(table_.size() - 1) - 1;
+      turn[l][0] = std::cos(step * u), turn[l][1] = std::sin(step * u);
+      phase[l][0] = 1, phase[l][1] = sum[l] = 0;
+    }
+    for (const complex& term : terms)
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const double re = phase[l][0], im = phase[l][1];
+        sum[l] += term.real() * re - term.imag() * im;
+        phase[l][0] = re * turn[l][0] - im * turn[l][1];
+        phase[l][1] = re * turn[l][1] + im * turn[l][0];
+      }
+    for (std::size_t l = 0; l < std::min(lanes, table_.size() - begin); ++l)
+      table_[begin + l] = std::max(0.0, sum[l]) / static_cast<double>(rows.size());
   }
   if (rows.size() > 1 || head.column)
     for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);

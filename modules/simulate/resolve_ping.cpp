@@ -23,6 +23,27 @@ EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
   return with_patterns(echoes, head);
 }
 
+/// How far beside their main lobes beams may receive echoes as loud as inside, in u and v.
+double lobe_margin(const SonarHead& head, const Medium& medium, const SimulationOptions& o) {
+  constexpr double everywhere = 2;
+  // By bounces and bent rays sound comes from other directions than the surfel's.
+  if (o.effects.multipath == Choice::always || o.effects.refraction == Choice::always) return everywhere;
+  // Elements more than half a wavelength apart have further main lobes.
+  double most_u = 0, most_v = 0;
+  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
+    const Eigen::Vector3d axis = unit_vector({head.fan.azimuth[b], head.fan.elevation[b]});
+    most_u = std::max(most_u, std::abs(axis.y())), most_v = std::max(most_v, std::abs(axis.z()));
+  }
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  if (wavelength / head.array.spacing < 1 + most_u || (head.column && wavelength / head.column->spacing < 1 + most_v))
+    return everywhere;
+  // A moving head has turned when it receives.
+  const Motion& motion = o.effects.motion;
+  if (o.effects.moving != Choice::always || motion.none()) return 0;
+  return 3 * most_displacement(motion, medium.sound_speed) +
+         motion.turn_rate.norm() * 2 * head.gate.max_range / medium.sound_speed;
+}
+
 SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, const Medium& medium,
                             const SimulationOptions& o) {
   SamplingOptions s;
@@ -33,6 +54,7 @@ SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, cons
   const bool all_elevations = o.sampling.outer_elevations == Choice::always;
   s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
   s.azimuth_margin = o.sampling.outer_azimuths == Choice::always ? pi : o.sampling.azimuth_margin;
+  s.lobe_margin = lobe_margin(head, medium, o);
   s.occlusion = o.sampling.occlusion;
   s.relief_outer_scale = scene.mean_spacing;
   s.seed = o.seed;

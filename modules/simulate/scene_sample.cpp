@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sampling/sampled_cells.hpp"
 #include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr std::size_t most_of_a_kind = 4096;
+constexpr std::size_t most_of_a_kind = 4096, surfels_at_once = 16384;
 constexpr double nearest = 1e-2;  // [m]: what is nearer is left to simulate_ping
 
 enum Kind : std::uint8_t { in_view, other_range, off_azimuth, off_elevation, elsewhere, kinds };
@@ -71,13 +73,21 @@ Sampled sampled_surfels(const SceneCloud& scene, const ResolvedPing& ping, const
   const Eigen::Vector3d shift = scene.origin - ping.view.world_from_head.translation();
   const double legs = has_boundary(ping.environment) ? longest_leg(ping.environment, ping.view, ping.sent) : 0;
   const double farthest = std::max(sorter.reach().max_range, legs);
-  std::array<std::vector<std::uint32_t>, kinds> members;
-  for (std::size_t i = 0; i < scene.size(); ++i) {
-    const Eigen::Vector3d p = shift + scene.point[i].cast<double>();
-    if (p.squaredNorm() > farthest * farthest) continue;
-    const Kind kind = sorter.kind_of(to_head * p);
-    if (kind != elsewhere || legs > 0) members[kind].push_back(static_cast<std::uint32_t>(i));
-  }
+  // Block by block, joined in the order of the scene.
+  using Members = std::array<std::vector<std::uint32_t>, kinds>;
+  std::vector<Members> blocks((scene.size() + surfels_at_once - 1) / surfels_at_once);
+  parallel_blocks(scene.size(), surfels_at_once, ping.options.threads, [&](std::size_t begin, std::size_t end) {
+    Members& of_block = blocks[begin / surfels_at_once];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d p = shift + scene.point[i].cast<double>();
+      if (p.squaredNorm() > farthest * farthest) continue;
+      const Kind kind = sorter.kind_of(to_head * p);
+      if (kind != elsewhere || legs > 0) of_block[kind].push_back(static_cast<std::uint32_t>(i));
+    }
+  });
+  Members members;
+  for (const Members& of_block : blocks)
+    for (std::size_t k = 0; k < kinds; ++k) members[k].insert(members[k].end(), of_block[k].begin(), of_block[k].end());
 
   Sampled sampled;
   std::vector<std::uint32_t> keep;
@@ -108,14 +118,6 @@ double left_in_gate(const ResolvedPing& ping, double r) {
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
 }
 
-/// How many scatterers surfels of the area `area` are split into, on average.
-double parts_of(const ResolvedPing& ping, double area, double range, double cosine) {
-  const SamplingOptions& sampling = ping.view.sampling;
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), cell = sampling.range_resolution;
-  const double length = std::min(cell / std::max(sine, 1e-6), 2 * std::sqrt(2 * range * cell));
-  return std::max(1.0, sampling.scatterers_per_cell * area / (length * range * ping.head.fan.beam_width));
-}
-
 }  // namespace
 
 SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
@@ -130,6 +132,7 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
   const Echoes echoes = direct_echoes(patches, scene.materials, ping.sent.pulse, medium, mean_power);
 
   // Energies and numbers, by where the echoes come from.
+  const SampledCells cells(view.fan, view.gate, view.sampling);
   SceneSample s;
   ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
@@ -146,7 +149,8 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
         std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) * left_in_gate(ping, r);
     const double energy = power * received.at(echoes.u[i], std::sin(patches.elevation[i]));
     *energies[kind] += energy;
-    *numbers[kind] += times * parts_of(ping, sampled.scene.area[surfel] / times, r, patches.cos_incidence[i]);
+    const Eigen::Vector3d p = r * unit_vector({patches.azimuth[i], patches.elevation[i]});
+    *numbers[kind] += times * cells.parts(p, sampled.scene.area[surfel] / times, patches.cos_incidence[i]);
     if (kind != in_view) continue;
     s.surfels += times;
     s.energy.back() = energy;

@@ -92,6 +92,29 @@ TEST(MeshSurfels, are_no_larger_than_half_a_lobe_and_a_cell) {
   }
 }
 
+// One beam of 1 degree: beside its lobe surfels are a quarter as wide as they are off it (E17).
+TEST(MeshSurfels, grow_with_the_distance_from_the_nearest_main_lobe) {
+  const SceneMesh mesh = square(60);
+  Look look(0, 8);
+  look.fan = make_fan(1, 0, radians(1), radians(60));
+  look.options.azimuth_margin = pi;
+  look.region.sector = insonified_sector(look.fan, look.options);
+  const SceneCloud scene = look.surfels(mesh).scene;
+  double total = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Eigen::Vector3d p = look.region.world_from_head.inverse() * world(scene, i);
+    const double off = std::max(0.0, std::abs(p.y()) / p.norm() - radians(1.5));
+    ASSERT_LE(scene.area[i], std::pow(1.05 * p.norm() * std::max(radians(0.5), off / 4), 2));
+    total += static_cast<double>(scene.area[i]);
+  }
+  look.options.lobe_margin = 2;
+  const SceneCloud even = look.surfels(mesh).scene;
+  EXPECT_LT(4 * scene.size(), even.size());
+  double even_total = 0;
+  for (const float area : even.area) even_total += static_cast<double>(area);
+  EXPECT_NEAR(total / even_total, 1, 0.05);  // but for the edges of the sector
+}
+
 TEST(MeshSurfels, stand_where_they_stand_for_every_head_and_thread_count) {
   const SceneMesh mesh = square(400, true);
   Look here(0), there(1.5);
@@ -117,6 +140,7 @@ TEST(MeshSurfels, are_nested) {
   for (Look* look : {&near, &far}) {
     look->region.sector = {-pi, pi, -pi / 2, pi / 2};
     look->options.seed = 3;
+    look->options.lobe_margin = 2;  // else the farther one looks finer at what is off its beams
   }
   const auto fine = by_id(near.surfels(mesh).scene), coarse = by_id(far.surfels(mesh).scene);
   EXPECT_GT(fine.size(), 2 * coarse.size());

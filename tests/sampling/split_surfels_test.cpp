@@ -1,4 +1,4 @@
-#include "sampling/split_surfels_internal.hpp"
+#include "sampling/sampled_cells.hpp"
 #include "sampling_scenes.hpp"
 #include "support/test.hpp"
 
@@ -8,6 +8,7 @@ namespace {
 
 const BeamFan split_fan = make_fan(64, radians(60), radians(1), radians(40));
 const RangeGate split_gate{0.1, 50, 0.01};
+const Vector3d ten_ahead(10, 0, 0);
 
 SceneCloud small_wall() {
   SceneCloud scene;
@@ -29,23 +30,58 @@ Vector3d world_position(const Scatterers& s, std::size_t i, const Pose& pose) {
 
 TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell) {
   // At 45 degrees, range 10 m: a cell is 0.02 sqrt(2) m by 0.2 m, so 1 m^2 holds 176.8 cells (E17).
-  const SplitOptions options{.scatterers_per_cell = 10, .range_resolution = 0.02, .beam_width = 0.02};
-  EXPECT_EQ(parts_of(1, 10, std::sqrt(0.5), options), 1768u);
+  const SampledCells cells(make_fan(1, 0, 0.02, 1), {0.1, 50, 1},
+                           {.scatterers_per_cell = 10, .range_resolution = 0.02});
+  EXPECT_NEAR(cells.parts(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
   // At normal incidence a plane within dr is 2 sqrt(2 r dr) = 1.2649 m long.
-  EXPECT_EQ(parts_of(1, 10, 1, options), 40u);
-  EXPECT_EQ(parts_of(1e-6, 10, 0.5, options), 1u);
-  EXPECT_EQ(parts_of(1e6, 10, 0.5, options), 4096u);
-  EXPECT_EQ(parts_of(1, 10, 0.5, {.scatterers_per_cell = 0}), 1u);
+  EXPECT_NEAR(cells.parts(ten_ahead, 1, 1), 39.53, 0.01);
+  EXPECT_EQ(cells.parts(ten_ahead, 1e-6, 0.5), 1);
+  const SampledCells none(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {.scatterers_per_cell = 0});
+  EXPECT_EQ(none.parts(ten_ahead, 1, 0.5), 1);
+  // Without a resolution it is two bins.
+  const SampledCells bins(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {});
+  EXPECT_EQ(bins.parts(ten_ahead, 1, 0.5), cells.parts(ten_ahead, 1, 0.5));
 }
 
 // A planar array at range 10 m with beams of 0.02 rad both ways: the cross-section of 0.2 x 0.2 m at 45 degrees is
 // still longer than the cell; a beam of 0.005 rad in elevation reduces the cell to a quarter.
 TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell_of_a_planar_array) {
-  SplitOptions options{.scatterers_per_cell = 10, .range_resolution = 0.02, .beam_width = 0.02, .row_width = 0.02};
-  EXPECT_EQ(parts_of(1, 10, std::sqrt(0.5), options), 1768u);
-  EXPECT_EQ(parts_of(0.1, 10, 1, options), 25u);
-  options.row_width = 0.005;
-  EXPECT_EQ(parts_of(0.25, 10, std::sqrt(0.5), options), 1768u);
+  const RangeGate gate{0.1, 50, 0.01};
+  BeamFan fan = make_fan(1, 0, 0.02, 1);
+  fan.row_width = 0.02;
+  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
+  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(ten_ahead, 0.1, 1), 25, 1e-9);
+  fan.row_width = 0.005;
+  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(ten_ahead, 0.25, std::sqrt(0.5)), 1767.8, 0.1);
+  // A tenth of a radian beyond the ends of the lobes both ways the cell is 0.05 rad x 0.05 rad.
+  const double u = 1.5 * 0.02 + 0.1, v = 1.5 * 0.005 + 0.1;
+  const Vector3d beside(10 * std::sqrt(1 - u * u - v * v), 10 * u, 10 * v);
+  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(beside, 1e-3, 1), std::max(1.0, 10 * 1e-3 / (0.5 * 0.5)), 1e-9);
+  EXPECT_NEAR(SampledCells(fan, gate, {}).widths(beside, 0).beam, 0.05, 1e-12);
+  EXPECT_NEAR(SampledCells(fan, gate, {}).widths(beside, 0).row, 0.05, 1e-12);
+}
+
+// Beams of 0.02 rad at u = 0 and 0.5: their main lobes end 0.03 beside them (E17).
+TEST(Splitting, takes_cells_half_as_wide_as_they_are_off_the_nearest_main_lobe) {
+  BeamFan fan = make_fan(2, 1, 0.02, 1);
+  fan.azimuth = {pi / 6, 0};
+  const RangeGate gate{0.1, 50, 0.01};
+  const SampledCells cells(fan, gate, {});
+  const auto at_u = [](double u) { return Vector3d(10 * std::sqrt(1 - u * u), 10 * u, 0); };
+  for (const double inside : {0.0, 0.03, -0.03, 0.069, -0.069, 0.47, 0.53, 0.569})
+    EXPECT_EQ(cells.widths(at_u(inside), 0).beam, 0.02) << inside;
+  EXPECT_NEAR(cells.widths(at_u(0.23), 0).beam, 0.1, 1e-12);
+  EXPECT_NEAR(cells.widths(at_u(0.29), 0).beam, 0.09, 1e-12);  // nearer to the other
+  EXPECT_NEAR(cells.widths(at_u(-1), 0).beam, 0.485, 1e-12);
+  EXPECT_NEAR(cells.widths(at_u(0.73), 0).beam, 0.1, 1e-12);
+  // What reaches into a lobe is cut as inside; of the rest, the nearest part counts.
+  EXPECT_EQ(cells.widths(at_u(0.23), 1.7).beam, 0.02);
+  EXPECT_NEAR(cells.widths(at_u(0.23), 1).beam, 0.05, 1e-12);
+  // The fewer parts of a surfel, the wider its cell: here 0.1 less half of what it reaches towards the lobe.
+  EXPECT_NEAR(cells.parts(at_u(-0.23), 0.01 * pi, 0.5) / cells.parts(at_u(0), 0.01 * pi, 0.5), 0.02 / 0.095, 1e-6);
+  const SampledCells wider(fan, gate, {.lobe_margin = 0.1}), everywhere(fan, gate, {.lobe_margin = 2});
+  EXPECT_NEAR(wider.widths(at_u(0.73), 0).beam, 0.05, 1e-12);
+  EXPECT_EQ(everywhere.widths(at_u(-1), 0).beam, 0.02);
 }
 
 TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {

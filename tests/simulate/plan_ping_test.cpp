@@ -307,6 +307,14 @@ TEST(PlanPing, estimates_what_a_ping_will_hold) {
   EXPECT_GT(plan.mib, 0);
 }
 
+TEST(PlanPing, estimates_what_a_ping_of_one_beam_and_its_side_lobes_will_hold) {
+  Situation s = situation(4);
+  s.head = small_head({.beams = 1, .field_of_view_deg = 2, .elevation_width_deg = 40, .max_range = 8});
+  s.options.sampling.outer_azimuths = Choice::always;
+  const SimulatedPing p = simulate_ping(s.scene, s.head, s.pose, s.environment, s.options);
+  EXPECT_NEAR(plan_of(s).scatterers / static_cast<double>(p.sampling.scatterers), 1, 0.3);
+}
+
 TEST(PlanPing, of_an_empty_view_is_finite_but_for_what_is_left_out) {
   Situation s = situation(1);
   s.pose = pose_from_yaw_pitch_roll({0, 0, 500}, 0, 0, 0);

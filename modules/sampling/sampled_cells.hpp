@@ -1,0 +1,55 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sampling/find_scatterers.hpp"
+
+namespace insonify {
+
+/// How far a main lobe reaches from its axis, in beam widths: the first null of a Taylor pattern is at 1.25.
+inline constexpr double main_lobe_reach = 1.5;
+
+/// The cells on a surface that a sampling resolves (E17). Between the ends of the main lobes, 1.5 widths and the options'
+/// lobe_margin from the axis of a beam, they are resolution cells:
+///
+///   area = length width, width = range beam_width, length = min(dr / sin(incidence), 2 sqrt(2 range dr))
+///
+/// The second length is the extent of a plane at normal incidence within dr. For a planar array the cell is limited by
+/// the cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x
+/// range x the narrower of both widths.
+///
+/// What side lobes alone receive adds up in one bin from everywhere, so no part of it need be as narrow as a main lobe: at
+/// a distance d from the end of the nearest main lobe, in u (of a planar array's rows in v), the width is range d / 2 where
+/// that is more. Whatever is the nearest that a bin hears, as many parts lie between there and twice as far off.
+class SampledCells {
+ public:
+  /// Cells of a fan, as long as options.range_resolution [m], or two bins of the gate if that is 0.
+  SampledCells(const BeamFan& fan, const RangeGate& gate, const SamplingOptions& options);
+
+  /// Widths of a cell [rad].
+  struct Widths {
+    double beam;
+    double row;  ///< 0: unlimited
+  };
+  /// Widths for a surface within `reach` [m] of `position` (head axes).
+  Widths widths(const Eigen::Vector3d& position, double reach) const;
+  /// Area of a cell of these widths [m^2].
+  double area(double range, double cos_incidence, const Widths& widths) const;
+
+  /// How many parts a surfel needs for scatterers_per_cell parts in a cell: at least 1, not rounded; 1 for 0 per cell.
+  /// Its disc is about `position`; surface [m^2].
+  double parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const;
+  /// As in the options.
+  double scatterers_per_cell() const { return scatterers_per_cell_; }
+
+ private:
+  using Intervals = std::vector<std::pair<double, double>>;  // disjoint, ascending
+
+  double scatterers_per_cell_, range_resolution_;
+  Widths main_lobe_;
+  Intervals lobes_u_, lobes_v_;
+};
+
+}  // namespace insonify

@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
+// each. They do not include Eigen, so wide registers are safe.
+namespace insonify::kernels {
+
+/// An echo from (range, u) in a beam at u_beam, focused at its range, and nearer and farther by the pulse's length [m].
+struct BeamEcho {
+  double range, u, u_beam, nearer, farther;
+  double cycles_per_m;       ///< at the carrier
+  double near_off, far_off;  ///< frequencies off the carrier, over it
+};
+
+/// What is turned by the difference of the ways that echo and focus have to an element (E61, E62).
+struct EchoPhasors {
+  enum Row { narrow, carrier, before, behind, near_off, far_off, rows };
+  double* cosine[rows];
+  double* sine[rows];
+};
+
+/// Phasors of the elements at y [m, along the array]: of the narrow-band, far-field pattern (E10), of the carrier with
+/// the focus at the echo, before and behind it, and of what the frequencies off the carrier add to the carrier's.
+void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, EchoPhasors phasors);
+
+}  // namespace insonify::kernels
