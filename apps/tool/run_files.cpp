@@ -106,7 +106,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
 
 LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
   Grid<float> level = shown_level_db(ping);
-  const bool downwards = looks_down(ping.world_from_head) && !ping.scan;
+  const bool downwards = looks_down(ping.world_from_head, ping.scan);
   if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa", downwards};
   const std::string unit = tvg->spreading == 40 ? "dB re 1 µPa at 1 m, range compensated"
                                                 : fmt::format("dB re 1 µPa, gain {:g} log r", tvg->spreading);

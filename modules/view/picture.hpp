@@ -1,10 +1,13 @@
 #pragma once
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/grid.hpp"
 #include "core/pose.hpp"
+#include "returns/ping.hpp"
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
 
@@ -19,8 +22,11 @@ struct LevelImage {
   bool downwards = false;  ///< the head looks down, as that of a swath does: a fan is drawn with the head at the top
 };
 
-/// Whether a head looks down by more than 45 degrees.
-inline bool looks_down(const Pose& world_from_head) { return world_from_head.linear()(2, 0) < -0.7072; }
+/// Whether a head looks down by more than 45 degrees, a scanning head where its own turn is zero.
+inline bool looks_down(const Pose& world_from_head, const std::optional<ScanPlace>& scan) {
+  const double turn = scan ? scan->angle : 0;
+  return (world_from_head.linear() * Eigen::Vector3d(std::cos(turn), -std::sin(turn), 0)).z() < -0.7072;
+}
 
 /// A place in a picture marked with a ring and, if there is room, its name.
 struct Mark {

@@ -101,7 +101,7 @@ LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
   const auto shown = data.pings.ping(ping_index);
   const Ping& ping = *shown;
   LevelImage image{ping.fan, ping.gate, shown_level_db(ping), level_unit(tvg),
-                   looks_down(ping.world_from_head) && !ping.scan};
+                   looks_down(ping.world_from_head, ping.scan)};
   if (ping.scan)
     for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping.scan->angle, 2 * pi);
   if (tvg) image.level_db = apply_tvg(std::move(image.level_db), ping.gate, {40, data.absorption_db_per_m});

@@ -70,7 +70,11 @@ SweepImage sweep_at(const ViewerData& data, std::size_t ping, bool tvg, BeamPage
   const Eigen::Index bins = level_db.cols();
   std::vector<double>& azimuth = sweep.image.fan.azimuth;
   Grid<float>& shown = sweep.image.level_db;
-  sweep.image = {pings.fan(), pings.gate(), {}, level_unit(tvg)};
+  sweep.image = {pings.fan(),
+                 pings.gate(),
+                 {},
+                 level_unit(tvg),
+                 looks_down(pings.place(ping).world_from_head, pings.place(ping).scan)};
   azimuth.clear();
   shown.setConstant(static_cast<Eigen::Index>(own.count + before.count), bins, static_cast<float>(silence_db));
 

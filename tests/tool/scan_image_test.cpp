@@ -131,3 +131,15 @@ TEST_F(Missions, that_are_made_can_be_surveyed_and_swept) {
   expect_refused("image run/sonar --frame world -o x.png", 2, {"--frame goes with --view scan, not fan"});
   expect_refused("make-mission orbit -o orbit.toml --scene x.ply", 4, {"orbit.toml: exists already"});
 }
+
+TEST(ScanImage, of_a_profiler_has_the_head_at_the_top) {
+  ImageRun run = sweep_before_wall(0);
+  EXPECT_FALSE(sweep_of_head(run, raw(), 60).downwards) << "a level head, whatever its turn";
+  const Pose down = pose_from_yaw_pitch_roll({0, 0, 0}, radians(30), radians(80), 0);
+  for (Ping& ping : run.cube.pings)
+    ping.world_from_head = down * Eigen::AngleAxisd(ping.scan->angle, Eigen::Vector3d::UnitZ());
+  for (const std::size_t ping : {0, 60}) {
+    EXPECT_TRUE(sweep_of_head(run, raw(), ping).downwards);
+    EXPECT_TRUE(sweep_in_world(run, raw(), ping).downwards);
+  }
+}
