@@ -1,7 +1,6 @@
 #include "tool/dataset_runs.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <set>
 

@@ -1,0 +1,89 @@
+// Products of a whole survey, read by the decoders of tests/formats.
+#include <nlohmann/json.hpp>
+
+#include "core/geodesy.hpp"
+#include "formats/gsf_decoder.hpp"
+#include "formats/las_decoder.hpp"
+#include "formats/ros_decoder.hpp"
+#include "formats/tiff_decoder.hpp"
+#include "store/cube.hpp"
+#include "tool/tool_runner.hpp"
+
+// A survey of two blocks over a level bed: each product has all its pings, at the place and time that the mission gives.
+class ExportSurvey : public ToolTest {
+ protected:
+  static constexpr double bed_depth = 4;
+  void SetUp() override {
+    write("bed.obj", "v -3 -14 -4\nv 3 -14 -4\nv 3 14 -4\nv -3 14 -4\nf 1 2 3\nf 1 3 4\n");
+    write("line.toml", R"(schema = 1
+[survey]
+scene = "bed.obj"
+anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }
+start_utc = "2026-05-01T08:30:00Z"
+[trajectory]
+waypoints_m = [[-1, 0, 0], [1, 0, 0]]
+speed_m_s = 1
+[[head]]
+sonar = "r2sonic-2024"
+set = ["sonar.beams=33", "sonar.field_of_view_deg=90"]
+range = "2:8"
+every_m = 0.5
+[ping]
+noise = true
+split = true
+)");
+    succeed("survey line.toml -q --pings-per-block 3 -o run");
+  }
+};
+
+TEST_F(ExportSurvey, has_all_pings_in_every_product) {
+  for (const char* to : {"gsf", "las", "csv", "geotiff", "mcap", "png"})
+    succeed("export run -q --to " + std::string(to) + " -o product." + to);
+  succeed("merge -q run");
+  succeed("export run -q -o vtk");
+
+  const decode::GsfContent gsf = decode::read_gsf(read("product.gsf"));
+  ASSERT_EQ(gsf.swaths.size(), 4U);
+  const Anchor anchor{54.1, 7.9, 30};
+  std::size_t soundings = 0;
+  for (std::size_t p = 0; p < 4; ++p) {
+    const decode::GsfSwath& s = gsf.swaths[p];
+    EXPECT_NEAR(s.time, 1777624200 + 0.5 * static_cast<double>(p), 1e-6);
+    EXPECT_NEAR(s.heading_deg, 30, 0.011);
+    if (p > 0) {
+      EXPECT_NEAR(s.speed_knots, 1 / 0.514444, 0.02);
+    }
+    const GeoPlace head = geo_from_world(anchor, {-1 + 0.5 * static_cast<double>(p), 0, 0});
+    EXPECT_NEAR(s.latitude_deg, degrees(head.latitude), 0.6e-7);
+    EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
+    for (std::size_t b = 0; b < s.flags.size(); ++b)
+      if (s.flags[b] == 0) {
+        ++soundings;
+        EXPECT_NEAR(s.arrays.at(1)[b], bed_depth, 0.1);
+        EXPECT_NEAR(s.arrays.at(2)[b],
+                    bed_depth * std::tan(radians(s.arrays.at(5)[b])) * (2 * b < s.flags.size() ? -1 : 1), 0.1);
+      }
+  }
+  EXPECT_GT(soundings, 4 * 31U);
+
+  const std::vector<decode::LasRow> las = decode::read_las(read("product.las"));
+  EXPECT_EQ(las.size(), soundings);
+  for (const decode::LasRow& row : las) EXPECT_NEAR(row.place[2], -bed_depth, 0.1);
+  const std::string csv = read("product.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), soundings + 1);
+  EXPECT_THAT(csv, HasSubstr("latitude_deg"));
+  const decode::GeotiffContent map = decode::read_geotiff(read("product.geotiff"));
+  double counted = 0;
+  for (std::size_t i = 0; i < map.bands[2].size(); ++i) {
+    counted += static_cast<double>(map.bands[2][i]);
+    if (map.bands[2][i] > 0) {
+      EXPECT_NEAR(map.bands[0][i], -bed_depth, 0.1);
+    }
+  }
+  EXPECT_EQ(counted, static_cast<double>(soundings));
+  EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 4U);
+  EXPECT_EQ(nlohmann::json::parse(read("product.png/manifest.json"))["pings"].size(), 4U);
+  EXPECT_TRUE(std::filesystem::exists(path("product.png/fan_000003.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("vtk/fan_000003.vts")));
+  EXPECT_TRUE(std::filesystem::exists(path("vtk/returns.vtp")));
+}
