@@ -1,5 +1,7 @@
 #include "core/child_process.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -43,7 +45,7 @@ void confine(const ChildLimits& limits, std::size_t memory) {
   sigprocmask(SIG_SETMASK, &none, nullptr);
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, limits.seconds);
-#ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take terabytes of addresses
   set_limit(RLIMIT_AS, memory);
 #else
   static_cast<void>(memory);
@@ -53,9 +55,31 @@ void confine(const ChildLimits& limits, std::size_t memory) {
   if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
 }
 
-int run_child(const std::function<void()>& read) {
+/// Writes all to a pipe, of which the parent reads the other end.
+bool send(int to, const std::string& text) {
+  for (std::size_t sent = 0; sent < text.size();) {
+    const ssize_t count = write(to, text.data() + sent, text.size() - sent);
+    if (count < 0 && errno != EINTR) return false;
+    sent += static_cast<std::size_t>(std::max<ssize_t>(0, count));
+  }
+  return true;
+}
+
+/// Reads until the child ends.
+std::string receive(int from) {
+  std::string text;
+  std::array<char, 4096> some;
+  for (ssize_t count = 1; count != 0;) {
+    count = read(from, some.data(), some.size());
+    if (count < 0 && errno != EINTR) break;
+    text.append(some.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  }
+  return text;
+}
+
+int run_child(const std::function<std::string()>& read, int to) {
   try {
-    read();
+    return send(to, read()) ? child_in_order : child_without_memory;
   } catch (const std::bad_alloc&) {
     return child_without_memory;
   } catch (const std::exception&) {
@@ -63,16 +87,8 @@ int run_child(const std::function<void()>& read) {
   return child_in_order;
 }
 
-}  // namespace
-
-void try_in_child(const std::string& path, const ChildLimits& limits, const std::function<void()>& read) {
-  const std::size_t memory = address_space() + limits.memory;
-  const pid_t child = fork();
-  if (child < 0) fail(ErrorKind::runtime, path, ": no process can be started to read it; end others, and run again");
-  if (child == 0) {
-    confine(limits, memory);
-    _exit(run_child(read));
-  }
+/// Waits for the child, and throws unless it ended in order.
+void require_in_order(pid_t child, const std::string& path, const ChildLimits& limits) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -83,6 +99,34 @@ void try_in_child(const std::string& path, const ChildLimits& limits, const std:
     fail(ErrorKind::content, path, ": reading it takes more than ", limits.seconds, " s", remedy);
   if (signal != 0) fail(ErrorKind::content, path, ": reading it ends with signal ", signal, remedy);
   fail(ErrorKind::content, path, ": reading it takes more than ", limits.memory >> 20, " MiB of memory", remedy);
+}
+
+}  // namespace
+
+void try_in_child(const std::string& path, const ChildLimits& limits, const std::function<void()>& read) {
+  read_in_child(path, limits, [&] {
+    read();
+    return std::string();
+  });
+}
+
+std::string read_in_child(const std::string& path, const ChildLimits& limits,
+                          const std::function<std::string()>& read) {
+  const std::size_t memory = address_space() + limits.memory;
+  int ends[2];
+  const bool piped = pipe2(ends, O_CLOEXEC) == 0;
+  const pid_t child = piped ? fork() : -1;
+  if (child == 0) {
+    confine(limits, memory);
+    close(ends[0]);
+    _exit(run_child(read, ends[1]));
+  }
+  if (piped) close(ends[1]);
+  const std::string text = child > 0 ? receive(ends[0]) : "";
+  if (piped) close(ends[0]);
+  if (child < 0) fail(ErrorKind::runtime, path, ": no process can be started to read it; end others, and run again");
+  require_in_order(child, path, limits);
+  return text;
 }
 
 }  // namespace insonify

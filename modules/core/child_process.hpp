@@ -17,4 +17,9 @@ struct ChildLimits {
 /// memory. `read` must use no thread that this process has started, and no lock that one of them may hold.
 void try_in_child(const std::string& path, const ChildLimits& limits, const std::function<void()>& read);
 
+/// The same for what must not be read in this process at all: returns what `read` returned in the child, empty if it threw
+/// an Error.
+std::string read_in_child(const std::string& path, const ChildLimits& limits,
+                          const std::function<std::string()>& read);
+
 }  // namespace insonify

@@ -12,6 +12,7 @@
 #include "core/units.hpp"
 #include "sampling/cast_rays_internal.hpp"
 #include "sampling/choose_projection_internal.hpp"
+#include "sampling/count_parts_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/list_where_internal.hpp"
 #include "sampling/sparse_beams_internal.hpp"
@@ -126,9 +127,10 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
   } else {
     const auto visible = select_visible(surfels, options, report);
     const SampledCells cells(view.fan, view.gate, options);
-    const PartCounts parts = count_parts(scene, view.head, visible, cells, options.threads);
-    result.scatterers = split_surfels(scene, view.head, visible, parts.first, options.seed, options.threads);
-    report.capped = parts.capped;
+    const PartCounts counts = count_parts(scene, view.head, visible, cells, view.gate, options);
+    result.scatterers = split_surfels(scene, view.head, visible, first_parts(counts.parts, options.scatterers_per_cell),
+                                      options.seed, options.threads);
+    report.capped = counts.capped;
   }
   report.scatterers = result.scatterers.size();
   return result;
@@ -153,10 +155,11 @@ double outer_scale(const PreparedScene& prepared, const SamplingOptions& options
 
 // Sorts surfels by bands of 64 bins and inside a band by u, then by index: neighbours add to the same part of an image.
 void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<std::uint32_t>& surfels,
-                   VisibleSurfels& sorted) {
+                   const std::vector<std::uint16_t>& parts, VisibleSurfels& sorted) {
   struct Placed {
     std::uint32_t band, surfel;
     PatchPlace at;
+    std::uint16_t parts;
   };
   constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
   std::vector<Placed> placed(surfels.size());
@@ -165,7 +168,10 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
       const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands);
-      placed[s] = {static_cast<std::uint32_t>(band), surfels[s], {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)}};
+      placed[s] = {static_cast<std::uint32_t>(band),
+                   surfels[s],
+                   {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)},
+                   parts[s]};
     }
   });
   // Each band by itself.
@@ -180,6 +186,7 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   for (const Placed& p : placed) by_band[next[p.band]++] = p;
   sorted.surfel.resize(placed.size());
   sorted.place.resize(placed.size());
+  std::vector<std::uint16_t> sorted_parts(placed.size());
   parallel_for(first.size() - 1, view.options.threads, [&](std::size_t band) {
     const auto begin = by_band.begin() + static_cast<std::ptrdiff_t>(first[band]),
                end = by_band.begin() + static_cast<std::ptrdiff_t>(first[band + 1]);
@@ -187,8 +194,9 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
       return std::tuple(a.at.u, a.surfel) < std::tuple(b.at.u, b.surfel);
     });
     for (std::size_t k = first[band]; k < first[band + 1]; ++k)
-      sorted.surfel[k] = by_band[k].surfel, sorted.place[k] = by_band[k].at;
+      sorted.surfel[k] = by_band[k].surfel, sorted.place[k] = by_band[k].at, sorted_parts[k] = by_band[k].parts;
   });
+  sorted.first = first_parts(sorted_parts, view.options.scatterers_per_cell);
 }
 
 }  // namespace
@@ -229,10 +237,10 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   VisibleSurfels result;
   result.report = report_of(scene, gated, view);
   const SampledCells cells(fan, gate, options);
-  sort_by_place(scene, view, select_visible(gated, options, result.report), result);
-  PartCounts parts = count_parts(scene, view.head, result.surfel, cells, options.threads);
-  result.first = std::move(parts.first);
-  result.report.capped = parts.capped;
+  const auto visible = select_visible(gated, options, result.report);
+  const PartCounts counts = count_parts(scene, view.head, visible, cells, gate, options);
+  sort_by_place(scene, view, visible, counts.parts, result);
+  result.report.capped = counts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;
   result.options.relief_outer_scale = outer_scale(prepared, options);

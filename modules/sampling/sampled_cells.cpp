@@ -9,6 +9,7 @@ namespace insonify {
 namespace {
 
 constexpr double per_distance = 0.5;  // width of a cell in side lobes, in distances from the main lobe
+constexpr double full_share = 0.125;  // of what is heard from a range: a cell that gives so much has all of its parts
 
 /// Joins what lies within `half` of the axes.
 std::vector<std::pair<double, double>> joined_lobes(std::vector<double> axes, double half) {
@@ -75,5 +76,7 @@ double SampledCells::parts(const Eigen::Vector3d& position, double surface, doub
   const Widths at = widths(position, std::sqrt(surface / pi));
   return std::max(1.0, scatterers_per_cell_ * surface / area(position.norm(), cos_incidence, at));  // (E17)
 }
+
+double SampledCells::parts_of_share(double share) const { return scatterers_per_cell_ / full_share * share; }  // (E127)
 
 }  // namespace insonify

@@ -41,8 +41,13 @@ class SampledCells {
   /// How many parts a surfel needs for scatterers_per_cell parts in a cell: at least 1, not rounded; 1 for 0 per cell.
   /// Its disc is about `position`; surface [m^2].
   double parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const;
+  /// How many parts a surface needs that gives `share` of what is heard from one range (E127), not rounded: a cell that
+  /// gives an eighth or more has scatterers_per_cell.
+  double parts_of_share(double share) const;
   /// As in the options.
   double scatterers_per_cell() const { return scatterers_per_cell_; }
+  /// Length of a cell along the line of sight [m].
+  double range_resolution() const { return range_resolution_; }
 
  private:
   using Intervals = std::vector<std::pair<double, double>>;  // disjoint, ascending

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "sampling/choose_projection_internal.hpp"
+#include "sampling/count_parts_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/list_where_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
@@ -68,8 +69,12 @@ std::vector<Visibility> find_visibility(const PreparedScene& prepared, const Pos
 Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate,
                         const std::vector<std::uint32_t>& surfels, const SamplingOptions& options) {
   const HeadFrame head(scene, world_from_head);
-  const PartCounts parts = count_parts(scene, head, surfels, SampledCells(fan, gate, options), options.threads);
-  return split_surfels(scene, head, surfels, parts.first, options.seed, options.threads);
+  const SampledCells cells(fan, gate, options);
+  SamplingOptions alike = options;
+  alike.heard = nullptr;
+  const PartCounts counts = count_parts(scene, head, surfels, cells, gate, alike);
+  return split_surfels(scene, head, surfels, first_parts(counts.parts, cells.scatterers_per_cell()), options.seed,
+                       options.threads);
 }
 
 Scatterers split_listed(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,

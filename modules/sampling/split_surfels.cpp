@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <complex>
 
 #include <Eigen/Geometry>
 
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sampling/count_parts_internal.hpp"
 #include "sampling/split_loops_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
 
@@ -17,22 +16,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double max_parts = 4096;
 constexpr double min_range = 1e-6;  // lower bound of range and horizontal distance [m]
 constexpr std::size_t surfels_at_once = 512;
-constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
   const double cosine = -normal.dot(position) / range;
   return std::min(1.0, oriented ? std::max(0.0, cosine) : std::abs(cosine));
 }
 
-// Turns of the parts of every surfel: exp(2 pi i k step_angle), k < max_parts.
+// Turns of the parts of every surfel: exp(2 pi i k step_angle), k < most_parts.
 struct Turns {
   std::vector<double> re, im;
   Turns() {
     constexpr double step_angle = 0.56984029099805327;  // of the R2 sequence (Roberts 2018): 1 / g^2, g^3 = g + 1
-    for (std::uint32_t k = 0; k < max_parts; ++k) {
+    for (std::uint32_t k = 0; k < most_parts; ++k) {
       const std::complex<double> turn = std::polar(1.0, 2 * pi * reduced_cycles(k * step_angle));
       re.push_back(turn.real()), im.push_back(turn.imag());
     }
@@ -143,31 +140,6 @@ void resize(Scatterers& s, std::size_t n, int threads) {
 }
 
 }  // namespace
-
-PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
-                       const SampledCells& cells, int threads) {
-  PartCounts counts{std::vector<std::size_t>(surfels.size() + 1, 0)};
-  std::atomic<std::size_t> capped{0};
-  parallel_blocks(surfels.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
-    std::size_t capped_here = 0;
-    for (std::size_t s = begin; s < end; ++s) {
-      const Vector3d p = head.position(scene.point[surfels[s]]);
-      const Vector3d normal = head.direction(scene.normal[surfels[s]].cast<double>());
-      const double wanted = cells.parts(p, scene.area[surfels[s]], cos_incidence_of(normal, p, p.norm(), false));
-      counts.first[s + 1] = static_cast<std::size_t>(std::ceil(std::min(wanted, max_parts)));
-      capped_here += wanted > max_parts;
-    }
-    capped += capped_here;
-  });
-  counts.capped = capped;
-  for (std::size_t s = 0; s < surfels.size(); ++s) counts.first[s + 1] += counts.first[s];
-  if (counts.first.back() > max_scatterers)
-    fail(ErrorKind::argument, "split_surfels: ", surfels.size(), " surfels make ", counts.first.back(), " scatterers (",
-         counts.first.back() * bytes_per_scatterer >> 30,
-         " GiB), must be at most 2^28; lower scatterers_per_cell = ", cells.scatterers_per_cell(),
-         ", or thin the scene");
-  return counts;
-}
 
 Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                          std::span<const std::size_t> first, std::uint64_t seed, int threads) {

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "simulate/converge_sampling_internal.hpp"
+#include "simulate/heard_energy_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 
 namespace insonify {
@@ -61,8 +62,9 @@ bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
-  const View& view = ping.view;
+  View& view = ping.view;
   PingParts parts;
+  view.sampling.heard = heard_energy(ping, prepared.scene().materials);
   parts.stored = needs_all_patches(ping, ping.options);
   if (parts.stored) {
     parts.sampling = sample_view(prepared, ping, result.convergence);

@@ -1,5 +1,6 @@
 // The squared pattern of N elements is that of 2N - 1, shaded by the autocorrelation R of the shading. Over all beams:
 //   sum_b B_b(u)^2 = R_0 beams + 2 Re sum_m R_m exp(i k d m u) sum_b exp(-i k d m u_b)
+// The mean over u +- w has each term times sin(k d m w) / (k d m w).
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -32,11 +33,19 @@ std::vector<complex> beam_terms(const SonarHead& head, double step) {
 
 }  // namespace
 
-ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength) {
+ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double half_width) {
   const double step = 2 * pi * head.array.spacing / wavelength;
-  const std::vector<complex> terms = beam_terms(head, step);
+  std::vector<complex> terms = beam_terms(head, step);
   const std::vector<FanRow> rows = fan_rows(head.fan);
-  table_.resize(8 * terms.size() + 2);
+  std::size_t entries = 8 * terms.size();
+  if (half_width > 0) {
+    for (std::size_t m = 1; m < terms.size(); ++m) {
+      const double x = step * half_width * static_cast<double>(m);
+      terms[m] *= std::sin(x) / x;
+    }
+    entries = std::min(entries, static_cast<std::size_t>(8 / half_width));
+  }
+  table_.resize(entries + 2);
   // Some entries side by side; real and imaginary parts apart, which needs no test for infinities.
   constexpr std::size_t lanes = 8;
   for (std::size_t begin = 0; begin < table_.size(); begin += lanes) {
@@ -60,13 +69,16 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength) {
     for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);
 }
 
-double ReceivedEnergy::at(double u, double v) {
+double ReceivedEnergy::along_array(double u) const {
   const double place = 0.5 * (std::clamp(u, -1.0, 1.0) + 1) * static_cast<double>(table_.size() - 1);
   const std::size_t left = std::min(static_cast<std::size_t>(place), table_.size() - 2);
-  const double energy = std::lerp(table_[left], table_[left + 1], place - static_cast<double>(left));
+  return std::lerp(table_[left], table_[left + 1], place - static_cast<double>(left));
+}
+
+double ReceivedEnergy::at(double u, double v) {
   double rows = rows_.empty() ? 1 : 0;
   for (RowResponse& row : rows_) rows += std::pow(row.at(v), 2);
-  return energy * rows;
+  return along_array(u) * rows;
 }
 
 }  // namespace insonify

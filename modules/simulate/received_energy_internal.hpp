@@ -9,8 +9,11 @@ namespace insonify {
 /// included, from a table over u (within 1 % where a main lobe is, 5 % where side lobes alone are).
 class ReceivedEnergy {
  public:
-  ReceivedEnergy(const SonarHead& head, double wavelength);
+  /// With `half_width` > 0, means over u +- half_width instead.
+  ReceivedEnergy(const SonarHead& head, double wavelength, double half_width = 0);
   double at(double u, double v);
+  /// Of the array alone.
+  double along_array(double u) const;
 
  private:
   std::vector<double> table_;  // over u from -1 to 1

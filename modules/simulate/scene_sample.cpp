@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "sampling/sampled_cells.hpp"
+#include "simulate/heard_energy_internal.hpp"
 #include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
@@ -118,6 +119,39 @@ double left_in_gate(const ResolvedPing& ping, double r) {
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
 }
 
+constexpr std::size_t intervals = 64;  // of range, over which what is heard is taken to be even
+
+/// Counts the scatterers that the whole scene would be split into, by cells (E17) and by shares (E127).
+void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Scatterers& patches, SceneSample& s) {
+  const View& view = ping.view;
+  const SampledCells cells(view.fan, view.gate, view.sampling);
+  const HeardEnergy heard = heard_energy(ping, sampled.scene.materials);
+  const double interval = (view.gate.max_range - view.gate.min_range) / intervals;
+  const auto interval_of = [&](double range) {
+    return static_cast<std::size_t>(std::clamp((range - view.gate.min_range) / interval, 0.0, intervals - 1.0));
+  };
+  std::vector<double> by_cells, energy;  // of one surfel
+  std::array<double, intervals> received{};
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const std::uint32_t surfel = patches.surfel[i];
+    const double times = sampled.stands_for[surfel], cosine = patches.cos_incidence[i];
+    const double area = sampled.scene.area[surfel] / times;
+    const Eigen::Vector3d p = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
+    by_cells.push_back(cells.parts(p, area, cosine));
+    energy.push_back(heard ? heard(p, cosine, area, patches.material[i]) : 0);
+    if (sampled.kind[surfel] != elsewhere && sampled.kind[surfel] != other_range)
+      received[interval_of(patches.range[i])] += times * energy[i];
+  }
+  double none = 0;
+  double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations, &none};
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const std::uint32_t surfel = patches.surfel[i];
+    const double of_range = received[interval_of(patches.range[i])] * cells.range_resolution() / interval;
+    const double by_share = heard && of_range > 0 ? cells.parts_of_share(energy[i] / of_range) : HUGE_VAL;
+    *numbers[sampled.kind[surfel]] += sampled.stands_for[surfel] * std::max(1.0, std::min(by_cells[i], by_share));
+  }
+}
+
 }  // namespace
 
 SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
@@ -132,12 +166,9 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
   const Echoes echoes = direct_echoes(patches, scene.materials, ping.sent.pulse, medium, mean_power);
 
   // Energies and numbers, by where the echoes come from.
-  const SampledCells cells(view.fan, view.gate, view.sampling);
   SceneSample s;
   ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
-  double none = 0;
-  double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations};
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t surfel = patches.surfel[i];
     const Kind kind = sampled.kind[surfel];
@@ -149,13 +180,12 @@ SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
         std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) * left_in_gate(ping, r);
     const double energy = power * received.at(echoes.u[i], std::sin(patches.elevation[i]));
     *energies[kind] += energy;
-    const Eigen::Vector3d p = r * unit_vector({patches.azimuth[i], patches.elevation[i]});
-    *numbers[kind] += times * cells.parts(p, sampled.scene.area[surfel] / times, patches.cos_incidence[i]);
     if (kind != in_view) continue;
     s.surfels += times;
     s.energy.back() = energy;
     s.power.back() = power;
   }
+  count_scatterers(ping, sampled, patches, s);
   if (view.sampling.kind == SamplingKind::rays)
     s.scatterers = static_cast<double>(ping.head.fan.beams()) * view.sampling.rays_per_beam;
   s.back_facing = sampled.back_facing;

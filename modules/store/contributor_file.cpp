@@ -184,7 +184,7 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 std::uintmax_t contributor_bytes(const std::string& path) {
   constexpr std::uintmax_t bytes_of_entry = 19;
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   require_ours(place, file);
   const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
@@ -193,7 +193,7 @@ std::uintmax_t contributor_bytes(const std::string& path) {
 
 NamedContributors read_contributor_file(const std::string& path) {
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   require_ours(place, file);
   NamedContributors named;

@@ -137,12 +137,12 @@ std::string read_text(const Place& place, hid_t where, const char* name) {
     place.checked(H5Aread(attribute, stored, text.data()), name);
     return text.substr(0, text.find('\0'));
   }
-  const Handle type = text_type(place);
-  char* text = nullptr;
-  place.checked(H5Aread(attribute, type, &text), name);
-  const std::string result = text ? text : "";
-  H5free_memory(text);
-  return result;
+  std::string object(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(where, nullptr, 0))), '\0');
+  H5Iget_name(where, object.data(), object.size() + 1);
+  const auto read = place.texts.find({object, name});
+  if (read == place.texts.end())
+    fail(place.kind, place.path, ": attribute '", name, "' of ", object, " cannot be read; copy or export the file again");
+  return read->second;
 }
 
 Handle create_file(const Place& place, const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -30,6 +31,9 @@ class QuietErrors {
 struct Place {
   std::string path;
   ErrorKind kind;
+  /// Attributes of text of any length in a file that is read, by object and name. HDF5 takes their places in the file as
+  /// they are, so another process has read them (open_file).
+  std::map<std::pair<std::string, std::string>, std::string> texts{};
 
   /// Throws Error "path: what: HDF5's reason".
   [[noreturn]] void fail_here(const std::string& what) const;
@@ -84,8 +88,8 @@ void write_hdf5(const std::string& path, Body&& body) {
 }
 
 /// Opens an existing file for reading. Throws Error(file) if it is missing or a folder, Error(content) if it is not
-/// HDF5.
-Handle open_file(const Place& place);
+/// HDF5. Sets place.texts.
+Handle open_file(Place& place);
 
 /// How the chunks of a dataset are stored: as they are, or shuffled and deflated at level 1, without loss.
 enum class Packing { none, deflate };

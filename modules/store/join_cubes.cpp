@@ -74,7 +74,7 @@ void add_track(const Place& place, hid_t file, Track& track) {
 }
 
 void add_part(JoinedCube& joined, const std::string& path) {
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   const Extent extent = extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3);
   const std::string sonar = read_text(place, file, "sonar");
@@ -95,21 +95,33 @@ void add_part(JoinedCube& joined, const std::string& path) {
   for (Track& track : joined.tracks) add_track(place, file, track);
 }
 
+/// From where attributes are copied, and to where.
+struct Copy {
+  const Place& from;
+  hid_t to;
+};
+
 /// Copies an attribute of a number or text.
-herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) {
+herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) try {
+  const Copy& copy = *static_cast<const Copy*>(to);
   const Handle attribute(H5Aopen(from, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose),
       space(H5Aget_space(attribute), H5Sclose);
-  const Handle copy(H5Acreate2(*static_cast<hid_t*>(to), name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  std::vector<char> value(std::max(H5Tget_size(type), sizeof(char*)));
-  const bool read = H5Aread(attribute, type, value.data()) >= 0;
-  const herr_t status = read ? H5Awrite(copy, type, value.data()) : -1;
-  if (read && H5Tis_variable_str(type) > 0) H5Dvlen_reclaim(type, space, H5P_DEFAULT, value.data());
-  return status;
+  if (H5Sget_simple_extent_npoints(space) != 1) return -1;
+  const Handle made(H5Acreate2(copy.to, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (H5Tis_variable_str(type) > 0) {
+    const std::string text = read_text(copy.from, from, name);
+    const char* characters = text.c_str();
+    return H5Awrite(made, type, &characters);
+  }
+  std::vector<char> value(H5Tget_size(type));
+  return H5Aread(attribute, type, value.data()) < 0 ? -1 : H5Awrite(made, type, value.data());
+} catch (const Error&) {  // not through HDF5
+  return -1;
 }
 
-void copy_axes(const Place& place, hid_t first, hid_t file) {
-  hid_t to = file;
-  place.checked(H5Aiterate2(first, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &to), "attributes");
+void copy_axes(const Place& place, const Place& from, hid_t first, hid_t file) {
+  Copy copy{from, file};
+  place.checked(H5Aiterate2(first, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &copy), "attributes");
   for (const DatasetName& axis : {range_name, azimuth_name, elevation_name})
     place.checked(H5Ocopy(first, axis.path, file, axis.path, H5P_DEFAULT, H5P_DEFAULT), axis.path);
 }
@@ -153,7 +165,7 @@ void copy_images(const Place& place, const JoinedCube& joined, const std::string
   std::vector<char> bytes(one[1] * one[2] * H5Tget_size(type));
   hsize_t row = 0;
   for (const Part& part : joined.parts) {
-    const Place from{part.path, ErrorKind::content};
+    Place from{part.path, ErrorKind::content};
     const Handle file = open_file(from);
     const Handle source = open_dataset(from, file, {image.c_str(), ""});
     const Extent extent = {part.pings, one[1], one[2]};
@@ -165,8 +177,8 @@ void copy_images(const Place& place, const JoinedCube& joined, const std::string
   }
 }
 
-void write_image(const Place& place, const JoinedCube& joined, const std::string& image, hid_t first, hid_t file,
-                 bool copy) {
+void write_image(const Place& place, const JoinedCube& joined, const std::string& image, const Place& from, hid_t first,
+                 hid_t file, bool copy) {
   const Handle like = open_dataset(place, first, {image.c_str(), ""});
   const Handle type(place.checked(H5Dget_type(like), image), H5Tclose);
   const Handle properties(place.checked(copy ? H5Dget_create_plist(like) : H5Pcreate(H5P_DATASET_CREATE), image),
@@ -177,8 +189,8 @@ void write_image(const Place& place, const JoinedCube& joined, const std::string
   const Handle dataset(
       place.checked(H5Dcreate2(file, image.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), image),
       H5Dclose);
-  hid_t to = dataset;
-  place.checked(H5Aiterate2(like, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &to), image);
+  Copy attributes{from, dataset};
+  place.checked(H5Aiterate2(like, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &attributes), image);
   if (copy) copy_images(place, joined, image, type, dataset);
 }
 
@@ -189,14 +201,15 @@ void join_cubes(const std::string& path, const std::vector<std::string>& parts, 
   const QuietErrors quiet;
   JoinedCube joined;
   for (const std::string& part : parts) add_part(joined, part);
-  const Handle first = open_file({parts.front(), ErrorKind::content});
+  Place from{parts.front(), ErrorKind::content};
+  const Handle first = open_file(from);
   write_hdf5(path, [&](const Place& place, hid_t file) {
-    copy_axes(place, first, file);
+    copy_axes(place, from, first, file);
     write_tracks(place, file, joined);
     const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
     if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
       create_ordered_group(place, file, layers_group);
-    for (const std::string& image : joined.images) write_image(place, joined, image, first, file, copy);
+    for (const std::string& image : joined.images) write_image(place, joined, image, from, first, file, copy);
   });
 }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include "core/child_process.hpp"
 #include "core/input_file.hpp"
@@ -27,41 +29,63 @@ std::vector<std::string> names_in(const Place& place, hid_t file, const char* gr
 
 namespace {
 
-herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void*) {
+/// Text of any length that was found, as object, name and text, each ended by a zero.
+struct FoundTexts {
+  std::string object, all;
+  void add(const char* name, const char* text) {
+    for (const std::string& part : {object, std::string(name), std::string(text ? text : "")}) (all += part) += '\0';
+  }
+};
+
+herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void* found) {
   constexpr hssize_t most = 1 << 20;
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose),
       space(H5Aget_space(attribute), H5Sclose);
   const auto size = static_cast<hssize_t>(H5Tget_size(type)), values = H5Sget_simple_extent_npoints(space);
   if (size <= 0 || values <= 0 || values > most / size) return 0;
   std::vector<char> value(static_cast<std::size_t>(values * size));
-  if (H5Aread(attribute, type, value.data()) >= 0) H5Dvlen_reclaim(type, space, H5P_DEFAULT, value.data());
+  if (H5Aread(attribute, type, value.data()) < 0) return 0;
+  if (values == 1 && H5Tis_variable_str(type) > 0) {
+    const char* text = nullptr;
+    std::memcpy(&text, value.data(), sizeof text);
+    static_cast<FoundTexts*>(found)->add(name, text);
+  }
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, value.data());
   return 0;
 }
 
-herr_t open_object(hid_t file, const char* name, const H5O_info_t* info, void*) {
+herr_t open_object(hid_t file, const char* name, const H5O_info_t* info, void* found) {
   const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
   if (object < 0) return 0;
-  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, read_attribute, nullptr);
+  const std::string path = name;
+  static_cast<FoundTexts*>(found)->object = path == "." ? "/" : "/" + path;
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, read_attribute, found);
   if (info->type == H5O_TYPE_DATASET) H5Dget_storage_size(object);
   return 0;
 }
 
-/// Opens everything in a file that has a name, and reads attributes and where the data lie.
-void walk_over(const std::string& path) {
+/// Opens everything in a file that has a name, and reads attributes and where the data lie. Returns the texts it found.
+std::string walk_over(const std::string& path) {
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (file < 0) return;
-  H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, open_object, nullptr);
+  if (file < 0) return {};
+  FoundTexts found;
+  H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, open_object, &found);
   if (H5Lexists(file, layers_group, H5P_DEFAULT) > 0)
     static_cast<void>(names_in({path, ErrorKind::content}, file, layers_group));
+  return found.all;
 }
 
 }  // namespace
 
-Handle open_file(const Place& place) {
+Handle open_file(Place& place) {
   require_regular_file(place.path);
   // A damaged file can end a process within HDF5.
-  constexpr ChildLimits limits{std::size_t{256} << 20, 20};
-  try_in_child(place.path, limits, [&] { walk_over(place.path); });
+  constexpr ChildLimits limits{std::size_t{256} << 20, 8};
+  const std::string texts = read_in_child(place.path, limits, [&] { return walk_over(place.path); });
+  std::istringstream parts(texts);
+  for (std::string object, name, text;
+       std::getline(parts, object, '\0') && std::getline(parts, name, '\0') && std::getline(parts, text, '\0');)
+    place.texts[{object, name}] = text;
   const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
   if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
   if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");

@@ -216,7 +216,7 @@ Cube read_attributes(const Place& place, hid_t file) {
 
 Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   Cube cube = read_attributes(place, file);
   const CubeTable table = read_table(place, file);
@@ -229,7 +229,7 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
 
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   require_schema(place, file);
   const Handle dataset = open_dataset(place, file, pressure_name);
@@ -251,7 +251,7 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
 
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   const Cube cube = read_attributes(place, file);
   const CubeTable table = read_table(place, file);
@@ -264,7 +264,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
 
 std::vector<TrackPoint> read_track(const std::string& path) {
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::content};
+  Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   require_schema(place, file);
   return track_of(place, file, extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3)[0]);

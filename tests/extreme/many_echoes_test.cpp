@@ -3,17 +3,12 @@
 #include "core/parallel.hpp"
 #include "core/peak_memory.hpp"
 #include "extreme_cases.hpp"
+#include "support/sanitizers.hpp"
 
 using namespace insonify::extreme;
 
 namespace {
 
-// Sanitizers take ten times as long, and keep what is freed.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
 constexpr std::size_t many = sanitized ? 300000 : 10000000;
 constexpr double sound = 1500;
 

@@ -6,17 +6,12 @@
 #include "extreme_cases.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
+#include "support/sanitizers.hpp"
 #include "support/test.hpp"
 
 using namespace insonify::extreme;
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool memory_is_measurable = false;  // sanitizers keep shadows of their own
-#else
-constexpr bool memory_is_measurable = true;
-#endif
 
 /// A line of Linux' account of this process [bytes]; 0 where there is none.
 double memory_line(const std::string& name) {
@@ -78,7 +73,7 @@ std::string room(double unit) {
 // A ping needs 34 bytes per surfel of the scene and the arrays of the surfels in view, which grow linearly with their
 // number: 120 bytes per surfel when this was written. Scenes larger than memory are not covered here.
 TEST(MemoryInView, n15_memory_grows_with_the_points_in_view_and_no_faster) {
-  if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
+  if (sanitized || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   constexpr double bytes_per_surfel = 250;
   const double half = memory_of_ping(wall(1000)), full = memory_of_ping(wall(1414));
   EXPECT_LT(full, bytes_per_surfel * 1414 * 1414);
@@ -90,7 +85,7 @@ TEST(MemoryInView, n15_memory_grows_with_the_points_in_view_and_no_faster) {
 // cost a ping of one small plate no more than sorting them into blocks (two keys of 8 bytes each), and do not change a
 // bit of the result.
 TEST(MemoryOutOfView, n15_points_out_of_view_cost_a_ping_no_memory) {
-  if (!memory_is_measurable || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
+  if (sanitized || !forget_peak()) GTEST_SKIP() << "peak memory cannot be measured here";
   const SceneCloud near = plate(6, 1, 30);
   SceneCloud far = wall(1414, 40);
   far.origin.setZero();

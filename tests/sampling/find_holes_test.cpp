@@ -19,7 +19,7 @@ void add_pierced_wall(SceneCloud& scene, double x, double y, double radius) {
 
 const BeamFan holes_fan = make_fan(60, radians(60), radians(1), radians(20));
 const RangeGate holes_gate = {1, 12, 0.05};
-constexpr SamplingOptions dense{.rays_per_beam = 200};
+const SamplingOptions dense{.rays_per_beam = 200};
 
 Holes holes_in(const SceneCloud& scene, const SamplingOptions& options = dense) {
   return find_holes(PreparedScene(scene), Pose::Identity(), holes_fan, holes_gate, options);

@@ -11,6 +11,7 @@
 #include "beamforming/synthesize_intensity.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "simulate/heard_energy_internal.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/sonar_file.hpp"
 
@@ -35,10 +36,12 @@ class Bench {
   }
 
   /// Expected intensities, beams x bins.
-  Grid<double> levels(std::uint64_t seed, double per_cell, double lobe_margin, double azimuth_margin) {
+  Grid<double> levels(std::uint64_t seed, double per_cell, double lobe_margin, double azimuth_margin,
+                      bool by_shares = false) {
     SamplingOptions o = ping_.view.sampling;
     o.seed = seed, o.scatterers_per_cell = per_cell, o.lobe_margin = lobe_margin, o.azimuth_margin = azimuth_margin;
     const View& view = ping_.view;
+    if (by_shares) o.heard = heard_energy(ping_, scene_.scene().materials);
     const Scatterers s = find_scatterers(scene_, view.world_from_head, view.fan, view.gate, o).scatterers;
     scatterers = s.size();
     const Transmission& sent = ping_.sent;
@@ -71,14 +74,19 @@ void print_table(const PreparedScene& scene, const std::string& name) {
   const Grid<double> of_main = bench.levels(101, 100, everywhere, 0);
   const Grid<bool> heard = exact > 1e-12 * exact.maxCoeff(), side = heard && of_main < 0.1 * exact,
                    main = heard && !side;
-  for (const double margin : {everywhere, 0.0}) {
+  struct Rule {
+    const char* name;
+    double margin;
+    bool by_shares;
+  };
+  for (const auto& [rule, margin, by_shares] :
+       {Rule{"cells of a main lobe", everywhere, false}, Rule{"cells d / 2 wide", 0, false}, Rule{"and by shares", 0, true}}) {
     Errors in_main, in_side;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      const Grid<double> levels = bench.levels(seed, 10, margin, pi);
+      const Grid<double> levels = bench.levels(seed, 10, margin, pi, by_shares);
       in_main.add(levels, exact, main), in_side.add(levels, exact, side);
     }
-    std::printf("| %s, %s | %zu | %.2f | %.2f | %+.3f |\n", name.c_str(), margin > 0 ? "that of a main lobe" : "d / 2",
-                bench.scatterers, std::sqrt(in_main.squares / in_main.bins), std::sqrt(in_side.squares / in_side.bins),
+    std::printf("| %s, %s | %zu | %.2f | %.2f | %+.3f |\n", name.c_str(), rule, bench.scatterers, std::sqrt(in_main.squares / in_main.bins), std::sqrt(in_side.squares / in_side.bins),
                 db_from_power(in_side.sum / in_side.exact));
     std::fflush(stdout);
   }

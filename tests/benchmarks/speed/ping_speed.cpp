@@ -1,6 +1,7 @@
 // How long warm pings of prepared scenes take, as tables in Markdown (docs/speed.md):
-//   ping_speed work       some pings of the harbour of a million surfels: medians of five
-//   ping_speed presets    every preset on harbour and plane: medians of three, or one if it takes more than a second
+//   ping_speed work [NAME]     some pings of the harbour of a million surfels: medians of five
+//   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, or one if it takes more than a second
+// NAME: only those whose names contain it.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -74,7 +75,7 @@ void print_work(const std::string& name, const PingTime& t) {
   std::fflush(stdout);
 }
 
-void time_work() {
+void time_work(const std::string& part) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 1000000});
   const PreparedScene harbour(scene);
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
@@ -82,18 +83,21 @@ void time_work() {
   std::printf(
       "| warm ping with detection | scatterers | samples | wall [ms] | CPU [ms] | CPU per scatterer [ns] | sampling / "
       "synthesis / detection [%% of wall] |\n|---|---|---|---|---|---|---|\n");
-  print_work("512 beams, 2.5 cm, 0.5:15 m", median_ping(5, harbour, wide_head(30e3, 15), pose));
-  print_work("512 beams, 12 cm, 0.5:30 m", median_ping(5, harbour, wide_head(6250, 30), pose));
-  print_work("the same, unsplit", median_ping(5, harbour, wide_head(6250, 30), pose, unsplit));
-  print_work("512 beams, 2.5 cm, 0.5:8 m, unsplit", median_ping(5, harbour, wide_head(30e3, 8), pose, unsplit));
-  print_work("oculus-m750d, 0.5:30 m", median_ping(5, harbour, preset("oculus-m750d", 0.5, 30), pose));
-  print_work("oculus-m750d, 0.5:40 m", median_ping(5, harbour, preset("oculus-m750d", 0.5, 40), pose));
-  print_work("oculus-m1200d, 0.5:30 m", median_ping(5, harbour, preset("oculus-m1200d", 0.5, 30), pose));
-  print_work("p900-45, 0.5:30 m", median_ping(5, harbour, preset("p900-45", 0.5, 30), pose));
-  print_work("waterlinked-3d15, 0.3:15 m", median_ping(5, harbour, preset("waterlinked-3d15", 0.3, 15), pose));
+  const auto time = [&](const std::string& name, const SonarHead& head, const SimulationOptions& options = {}) {
+    if (name.find(part) != std::string::npos) print_work(name, median_ping(5, harbour, head, pose, options));
+  };
+  time("512 beams, 2.5 cm, 0.5:15 m", wide_head(30e3, 15));
+  time("512 beams, 12 cm, 0.5:30 m", wide_head(6250, 30));
+  time("512 beams, 12 cm, 0.5:30 m, unsplit", wide_head(6250, 30), unsplit);
+  time("512 beams, 2.5 cm, 0.5:8 m, unsplit", wide_head(30e3, 8), unsplit);
+  time("oculus-m750d, 0.5:30 m", preset("oculus-m750d", 0.5, 30));
+  time("oculus-m750d, 0.5:40 m", preset("oculus-m750d", 0.5, 40));
+  time("oculus-m1200d, 0.5:30 m", preset("oculus-m1200d", 0.5, 30));
+  time("p900-45, 0.5:30 m", preset("p900-45", 0.5, 30));
+  time("waterlinked-3d15, 0.3:15 m", preset("waterlinked-3d15", 0.3, 15));
 }
 
-void time_presets() {
+void time_presets(const std::string& part) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 300000});
   SceneCloud plane = make_built_in_scene("plane", {.points = 300000, .size = {60, 60}});
   for (auto& point : plane.point) point.z() -= 8;
@@ -103,6 +107,7 @@ void time_presets() {
       "real-time factor | plane: ms per ping | real-time factor |\n|---|---|---|---|---|---|---|---|---|---|\n");
   int in_real_time = 0, all = 0;
   for (const SonarFile& file : list_sonars()) {
+    if (file.spec.name.find(part) == std::string::npos) continue;
     const double far = std::min(file.spec.max_range, 30.0), near = std::min(file.spec.min_range, 0.5 * far);
     const SonarHead head = preset(file.spec.name, near, far);
     const Eigen::Vector3d tilt = file.mounting.isZero(0) ? Eigen::Vector3d(0, radians(10), 0) : file.mounting;
@@ -123,9 +128,9 @@ void time_presets() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string what = argc > 1 ? argv[1] : "";
-  if (what == "work") return time_work(), 0;
-  if (what == "presets") return time_presets(), 0;
-  std::fprintf(stderr, "ping_speed work|presets\n");
+  const std::string what = argc > 1 ? argv[1] : "", part = argc > 2 ? argv[2] : "";
+  if (what == "work") return time_work(part), 0;
+  if (what == "presets") return time_presets(part), 0;
+  std::fprintf(stderr, "ping_speed work|presets [NAME]\n");
   return 2;
 }
