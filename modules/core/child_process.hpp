@@ -19,7 +19,6 @@ void try_in_child(const std::string& path, const ChildLimits& limits, const std:
 
 /// The same for what must not be read in this process at all: returns what `read` returned in the child, empty if it threw
 /// an Error.
-std::string read_in_child(const std::string& path, const ChildLimits& limits,
-                          const std::function<std::string()>& read);
+std::string read_in_child(const std::string& path, const ChildLimits& limits, const std::function<std::string()>& read);
 
 }  // namespace insonify

@@ -1,5 +1,3 @@
-#include "sampling/count_parts_internal.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sampling/count_parts_internal.hpp"
 
 // Counts the parts of surfels:
 //   1. by cells: so many that a cell of the surface holds scatterers_per_cell of them (E17);
@@ -109,8 +108,8 @@ std::vector<std::size_t> first_parts(std::span<const std::uint16_t> parts, doubl
   for (std::size_t s = 0; s < parts.size(); ++s) first[s + 1] = first[s] + parts[s];
   if (first.back() > max_scatterers)
     fail(ErrorKind::argument, "split_surfels: ", parts.size(), " surfels make ", first.back(), " scatterers (",
-         first.back() * bytes_per_scatterer >> 30, " GiB), must be at most 2^28; lower scatterers_per_cell = ",
-         scatterers_per_cell, ", or thin the scene");
+         first.back() * bytes_per_scatterer >> 30,
+         " GiB), must be at most 2^28; lower scatterers_per_cell = ", scatterers_per_cell, ", or thin the scene");
   return first;
 }
 

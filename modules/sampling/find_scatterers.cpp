@@ -168,10 +168,8 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
       const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands);
-      placed[s] = {static_cast<std::uint32_t>(band),
-                   surfels[s],
-                   {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)},
-                   parts[s]};
+      placed[s] = {
+          static_cast<std::uint32_t>(band), surfels[s], {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)}, parts[s]};
     }
   });
   // Each band by itself.

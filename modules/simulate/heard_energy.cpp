@@ -1,10 +1,9 @@
-#include "simulate/heard_energy_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "acoustics/scattering.hpp"
+#include "simulate/heard_energy_internal.hpp"
 #include "simulate/received_energy_internal.hpp"
 
 namespace insonify {
@@ -13,8 +12,8 @@ HeardEnergy heard_energy(const ResolvedPing& ping, std::span<const Material> mat
   const SamplingOptions& sampling = ping.view.sampling;
   const EchoOptions& sent = ping.sent.echo_options;
   const auto keeps_phase = [](const Material& m) { return m.coherent_fraction > 0; };
-  const bool coherent = sent.amplitude == SurfaceAmplitude::coherent ||
-                        std::any_of(materials.begin(), materials.end(), keeps_phase);
+  const bool coherent =
+      sent.amplitude == SurfaceAmplitude::coherent || std::any_of(materials.begin(), materials.end(), keeps_phase);
   if (ping.head.fan.beams() != 1 || ping.head.column || coherent || sampling.kind != SamplingKind::surfels ||
       sampling.lobe_margin >= 2 || !(sampling.scatterers_per_cell > 0))
     return nullptr;

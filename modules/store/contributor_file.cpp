@@ -28,7 +28,7 @@ void read_numbers(const Place& place, hid_t file, const DatasetName& name, const
   if (extent_of(place, dataset, name.path, 3) != extent)
     fail(place.kind, place.path, ": ", name.path, " differs in extent from ", surfel_name.path);
   numbers.resize(extent[0] * extent[1] * extent[2]);
-  place.checked(H5Dread(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), name.path);
+  read_values(place, dataset, {type_of<Number>(false)}, numbers.data(), name.path);
 }
 
 void write_names(const Place& place, hid_t file, const std::vector<std::string>& names) {
@@ -49,7 +49,7 @@ std::vector<std::string> read_names(const Place& place, hid_t file) {
     fail(place.kind, place.path, ": ", names_name.path, " must be text of fixed length");
   const std::size_t length = H5Tget_size(stored);
   std::string text(extent[0] * length, '\0');
-  place.checked(H5Dread(dataset, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), names_name.path);
+  read_values(place, dataset, {stored}, text.data(), names_name.path);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < extent[0]; ++i) names.emplace_back(text.substr(i * length, length).c_str());
   return names;

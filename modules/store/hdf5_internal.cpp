@@ -141,7 +141,8 @@ std::string read_text(const Place& place, hid_t where, const char* name) {
   H5Iget_name(where, object.data(), object.size() + 1);
   const auto read = place.texts.find({object, name});
   if (read == place.texts.end())
-    fail(place.kind, place.path, ": attribute '", name, "' of ", object, " cannot be read; copy or export the file again");
+    fail(place.kind, place.path, ": attribute '", name, "' of ", object,
+         " cannot be read; copy or export the file again");
   return read->second;
 }
 

@@ -126,6 +126,15 @@ void write_numbers(const Place& place, hid_t file, const DatasetName& name, cons
 /// Opens a dataset; throws Error(content) if it is missing.
 Handle open_dataset(const Place& place, hid_t file, const DatasetName& name);
 
+/// Values of a dataset that are read: their type in memory, where they are put there, and which they are.
+struct Values {
+  hid_t type, memory = H5S_ALL, selected = H5S_ALL;
+};
+
+/// Reads values of a dataset. What is packed, or put together of other files, is read by another process, since HDF5 reads
+/// beyond a damaged chunk. Throws Error(content) that names `what`.
+void read_values(const Place& place, hid_t dataset, const Values& values, void* to, const std::string& what);
+
 /// UTF-8 text padded with zeros to `length` bytes, or of any length.
 Handle text_type(const Place& place, std::size_t length = H5T_VARIABLE);
 /// The type of complex<float> as in h5py: compound {r, i} of `real_type`.

@@ -65,8 +65,7 @@ void add_track(const Place& place, hid_t file, Track& track) {
   const Extent extent = whole_extent(place, dataset, track.name.path);
   const std::size_t before = track.bytes.size();
   track.bytes.resize(before + 8 * std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>()));
-  place.checked(H5Dread(dataset, track.type(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, track.bytes.data() + before),
-                track.name.path);
+  read_values(place, dataset, {track.type(false)}, track.bytes.data() + before, track.name.path);
   if (track.extent.empty())
     track.extent = extent;
   else
@@ -170,7 +169,7 @@ void copy_images(const Place& place, const JoinedCube& joined, const std::string
     const Handle source = open_dataset(from, file, {image.c_str(), ""});
     const Extent extent = {part.pings, one[1], one[2]};
     for (hsize_t p = 0; p < part.pings; ++p, ++row) {
-      from.checked(H5Dread(source, type, memory, rows(from, extent, p, 1), H5P_DEFAULT, bytes.data()), image);
+      read_values(from, source, {type, memory, rows(from, extent, p, 1)}, bytes.data(), image);
       place.checked(H5Dwrite(dataset, type, memory, rows(place, joined.extent, row, 1), H5P_DEFAULT, bytes.data()),
                     image);
     }

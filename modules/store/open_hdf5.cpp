@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <sstream>
+
+#include <sys/mman.h>
 
 #include "core/child_process.hpp"
 #include "core/input_file.hpp"
@@ -158,7 +161,50 @@ void require_stored(const Place& place, const DatasetName& name, hid_t dataset) 
        " bytes, and holds ", stored, " bytes; copy the file again, or run the ping again");
 }
 
+/// Memory that a child process shares.
+class SharedMemory {
+ public:
+  explicit SharedMemory(std::size_t bytes)
+      : bytes_(bytes), start_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
+    if (start_ == MAP_FAILED) throw std::bad_alloc();
+  }
+  ~SharedMemory() { munmap(start_, bytes_); }
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+  char* start() const { return static_cast<char*>(start_); }
+
+ private:
+  std::size_t bytes_;
+  void* start_;
+};
+
+/// Whether values are unpacked when they are read: HDF5 trusts that a chunk unpacks to what its extent announces.
+bool is_packed(const Place& place, hid_t dataset, const std::string& what) {
+  const Handle properties(place.checked(H5Dget_create_plist(dataset), what), H5Pclose);
+  return H5Pget_nfilters(properties) > 0 || H5Pget_layout(properties) == H5D_VIRTUAL;
+}
+
 }  // namespace
+
+void read_values(const Place& place, hid_t dataset, const Values& values, void* to, const std::string& what) {
+  const auto read = [&](void* memory) {
+    return H5Dread(dataset, values.type, values.memory, values.selected, H5P_DEFAULT, memory);
+  };
+  if (!is_packed(place, dataset, what)) {
+    place.checked(read(to), what);
+    return;
+  }
+  const Handle space(place.checked(values.selected == H5S_ALL ? H5Dget_space(dataset) : H5Scopy(values.selected), what),
+                     H5Sclose);
+  const std::size_t bytes = H5Tget_size(values.type) * static_cast<std::size_t>(H5Sget_select_npoints(space));
+  const SharedMemory shared(bytes + 1);  // and whether it was read
+  constexpr std::size_t more_memory = std::size_t{256} << 20, bytes_per_second = 10 << 20;
+  try_in_child(place.path, {bytes + more_memory, static_cast<unsigned>(8 + bytes / bytes_per_second)},
+               [&] { shared.start()[bytes] = static_cast<char>(read(shared.start()) >= 0); });
+  if (shared.start()[bytes] == 0)
+    fail(place.kind, place.path, ": ", what, ": a chunk of it is damaged; copy or export the file again");
+  std::memcpy(to, shared.start(), bytes);
+}
 
 Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)

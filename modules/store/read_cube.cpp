@@ -35,7 +35,7 @@ std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name,
     values *= extent[d];
   }
   std::vector<T> result(values);
-  place.checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()), name.path);
+  read_values(place, dataset, {type}, result.data(), name.path);
   return result;
 }
 
@@ -73,7 +73,7 @@ void read_images(const Place& place, hid_t dataset, const std::string& name, hid
     auto& image = part(pings[p]);
     image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
     const Handle row = select_row(place, dataset, extent, first + p);
-    place.checked(H5Dread(dataset, type, memory, row, H5P_DEFAULT, image.data()), name + " cannot be read");
+    read_values(place, dataset, {type, memory, row}, image.data(), name);
   }
 }
 
@@ -244,8 +244,7 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
   const Handle space(place.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
   place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
   const Handle memory(place.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
-  place.checked(H5Dread(dataset, complex_type(place, H5T_NATIVE_FLOAT), memory, space, H5P_DEFAULT, rows.data()),
-                "/pressure cannot be read");
+  read_values(place, dataset, {complex_type(place, H5T_NATIVE_FLOAT), memory, space}, rows.data(), "/pressure");
   return rows;
 }
 

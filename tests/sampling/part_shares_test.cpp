@@ -21,7 +21,8 @@ SceneCloud facing_surfels(int beside, double step) {
 
 /// Parts of each surfel.
 std::vector<int> parts_of(const SceneCloud& scene, const HeardEnergy& heard, double per_cell = 1000) {
-  const SamplingOptions options{.scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .heard = heard};
+  const SamplingOptions options{
+      .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .heard = heard};
   std::vector<int> parts(scene.size(), 0);
   for (const std::uint32_t s : find_scatterers(scene, Pose::Identity(), one_beam, fine_gate, options).scatterers.surfel)
     ++parts[s];

@@ -79,14 +79,15 @@ void print_table(const PreparedScene& scene, const std::string& name) {
     double margin;
     bool by_shares;
   };
-  for (const auto& [rule, margin, by_shares] :
-       {Rule{"cells of a main lobe", everywhere, false}, Rule{"cells d / 2 wide", 0, false}, Rule{"and by shares", 0, true}}) {
+  for (const auto& [rule, margin, by_shares] : {Rule{"cells of a main lobe", everywhere, false},
+                                                Rule{"cells d / 2 wide", 0, false}, Rule{"and by shares", 0, true}}) {
     Errors in_main, in_side;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const Grid<double> levels = bench.levels(seed, 10, margin, pi, by_shares);
       in_main.add(levels, exact, main), in_side.add(levels, exact, side);
     }
-    std::printf("| %s, %s | %zu | %.2f | %.2f | %+.3f |\n", name.c_str(), rule, bench.scatterers, std::sqrt(in_main.squares / in_main.bins), std::sqrt(in_side.squares / in_side.bins),
+    std::printf("| %s, %s | %zu | %.2f | %.2f | %+.3f |\n", name.c_str(), rule, bench.scatterers,
+                std::sqrt(in_main.squares / in_main.bins), std::sqrt(in_side.squares / in_side.bins),
                 db_from_power(in_side.sum / in_side.exact));
     std::fflush(stdout);
   }
