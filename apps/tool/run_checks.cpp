@@ -15,8 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr const char* digests_key = "sha256";
-
 /// Whether a name in a manifest is of a file below its folder.
 bool lies_below(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
@@ -64,11 +62,13 @@ RunCheck check_survey(const std::string& run) {
 }  // namespace
 
 void write_manifest(const RunDirectory& directory, ordered_json manifest) {
-  std::map<std::string, std::string> digests;
+  std::map<std::string, std::string> digests = manifest.value(digests_key, ordered_json::object());
   const fs::path folder = directory.file("");
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      digests[fs::relative(entry.path(), folder).string()] = sha256_of_file(entry.path().string());
+    if (const std::string name = fs::relative(entry.path(), folder).string();
+        entry.is_regular_file() && !digests.contains(name))
+      digests[name] = sha256_of_file(entry.path().string());
+  manifest.erase(digests_key);  // to the end
   manifest[digests_key] = digests;
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
 }

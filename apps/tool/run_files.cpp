@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/peak_memory.hpp"
+#include "core/sha256.hpp"
 #include "core/units.hpp"
 #include "returns/insonification.hpp"
 #include "returns/label_objects.hpp"
@@ -16,6 +17,7 @@
 #include "store/contributor_file.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
 #include "view/save_vtk.hpp"
@@ -67,12 +69,17 @@ Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOpti
 }
 
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
-               const HeadSetup& setup, const Ping& ping, const std::string& settings, ordered_json& manifest,
+               const HeadSetup& setup, Ping only_ping, const std::string& settings, ordered_json& manifest,
                Progress& progress) {
   // The cube is written while the picture is drawn.
-  const Cube cube = cube_of({ping}, common, run, setup);
-  std::future<void> written =
-      std::async(std::launch::async, [&, path = directory.file("cube.h5")] { write_cube(path, cube); });
+  std::vector<Ping> pings;
+  pings.push_back(std::move(only_ping));
+  const Cube cube = cube_of(std::move(pings), common, run, setup);
+  const Ping& ping = cube.pings.front();
+  std::future<std::string> digest = std::async(std::launch::async, [&, path = directory.file("cube.h5")] {
+    write_cube(path, cube);
+    return sha256_of_file(path);
+  });
   write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
   // Without OpenGL or memory for it the data is still written.
@@ -91,7 +98,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
       no_picture("out of memory");
     }
 
-  written.get();
+  manifest[digests_key]["cube.h5"] = digest.get();
   if (ping.expected_level) manifest["pressure"] = expected_level_text;
   manifest["sonar"] = sonar_json(setup);
   const Water& water = setup.environment.water;

@@ -20,9 +20,9 @@
 namespace insonify::tool {
 
 /// Writes cube.h5, run.toml with `settings` (settings_as_toml), and fan.png (unless refused) into `directory`. Adds
-/// sonar, water and peak memory to `manifest`.
+/// sonar, water, peak memory and the cube's digest to `manifest`.
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
-               const HeadSetup& setup, const Ping& ping, const std::string& settings, nlohmann::ordered_json& manifest,
+               const HeadSetup& setup, Ping ping, const std::string& settings, nlohmann::ordered_json& manifest,
                Progress& progress);
 
 /// The text of a run.toml, with `settings` as from settings_as_toml.

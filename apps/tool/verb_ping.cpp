@@ -94,7 +94,7 @@ void ping(const PingCommand& command) {
 
   progress.step("pinging");
   ContributorWriter contributors(directory, loaded.scene, setup.head, plan.options.outputs);
-  const SimulatedPing result = simulate_ping(loaded.scene, setup.head, ready.pose, setup.environment, plan.options);
+  SimulatedPing result = simulate_ping(loaded.scene, setup.head, ready.pose, setup.environment, plan.options);
   for (const std::string& note : ping_notes(result, ready, in_reach.places)) note_to_user(note);
 
   progress.step("writing " + o.run.output);
@@ -106,7 +106,8 @@ void ping(const PingCommand& command) {
   contributors.finish(result.ping.labels, o.scene.path, manifest);
   write_kept(directory, o, loaded.scene, ready, result, manifest);
   describe(result, simulation, manifest);
-  write_run(directory, common, o.run, setup, result.ping, settings_as_toml(all_settings(o)), manifest, progress);
+  write_run(directory, common, o.run, setup, std::move(result.ping), settings_as_toml(all_settings(o)), manifest,
+            progress);
   manifest["seconds"] = {{"load", load_seconds},
                          {"sampling", result.seconds.sampling},
                          {"acoustics", result.seconds.acoustics},

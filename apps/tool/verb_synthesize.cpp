@@ -1,3 +1,4 @@
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/run_files.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/shared_options.hpp"
@@ -72,9 +74,9 @@ void synthesize(const SynthesizeOptions& o) {
     manifest["notes"].push_back(note);
   }
   manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(pressure.abs().maxCoeff()));
-  write_run(directory, common, o.run, setup, ping, settings_of(o), manifest, progress);
+  write_run(directory, common, o.run, setup, std::move(ping), settings_of(o), manifest, progress);
   manifest["seconds"] = {{"synthesis", seconds}};
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   directory.commit();
   print_summary(common, manifest,
                 fmt::format("{}: {} scatterers, peak {:.4f} dB re 1 uPa", o.run.output, table.scatterers.size(),

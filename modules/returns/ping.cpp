@@ -1,25 +1,35 @@
 #include "returns/ping.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "core/vector_functions.hpp"
 
 namespace insonify {
+namespace {
+constexpr std::size_t samples_at_once = 1 << 16;
+}  // namespace
 
 ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
   ComplexGridF stored(pressure.rows(), pressure.cols());
   const auto* from = reinterpret_cast<const double*>(pressure.data());
   auto* to = reinterpret_cast<float*>(stored.data());
-  bool finite = true;
-  for (Eigen::Index k = 0; k < 2 * pressure.size(); ++k) {
-    to[k] = static_cast<float>(from[k]);
-    finite &= std::abs(to[k]) <= std::numeric_limits<float>::max();
-  }
+  std::atomic<bool> finite = true;
+  parallel_blocks(2 * static_cast<std::size_t>(pressure.size()), samples_at_once, 0,
+                  [&](std::size_t begin, std::size_t end) {
+                    bool all = true;
+                    for (std::size_t k = begin; k < end; ++k) {
+                      to[k] = static_cast<float>(from[k]);
+                      all &= std::abs(to[k]) <= std::numeric_limits<float>::max();
+                    }
+                    if (!all) finite = false;
+                  });
   if (!finite)
     fail(ErrorKind::content, who, ": pressure of up to ", pressure.abs().maxCoeff(),
          " Pa, must be below the 3.4e38 of single precision; lower source level, areas or lambert_mu");
@@ -28,11 +38,16 @@ ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
 
 Grid<float> level_db(const Ping& ping, double floor_db) {
   const double unit = 2 * micropascal * micropascal, floor_power = std::max(1e-300, unit * power_from_db(floor_db));
-  return ping.pressure.unaryExpr([&](const std::complex<float>& p) {
+  const auto level_of = [&](const std::complex<float>& p) {
     const double power = std::norm(std::complex<double>(p));
     if (!(power > floor_power)) return static_cast<float>(floor_db);
     return static_cast<float>(10 / std::numbers::ln10 * vec::log(power / unit));  // (E6)
+  };
+  Grid<float> level(ping.pressure.rows(), ping.pressure.cols());
+  parallel_blocks(static_cast<std::size_t>(level.size()), samples_at_once, 0, [&](std::size_t begin, std::size_t end) {
+    std::transform(ping.pressure.data() + begin, ping.pressure.data() + end, level.data() + begin, level_of);
   });
+  return level;
 }
 
 Grid<float> range_compensated_level_db(const Ping& ping, double absorption_db_per_m, double floor_db) {

@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "view/axes_internal.hpp"
 #include "view/colour_maps_internal.hpp"
 
@@ -77,31 +81,53 @@ double along(const ColourScale& scale, double at_db, double from, double to) {
   return from + (to - from) * (at_db - scale.min_db) / (scale.max_db - scale.min_db);
 }
 
+/// Numbers of levels in steps of 5 dB, up to and with their upper end, and of those at the very lowest.
+struct LevelCounts {
+  static constexpr int steps = 4096;
+  std::vector<std::size_t> count = std::vector<std::size_t>(2 * steps + 1, 0);
+  float lowest = std::numeric_limits<float>::infinity();
+  std::size_t finite = 0, at_lowest = 0;
+
+  static std::size_t step_of(float level) {
+    const double step = std::clamp(std::ceil(static_cast<double>(level) / 5), -1.0 * steps, 1.0 * steps);
+    return static_cast<std::size_t>(static_cast<int>(step) + steps);
+  }
+
+  LevelCounts() = default;
+  explicit LevelCounts(std::span<const float> levels) {
+    for (const float level : levels) {
+      if (!(std::abs(level) <= std::numeric_limits<float>::max())) continue;
+      if (level < lowest) lowest = level, at_lowest = 0;
+      at_lowest += level == lowest;
+      ++count[step_of(level)], ++finite;
+    }
+  }
+  void add(const LevelCounts& other) {
+    if (other.lowest < lowest) lowest = other.lowest, at_lowest = 0;
+    if (other.lowest == lowest) at_lowest += other.at_lowest;
+    finite += other.finite;
+    std::transform(count.begin(), count.end(), other.count.begin(), count.begin(), std::plus<>());
+  }
+};
+
 }  // namespace
 
 double automatic_max_db(const Grid<float>& level_db, double window_db) {
-  // Levels in steps of 5 dB up to and with their upper end, and those at the very lowest, which do not count.
-  constexpr int steps = 4096;
-  std::vector<std::size_t> count(2 * steps + 1, 0);
-  const auto step_of = [](float level) {
-    return static_cast<int>(std::clamp(std::ceil(static_cast<double>(level) / 5), -1.0 * steps, 1.0 * steps)) + steps;
-  };
-  float lowest = std::numeric_limits<float>::infinity();
-  std::size_t finite = 0, at_lowest = 0;
-  for (Eigen::Index k = 0; k < level_db.size(); ++k) {
-    const float level = level_db.data()[k];
-    if (!(std::abs(level) <= std::numeric_limits<float>::max())) continue;
-    if (level < lowest) lowest = level, at_lowest = 0;
-    at_lowest += level == lowest;
-    ++count[static_cast<std::size_t>(step_of(level))], ++finite;
-  }
-  if (finite == 0) return 0;
-  if (finite == at_lowest) return 5.0 * std::ceil(static_cast<double>(lowest) / 5.0) + window_db;
-  count[static_cast<std::size_t>(step_of(lowest))] -= at_lowest;
-  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(finite - at_lowest - 1));
+  constexpr std::size_t levels_at_once = 1 << 18;
+  const auto size = static_cast<std::size_t>(level_db.size());
+  std::vector<LevelCounts> parts((size + levels_at_once - 1) / levels_at_once);
+  parallel_blocks(size, levels_at_once, 0, [&](std::size_t begin, std::size_t end) {
+    parts[begin / levels_at_once] = LevelCounts({level_db.data() + begin, end - begin});
+  });
+  LevelCounts all;
+  for (const LevelCounts& part : parts) all.add(part);
+  if (all.finite == 0) return 0;
+  if (all.finite == all.at_lowest) return 5.0 * std::ceil(static_cast<double>(all.lowest) / 5.0) + window_db;
+  all.count[LevelCounts::step_of(all.lowest)] -= all.at_lowest;
+  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(all.finite - all.at_lowest - 1));
   std::size_t below = 0, step = 0;
-  while ((below += count[step]) <= rank) ++step;
-  return 5.0 * (static_cast<double>(step) - steps);
+  while ((below += all.count[step]) <= rank) ++step;
+  return 5.0 * (static_cast<double>(step) - LevelCounts::steps);
 }
 
 std::vector<std::string> colour_map_names() {
