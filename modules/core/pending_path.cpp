@@ -98,6 +98,16 @@ void synchronise_all(const std::string& path, const std::string& target) {
   if (!fs::is_symlink(path, ignored)) synchronise(path, target);
 }
 
+// Whether an output lies in a folder that is not complete either, with which it is synchronised.
+bool lies_in_pending_folder(const std::string& target) {
+  const std::scoped_lock lock(pending_names().guard);
+  const auto& names = pending_names().names;
+  fs::path folder = fs::path(target).parent_path();
+  while (!folder.empty() && !names.contains(folder.string()) && folder != folder.root_path())
+    folder = folder.parent_path();
+  return names.contains(folder.string());
+}
+
 // The output has its name by then.
 void synchronise_folder_of(const std::string& target) {
   const fs::path folder = fs::path(target).parent_path();
@@ -130,7 +140,12 @@ PendingPath::~PendingPath() {
 }
 
 void PendingPath::commit() {
-  synchronise_all(temporary_, target_);
+  // What is large is on its way to the disk while the rest of its folder is made.
+  constexpr std::uintmax_t large = 16 << 20;
+  const bool later = lies_in_pending_folder(target_);
+  std::error_code no_size;
+  const std::uintmax_t size = fs::file_size(temporary_, no_size);
+  if (!later || (!no_size && size >= large)) synchronise_all(temporary_, target_);
   {
     const std::scoped_lock lock(pending_names().guard);
     std::error_code ignored;
@@ -140,7 +155,7 @@ void PendingPath::commit() {
       failed = std::rename(temporary_.c_str(), target_.c_str());
     if (failed) fail_to_write(target_, errno);
   }
-  synchronise_folder_of(target_);
+  if (!later) synchronise_folder_of(target_);
 }
 
 void PendingPath::commit_in_place_of_folder() {
