@@ -10,7 +10,7 @@ declare -A parts=(
   [sound]="acoustics_test beamforming_test returns_test:acoustics|beamforming|returns"
   [files]="scene_io_test store_test formats_test:scene_io|store|formats"
   [pings]="simulate_test compare_test accuracy_test:simulate|compare|accuracy"
-  [laws]="laws_test extreme_test:laws|extreme"
+  [laws]="laws_test extreme_test 02_thesis:laws|extreme"
   [tool]="tool_test:tool"
   [view]="view_test viewer_test:view|viewer"
 )

@@ -55,6 +55,11 @@ double summed_row(const Load& load) {
   return load.echoes * (0.5 * load.elements + 50 * samples + load.beams * (0.4 * samples + 1));
 }
 
+/// Series of elements, without the beams of them.
+double element_row(const Load& load) {
+  return load.echoes * load.elements * (70 + (load.own_shapes ? 70 : 35) * load.pulse_samples);
+}
+
 double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisMethod method) {
   using enum SynthesisMethod;
   const double all_pairs = load.elements * load.beams;
@@ -64,8 +69,7 @@ double synthesis_row(const Load& load, const SynthesisChoice& choice, SynthesisM
     case spectrum:
       return load.echoes * load.beams * (2.5 * load.elements + 4 * load.bins);
     case element_exact:
-      return load.echoes * load.elements * (70 + (load.own_shapes ? 70 : 35) * load.pulse_samples) +
-             90 * all_pairs * load.bins;
+      return element_row(load) + 90 * all_pairs * load.bins;
     case incoherent:
       return 2 * gridded_row(load, choice, 2);  // with twice the digits
     case true_delays:                           // of its own
@@ -123,6 +127,7 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
   cost.seconds = 1e-9 * (per_surfel * surfels + per_surfel_in_view * facts.sample.surfels + per_scatterer * echoes +
                          per_sample * samples) +
                  synthesis_seconds(facts, options, load, options.synthesis.method);
+  if (options.outputs.elements) cost.seconds += 1e-9 * element_row(load);
   if (options.effects.multipath == Choice::always) cost.seconds += seconds_of_multipath(facts);
   if (options.effects.refraction == Choice::always && facts.ping.environment.profile)
     cost.seconds += seconds_of_bent_rays(facts);
@@ -139,7 +144,8 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
                     ? 90 * surfels + 105 * echoes + 24 * samples + image
                     : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 160 * echoes : 0)) +
                           60 * facts.sample.surfels);
-  if (options.synthesis.method == SynthesisMethod::element_exact) cost.bytes += 80 * load.elements * load.bins;
+  if (options.synthesis.method == SynthesisMethod::element_exact || options.outputs.elements)
+    cost.bytes += 80 * load.elements * load.bins;
   return cost;
 }
 
