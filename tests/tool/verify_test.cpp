@@ -30,6 +30,12 @@ TEST_F(Verify, names_what_was_changed_or_is_missing) {
   EXPECT_THAT(json.out, HasSubstr("\"returns.ply was changed\""));
 }
 
+TEST_F(Verify, knows_runs_of_synthesize) {
+  write("one.csv", "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n4,0,0,0.01,1,0\n");
+  succeed("synthesize one.csv --no-picture --sonar p900-45 --set sonar.beams=4 --range 3:5 -o beams -q");
+  EXPECT_THAT(succeed("info --verify beams"), HasSubstr("beams: 2 files as they were made"));
+}
+
 TEST_F(Verify, needs_digests) {
   fs::remove(path("run/manifest.json"));
   expect_refused("info --verify run", 3, {"no manifest.json with SHA-256"});
