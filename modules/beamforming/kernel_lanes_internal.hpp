@@ -5,17 +5,11 @@
 
 namespace insonify::kernels {
 
-/// A register of 32 bytes, or as many narrower ones as the instruction set needs. Compilers turn loops over eight numbers
-/// that stay the same from row to row into single ones; of these types they cannot.
-template <typename Real>
-struct Register;
-template <>
-struct Register<float> {
-  using Type = float __attribute__((vector_size(32)));
-};
-template <>
-struct Register<double> {
-  using Type = double __attribute__((vector_size(32)));
+/// A register, or as many narrower ones as the instruction set needs. Compilers turn loops over eight numbers that stay
+/// the same from row to row into single ones; of these types they cannot.
+template <typename Real, std::size_t bytes = 32>
+struct Register {
+  typedef Real Type __attribute__((vector_size(bytes)));
 };
 
 /// Kernel of one echo across `lanes` columns, kept in registers.

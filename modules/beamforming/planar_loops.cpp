@@ -9,17 +9,8 @@ namespace {
 
 constexpr std::size_t most_lines = 16;
 
-/// A register of 64 bytes, or as many narrower ones as the instruction set needs.
 template <typename Real>
-struct Wide;
-template <>
-struct Wide<float> {
-  using Type = float __attribute__((vector_size(64)));
-};
-template <>
-struct Wide<double> {
-  using Type = double __attribute__((vector_size(64)));
-};
+using Wide = typename Register<Real, 64>::Type;
 
 template <std::size_t lanes, typename Real>
 [[gnu::always_inline]] inline void grid_bricks_by(const PlanarEchoes<Real>& e, std::size_t count, std::size_t rows,
@@ -46,9 +37,9 @@ template <std::size_t lanes, typename Real>
 
 template <typename Real>
 [[gnu::always_inline]] inline void add_weighted(Real* const* brick, std::size_t count, const Real* weight,
-                                                std::size_t offset, typename Wide<Real>::Type* sum) {
+                                                std::size_t offset, Wide<Real>* sum) {
   for (std::size_t k = 0; k < count; ++k) {
-    typename Wide<Real>::Type x;
+    Wide<Real> x;
     std::memcpy(&x, brick[k] + offset, sizeof x);
     for (std::size_t r = 0; r < rows_at_once; ++r) sum[r] += weight[k * rows_at_once + r] * x;
   }
@@ -59,7 +50,7 @@ template <typename Real>
                                          std::size_t row_stride) {
   constexpr std::size_t lanes = 64 / sizeof(Real);
   for (std::size_t c = 0; c < brick_columns; c += lanes) {
-    typename Wide<Real>::Type sum[rows_at_once] = {};
+    Wide<Real> sum[rows_at_once] = {};
     add_weighted(bricks.own, bricks.owns, bricks.own_weight, offset + c, sum);
     if (c < brick_overlap)
       add_weighted(bricks.before, bricks.befores, bricks.before_weight, offset + brick_columns + c, sum);
