@@ -151,6 +151,8 @@ TEST(FindScatterers, says_what_is_wrong_with_its_arguments) {
   EXPECT_EQ(message([](auto&, auto&, auto&, O&) {}), "no error");
   EXPECT_THAT(message([](auto&, auto&, auto&, O& o) { o.footprint = 0; }),
               HasSubstr("find_scatterers: options.footprint = 0, must be > 0"));
+  EXPECT_THAT(message([](auto&, auto&, auto&, O& o) { o.lobe_margin = -0.1; }),
+              HasSubstr("find_scatterers: options.lobe_margin = -0.1, must be >= 0"));
   EXPECT_THAT(message([](auto&, auto&, auto&, O& o) { o.scatterers_per_cell = -1; }),
               HasSubstr("scatterers_per_cell = -1"));
   EXPECT_THAT(message([](auto&, auto&, auto&, O& o) { o.rays_per_beam = 0; }),
