@@ -39,10 +39,16 @@ HermiteRules::Rule hermite_rule(int n) {
   return rule;
 }
 
+/// Log of n!. Unlike std::lgamma, which notes the sign in a variable of the process, for several threads.
+double log_factorial(double n) {
+  int sign = 0;
+  return lgamma_r(n + 1, &sign);
+}
+
 /// Log of the error of n nodes for exp(2 x h): the first derivative that the rule misses.
 double log_hermite_error(std::size_t n, double x) {
   const auto m = static_cast<double>(n);
-  return 2 * m * std::log(2 * x) + std::lgamma(m + 1) - std::lgamma(2 * m + 1) - m * std::log(2.0);
+  return 2 * m * std::log(2 * x) + log_factorial(m) - log_factorial(2 * m) - m * std::log(2.0);
 }
 
 /// Loss at the frequency of the band [-half_band, half_band] that suffers least [Np/m].
