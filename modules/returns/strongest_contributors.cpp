@@ -66,6 +66,7 @@ class SlabSearch {
              const std::vector<BeamRegion>& regions, const RangeGate& gate, std::size_t first)
       : regions_(regions),
         gate_(gate),
+        bins_(static_cast<double>(gate.bins())),
         first_(first),
         end_(std::min(first + slab_bins, gate.bins())),
         begin_(end_ - first + 1, 0) {
@@ -102,12 +103,11 @@ class SlabSearch {
   }
   /// Offers echoes as contributors of all pixels of the slab, in order.
   void offer(const Scatterers& s, const Echoes& echoes, std::vector<StrongestContributor>& found) const {
-    const double bins = static_cast<double>(gate_.bins());
     for (std::size_t i = 0; i < echoes.size(); ++i) {
       // The first and the last bin include echoes up to one bin outside the gate.
       const double n = std::floor((s.range[i] - gate_.min_range) / gate_.bin_size);
-      if (!(n >= -1 && n <= bins)) continue;
-      const auto bin = static_cast<std::size_t>(std::clamp(n, 0.0, bins - 1));
+      if (!(n >= -1 && n <= bins_)) continue;
+      const auto bin = static_cast<std::size_t>(std::clamp(n, 0.0, bins_ - 1));
       if (bin + 1 < first_ || bin > end_) continue;
       const std::size_t low = std::max(bin, first_ + 1) - 1 - first_, high = std::min(bin + 2, end_) - first_;
       for (std::size_t row = low; row < high; ++row) offer(s, echoes, i, row, found);
@@ -124,7 +124,7 @@ class SlabSearch {
   std::size_t last_bin(double range) const { return bin_of(range, 2); }
   std::size_t bin_of(double range, double more) const {
     const double n = std::floor((range - gate_.min_range) / gate_.bin_size) + more;
-    return static_cast<std::size_t>(std::clamp(n, 0.0, static_cast<double>(gate_.bins())));
+    return static_cast<std::size_t>(std::clamp(n, 0.0, bins_));
   }
 
   void offer(const Scatterers& s, const Echoes& echoes, std::size_t i, std::size_t row,
@@ -146,6 +146,7 @@ class SlabSearch {
 
   const std::vector<BeamRegion>& regions_;
   const RangeGate& gate_;
+  double bins_;
   std::size_t first_, end_;
   double widest_ = 0;
   std::vector<std::size_t> begin_;                      // of the pixels of each bin, in wanted_

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 constexpr std::size_t counted_at_once = 512;
 constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 constexpr double most_ranges = 65536;  // cells of range at most
-constexpr std::size_t most_spanned = 256;
+constexpr std::size_t most_spanned = 256, sums_of_energy = 4;
 
 /// A surfel as counting sees it.
 struct Counted {
@@ -41,16 +42,20 @@ Counted measured(const SceneCloud& scene, const HeadFrame& head, std::uint32_t s
 /// Energy that is received from each cell of range.
 class RangeEnergies {
  public:
-  RangeEnergies(const std::vector<Counted>& surfels, const RangeGate& gate, double range_resolution)
+  RangeEnergies(const std::vector<Counted>& surfels, const RangeGate& gate, double range_resolution, int threads)
       : start_(gate.min_range),
         resolution_(range_resolution),
         length_(std::max(range_resolution, (gate.max_range - gate.min_range) / most_ranges)),
         energy_(static_cast<std::size_t>((gate.max_range - gate.min_range) / length_) + 1, 0.0) {
-    for (const Counted& s : surfels) {
-      const auto [first, last] = span_of(s);
-      if (last - first >= most_spanned) continue;
-      for (std::size_t k = first; k <= last; ++k) energy_[k] += s.energy / static_cast<double>(last - first + 1);
-    }
+    // In a fixed number of parts, whatever the number of threads.
+    std::vector<std::vector<double>> sums(surfels.empty() ? 0 : sums_of_energy);
+    parallel_for(sums.size(), threads, [&](std::size_t part) {
+      sums[part].assign(energy_.size(), 0);
+      for (std::size_t s = part * surfels.size() / sums.size(); s < (part + 1) * surfels.size() / sums.size(); ++s)
+        add(surfels[s], sums[part]);
+    });
+    for (const std::vector<double>& sum : sums)
+      std::transform(sum.begin(), sum.end(), energy_.begin(), energy_.begin(), std::plus<>());
   }
 
   /// Sum of a surfel's shares over the ranges that it spans; without bound if they are very many.
@@ -64,6 +69,12 @@ class RangeEnergies {
   }
 
  private:
+  void add(const Counted& s, std::vector<double>& energy) const {
+    const auto [first, last] = span_of(s);
+    if (last - first >= most_spanned) return;
+    const double each = s.energy / static_cast<double>(last - first + 1);
+    for (std::size_t k = first; k <= last; ++k) energy[k] += each;
+  }
   std::pair<std::size_t, std::size_t> span_of(const Counted& s) const {
     const auto cell = [this](double range) {
       const double k = (range - start_) / length_;
@@ -85,7 +96,8 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
   parallel_blocks(surfels.size(), counted_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) counted[s] = measured(scene, head, surfels[s], cells, options.heard);
   });
-  const RangeEnergies received(by_shares ? counted : std::vector<Counted>{}, gate, cells.range_resolution());
+  const RangeEnergies received(by_shares ? counted : std::vector<Counted>{}, gate, cells.range_resolution(),
+                               options.threads);
 
   PartCounts counts{std::vector<std::uint16_t>(surfels.size())};
   std::atomic<std::size_t> capped{0};

@@ -156,43 +156,40 @@ double outer_scale(const PreparedScene& prepared, const SamplingOptions& options
 // Sorts surfels by bands of 64 bins and inside a band by u, then by index: neighbours add to the same part of an image.
 void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<std::uint32_t>& surfels,
                    const std::vector<std::uint16_t>& parts, VisibleSurfels& sorted) {
-  struct Placed {
-    std::uint32_t band, surfel;
-    PatchPlace at;
-    std::uint16_t parts;
+  struct Key {
+    double u;
+    std::uint32_t at;  // in surfels, which ascend
   };
   constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
-  std::vector<Placed> placed(surfels.size());
+  std::vector<PatchPlace> place(surfels.size());
+  std::vector<std::uint32_t> band(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
-      const double band = std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands);
-      placed[s] = {
-          static_cast<std::uint32_t>(band), surfels[s], {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)}, parts[s]};
+      band[s] = static_cast<std::uint32_t>(
+          std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands));
+      place[s] = {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)};
     }
   });
   // Each band by itself.
-  std::vector<std::size_t> first{0};
-  for (const Placed& p : placed) {
-    if (p.band + std::size_t{2} > first.size()) first.resize(p.band + std::size_t{2}, 0);
-    ++first[p.band + 1];
-  }
+  std::vector<std::size_t> first(1 + (band.empty() ? 0 : std::size_t{1} + *std::max_element(band.begin(), band.end())));
+  for (const std::uint32_t b : band) ++first[b + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Placed> by_band(placed.size());
+  std::vector<Key> keys(surfels.size());
   std::vector<std::size_t> next = first;
-  for (const Placed& p : placed) by_band[next[p.band]++] = p;
-  sorted.surfel.resize(placed.size());
-  sorted.place.resize(placed.size());
-  std::vector<std::uint16_t> sorted_parts(placed.size());
-  parallel_for(first.size() - 1, view.options.threads, [&](std::size_t band) {
-    const auto begin = by_band.begin() + static_cast<std::ptrdiff_t>(first[band]),
-               end = by_band.begin() + static_cast<std::ptrdiff_t>(first[band + 1]);
-    std::sort(begin, end, [](const Placed& a, const Placed& b) {
-      return std::tuple(a.at.u, a.surfel) < std::tuple(b.at.u, b.surfel);
-    });
-    for (std::size_t k = first[band]; k < first[band + 1]; ++k)
-      sorted.surfel[k] = by_band[k].surfel, sorted.place[k] = by_band[k].at, sorted_parts[k] = by_band[k].parts;
+  for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {place[s].u, s};
+  sorted.surfel.resize(surfels.size());
+  sorted.place.resize(surfels.size());
+  std::vector<std::uint16_t> sorted_parts(surfels.size());
+  parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
+    const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
+               end = keys.begin() + static_cast<std::ptrdiff_t>(first[b + 1]);
+    std::sort(begin, end, [](const Key& a, const Key& c) { return std::tuple(a.u, a.at) < std::tuple(c.u, c.at); });
+    for (std::size_t k = first[b]; k < first[b + 1]; ++k) {
+      const std::uint32_t s = keys[k].at;
+      sorted.surfel[k] = surfels[s], sorted.place[k] = place[s], sorted_parts[k] = parts[s];
+    }
   });
   sorted.first = first_parts(sorted_parts, view.options.scatterers_per_cell);
 }

@@ -23,7 +23,8 @@ HeardEnergy heard_energy(const ResolvedPing& ping, std::span<const Material> mat
   return [response, materials, sent, frequency, absorption](const Eigen::Vector3d& p, double cosine, double area,
                                                             std::size_t material) {
     const double range = p.norm(), elevation = std::asin(std::clamp(p.z() / range, -1.0, 1.0));
-    const double gain = elevation_pattern(sent, elevation) * transmit_pattern(sent, std::atan2(p.y(), p.x()));
+    const double azimuth = sent.transmit_width > 0 ? std::atan2(p.y(), p.x()) : 0;
+    const double gain = elevation_pattern(sent, elevation) * transmit_pattern(sent, azimuth);
     const double sigma = cross_section(materials[material], {cosine, cosine, area * cosine}, frequency);
     return sigma * gain * gain * std::exp(-4 * absorption * range) / (range * range * range * range) *
            response->along_array(p.y() / range);  // (E7, E10)
