@@ -13,7 +13,7 @@
 //   1. by cells: so many that a cell of the surface holds scatterers_per_cell of them (E17);
 //   2. by shares: a bin adds up what its beam hears from all directions of one range. Its relative error is the least
 //      for a given number of parts if each surface has parts in proportion to what it gives, so none needs more (E127).
-// The energies of a range are added in the order of the scene, so that counts depend neither on threads nor on sorting.
+// Energies are added in the order of the scene, in a fixed number of sums: counts depend neither on threads nor on sorting.
 namespace insonify {
 namespace {
 

@@ -147,6 +147,12 @@ hsize_t bytes_of_sources(const Place& place, const DatasetName& name, hid_t prop
   return bytes;
 }
 
+/// Whether values are unpacked, or put together of other files, when they are read: HDF5 trusts that a chunk unpacks to what its extent announces.
+bool is_packed(const Place& place, hid_t dataset, const std::string& what) {
+  const Handle properties(place.checked(H5Dget_create_plist(dataset), what), H5Pclose);
+  return H5Pget_nfilters(properties) > 0 || H5Pget_layout(properties) == H5D_VIRTUAL;
+}
+
 /// Refuses a dataset that announces more values than are stored: HDF5 would make up the rest.
 void require_stored(const Place& place, const DatasetName& name, hid_t dataset) {
   constexpr double unpacked_per_byte = 1032;  // by zlib, at most
@@ -156,8 +162,7 @@ void require_stored(const Place& place, const DatasetName& name, hid_t dataset) 
   const double values = static_cast<double>(H5Sget_simple_extent_npoints(space));
   const bool is_virtual = H5Pget_layout(properties) == H5D_VIRTUAL;
   const hsize_t stored = is_virtual ? bytes_of_sources(place, name, properties) : H5Dget_storage_size(dataset);
-  const bool packed = is_virtual || H5Pget_nfilters(properties) > 0;
-  const double most = static_cast<double>(stored) * (packed ? unpacked_per_byte : 1);
+  const double most = static_cast<double>(stored) * (is_packed(place, dataset, name.path) ? unpacked_per_byte : 1);
   if (values * static_cast<double>(H5Tget_size(type)) <= most) return;
   fail(place.kind, place.path, ": ", name.path, " announces ", values, " values of ", H5Tget_size(type),
        " bytes, and holds ", stored, " bytes; copy the file again, or run the ping again");
@@ -179,12 +184,6 @@ class SharedMemory {
   std::size_t bytes_;
   void* start_;
 };
-
-/// Whether values are unpacked when they are read: HDF5 trusts that a chunk unpacks to what its extent announces.
-bool is_packed(const Place& place, hid_t dataset, const std::string& what) {
-  const Handle properties(place.checked(H5Dget_create_plist(dataset), what), H5Pclose);
-  return H5Pget_nfilters(properties) > 0 || H5Pget_layout(properties) == H5D_VIRTUAL;
-}
 
 }  // namespace
 

@@ -27,6 +27,18 @@ TEST(ChildProcess, refuses_what_would_end_this_process) {
   EXPECT_LT(watch.lap(), 5);
 }
 
+TEST(ChildProcess, hands_over_what_it_read) {
+  const std::string long_text = std::string(300000, 'a') + '\0' + "end";  // more than a pipe holds
+  EXPECT_EQ(read_in_child("a.h5", {}, [&] { return long_text; }), long_text);
+  EXPECT_EQ(read_in_child("a.h5", {}, []() -> std::string { fail(ErrorKind::content, "said again"); }), "");
+  expect_error(ErrorKind::content, {"a.h5: reading it ends with signal 11"}, [] {
+    read_in_child("a.h5", {}, []() -> std::string {
+      std::raise(SIGSEGV);
+      return "";
+    });
+  });
+}
+
 TEST(ChildProcess, holds_to_its_memory) {
   if (sanitized) GTEST_SKIP() << "shadow memory is beyond any limit";
   expect_error(ErrorKind::content, {"more than 100 MiB"},
