@@ -52,7 +52,7 @@ struct PingOptions {
   std::string world = "z-up";
   std::string sampling = "surfels";
   std::string amplitude = "speckle";
-  double scatterers_per_cell = 10;
+  double scatterers_per_cell = 8;
   int rays_per_beam = 64;
   double level_error_db = 0;  ///< 0: the sampling is not refined
   bool noise = false;

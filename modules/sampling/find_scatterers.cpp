@@ -129,7 +129,7 @@ Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels
     const SampledCells cells(view.fan, view.gate, options);
     const PartCounts counts = count_parts(scene, view.head, visible, cells, view.gate, options);
     result.scatterers = split_surfels(scene, view.head, visible, first_parts(counts.parts, options.scatterers_per_cell),
-                                      options.seed, options.threads);
+                                      cells.range_resolution(), options.seed, options.threads);
     report.capped = counts.capped;
   }
   report.scatterers = result.scatterers.size();
@@ -238,6 +238,7 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   result.report.capped = counts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;
+  result.options.range_resolution = cells.range_resolution();
   result.options.relief_outer_scale = outer_scale(prepared, options);
   result.relief = relief_of(scene, {options.seed, result.options.relief_outer_scale});
   return result;
@@ -251,8 +252,8 @@ Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, cons
     surfels.push_back(visible.surfel[k]);
     first.push_back(first.back() + visible.first[k + 1] - visible.first[k]);
   }
-  Scatterers parts =
-      split_surfels(scene, HeadFrame(scene, world_from_head), surfels, first, visible.options.seed, threads);
+  Scatterers parts = split_surfels(scene, HeadFrame(scene, world_from_head), surfels, first,
+                                   visible.options.range_resolution, visible.options.seed, threads);
   if (visible.relief) tilt_by_relief(scene, world_from_head, *visible.relief, threads, parts);
   return parts;
 }

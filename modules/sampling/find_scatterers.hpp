@@ -36,9 +36,9 @@ using HeardEnergy = std::function<double(const Eigen::Vector3d&, double, double,
 struct SamplingOptions {
   SamplingKind kind = SamplingKind::surfels;
   Projection projection = Projection::automatic;
-  double scatterers_per_cell = 10;  ///< target number per resolution cell, reached by splitting surfels; 0: never split
-  double range_resolution = 0;      ///< length of a resolution cell [m]; 0: two bins of the gate
-  int rays_per_beam = 64;           ///< number of rays, jittered within the beam's share of the sector
+  double scatterers_per_cell = 8;  ///< target number per resolution cell, reached by splitting surfels; 0: never split
+  double range_resolution = 0;     ///< length of a resolution cell [m]; 0: two bins of the gate
+  int rays_per_beam = 64;          ///< number of rays, jittered within the beam's share of the sector
   double elevation_half_extent = 0;  ///< margin above and below the fan [rad]; 0: elevation_width of the fan
   double footprint = 1.2;            ///< radius of a surfel's disc in units of its spacing sqrt(area)
   bool occlusion = true;             ///< false: nothing is hidden (for tests and closed forms)

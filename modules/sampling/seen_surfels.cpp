@@ -73,8 +73,8 @@ Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, co
   SamplingOptions alike = options;
   alike.heard = nullptr;
   const PartCounts counts = count_parts(scene, head, surfels, cells, gate, alike);
-  return split_surfels(scene, head, surfels, first_parts(counts.parts, cells.scatterers_per_cell()), options.seed,
-                       options.threads);
+  return split_surfels(scene, head, surfels, first_parts(counts.parts, cells.scatterers_per_cell()),
+                       cells.range_resolution(), options.seed, options.threads);
 }
 
 Scatterers split_listed(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,

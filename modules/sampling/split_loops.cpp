@@ -15,7 +15,7 @@ constexpr double min_range = 1e-6;  // [m]
 }  // namespace
 
 INSONIFY_CLONES
-bool place_parts(const PartFrame& s, const double* turn_re, const double* turn_im, std::size_t count, double share,
+bool place_parts(const PartFrame& s, const double* turn_re, const double* turn_im, std::size_t count,
                  PartPlaces parts) {
   const PartFrame f = s;
   int far = 0;
@@ -23,9 +23,10 @@ bool place_parts(const PartFrame& s, const double* turn_re, const double* turn_i
   for (std::size_t i = 0; i < count; ++i) {
     // The offset in the tangent plane.
     const double u = f.shift + static_cast<double>(static_cast<int>(i) + 1) * step_radius;
-    const double radius = f.radius * std::sqrt(u - vec::floor(u));
-    const double a = radius * (f.turn_re * turn_re[i + 1] - f.turn_im * turn_im[i + 1]);
-    const double b = radius * (f.turn_re * turn_im[i + 1] + f.turn_im * turn_re[i + 1]);
+    const double radius = std::sqrt(u - vec::floor(u));
+    const double unit_a = radius * (f.turn_re * turn_re[i + 1] - f.turn_im * turn_im[i + 1]);
+    const double unit_b = radius * (f.turn_re * turn_im[i + 1] + f.turn_im * turn_re[i + 1]);
+    const double a = f.radius * unit_a, b = f.radius * unit_b;
     const double x = f.centre[0] + (a * f.t1[0] + b * f.t2[0]);
     const double y = f.centre[1] + (a * f.t1[1] + b * f.t2[1]);
     const double z = f.centre[2] + (a * f.t1[2] + b * f.t2[2]);
@@ -46,7 +47,7 @@ bool place_parts(const PartFrame& s, const double* turn_re, const double* turn_i
     parts.azimuth[i] = wrapped;
     parts.elevation[i] = f.elevation + vec::atan_of_small(up / forth);
     parts.cosine[i] = static_cast<float>(cosine);
-    parts.projected_area[i] = static_cast<float>(share * cosine);
+    parts.along[i] = static_cast<float>(f.away[0] * unit_a + f.away[1] * unit_b);
   }
   return far == 0;
 }

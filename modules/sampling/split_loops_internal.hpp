@@ -10,6 +10,7 @@ struct PartFrame {
   double centre[3], t1[3], t2[3], normal[3];  ///< [m]; tangents and normal are unit vectors
   double radius;                              ///< of the disc [m]
   double shift, turn_re, turn_im;             ///< of the sequence
+  double away[2];                             ///< unit vector in t1 and t2: in which the range grows
   double ahead[2], level[2];                  ///< unit vectors towards the centre, from above and in its vertical plane
   double azimuth, elevation;                  ///< of the centre [rad]
   bool oriented;                              ///< else the normal has no sign
@@ -18,13 +19,13 @@ struct PartFrame {
 /// Where parts are placed.
 struct PartPlaces {
   double *range, *azimuth, *elevation;
-  float *cosine, *projected_area;
+  float* cosine;
+  float* along;  ///< offset in the direction `away`, in radii
 };
 
-/// Places parts 1 .. count of a surfel (E17), each with the surface `share` [m^2]. turn_re, turn_im: the turn of part k at
-/// k, for any surfel. Directions come from tangents of small angles about the centre, accurate to 1e-15 rad; returns
+/// Places parts 1 .. count of a surfel (E17). turn_re, turn_im: the turn of part k at k, for any surfel. Directions come from tangents of small angles about the centre, accurate to 1e-15 rad; returns
 /// false if some part stands too far off for that, and its direction is not valid.
-bool place_parts(const PartFrame& surfel, const double* turn_re, const double* turn_im, std::size_t count, double share,
+bool place_parts(const PartFrame& surfel, const double* turn_re, const double* turn_im, std::size_t count,
                  PartPlaces parts);
 
 }  // namespace insonify::kernels

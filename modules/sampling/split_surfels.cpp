@@ -8,6 +8,7 @@
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "sampling/count_parts_internal.hpp"
+#include "sampling/range_shares_internal.hpp"
 #include "sampling/split_loops_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
 
@@ -38,66 +39,85 @@ struct Turns {
 
 constexpr double step_radius = 0.75487766624669276;  // of the R2 sequence, as in place_parts
 
-struct Splitter {
-  const SceneCloud& scene;
-  const HeadFrame& head;
-  std::uint64_t seed;
+/// Writes the parts of one surfel after the other; holds the memory for that.
+class Splitter {
+ public:
+  Splitter(const SceneCloud& scene, const HeadFrame& head, std::uint64_t seed, double range_resolution)
+      : scene_(scene), head_(head), seed_(seed), range_resolution_(range_resolution) {}
 
-  void write(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel) const {
-    const Vector3d world_normal = scene.normal[surfel].cast<double>().normalized();
-    const Vector3d normal = head.direction(world_normal), centre = head.position(scene.point[surfel]);
-    const double area = scene.area[surfel], share = area / static_cast<double>(parts);
-    const double range = std::max(centre.norm(), min_range);
-    const double cosine = cos_incidence_of(normal, centre, range, scene.normals_oriented);
-    const Direction direction = direction_of(centre, range);
-    out.range[first] = range;
-    out.azimuth[first] = direction.azimuth;
-    out.elevation[first] = direction.elevation;
-    out.cos_incidence[first] = static_cast<float>(cosine);
-    out.projected_area[first] = static_cast<float>(share * cosine);
+  void write(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel) {
+    const Centre centre = centre_of(surfel);
+    out.range[first] = centre.range;
+    out.azimuth[first] = centre.direction.azimuth;
+    out.elevation[first] = centre.direction.elevation;
+    out.cos_incidence[first] = static_cast<float>(centre.cosine);
+    out.projected_area[first] = static_cast<float>(scene_.area[surfel] * centre.cosine);
     for (std::size_t k = 0; k < parts; ++k) {
-      out.material[first + k] = scene.material[surfel];
-      out.id[first + k] = std::uint64_t{scene.id[surfel]} << 32 | k;
+      out.material[first + k] = scene_.material[surfel];
+      out.id[first + k] = std::uint64_t{scene_.id[surfel]} << 32 | k;
       out.surfel[first + k] = surfel;
     }
-    if (parts > 1) place(out, first, parts, surfel, {world_normal, normal, centre, direction, range, share});
+    if (parts > 1) place(out, first, parts, surfel, centre);
   }
 
  private:
   struct Centre {
     Vector3d world_normal, normal, position;
     Direction direction;
-    double range, share;
+    double range, cosine;
   };
   static Direction direction_of(const Vector3d& p, double range) {
     return {std::atan2(p.y(), p.x()), std::asin(std::clamp(p.z() / range, -1.0, 1.0))};
   }
+  Centre centre_of(std::uint32_t surfel) const {
+    const Vector3d world_normal = scene_.normal[surfel].cast<double>().normalized();
+    const Vector3d normal = head_.direction(world_normal), position = head_.position(scene_.point[surfel]);
+    const double range = std::max(position.norm(), min_range);
+    return {world_normal, normal,
+            position,     direction_of(position, range),
+            range,        cos_incidence_of(normal, position, range, scene_.normals_oriented)};
+  }
 
-  /// Places the parts beside the centre, of a low-discrepancy sequence over the disc (E17).
-  void place(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel, const Centre& c) const {
+  /// Places the parts beside the centre, of a low-discrepancy sequence over the disc (E17), and shares the surface.
+  void place(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel, const Centre& c) {
     static const Turns turns;
     const Vector3d tangent = c.world_normal.unitOrthogonal();
+    const Vector3d t1 = head_.direction(tangent), t2 = head_.direction(c.world_normal.cross(tangent));
     kernels::PartFrame frame{};
     const auto copy = [](const Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); };
-    copy(c.position, frame.centre);
-    copy(head.direction(tangent), frame.t1);
-    copy(head.direction(c.world_normal.cross(tangent)), frame.t2);
-    copy(c.normal, frame.normal);
-    const auto drawn = random_uniform(seed, RandomStage::surfel_split, {scene.id[surfel], 0, 0});
+    copy(c.position, frame.centre), copy(t1, frame.t1), copy(t2, frame.t2), copy(c.normal, frame.normal);
+    const auto drawn = random_uniform(seed_, RandomStage::surfel_split, {scene_.id[surfel], 0, 0});
     const std::complex<double> turn = std::polar(1.0, 2 * pi * drawn[1]);
-    frame.radius = std::sqrt(scene.area[surfel] / pi);
+    frame.radius = std::sqrt(scene_.area[surfel] / pi);
     frame.shift = drawn[0], frame.turn_re = turn.real(), frame.turn_im = turn.imag();
+    const double away[] = {t1.dot(c.position) / c.range, t2.dot(c.position) / c.range};
+    const double sine = std::hypot(away[0], away[1]);
+    frame.away[0] = sine > 0 ? away[0] / sine : 0, frame.away[1] = sine > 0 ? away[1] / sine : 0;
     frame.azimuth = c.direction.azimuth, frame.elevation = c.direction.elevation;
-    frame.oriented = scene.normals_oriented;
+    frame.oriented = scene_.normals_oriented;
     const double across = std::hypot(c.position.x(), c.position.y());
     frame.ahead[0] = c.position.x() / across, frame.ahead[1] = c.position.y() / across;
     frame.level[0] = across / c.range, frame.level[1] = c.position.z() / c.range;
 
     const std::size_t at = first + 1;
-    const bool near = kernels::place_parts(frame, turns.re.data(), turns.im.data(), parts - 1, c.share,
+    along_.assign(parts, 0);
+    const bool near = kernels::place_parts(frame, turns.re.data(), turns.im.data(), parts - 1,
                                            {out.range.data() + at, out.azimuth.data() + at, out.elevation.data() + at,
-                                            out.cos_incidence.data() + at, out.projected_area.data() + at});
+                                            out.cos_incidence.data() + at, along_.data() + 1});
     if (!(near && across > min_range)) turn_far(out, at, frame, parts - 1, turns);
+    share(out, first, scene_.area[surfel], 2 * frame.radius * sine);
+  }
+
+  /// Shares the surface [m^2] among parts from `first` on, along the line of sight as far as the surfel is deeper [m]
+  /// than what is resolved (E128).
+  void share(Scatterers& out, std::size_t first, double surface, double depth) {
+    const double strips = std::clamp(2 * depth / range_resolution_ - 1, 0.0, 1.0);
+    const float each = static_cast<float>(surface / static_cast<double>(along_.size()));
+    const std::span<const float> shares = strips > 0 ? shares_(along_, strips) : std::span<const float>{};
+    for (std::size_t k = 0; k < along_.size(); ++k) {
+      const float part = shares.empty() ? each : static_cast<float>(surface) * shares[k];
+      out.projected_area[first + k] = part * out.cos_incidence[first + k];
+    }
   }
 
   /// Directions of parts that are not at a small angle to the centre.
@@ -113,6 +133,13 @@ struct Splitter {
       out.elevation[at + i] = direction.elevation;
     }
   }
+
+  const SceneCloud& scene_;
+  const HeadFrame& head_;
+  std::uint64_t seed_;
+  double range_resolution_;
+  std::vector<float> along_;
+  RangeShares shares_;
 };
 
 // Page faults of new memory cost as much as writing to it, so the arrays are allocated in parallel.
@@ -142,11 +169,11 @@ void resize(Scatterers& s, std::size_t n, int threads) {
 }  // namespace
 
 Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
-                         std::span<const std::size_t> first, std::uint64_t seed, int threads) {
+                         std::span<const std::size_t> first, double range_resolution, std::uint64_t seed, int threads) {
   Scatterers scatterers;
-  const Splitter splitter{scene, head, seed};
   resize(scatterers, first.back() - first.front(), threads);
   parallel_blocks(surfels.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
+    Splitter splitter(scene, head, seed, range_resolution);
     for (std::size_t s = begin; s < end; ++s)
       splitter.write(scatterers, first[s] - first[0], first[s + 1] - first[s], surfels[s]);
   });

@@ -39,7 +39,7 @@ TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell) {
   const SampledCells none(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {.scatterers_per_cell = 0});
   EXPECT_EQ(none.parts(ten_ahead, 1, 0.5), 1);
   // Without a resolution it is two bins.
-  const SampledCells bins(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {});
+  const SampledCells bins(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {.scatterers_per_cell = 10});
   EXPECT_EQ(bins.parts(ten_ahead, 1, 0.5), cells.parts(ten_ahead, 1, 0.5));
 }
 
@@ -49,16 +49,17 @@ TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell_of_a_planar_array) 
   const RangeGate gate{0.1, 50, 0.01};
   BeamFan fan = make_fan(1, 0, 0.02, 1);
   fan.row_width = 0.02;
-  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
-  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(ten_ahead, 0.1, 1), 25, 1e-9);
+  const SamplingOptions ten{.scatterers_per_cell = 10};
+  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(ten_ahead, 0.1, 1), 25, 1e-9);
   fan.row_width = 0.005;
-  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(ten_ahead, 0.25, std::sqrt(0.5)), 1767.8, 0.1);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(ten_ahead, 0.25, std::sqrt(0.5)), 1767.8, 0.1);
   // A tenth of a radian beyond the ends of the lobes both ways the cell is 0.05 rad x 0.05 rad.
   const double u = 1.5 * 0.02 + 0.1, v = 1.5 * 0.005 + 0.1;
   const Vector3d beside(10 * std::sqrt(1 - u * u - v * v), 10 * u, 10 * v);
-  EXPECT_NEAR(SampledCells(fan, gate, {}).parts(beside, 1e-3, 1), std::max(1.0, 10 * 1e-3 / (0.5 * 0.5)), 1e-9);
-  EXPECT_NEAR(SampledCells(fan, gate, {}).widths(beside, 0).beam, 0.05, 1e-12);
-  EXPECT_NEAR(SampledCells(fan, gate, {}).widths(beside, 0).row, 0.05, 1e-12);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(beside, 1e-3, 1), std::max(1.0, 10 * 1e-3 / (0.5 * 0.5)), 1e-9);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).widths(beside, 0).beam, 0.05, 1e-12);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).widths(beside, 0).row, 0.05, 1e-12);
 }
 
 // Beams of 0.02 rad at u = 0 and 0.5: their main lobes end 0.03 beside them (E17).
