@@ -47,7 +47,7 @@ cat <<TEXT
 
 ## Warm: pings of a scene in memory
 
-\`ping_speed work\`: \`simulate_ping\` with detections, without files and picture, what forms the beams kept from the ping before; medians of five, or one ping if it takes more than a second.
+\`ping_speed work\`: \`simulate_ping\` with detections, without files and picture, what forms the beams kept from the ping before; medians of five, of eleven that take less than 200 ms, or one ping if it takes more than a second.
 
 TEXT
 "$bin/ping_speed" work

@@ -8,6 +8,8 @@
 namespace insonify {
 namespace {
 
+constexpr std::size_t few = 16;  // points that need no buckets
+
 /// The part of a unit disc that lies before a line across it, by its distance from the middle: linear between nodes.
 class DiscBefore {
  public:
@@ -31,8 +33,8 @@ class DiscBefore {
 
 }  // namespace
 
-// Sorted into as many buckets as there are points, which are nearly even in number, and from neighbour to neighbour.
-void RangeShares::sort(std::span<const float> along) {
+// Into as many buckets as there are points, which are nearly even in number.
+void RangeShares::fill_buckets(std::span<const float> along) {
   const std::size_t n = along.size();
   const auto bucket = [half = 0.5F * static_cast<float>(n), last = n - 1](float place) {
     return std::min(static_cast<std::size_t>(std::max(0.0F, (place + 1) * half)), last);
@@ -40,8 +42,17 @@ void RangeShares::sort(std::span<const float> along) {
   next_.assign(n + 1, 0);
   for (const float place : along) ++next_[bucket(place) + 1];
   for (std::size_t b = 1; b <= n; ++b) next_[b] += next_[b - 1];
-  sorted_.resize(n);
   for (std::size_t i = 0; i < n; ++i) sorted_[next_[bucket(along[i])]++] = {along[i], static_cast<std::uint32_t>(i)};
+}
+
+void RangeShares::sort(std::span<const float> along) {
+  const std::size_t n = along.size();
+  sorted_.resize(n);
+  if (n > few)
+    fill_buckets(along);
+  else
+    for (std::size_t i = 0; i < n; ++i) sorted_[i] = {along[i], static_cast<std::uint32_t>(i)};
+  // From neighbour to neighbour.
   for (std::size_t i = 1; i < n; ++i) {
     const Point moved = sorted_[i];
     std::size_t to = i;

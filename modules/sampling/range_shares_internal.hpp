@@ -28,6 +28,7 @@ class RangeShares {
   std::vector<std::uint32_t> next_;
   std::vector<float> shares_;
   void sort(std::span<const float> along);
+  void fill_buckets(std::span<const float> along);
 };
 
 }  // namespace insonify

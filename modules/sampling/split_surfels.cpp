@@ -112,11 +112,14 @@ class Splitter {
   /// than what is resolved (E128).
   void share(Scatterers& out, std::size_t first, double surface, double depth) {
     const double strips = std::clamp(2 * depth / range_resolution_ - 1, 0.0, 1.0);
-    const float each = static_cast<float>(surface / static_cast<double>(along_.size()));
-    const std::span<const float> shares = strips > 0 ? shares_(along_, strips) : std::span<const float>{};
-    for (std::size_t k = 0; k < along_.size(); ++k) {
-      const float part = shares.empty() ? each : static_cast<float>(surface) * shares[k];
-      out.projected_area[first + k] = part * out.cos_incidence[first + k];
+    float* area = out.projected_area.data() + first;
+    const float* cosine = out.cos_incidence.data() + first;
+    if (strips > 0) {
+      const std::span<const float> shares = shares_(along_, strips);
+      for (std::size_t k = 0; k < shares.size(); ++k) area[k] = static_cast<float>(surface) * shares[k] * cosine[k];
+    } else {
+      const float each = static_cast<float>(surface / static_cast<double>(along_.size()));
+      for (std::size_t k = 0; k < along_.size(); ++k) area[k] = each * cosine[k];
     }
   }
 
