@@ -25,9 +25,10 @@ launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 cmake --preset $preset "${launcher[@]}" >/dev/null
 cmake --build --preset $preset -j "${JOBS:-2}" --target $targets
-# Libraries that are not instrumented keep memory for the life of the process, and run threads of their own.
+# Libraries that are not instrumented keep memory for the life of the process, and run threads of their own; a program that
+# is interrupted does not wait for its threads.
 export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
-export TSAN_OPTIONS="suppressions=$PWD/tests/support/thread_suppressions.txt history_size=4 die_after_fork=0"
+export TSAN_OPTIONS="suppressions=$PWD/tests/support/thread_suppressions.txt history_size=4 die_after_fork=0 report_thread_leaks=0 atexit_sleep_ms=0"
 # OpenMP, which PCL uses, joins its threads in ways that ThreadSanitizer does not see: none of them.
 [[ $1 == thread ]] && export OMP_THREAD_LIMIT=1
 started=$SECONDS

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/sanitizers.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -123,6 +124,7 @@ TEST_F(Cost, of_cubes_that_announce_more_than_they_hold) {
 
 // The data of a ping is kept where there is no memory for its picture, and no limit ends the tool by a signal.
 TEST_F(Cost, under_a_limit_of_memory) {
+  if (sanitized) GTEST_SKIP() << "shadow memory is beyond any limit";
   have("harbour.ply", "make-scene harbour --points 20000");
   const std::string ping = "ping harbour.ply -q --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0 --range 2:5";
   have("whole", ping.substr(0, ping.find(" -q")) + ping.substr(ping.find(" -q") + 3) + " --no-picture");
