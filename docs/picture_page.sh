@@ -6,6 +6,7 @@ most_bytes=700000  # of a picture
 begin_page() {
   root=$PWD
   tool=$(realpath "$2")
+  [[ -f $tool && -x $tool ]] || { echo "$0: $2 is not a program; give the path of insonify" >&2; exit 2; }
   pictures=$root/docs/images/$1
   page=$root/docs/$1.md
   work=$(mktemp -d)
