@@ -8,14 +8,14 @@ bin=$(realpath "${1:-build/dev/bin}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$bin/insonify" make-scene harbour -o "$work/scene.ply" --points 1000000 -q >/dev/null
-"$bin/insonify" prepare "$work/scene.ply" -o "$work/harbour.ply" -q >/dev/null
+for form in ply tiles; do "$bin/insonify" prepare "$work/scene.ply" -o "$work/harbour.$form" -q >/dev/null; done
 
-# cold_row NAME RUNS ARGUMENTS: medians of so many calls of `insonify ping`.
+# cold_row NAME RUNS FORM ARGUMENTS: medians of so many calls of `insonify ping` with the scene in this form.
 cold_row() {
-  local name=$1 runs=$2
-  shift 2
+  local name=$1 runs=$2 form=$3
+  shift 3
   for _ in $(seq "$runs"); do
-    /usr/bin/time -a -o "$work/times" -f "%U %S %e %M" "$bin/insonify" ping "$work/harbour.ply" --pose=0,0,-3,0,10,0 \
+    /usr/bin/time -a -o "$work/times" -f "%U %S %e %M" "$bin/insonify" ping "$work/harbour.$form" --pose=0,0,-3,0,10,0 \
       "$@" --force -q --json -o "$work/run" >"$work/manifest.json"
   done
   local scatterers
@@ -33,16 +33,19 @@ built-in harbour of a million surfels, seen from 0,0,-3 with the nose 10 degrees
 
 ## Cold: one call of \`insonify ping\`, all outputs
 
-Loading, sampling, synthesis, detection, cube, picture and clouds; the scene is prepared. Medians.
+Loading, sampling, synthesis, detection, cube, picture and clouds; the scene is prepared, as .ply if not said otherwise. PCL
+parses a PLY value by value; tiles (\`prepare -o harbour.tiles\`) are read at the speed of memory. Medians.
 
 | ping | scatterers | CPU [s] | wall [s] | peak memory [MiB] |
 |---|---|---|---|---|
 TEXT
-cold_row "oculus-m750d, 0.5:40 m" 3 --sonar oculus-m750d --range 0.5:40
-cold_row "oculus-m750d, 0.5:16.5 m" 3 --sonar oculus-m750d --range 0.5:16.5
-cold_row "the same, unsplit" 5 --sonar oculus-m750d --range 0.5:16.5 --scatterers-per-cell 0
-cold_row "p900-45, 0.5:30 m" 5 --sonar p900-45 --range 0.5:30
-cold_row "waterlinked-3d15, 0.3:15 m" 1 --sonar waterlinked-3d15
+cold_row "oculus-m750d, 0.5:40 m" 5 ply --sonar oculus-m750d --range 0.5:40
+cold_row "the same, .tiles" 5 tiles --sonar oculus-m750d --range 0.5:40
+cold_row "oculus-m750d, 0.5:16.5 m" 5 ply --sonar oculus-m750d --range 0.5:16.5
+cold_row "the same, unsplit" 11 ply --sonar oculus-m750d --range 0.5:16.5 --scatterers-per-cell 0
+cold_row "the same, unsplit, .tiles" 11 tiles --sonar oculus-m750d --range 0.5:16.5 --scatterers-per-cell 0
+cold_row "p900-45, 0.5:30 m" 5 ply --sonar p900-45 --range 0.5:30
+cold_row "waterlinked-3d15, 0.3:15 m" 1 ply --sonar waterlinked-3d15
 cat <<TEXT
 
 ## Warm: pings of a scene in memory
@@ -65,7 +68,7 @@ $pings pings of gemini-720im, 0.5:10 m, moving at 0.5 m/s: one call of \`insonif
 |---|---|---|---|
 TEXT
 awk -v n="$pings" '{ printf "| survey | %.3f | %.3f | %.0f |\n", ($1 + $2) / n, $3 / n, $4 / 1024 }' "$work/survey"
-cold_row "ping" 5 --sonar gemini-720im --range 0.5:10 --velocity 0.5,0,0 | awk -F'|' '{ printf "| ping |%s|%s|%s|\n", $4, $5, $6 }'
+cold_row "ping" 5 ply --sonar gemini-720im --range 0.5:10 --velocity 0.5,0,0 | awk -F'|' '{ printf "| ping |%s|%s|%s|\n", $4, $5, $6 }'
 cat <<TEXT
 
 ## Real time
