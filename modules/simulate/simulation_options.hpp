@@ -18,10 +18,9 @@ enum class Choice { as_needed, always, never };
 /// Which points stand for the scene.
 struct SamplingSettings {
   SamplingKind kind = SamplingKind::surfels;
-  double scatterers_per_cell =
-      SamplingOptions{}
-          .scatterers_per_cell;  ///< surfels are split until a resolution cell holds so many; 0: never split
-  int rays_per_beam = 64;        ///< of sampling by rays, and of the mask of holes
+  /// Surfels are split until a resolution cell holds so many; 0: never split.
+  double scatterers_per_cell = SamplingOptions{}.scatterers_per_cell;
+  int rays_per_beam = 64;  ///< of sampling by rays, and of the mask of holes
   bool occlusion = true;
   double elevation_floor_db = -40;  ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;        ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths

@@ -152,7 +152,6 @@ TEST_F(ShadowOnABed, of_rays_is_that_of_surfels) {
   const PixelLabels surfels = heard(SynthesisMethod::incoherent).ping.labels;
   SimulationOptions options;
   options.outputs.contributors = 1;
-  options.sampling.scatterers_per_cell = 10;  // parts narrower than the edges of what is counted
   options.sampling.kind = SamplingKind::rays, options.sampling.rays_per_beam = 64;
   const PixelLabels rays = simulate_ping(scene, head, pose, {}, options).ping.labels;
   std::size_t dark = 0, both = 0, dark_of_rays = 0;
