@@ -36,6 +36,10 @@ meshes: complex time series per beam, sonar pictures, returns as point clouds.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Pictures: letters, and OpenGL in software where there is no graphics card.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libegl-mesa0, libgl1-mesa-dri")
+# Rasters: GDAL is not linked, so that its package is not found by that.
+if(INSONIFY_GDAL MATCHES "^libgdal[.]so[.]([0-9]+)$")
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libgdal${CMAKE_MATCH_1}")
+endif()
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "simulates imaging sonar on captured scenes: C++ library
 Headers, static libraries and files for CMake's find_package(insonify).")

@@ -12,9 +12,8 @@
 #include "scene_io/raw_cloud_internal.hpp"
 
 #ifdef INSONIFY_GDAL
-#include <cpl_error.h>
-#include <gdal.h>
-#include <ogr_srs_api.h>
+#include "core/child_process.hpp"
+#include "scene_io/gdal_library_internal.hpp"
 #endif
 
 namespace insonify {
@@ -35,9 +34,12 @@ namespace {
 constexpr double most_raster_cells = 0x1p28;
 const char* const raster_drivers[] = {"GTiff", "BAG", "netCDF", "GMT", "AAIGrid", "GSBG", "GS7BG", nullptr};
 
-/// Keeps GDAL from printing; its last message is part of ours.
+/// Knows GDAL's formats, and keeps it from printing; its last message is part of ours.
 struct QuietGdal {
-  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
+  QuietGdal() {
+    GDALAllRegister();
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+  }
   ~QuietGdal() { CPLPopErrorHandler(); }
 };
 
@@ -47,7 +49,6 @@ struct CloseGdal {
 using GdalFile = std::unique_ptr<void, CloseGdal>;
 
 GdalFile open_raster(const std::string& path) {
-  GDALAllRegister();
   CPLErrorReset();
   GdalFile file(GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, raster_drivers, nullptr, nullptr));
   const std::string reason = CPLGetLastErrorMsg();
@@ -86,8 +87,9 @@ double metres_of_heights(GDALRasterBandH band) {
   return 1;
 }
 
-/// x, y and z of the cells with a height, row by row [m].
-std::vector<double> raster_heights(const std::string& path, GDALDatasetH file) {
+/// Calls use(x, y, z) for the cells with a height, row by row [m].
+template <typename Use>
+void for_each_height(const std::string& path, GDALDatasetH file, Use&& use) {
   double at[6] = {0, 1, 0, 0, 0, 1};
   if (GDALGetGeoTransform(file, at) != CE_None)
     fail(ErrorKind::content, path,
@@ -100,7 +102,7 @@ std::vector<double> raster_heights(const std::string& path, GDALDatasetH file) {
   const double offset = GDALGetRasterOffset(band, &has_offset), scale = GDALGetRasterScale(band, &has_scale);
   const double none = GDALGetRasterNoDataValue(band, &has_none);
   const int columns = GDALGetRasterXSize(file), rows = GDALGetRasterYSize(file);
-  std::vector<double> numbers, row(static_cast<std::size_t>(columns));
+  std::vector<double> row(static_cast<std::size_t>(columns));
   for (int r = 0; r < rows; ++r) {
     if (GDALRasterIO(band, GF_Read, 0, r, columns, 1, row.data(), columns, 1, GDT_Float64, 0, 0) != CE_None)
       fail(ErrorKind::content, path, ": row ", r, " of ", rows, " cannot be read (", CPLGetLastErrorMsg(),
@@ -109,15 +111,18 @@ std::vector<double> raster_heights(const std::string& path, GDALDatasetH file) {
       double z = row[static_cast<std::size_t>(c)];
       if (!std::isfinite(z) || (has_none && (z == none || static_cast<float>(z) == static_cast<float>(none)))) continue;
       z = (has_scale ? scale : 1) * z + (has_offset ? offset : 0);
-      numbers.push_back(plane * (at[0] + (c + 0.5) * at[1] + (r + 0.5) * at[2]));
-      numbers.push_back(plane * (at[3] + (c + 0.5) * at[4] + (r + 0.5) * at[5]));
-      numbers.push_back(unit * z);
+      use(plane * (at[0] + (c + 0.5) * at[1] + (r + 0.5) * at[2]), plane * (at[3] + (c + 0.5) * at[4] + (r + 0.5) * at[5]),
+          unit * z);
     }
   }
-  if (numbers.empty())
-    fail(ErrorKind::content, path, ": none of its ", static_cast<double>(columns) * rows,
-         " cells has a height: all are no data");
-  return numbers;
+}
+
+/// What GDAL may take to read so many bytes, which may be packed.
+ChildLimits limits_of_raster(std::size_t bytes) {
+  constexpr std::size_t memory_per_byte = 4, memory_at_least = std::size_t{1} << 30;
+  constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
+  return {memory_per_byte * bytes + memory_at_least,
+          static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
 }
 
 }  // namespace
@@ -126,15 +131,21 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   require_readable(path);
   check_netcdf(path);
   const QuietGdal quiet;
+  // What GDAL does not survive must not end this process.
+  try_in_child(path, limits_of_raster(file_size_of(path)),
+               [&] { for_each_height(path, open_raster(path).get(), [](double, double, double) {}); });
   const GdalFile file = open_raster(path);
   RawCloud raw;
   raw.path = path;
   raw.format = std::string("raster of heights, ") + GDALGetDriverShortName(GDALGetDatasetDriver(file.get()));
   raw.fields = {{"height", GDALGetDataTypeName(GDALGetRasterDataType(GDALGetRasterBand(file.get(), 1)))}};
-  std::vector<double> numbers = raster_heights(path, file.get());
-  const std::size_t holes = static_cast<std::size_t>(GDALGetRasterXSize(file.get())) *
-                                static_cast<std::size_t>(GDALGetRasterYSize(file.get())) -
-                            numbers.size() / 3;
+  std::vector<double> numbers;
+  for_each_height(path, file.get(), [&](double x, double y, double z) { numbers.insert(numbers.end(), {x, y, z}); });
+  const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(file.get())) *
+                            static_cast<std::size_t>(GDALGetRasterYSize(file.get()));
+  if (numbers.empty())
+    fail(ErrorKind::content, path, ": none of its ", cells, " cells has a height: all are no data");
+  const std::size_t holes = cells - numbers.size() / 3;
   raw.width = numbers.size() / 3;
   if (holes > 0) raw.notes.push_back(std::to_string(holes) + " cells of the raster have no height and are holes");
   fill_cloud(raw, table_of_doubles({"x", "y", "z"}, std::move(numbers)), options);

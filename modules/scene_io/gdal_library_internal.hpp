@@ -1,0 +1,48 @@
+#pragma once
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+// Private to scene_io: GDAL by its own names, from a library that is loaded when the first of its functions is called. It
+// brings some seventy others with it; linked, they would take 0.1 s of every start of a program.
+namespace insonify {
+
+/// Returns the address of a function of GDAL. Throws Error(runtime) if the library is not there or lacks it.
+void* find_in_gdal(const char* name);
+
+/// A function of GDAL, called as the one that its header declares.
+template <auto& function>
+struct GdalFunction {
+  const char* name;
+  operator decltype(&function)() const { return reinterpret_cast<decltype(&function)>(find_in_gdal(name)); }
+};
+
+#define INSONIFY_GDAL_FUNCTION(name) inline constexpr GdalFunction<::name> name{#name}
+INSONIFY_GDAL_FUNCTION(CPLErrorReset);
+INSONIFY_GDAL_FUNCTION(CPLGetLastErrorMsg);
+INSONIFY_GDAL_FUNCTION(CPLPopErrorHandler);
+INSONIFY_GDAL_FUNCTION(CPLPushErrorHandler);
+INSONIFY_GDAL_FUNCTION(CPLQuietErrorHandler);
+INSONIFY_GDAL_FUNCTION(GDALAllRegister);
+INSONIFY_GDAL_FUNCTION(GDALClose);
+INSONIFY_GDAL_FUNCTION(GDALGetDataTypeName);
+INSONIFY_GDAL_FUNCTION(GDALGetDatasetDriver);
+INSONIFY_GDAL_FUNCTION(GDALGetDriverShortName);
+INSONIFY_GDAL_FUNCTION(GDALGetGeoTransform);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterBand);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterCount);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterDataType);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterNoDataValue);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterOffset);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterScale);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterUnitType);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterXSize);
+INSONIFY_GDAL_FUNCTION(GDALGetRasterYSize);
+INSONIFY_GDAL_FUNCTION(GDALGetSpatialRef);
+INSONIFY_GDAL_FUNCTION(GDALOpenEx);
+INSONIFY_GDAL_FUNCTION(GDALRasterIO);
+INSONIFY_GDAL_FUNCTION(OSRGetLinearUnits);
+INSONIFY_GDAL_FUNCTION(OSRIsGeographic);
+#undef INSONIFY_GDAL_FUNCTION
+
+}  // namespace insonify
