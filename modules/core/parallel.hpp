@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 #include "core/work_progress.hpp"
 
@@ -15,6 +15,11 @@ namespace insonify {
 inline int thread_count(int threads) {
   return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
+
+/// Calls work() on this thread and, as far as there are any that are free before this call ends, on up to `helpers` others,
+/// which are kept for later. Returns when all calls have. The calls share out among themselves what is to be done, and must
+/// not throw.
+void share_work(std::size_t helpers, const std::function<void()>& work);
 
 /// Calls body(i) once for every i in [0, n), on up to `threads` threads (0: all cores). body(i) must only write to data
 /// of index i, so the result does not depend on `threads`. If a call throws, calls not yet started are skipped and the
@@ -37,12 +42,11 @@ void parallel_for(std::size_t n, int threads, Body&& body) {
       next = n;
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    const std::size_t wanted = std::min(n, static_cast<std::size_t>(thread_count(threads)));
-    for (std::size_t w = 1; w < wanted; ++w) helpers.emplace_back(work);
+  const std::size_t wanted = std::min(n, static_cast<std::size_t>(thread_count(threads)));
+  if (wanted > 1)
+    share_work(wanted - 1, std::ref(work));
+  else
     work();
-  }
   if (first) std::rethrow_exception(first);
 }
 

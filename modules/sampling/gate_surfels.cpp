@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/parallel.hpp"
@@ -46,9 +45,6 @@ struct Gate {
   }
 };
 
-// Surfels to test, one bit each, so they are visited in scene order whatever the order of the blocks.
-using Marks = std::vector<std::uint64_t>;
-
 bool reaches(const Vector3d& centre, double radius, double largest_area, const SectorBounds& sector, double max_range,
              double footprint) {
   constexpr double rounding = 1 + 1e-9;
@@ -59,20 +55,6 @@ bool reaches(const Vector3d& centre, double radius, double largest_area, const S
 bool reaches(const SurfelBlock& block, const Gate& gate) {
   return reaches(gate.head.position(block.centre), block.radius, block.largest_area, gate.sector, gate.range.max_range,
                  gate.footprint);
-}
-
-Marks mark_reached(const PreparedScene& prepared, const Gate& gate, int threads) {
-  const auto blocks = prepared.blocks();
-  std::vector<std::uint8_t> reached(blocks.size(), 0);
-  parallel_blocks(blocks.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) reached[b] = reaches(blocks[b], gate);
-  });
-  Marks marks((prepared.order().size() + 63) / 64, 0);
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (reached[b])
-      for (const std::uint32_t i : prepared.order().subspan(blocks[b].begin, blocks[b].end - blocks[b].begin))
-        marks[i / 64] |= std::uint64_t{1} << i % 64;
-  return marks;
 }
 
 std::vector<GatedSurfel> join(const std::vector<std::vector<GatedSurfel>>& parts, int threads) {
@@ -118,17 +100,13 @@ std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& 
 std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
                                       const RangeGate& range, double footprint, int threads) {
   const Gate gate{prepared.scene(), head, SectorBounds(sector), range, footprint};
-  const Marks marks = mark_reached(prepared, gate, threads);
+  const SurfelMarks marks = prepared.marks_of([&](const SurfelBlock& block) { return reaches(block, gate); }, threads);
   constexpr std::size_t words = gate_block / 64;
-  std::vector<std::vector<GatedSurfel>> parts((marks.size() + words - 1) / words);
-  parallel_blocks(marks.size(), words, threads, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<GatedSurfel>> parts((marks.words.size() + words - 1) / words);
+  parallel_blocks(marks.words.size(), words, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<GatedSurfel>& part = parts[begin / words];
-    std::size_t count = 0;
-    for (std::size_t w = begin; w < end; ++w) count += static_cast<std::size_t>(std::popcount(marks[w]));
-    part.reserve(count);
-    for (std::size_t w = begin; w < end; ++w)
-      for (std::uint64_t left = marks[w]; left != 0; left &= left - 1)
-        gate.add_if_inside(w * 64 + static_cast<std::size_t>(std::countr_zero(left)), part);
+    part.reserve(marks.count(begin, end));
+    marks.for_each(begin, end, [&](std::size_t i) { gate.add_if_inside(i, part); });
   });
   return join(parts, threads);
 }

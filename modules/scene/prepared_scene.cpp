@@ -115,4 +115,17 @@ PreparedScene::PreparedScene(const SceneCloud& scene, int threads) : scene_(&sce
   });
 }
 
+SurfelMarks PreparedScene::marks_of(const std::function<bool(const SurfelBlock&)>& wanted, int threads) const {
+  std::vector<std::uint8_t> is_wanted(blocks_.size(), 0);
+  parallel_blocks(blocks_.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) is_wanted[b] = wanted(blocks_[b]);
+  });
+  SurfelMarks marks{std::vector<std::uint64_t>((order_.size() + 63) / 64, 0)};
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (is_wanted[b])
+      for (std::size_t k = blocks_[b].begin; k < blocks_[b].end; ++k)
+        marks.words[order_[k] / 64] |= std::uint64_t{1} << order_[k] % 64;
+  return marks;
+}
+
 }  // namespace insonify

@@ -1,6 +1,8 @@
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +18,26 @@ struct SurfelBlock {
   float radius = 0;                  ///< [m]
   float largest_area = 0;            ///< area of the largest surfel [m^2]
   std::uint32_t begin = 0, end = 0;  ///< range of indices into PreparedScene::order()
+};
+
+/// Some of the surfels of a scene, one bit each, so that they are visited in its order whatever the order of the blocks:
+/// surfel i is bit i % 64 of word i / 64.
+struct SurfelMarks {
+  std::vector<std::uint64_t> words;
+
+  /// Returns how many surfels the words [begin, end) mark.
+  std::size_t count(std::size_t begin, std::size_t end) const {
+    std::size_t sum = 0;
+    for (std::size_t w = begin; w < end; ++w) sum += static_cast<std::size_t>(std::popcount(words[w]));
+    return sum;
+  }
+  /// Calls use(i) for each surfel i that the words [begin, end) mark, in ascending order.
+  template <typename Use>
+  void for_each(std::size_t begin, std::size_t end, Use&& use) const {
+    for (std::size_t w = begin; w < end; ++w)
+      for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
+        use(w * 64 + static_cast<std::size_t>(std::countr_zero(left)));
+  }
 };
 
 /// A scene that is validated and divided into blocks once, for many pings: each ping then only visits the blocks within
@@ -34,6 +56,8 @@ class PreparedScene {
   std::span<const SurfelBlock> blocks() const { return blocks_; }
   /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
   std::span<const std::uint32_t> order() const { return order_; }
+  /// Marks the surfels of those blocks for which `wanted` is true; it is called from up to `threads` threads (0: all cores).
+  SurfelMarks marks_of(const std::function<bool(const SurfelBlock&)>& wanted, int threads = 0) const;
   /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
   const WholeScene& whole() const { return whole_; }
 

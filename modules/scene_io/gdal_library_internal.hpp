@@ -14,10 +14,11 @@ void* find_in_gdal(const char* name);
 template <auto& function>
 struct GdalFunction {
   const char* name;
-  operator decltype(&function)() const { return reinterpret_cast<decltype(&function)>(find_in_gdal(name)); }
+  operator decltype (&function)() const { return reinterpret_cast<decltype(&function)>(find_in_gdal(name)); }
 };
 
-#define INSONIFY_GDAL_FUNCTION(name) inline constexpr GdalFunction<::name> name{#name}
+#define INSONIFY_GDAL_FUNCTION(name) \
+  inline constexpr GdalFunction<::name> name { #name }
 INSONIFY_GDAL_FUNCTION(CPLErrorReset);
 INSONIFY_GDAL_FUNCTION(CPLGetLastErrorMsg);
 INSONIFY_GDAL_FUNCTION(CPLPopErrorHandler);

@@ -111,15 +111,15 @@ void for_each_height(const std::string& path, GDALDatasetH file, Use&& use) {
       double z = row[static_cast<std::size_t>(c)];
       if (!std::isfinite(z) || (has_none && (z == none || static_cast<float>(z) == static_cast<float>(none)))) continue;
       z = (has_scale ? scale : 1) * z + (has_offset ? offset : 0);
-      use(plane * (at[0] + (c + 0.5) * at[1] + (r + 0.5) * at[2]), plane * (at[3] + (c + 0.5) * at[4] + (r + 0.5) * at[5]),
-          unit * z);
+      use(plane * (at[0] + (c + 0.5) * at[1] + (r + 0.5) * at[2]),
+          plane * (at[3] + (c + 0.5) * at[4] + (r + 0.5) * at[5]), unit * z);
     }
   }
 }
 
 /// What GDAL may take to read so many bytes, which may be packed.
 ChildLimits limits_of_raster(std::size_t bytes) {
-  constexpr std::size_t memory_per_byte = 4, memory_at_least = std::size_t{1} << 30;
+  constexpr std::size_t memory_per_byte = 4, memory_at_least = std::size_t{900} << 20;
   constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
   return {memory_per_byte * bytes + memory_at_least,
           static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
@@ -143,8 +143,7 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   for_each_height(path, file.get(), [&](double x, double y, double z) { numbers.insert(numbers.end(), {x, y, z}); });
   const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(file.get())) *
                             static_cast<std::size_t>(GDALGetRasterYSize(file.get()));
-  if (numbers.empty())
-    fail(ErrorKind::content, path, ": none of its ", cells, " cells has a height: all are no data");
+  if (numbers.empty()) fail(ErrorKind::content, path, ": none of its ", cells, " cells has a height: all are no data");
   const std::size_t holes = cells - numbers.size() / 3;
   raw.width = numbers.size() / 3;
   if (holes > 0) raw.notes.push_back(std::to_string(holes) + " cells of the raster have no height and are holes");

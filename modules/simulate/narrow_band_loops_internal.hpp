@@ -23,4 +23,17 @@ struct EchoPhasors {
 /// the focus at the echo, before and behind it, and of what the frequencies off the carrier add to the carrier's.
 void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, EchoPhasors phasors);
 
+/// Elements are summed so many at a time.
+inline constexpr std::size_t phasor_lanes = 8;
+
+/// Sums over elements: real and imaginary part of the first four rows; of the carrier times cosine and times i sine of a
+/// frequency off it, of which those of a frequency above and below the carrier are sum and difference.
+struct PhasorSums {
+  double row[4][2];
+  double by_cosine[2][2], by_sine[2][2];  ///< near_off, far_off
+};
+
+/// Sums the phasors of `count` elements, a multiple of phasor_lanes, each times its shading.
+PhasorSums sum_phasors(const double* shading, std::size_t count, const EchoPhasors& phasors);
+
 }  // namespace insonify::kernels

@@ -83,7 +83,7 @@ PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& w
   require_valid(scene, "plan_ping");
   const WholeScene whole = whole_of(scene);
   const ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, options, "plan_ping");
-  const PlanFacts facts{scene, ping, sample_scene(scene, ping), gridding_of_a_row(ping)};
+  const PlanFacts facts{scene, ping, sample_scene(scene, nullptr, ping), gridding_of_a_row(ping)};
   const std::vector<PlanStage> stages = all_stages();
   PingPlan plan;
   plan.options = options;
@@ -104,14 +104,14 @@ PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& w
   return plan;
 }
 
-SimulationOptions settled_options(const SceneCloud& scene, const WholeScene& whole, const SonarHead& head,
-                                  const Pose& world_from_head, const Environment& environment,
-                                  const SimulationOptions& options, const char* who) {
-  const ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, options, who);
+SimulationOptions settled_options(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
+                                  const Environment& environment, const SimulationOptions& options, const char* who) {
+  const SceneCloud& scene = prepared.scene();
+  const ResolvedPing ping = resolve_ping(prepared.whole(), head, world_from_head, environment, options, who);
   const std::vector<PlanStage> stages = all_stages();
   SimulationOptions settled = options;
   if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, options); })) return settled;
-  const PlanFacts facts{scene, ping, sample_scene(scene, ping), {}};
+  const PlanFacts facts{scene, ping, sample_scene(scene, &prepared, ping), {}};
   const double share = budget_share(stages, options.accuracy_db);
   for (const PlanStage& stage : stages)
     if (is_open(stage, options)) plan_stage(stage, facts, share, settled);

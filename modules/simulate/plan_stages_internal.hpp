@@ -67,9 +67,8 @@ std::span<const PlanStage> synthesis_stages();
 constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 
 /// The options with all that they leave as needed decided by the plan: as plan_ping, but only open stages are judged,
-/// and the scene is taken as valid. `who` names the caller in errors.
-SimulationOptions settled_options(const SceneCloud& scene, const WholeScene& whole, const SonarHead& head,
-                                  const Pose& world_from_head, const Environment& environment,
-                                  const SimulationOptions& options, const char* who);
+/// at a cost that grows with what the head may reach. `who` names the caller in errors.
+SimulationOptions settled_options(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
+                                  const Environment& environment, const SimulationOptions& options, const char* who);
 
 }  // namespace insonify

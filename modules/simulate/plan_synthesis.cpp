@@ -52,6 +52,8 @@ class NarrowBandError {
       u_beam_.push_back(std::cos(head_.fan.elevation[b]) * std::sin(head_.fan.azimuth[b]));
     for (std::size_t m = 0; m < head_.array.elements(); ++m)
       y_.push_back(head_.array.spacing * element_place(m, head_.array.elements()));
+    shading_ = head_.array.shading;
+    while (y_.size() % kernels::phasor_lanes != 0) y_.push_back(0), shading_.push_back(0);
   }
 
   /// How many places to add.
@@ -91,22 +93,15 @@ class NarrowBandError {
                           {range, u, u_beam, std::max(range - off_focus_, 0.3 * range), range + off_focus_,
                            cycles_per_m_, nodes_[3].frequency / carrier, nodes_[4].frequency / carrier},
                           p);
-    std::complex<double> truth[5] = {}, before = 0, behind = 0, narrow = 0;
-    for (std::size_t m = 0; m < y_.size(); ++m) {
-      const double w = head_.array.shading[m];
-      const auto phasor = [&](Phasors::Row row) { return std::complex(w * p.cosine[row][m], w * p.sine[row][m]); };
-      const std::complex<double> centre = phasor(Phasors::carrier);
-      narrow += phasor(Phasors::narrow);
-      before += phasor(Phasors::before);
-      behind += phasor(Phasors::behind);
-      truth[2] += centre;
-      for (const int n : {1, 2}) {  // nodes come in pairs
-        const Phasors::Row row = n == 1 ? Phasors::near_off : Phasors::far_off;
-        const std::complex<double> by_cosine = centre * p.cosine[row][m];
-        const std::complex<double> by_sine(-centre.imag() * p.sine[row][m], centre.real() * p.sine[row][m]);
-        truth[2 + n] += by_cosine + by_sine;
-        truth[2 - n] += by_cosine - by_sine;
-      }
+    const kernels::PhasorSums all = kernels::sum_phasors(shading_.data(), y_.size(), p);
+    const auto sum_of = [](const double(&parts)[2]) { return std::complex(parts[0], parts[1]); };
+    const std::complex<double> narrow = sum_of(all.row[p.narrow]), before = sum_of(all.row[p.before]),
+                               behind = sum_of(all.row[p.behind]);
+    std::complex<double> truth[5];  // nodes come in pairs about the carrier
+    truth[2] = sum_of(all.row[p.carrier]);
+    for (const int n : {1, 2}) {
+      const std::complex<double> by_cosine = sum_of(all.by_cosine[n - 1]), by_sine = sum_of(all.by_sine[n - 1]);
+      truth[2 + n] = by_cosine + by_sine, truth[2 - n] = by_cosine - by_sine;
     }
     const auto add_node = [&](const std::complex<double>& t, double part) {
       sums.error += weight * part * std::norm(t - narrow);
@@ -120,7 +115,7 @@ class NarrowBandError {
   const SonarHead& head_;
   std::array<SpectrumNode, 5> nodes_;
   double cycles_per_m_, off_focus_;
-  std::vector<double> u_beam_, y_;
+  std::vector<double> u_beam_, y_, shading_;
 };
 
 /// Some places of the sample, each standing for the same power at an element.

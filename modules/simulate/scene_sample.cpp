@@ -14,8 +14,8 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t most_of_a_kind = 4096, surfels_at_once = 16384;
-constexpr double nearest = 1e-2;  // [m]: what is nearer is left to simulate_ping
+constexpr std::size_t most_of_a_kind = 4096, words_at_once = 256;  // of 64 surfels
+constexpr double nearest = 1e-2;                                   // [m]: what is nearer is left to simulate_ping
 
 enum Kind : std::uint8_t { in_view, other_range, off_azimuth, off_elevation, elsewhere, kinds };
 
@@ -69,22 +69,36 @@ struct Sampled {
   double back_facing = 0;          ///< of those in view, for the whole scene
 };
 
-Sampled sampled_surfels(const SceneCloud& scene, const ResolvedPing& ping, const Sorter& sorter) {
+/// The surfels that may be within `farthest` of the head; all of a scene that is not prepared.
+SurfelMarks marks_within(double farthest, const SceneCloud& scene, const PreparedScene* prepared,
+                         const Eigen::Vector3d& shift, int threads) {
+  const auto reaches = [&](const SurfelBlock& block) {
+    return (shift + block.centre.cast<double>()).norm() <= farthest + block.radius;
+  };
+  if (prepared) return prepared->marks_of(reaches, threads);
+  SurfelMarks all{std::vector<std::uint64_t>((scene.size() + 63) / 64, ~std::uint64_t{0})};
+  if (scene.size() % 64 != 0) all.words.back() >>= 64 - scene.size() % 64;
+  return all;
+}
+
+Sampled sampled_surfels(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping,
+                        const Sorter& sorter) {
   const Eigen::Matrix3d to_head = ping.view.world_from_head.linear().transpose();
   const Eigen::Vector3d shift = scene.origin - ping.view.world_from_head.translation();
   const double legs = has_boundary(ping.environment) ? longest_leg(ping.environment, ping.view, ping.sent) : 0;
   const double farthest = std::max(sorter.reach().max_range, legs);
+  const SurfelMarks marks = marks_within(farthest, scene, prepared, shift, ping.options.threads);
   // Block by block, joined in the order of the scene.
   using Members = std::array<std::vector<std::uint32_t>, kinds>;
-  std::vector<Members> blocks((scene.size() + surfels_at_once - 1) / surfels_at_once);
-  parallel_blocks(scene.size(), surfels_at_once, ping.options.threads, [&](std::size_t begin, std::size_t end) {
-    Members& of_block = blocks[begin / surfels_at_once];
-    for (std::size_t i = begin; i < end; ++i) {
+  std::vector<Members> blocks((marks.words.size() + words_at_once - 1) / words_at_once);
+  parallel_blocks(marks.words.size(), words_at_once, ping.options.threads, [&](std::size_t begin, std::size_t end) {
+    Members& of_block = blocks[begin / words_at_once];
+    marks.for_each(begin, end, [&](std::size_t i) {
       const Eigen::Vector3d p = shift + scene.point[i].cast<double>();
-      if (p.squaredNorm() > farthest * farthest) continue;
+      if (p.squaredNorm() > farthest * farthest) return;
       const Kind kind = sorter.kind_of(to_head * p);
       if (kind != elsewhere || legs > 0) of_block[kind].push_back(static_cast<std::uint32_t>(i));
-    }
+    });
   });
   Members members;
   for (const Members& of_block : blocks)
@@ -154,9 +168,9 @@ void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Sc
 
 }  // namespace
 
-SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping) {
+SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
   const Sorter sorter(ping);
-  Sampled sampled = sampled_surfels(scene, ping, sorter);
+  Sampled sampled = sampled_surfels(scene, prepared, ping, sorter);
   const View& view = ping.view;
   Scatterers patches =
       find_scatterers(sampled.scene, view.world_from_head, view.fan, sorter.reach(), Sorter::widest(ping)).scatterers;

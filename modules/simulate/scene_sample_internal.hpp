@@ -27,7 +27,8 @@ struct SceneSample {
 };
 
 /// Samples at most 4096 surfels of each kind of place, evenly strided. Kinds are sampled one by one: what a part of the
-/// scene gives does not depend on whether other parts were loaded.
-SceneSample sample_scene(const SceneCloud& scene, const ResolvedPing& ping);
+/// scene gives does not depend on whether other parts were loaded. A prepared scene gives the same, but visits only the
+/// blocks within reach; nullptr: the scene is not prepared.
+SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping);
 
 }  // namespace insonify

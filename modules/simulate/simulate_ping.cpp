@@ -15,14 +15,13 @@ namespace insonify {
 SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
                             const Environment& environment, const SimulationOptions& options, KeptSynthesizers* kept) {
   const SceneCloud& scene = prepared.scene();
-  const WholeScene& whole = prepared.whole();
   SimulatedPing result;
   StopWatch watch;
 
   // What is computed: as the options say, and where they leave it open as the accuracy asks for.
   const SimulationOptions settled =
-      settled_options(scene, whole, head, world_from_head, environment, options, "simulate_ping");
-  ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, settled, "simulate_ping");
+      settled_options(prepared, head, world_from_head, environment, options, "simulate_ping");
+  ResolvedPing ping = resolve_ping(prepared.whole(), head, world_from_head, environment, settled, "simulate_ping");
   const Transmission& sent = ping.sent;
   const EffectSettings& effects = settled.effects;
 

@@ -1,5 +1,6 @@
 #include "core/parallel.hpp"
 
+#include "core/child_process.hpp"
 #include "support/test.hpp"
 
 TEST(ParallelFor, calls_every_index_once_for_any_thread_count) {
@@ -21,6 +22,50 @@ TEST(ParallelFor, rethrows_the_first_exception) {
                               if (i == 17) fail(ErrorKind::runtime, "ping ", i);
                             }),
                Error);
+}
+
+TEST(ParallelFor, within_another_calls_every_index_once) {
+  std::vector<std::vector<int>> calls(50, std::vector<int>(40, 0));
+  parallel_for(calls.size(), 4,
+               [&](std::size_t k) { parallel_for(calls[k].size(), 4, [&, k](std::size_t i) { ++calls[k][i]; }); });
+  for (const std::vector<int>& of_loop : calls) EXPECT_THAT(of_loop, testing::Each(1));
+}
+
+TEST(ParallelFor, from_several_threads_at_once) {
+  std::vector<std::size_t> sums(4, 0);
+  {
+    std::vector<std::jthread> callers;
+    for (std::size_t& sum : sums)
+      callers.emplace_back([&sum] {
+        for (int loop = 0; loop < 200; ++loop) {
+          std::atomic<std::size_t> here{0};
+          parallel_for(10, 3, [&](std::size_t i) { here += i; });
+          sum += here;
+        }
+      });
+  }
+  EXPECT_THAT(sums, testing::Each(200 * 45));
+}
+
+TEST(ParallelFor, uses_as_many_threads_as_it_may) {
+  // Each call waits for the others, so that all threads must be there at once.
+  std::atomic<int> there{0};
+  parallel_for(4, 4, [&](std::size_t) {
+    ++there;
+    while (there < 4) std::this_thread::yield();
+  });
+  EXPECT_EQ(there, 4);
+}
+
+TEST(ParallelFor, in_a_forked_child_works_alone) {
+  parallel_for(100, 4, [](std::size_t) {});
+  EXPECT_EQ(read_in_child("sum", {},
+                          [] {
+                            std::atomic<std::size_t> sum{0};
+                            parallel_for(100, 4, [&](std::size_t i) { sum += i; });
+                            return std::to_string(sum);
+                          }),
+            "4950");
 }
 
 TEST(ParallelBlocks, tile_the_range_without_overlap) {
