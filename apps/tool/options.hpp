@@ -3,7 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "simulate/simulation_options.hpp"
+
 namespace insonify::tool {
+
+/// What the library does if it is told nothing.
+inline const SimulationOptions library_options{};
 
 /// Options of every verb.
 struct CommonOptions {
@@ -11,7 +16,7 @@ struct CommonOptions {
   bool verbose = false;
   bool json = false;
   int threads = 0;  ///< 0: all cores
-  std::uint64_t seed = 1;
+  std::uint64_t seed = library_options.seed;
   std::vector<std::string> settings;  ///< --set sonar.beams=256 ...
 };
 
@@ -35,7 +40,7 @@ struct RunOptions {
   std::string environment;  ///< TOML file, or empty
   std::string profile;      ///< CSV of sound speed against depth, or empty
   std::string output;
-  double tolerance = 1e-4;
+  double tolerance = library_options.synthesis.tolerance;
   std::string method = "planned";
   int keep_bits = 24;  ///< significant bits of the cube's pressures; 24: all
   bool force = false;
@@ -52,8 +57,8 @@ struct PingOptions {
   std::string world = "z-up";
   std::string sampling = "surfels";
   std::string amplitude = "speckle";
-  double scatterers_per_cell = 8;
-  int rays_per_beam = 64;
+  double scatterers_per_cell = library_options.sampling.scatterers_per_cell;
+  int rays_per_beam = library_options.sampling.rays_per_beam;
   double level_error_db = 0;  ///< 0: the sampling is not refined
   bool noise = false;
   bool multipath = false;
@@ -61,16 +66,16 @@ struct PingOptions {
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
   bool split = false;
-  int looks_range = 1, looks_pings = 1;
-  int absorption_order = -1;
-  double accuracy_db = 0.1;
+  int looks_range = library_options.outputs.looks_range, looks_pings = library_options.outputs.looks_pings;
+  int absorption_order = library_options.effects.absorption_order;
+  double accuracy_db = library_options.accuracy_db;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
   double time = 0;         ///< of transmission [s]
   int ping = -1;           ///< number of the ping; -1: time in milliseconds
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
-  double threshold_db = 11.4;
-  double false_alarm_rate = 1e-3;
+  double threshold_db = library_options.detection.threshold_db;
+  double false_alarm_rate = library_options.detection.false_alarm_rate;
   std::string all_bins_above;              ///< dB re 1 uPa, or empty
   double memory_limit = 0;                 ///< [GiB] for a .tiles scene or a mesh; 0: see the help
   std::vector<std::string> with, without;  ///< stages of the plan forced in or out
