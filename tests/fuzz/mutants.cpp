@@ -249,5 +249,6 @@ int main(int argc, char** argv) {
     bad += t.bad, tried += t.read;
   }
   fs::remove_all(work);
+  if (tried == 0) std::fprintf(stderr, "fuzz_mutants: no reader is called %s\n", name.c_str());
   return bad == 0 && tried > 0 ? 0 : 1;
 }
