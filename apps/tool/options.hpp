@@ -7,7 +7,7 @@
 
 namespace insonify::tool {
 
-/// What the library does if it is told nothing.
+/// Defaults of the library, which are those of the tool.
 inline const SimulationOptions library_options{};
 
 /// Options of every verb.

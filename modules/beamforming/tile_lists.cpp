@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "beamforming/pulse_loops_internal.hpp"
 #include "beamforming/tile_lists_internal.hpp"
 #include "core/parallel.hpp"
 
@@ -11,13 +12,20 @@ namespace {
 constexpr std::size_t min_block = 4096;  // least number of echoes per block of work
 constexpr std::size_t max_blocks = 256;
 
-/// Calls visit(tile, i) for every tile that the pulse of echo i in [begin, end) overlaps.
+/// Calls visit(tile, i) for every tile that the pulse of echo i in [first, last) overlaps.
 template <typename Visit>
 void each_tile(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
-               std::size_t begin, std::size_t end, Visit&& visit) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto [first, last] = axis.around(echoes.delay[i], reach.at(echoes.delay[i]));
-    for (std::size_t t = first / tile_bins; first < last && t <= (last - 1) / tile_bins; ++t) visit(t, i);
+               std::size_t first, std::size_t last, Visit&& visit) {
+  constexpr std::size_t at_once = 512;
+  std::uint32_t begin[at_once], end[at_once];
+  for (; first < last; first += at_once) {
+    const std::size_t count = std::min(at_once, last - first);
+    kernels::reached_bins(echoes.delay.data() + first, count,
+                          {axis.start, axis.step, reach.half, reach.growth, 0, static_cast<double>(axis.bins)}, begin,
+                          end);
+    for (std::size_t i = 0; i < count; ++i)
+      if (begin[i] < end[i])
+        for (std::size_t t = begin[i] / tile_bins; t <= (end[i] - 1) / tile_bins; ++t) visit(t, first + i);
   }
 }
 
@@ -67,12 +75,14 @@ double gridding_unit(const Echoes& echoes, const Medium& medium, int threads) {
   constexpr std::size_t block = 4096;
   std::vector<double> most((echoes.size() + block - 1) / block, 0);
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    double& here = most[begin / block];
-    for (std::size_t i = begin; i < end; ++i)
-      here = std::max(
-          here, std::abs(echoes.amplitude[i]) * std::exp(-medium.absorption.a0 * medium.sound_speed * echoes.delay[i]));
+    double& here = most[begin / block];  // its square
+    for (std::size_t i = begin; i < end; ++i) {
+      const double sent = std::norm(echoes.amplitude[i]);
+      if (sent > here || echoes.delay[i] < 0)  // else absorption leaves less than that
+        here = std::max(here, sent * std::exp(-2 * medium.absorption.a0 * medium.sound_speed * echoes.delay[i]));
+    }
   });
-  const double all = most.empty() ? 0 : *std::max_element(most.begin(), most.end());
+  const double all = most.empty() ? 0 : std::sqrt(*std::max_element(most.begin(), most.end()));
   return all > std::numeric_limits<double>::min() ? std::exp2(std::round(std::log2(all))) : 1;
 }
 

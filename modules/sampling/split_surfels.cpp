@@ -91,11 +91,11 @@ class Splitter {
     frame.radius = std::sqrt(scene_.area[surfel] / pi);
     frame.shift = drawn[0], frame.turn_re = turn.real(), frame.turn_im = turn.imag();
     const double away[] = {t1.dot(c.position) / c.range, t2.dot(c.position) / c.range};
-    const double sine = std::hypot(away[0], away[1]);
+    const double sine = std::sqrt(away[0] * away[0] + away[1] * away[1]);
     frame.away[0] = sine > 0 ? away[0] / sine : 0, frame.away[1] = sine > 0 ? away[1] / sine : 0;
     frame.azimuth = c.direction.azimuth, frame.elevation = c.direction.elevation;
     frame.oriented = scene_.normals_oriented;
-    const double across = std::hypot(c.position.x(), c.position.y());
+    const double across = c.position.head<2>().norm();
     frame.ahead[0] = c.position.x() / across, frame.ahead[1] = c.position.y() / across;
     frame.level[0] = across / c.range, frame.level[1] = c.position.z() / c.range;
 
