@@ -70,10 +70,10 @@ CubePoint on_cube(const Vector3f& v) {
 }
 
 std::size_t DirectionTile::cell_of(const CubePoint& q) const {
-  const auto step = [this](float from_corner) {
-    return static_cast<std::size_t>(std::clamp(static_cast<int>(from_corner / cell), 0, side - 1));
+  const auto step = [](float cells) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(cells), 0, side - 1));
   };
-  return step(q.y - y) * side + step(q.x - x);
+  return step((q.y - y) / cell_y) * side + step((q.x - x) / cell_x);
 }
 
 DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
@@ -107,36 +107,40 @@ void DirectionRaster::bound_faces(std::span<const CubePoint> queries, int thread
       }
 }
 
-// A typical footprint should cover a few cells, with a bounded total number of cells per surfel and query.
+// A typical footprint should cover a few cells of its face, with a bounded total number of cells per surfel and query.
 void DirectionRaster::size_cells(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
                                  Footprint footprint) {
+  struct Typical {
+    double log_x = 0, log_y = 0, area = 0, count = 0;
+  };
+  std::array<Typical, 6> typical;
   const std::size_t stride = surfels.size() / 4096 + 1;
-  double log_side = 0, area = 0, count = 0;
   for (std::size_t s = 0; s < surfels.size(); s += stride) {
     Extent e;
     if (is_wide(surfels[s]) || !(surfels[s].radius > 0)) continue;
-    if (!project(surfels[s], main_face(surfels[s].position), footprint, e)) continue;
-    const double of_box = 4.0 * e.half_x * e.half_y;
-    log_side += std::log(of_box) / 2;
-    area += of_box;
-    ++count;
+    const std::uint32_t face = main_face(surfels[s].position);
+    if (!project(surfels[s], face, footprint, e)) continue;
+    Typical& of_face = typical[face];
+    of_face.log_x += std::log(2.0 * e.half_x);
+    of_face.log_y += std::log(2.0 * e.half_y);
+    of_face.area += 4.0 * e.half_x * e.half_y;
+    ++of_face.count;
   }
-  double asked = 0, side = 0;
-  for (const Face& f : faces_)
-    if (f.x1 >= f.x0) {
-      asked += (f.x1 - f.x0) * (f.y1 - f.y0);
-      side = std::max<double>({side, f.x1 - f.x0, f.y1 - f.y0});
-    }
-  double cell = count > 0 ? std::exp(log_side / count) / cells_per_footprint : 1;
-  if (count > 0) cell = std::max(cell, std::sqrt(area / count / most_cells_per_surfel));
-  cell = std::max(cell, std::sqrt(asked / (4.0 * static_cast<double>(surfels.size() + queries.size()) + 4096)));
-  cell_ = static_cast<float>(std::max({cell, side / 60000, 1e-5}));
-
+  const double most_cells = 4.0 * static_cast<double>(surfels.size() + queries.size()) + 4096;
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
     Face& face = faces_[f];
     if (face.x1 < face.x0) continue;
-    face.nx = static_cast<int>((face.x1 - face.x0) / cell_) + 1;
-    face.ny = static_cast<int>((face.y1 - face.y0) / cell_) + 1;
+    const Typical& t = typical[f];
+    const double width = face.x1 - face.x0, height = face.y1 - face.y0;
+    double x = t.count > 0 ? std::exp(t.log_x / t.count) / cells_per_footprint : 1;
+    double y = t.count > 0 ? std::exp(t.log_y / t.count) / cells_per_footprint : 1;
+    const double cells_per_surfel = t.count > 0 ? t.area / t.count / (x * y) : 0;
+    const double larger =
+        std::sqrt(std::max({1.0, cells_per_surfel / most_cells_per_surfel, width * height / (x * y) / most_cells}));
+    face.cell_x = static_cast<float>(std::max({x * larger, width / 60000, 1e-5}));
+    face.cell_y = static_cast<float>(std::max({y * larger, height / 60000, 1e-5}));
+    face.nx = static_cast<int>(width / face.cell_x) + 1;
+    face.ny = static_cast<int>(height / face.cell_y) + 1;
     face.columns = (face.nx + DirectionTile::side - 1) / DirectionTile::side;
     face.first_tile = tiles_.size();
     const int rows = (face.ny + DirectionTile::side - 1) / DirectionTile::side;
@@ -151,8 +155,8 @@ void DirectionRaster::add_boxes(const GatedSurfel& s, std::uint32_t index, Footp
   if (!(s.radius > 0) || is_wide(s)) return;
   const auto add = [&](std::uint32_t f, const Extent& e) {
     const Face& face = faces_[f];
-    const float x0 = (e.x - e.half_x - face.x0) / cell_, x1 = (e.x + e.half_x - face.x0) / cell_;
-    const float y0 = (e.y - e.half_y - face.y0) / cell_, y1 = (e.y + e.half_y - face.y0) / cell_;
+    const float x0 = (e.x - e.half_x - face.x0) / face.cell_x, x1 = (e.x + e.half_x - face.x0) / face.cell_x;
+    const float y0 = (e.y - e.half_y - face.y0) / face.cell_y, y1 = (e.y + e.half_y - face.y0) / face.cell_y;
     if (face.nx == 0 || !(x1 >= 0 && y1 >= 0 && x0 < static_cast<float>(face.nx) && y0 < static_cast<float>(face.ny)))
       return;
     const auto clip = [](float v, int n) {
@@ -199,8 +203,8 @@ void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int
 void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threads) {
   const auto tile_of = [this](const CubePoint& q) {
     const Face& face = faces_[q.face];
-    const int x = std::min(face.nx - 1, static_cast<int>((q.x - face.x0) / cell_));
-    const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) / cell_));
+    const int x = std::min(face.nx - 1, static_cast<int>((q.x - face.x0) / face.cell_x));
+    const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) / face.cell_y));
     return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
   };
   std::vector<std::uint32_t> tile(queries.size());
@@ -225,9 +229,10 @@ DirectionTile DirectionRaster::tile(std::size_t t) const {
   constexpr auto side = static_cast<float>(DirectionTile::side);
   DirectionTile tile;
   tile.face = tiles_[t].face;
-  tile.cell = cell_;
-  tile.x = face.x0 + static_cast<float>(tiles_[t].column) * side * cell_;
-  tile.y = face.y0 + static_cast<float>(tiles_[t].row) * side * cell_;
+  tile.cell_x = face.cell_x;
+  tile.cell_y = face.cell_y;
+  tile.x = face.x0 + static_cast<float>(tiles_[t].column) * side * face.cell_x;
+  tile.y = face.y0 + static_cast<float>(tiles_[t].row) * side * face.cell_y;
   tile.boxes = std::span(boxes_).subspan(first_box_[t], first_box_[t + 1] - first_box_[t]);
   tile.queries = std::span(queries_).subspan(first_query_[t], first_query_[t + 1] - first_query_[t]);
   return tile;

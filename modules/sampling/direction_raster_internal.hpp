@@ -32,13 +32,13 @@ struct TileBox {
   std::uint8_t x0, x1, y0, y1;
 };
 
-/// A square tile of directions on one face of the cube.
+/// A tile of as many rows as columns of cells on one face of the cube.
 struct DirectionTile {
   static constexpr int side = 64;  ///< cells
 
   std::uint32_t face = 0;
   float x = 0, y = 0;                      ///< lower corner
-  float cell = 0;                          ///< width of a cell
+  float cell_x = 0, cell_y = 0;            ///< widths of a cell
   std::span<const TileBox> boxes;          ///< footprints that overlap the tile, by surfel
   std::span<const std::uint32_t> queries;  ///< indices of the queries in the tile, ascending
   std::size_t cell_of(const CubePoint& q) const;
@@ -78,10 +78,10 @@ class CellLists {
   std::vector<Link> links_;
 };
 
-/// Rasterises the footprints of surfels over the queried directions: cells on a cube around the head, sized after the
-/// typical footprint, in tiles of 64 x 64 cells that are processed independently. In the coordinates of a face the
-/// inverse depth of a surfel's plane is linear and its footprint has a bounding box in closed form, so no angle is
-/// computed. Building costs O(surfels + queries) by counting sort.
+/// Rasterises the footprints of surfels over the queried directions: cells on a cube around the head, on each face as wide
+/// and as high as suits its typical footprint, in tiles of 64 x 64 cells that are processed independently. In the
+/// coordinates of a face the inverse depth of a surfel's plane is linear and its footprint has a bounding box in closed
+/// form, so no angle is computed. Building costs O(surfels + queries) by counting sort.
 class DirectionRaster {
  public:
   /// Keeps a reference to `queries`.
@@ -99,6 +99,7 @@ class DirectionRaster {
  private:
   struct Face {
     float x0 = 1, x1 = -1, y0 = 1, y1 = -1;  // bounds of the queries on the face
+    float cell_x = 1, cell_y = 1;            // widths of a cell
     int nx = 0, ny = 0;                      // cells
     int columns = 0;                         // tiles in a row
     std::size_t first_tile = 0;
@@ -129,7 +130,6 @@ class DirectionRaster {
   static constexpr float widest_ = 0.24f;
 
   std::array<Face, 6> faces_;
-  float cell_ = 1;
   std::vector<Tile> tiles_;
   std::vector<std::uint32_t> wide_;
   std::vector<TileBox> boxes_;

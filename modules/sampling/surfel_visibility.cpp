@@ -125,11 +125,11 @@ class DepthTile {
   void draw(const DirectionTile& tile, const TileBox& box) {
     const HidingDepth depth(surfels_[box.surfel], tile.face);
     // Maximum over a cell: the value at its centre plus half a cell along the gradient.
-    const float most = (std::abs(depth.along_x) + std::abs(depth.along_y)) * 0.5f * tile.cell;
-    const float corner = depth.constant + most + depth.along_x * (tile.x + 0.5f * tile.cell);
-    const float step = depth.along_x * tile.cell;
+    const float step = depth.along_x * tile.cell_x, step_y = depth.along_y * tile.cell_y;
+    const float most = 0.5f * (std::abs(step) + std::abs(step_y));
+    const float corner = depth.constant + most + depth.along_x * tile.x + 0.5f * step;
     for (std::size_t y = box.y0; y <= box.y1; ++y) {
-      const float row = corner + depth.along_y * (tile.y + (static_cast<float>(y) + 0.5f) * tile.cell);
+      const float row = corner + depth.along_y * tile.y + step_y * (static_cast<float>(y) + 0.5f);
       float* const cells = nearest_.data() + y * side;
       for (int x = box.x0; x <= box.x1; ++x) cells[x] = std::max(cells[x], row + step * static_cast<float>(x));
     }
