@@ -5,13 +5,16 @@
 #   tests/sanitize.sh address|thread PART
 set -euo pipefail
 cd "$(dirname "$0")/.."
+runs="EnvironmentRun|PingRun|Tiles|SideScan|MergedRuns|ExportProducts|SurveyStops|Missions|survey_killed_.*"
 declare -A parts=(
   [core]="core_test scene_test sampling_test:core|scene|sampling"
   [sound]="acoustics_test beamforming_test returns_test:acoustics|beamforming|returns"
   [files]="scene_io_test store_test formats_test:scene_io|store|formats"
   [pings]="simulate_test compare_test accuracy_test:simulate|compare|accuracy"
   [laws]="laws_test extreme_test 02_thesis:laws|extreme"
-  [tool]="tool_test:tool"
+  [tool]="tool_test:tool:tool\.($runs)"
+  [runs]="tool_test:tool\.($runs)"
+  [docs]="insonify insonify-view:docs"
   [view]="view_test viewer_test:view|viewer"
 )
 if [[ $# != 2 || -z ${parts[${2:-}]:-} || ! ${1:-} =~ ^(address|thread)$ ]]; then
@@ -20,7 +23,7 @@ if [[ $# != 2 || -z ${parts[${2:-}]:-} || ! ${1:-} =~ ^(address|thread)$ ]]; the
 fi
 preset=asan
 [[ $1 == thread ]] && preset=tsan
-IFS=: read -r targets suites <<<"${parts[$2]}"
+IFS=: read -r targets suites others <<<"${parts[$2]}"
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 cmake --preset $preset "${launcher[@]}" >/dev/null
@@ -32,5 +35,5 @@ export TSAN_OPTIONS="suppressions=$PWD/tests/support/thread_suppressions.txt his
 # OpenMP, which PCL uses, joins its threads in ways that ThreadSanitizer does not see: none of them.
 [[ $1 == thread ]] && export OMP_THREAD_LIMIT=1
 started=$SECONDS
-ctest --preset $preset -R "^($suites)\." --timeout 3000
+ctest --preset $preset -R "^($suites)(\.|\$)" -E "^(${others:-none})\$" --timeout 3000
 echo "tests/sanitize.sh $1 $2: clean, $((SECONDS - started)) s of tests"
