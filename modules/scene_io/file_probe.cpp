@@ -42,8 +42,12 @@ std::string what_it_looks_like(const std::string& path) {
   const std::string head = read_beginning(path, 512);
   for (const SceneReader& reader : scene_readers())
     for (const std::string& magic : reader.magic)
-      if (head.starts_with(magic))
-        return reader.name + "; " + (reader.remedy.empty() ? "rename it to " + reader.extensions[0] : reader.remedy);
+      if (head.starts_with(magic)) {
+        const auto& names = reader.extensions;
+        if (std::find(names.begin(), names.end(), extension_of(path)) != names.end())
+          return reader.name + ", as it should; copy or export it again";
+        return reader.name + "; " + (reader.remedy.empty() ? "rename it to " + names[0] : reader.remedy);
+      }
   const bool text = std::all_of(head.begin(), head.end(),
                                 [](unsigned char c) { return c >= 128 || std::isprint(c) || std::isspace(c); });
   if (!text) return "binary data";

@@ -171,6 +171,13 @@ TEST(RasterFiles, of_either_byte_order_are_read_and_of_a_wrong_one_or_another_ki
               HasSubstr("is no raster that GDAL reads"));
 }
 
+TEST(RasterFiles, damaged_ones_are_not_to_be_renamed) {
+  EXPECT_THAT(
+      error_of_file([](const std::string& p) { load_scene(p); }, "damaged.tif", std::string("II*\0garbage", 11)),
+      testing::AllOf(HasSubstr("is no raster that GDAL reads"), HasSubstr("copy or export it again"),
+                     testing::Not(HasSubstr("rename it"))));
+}
+
 // A GeoTIFF that insonify exported, by GDAL: place, projection, no data, names and heights.
 TEST(RasterFiles, of_insonify_are_read_by_gdal) {
   GDALAllRegister();
