@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Reads N damaged files per reader (10 000), each in a process of its own. Fails, and keeps the file in the folder where it
-# was started, if one ends otherwise than with 0, 2, 3 or 4, takes 10 s or 1 GB, or says more than one line.
+# Reads N damaged files per reader (10 000), each in a process of its own. Fails, and keeps the file in build/mutants, if one
+# ends otherwise than with 0, 2, 3 or 4, takes 10 s or 1 GB, or says more than one line.
 #
 #   tests/mutants.sh [READER|all] [N] [SEED]
 set -euo pipefail
@@ -9,4 +9,5 @@ bin=$root/build/dev/bin
 seeds=$(mktemp -d)
 trap 'rm -rf "$seeds"' EXIT
 "$root"/tests/fuzz/make_seeds.sh "${INSONIFY_TOOL:-$bin/insonify}" "$seeds/seeds"
+mkdir -p "$root/build/mutants" && cd "$root/build/mutants"
 "${INSONIFY_MUTANTS:-$bin/fuzz_mutants}" "${1:-all}" "$seeds/seeds" "$root/tests/fuzz/regressions" "${2:-10000}" "${3:-1}"
