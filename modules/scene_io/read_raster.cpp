@@ -38,6 +38,7 @@ const char* const raster_drivers[] = {"GTiff", "BAG", "netCDF", "GMT", "AAIGrid"
 struct QuietGdal {
   QuietGdal() {
     GDALAllRegister();
+    GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond limits_of_raster
     CPLPushErrorHandler(CPLQuietErrorHandler);
   }
   ~QuietGdal() { CPLPopErrorHandler(); }
