@@ -19,11 +19,14 @@ struct EchoSource {
   };
   /// Takes the patches and echoes of a chunk.
   using Visitor = std::function<void(const Scatterers&, const Echoes&)>;
-  /// Returns whether a patch is wanted.
-  using Filter = std::function<bool(const PatchPlace&)>;
+  /// What a visit may leave out; an empty function asks for everything.
+  struct Filter {
+    std::function<bool(const PatchPlace&)> surfel{};               ///< whether patches of a surfel are wanted
+    std::function<bool(const PatchPlace&, double range)> patch{};  ///< of such a surfel, a patch at this range [m]
+  };
 
   std::vector<Chunk> chunks;
-  /// Visits a chunk, patches and echoes index by index. Surfels that the filter refuses may be left out of it.
+  /// Visits a chunk, patches and echoes index by index. What the filter refuses may be left out.
   std::function<void(std::size_t chunk, const Filter& wanted, const Visitor& visit)> visit;
   const Echoes* stored = nullptr;  ///< all echoes, if they are stored
   bool moving = false;             ///< echoes have Doppler shifts

@@ -121,9 +121,8 @@ GriddedImage streamed_image(const EchoSource& source, const GriddingPlan<Real>& 
     Slab<Tile, Real> slab(plan, pool, reach, s * slab_bins, slab_tiles);
     for (std::size_t c = 0; c < source.chunks.size(); ++c)
       if (slab.reaches(source.chunks[c].min_range, source.chunks[c].max_range))
-        source.visit(
-            c, [&](const PatchPlace& p) { return slab.reaches(p.range - p.reach, p.range + p.reach); },
-            [&](const Scatterers&, const Echoes& echoes) { slab.add(echoes); });
+        source.visit(c, {[&](const PatchPlace& p) { return slab.reaches(p.range - p.reach, p.range + p.reach); }},
+                     [&](const Scatterers&, const Echoes& echoes) { slab.add(echoes); });
     std::tie(gridded[s], received[s]) =
         slab.finish([&](std::size_t first, std::size_t last, Tile& tile,
                         double unit) { return form(tile, unit, first, last, pressure); },

@@ -39,22 +39,21 @@ WidebandFeed feed_of(const EchoSource& source, const WidebandStretches& stretche
     std::vector<std::uint32_t> which;
     for (std::size_t c = 0; c < source.chunks.size(); ++c) {
       if (source.chunks[c].max_range < near || source.chunks[c].min_range > far) continue;
-      source.visit(
-          c, [&](const PatchPlace& p) { return p.range + p.reach >= near && p.range - p.reach <= far; },
-          [&](const Scatterers&, const Echoes& echoes) {
-            require_finite(echoes, "WidebandSynthesizer");
-            // As `of`, without a branch: most echoes of a chunk lie in one stretch.
-            const double start = stretches.axis.start, step = stretches.axis.step, first = stretches.edge[stretch],
-                         last = stretches.edge[stretch + 1];
-            std::size_t count = 0;
-            which.resize(echoes.size());
-            for (std::size_t i = 0; i < echoes.size(); ++i) {
-              const double bin = (echoes.delay[i] - start) / step;
-              which[count] = static_cast<std::uint32_t>(i);
-              count += static_cast<std::size_t>(bin >= first) & static_cast<std::size_t>(bin < last);
-            }
-            if (count > 0) add(echoes, {which.data(), count});
-          });
+      source.visit(c, {[&](const PatchPlace& p) { return p.range + p.reach >= near && p.range - p.reach <= far; }},
+                   [&](const Scatterers&, const Echoes& echoes) {
+                     require_finite(echoes, "WidebandSynthesizer");
+                     // As `of`, without a branch: most echoes of a chunk lie in one stretch.
+                     const double start = stretches.axis.start, step = stretches.axis.step,
+                                  first = stretches.edge[stretch], last = stretches.edge[stretch + 1];
+                     std::size_t count = 0;
+                     which.resize(echoes.size());
+                     for (std::size_t i = 0; i < echoes.size(); ++i) {
+                       const double bin = (echoes.delay[i] - start) / step;
+                       which[count] = static_cast<std::uint32_t>(i);
+                       count += static_cast<std::size_t>(bin >= first) & static_cast<std::size_t>(bin < last);
+                     }
+                     if (count > 0) add(echoes, {which.data(), count});
+                   });
     }
   }};
 }
@@ -62,11 +61,10 @@ WidebandFeed feed_of(const EchoSource& source, const WidebandStretches& stretche
 double widest_of(const EchoSource& source, double least) {
   // Only of surfels that may be farther out than what was found so far.
   for (std::size_t c = 0; c < source.chunks.size(); ++c)
-    source.visit(
-        c, [&](const PatchPlace& p) { return std::abs(p.u) + p.reach_u > least; },
-        [&](const Scatterers&, const Echoes& echoes) {
-          for (const double u : echoes.u) least = std::max(least, std::abs(u));
-        });
+    source.visit(c, {[&](const PatchPlace& p) { return std::abs(p.u) + p.reach_u > least; }},
+                 [&](const Scatterers&, const Echoes& echoes) {
+                   for (const double u : echoes.u) least = std::max(least, std::abs(u));
+                 });
   return least;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -56,19 +57,48 @@ std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
   return regions;
 }
 
-constexpr std::size_t slab_bins = 512;      // of pixels that one thread searches
-constexpr std::size_t worth_filter = 4096;  // pixels of a slab: of more, nearly every part is near one
+/// Bins of pixels that one thread searches: not so many that threads have to wait, nor so few that most surfels stand in
+/// several slabs.
+std::size_t slab_bins(const RangeGate& gate) { return std::clamp<std::size_t>(gate.bins() / 16, 64, 512); }
 
-/// The pixels of bins [first, first + slab_bins): for each echo those that it may contribute to.
+/// Tells whether a rectangle of bins and direction cosines may hold a pixel: a table of the sums over all cells below
+/// and left of each.
+class PixelTable {
+ public:
+  PixelTable(std::size_t bins, double u_low, double u_high)
+      : u_low_(u_low), per_u_(columns / std::max(u_high - u_low, 1e-9)), sum_((bins + 1) * (columns + 1), 0) {}
+
+  void count(std::size_t bin, double u) { ++sum_[(bin + 1) * (columns + 1) + column(u) + 1]; }
+  void add_up() {
+    for (std::size_t at = columns + 2; at < sum_.size(); ++at)
+      if (at % (columns + 1) != 0) sum_[at] += sum_[at - 1] + sum_[at - columns - 1] - sum_[at - columns - 2];
+  }
+  /// Bins [first, end).
+  bool may_hold(std::size_t first, std::size_t end, double u_low, double u_high) const {
+    const std::size_t low = column(u_low), high = column(u_high) + 1;
+    const std::uint32_t *below = &sum_[first * (columns + 1)], *above = &sum_[end * (columns + 1)];
+    return above[high] - above[low] != below[high] - below[low];
+  }
+
+ private:
+  static constexpr std::size_t columns = 512;
+  std::size_t column(double u) const {
+    return static_cast<std::size_t>(std::clamp((u - u_low_) * per_u_, 0.0, columns - 1.0));
+  }
+  double u_low_, per_u_;
+  std::vector<std::uint32_t> sum_;
+};
+
+/// The pixels of bins [first, end): for each echo those that it may contribute to.
 class SlabSearch {
  public:
   SlabSearch(const std::vector<Pixel>& pixels, const std::vector<std::size_t>& beam_begin,
-             const std::vector<BeamRegion>& regions, const RangeGate& gate, std::size_t first)
+             const std::vector<BeamRegion>& regions, const RangeGate& gate, std::size_t first, std::size_t end)
       : regions_(regions),
         gate_(gate),
         bins_(static_cast<double>(gate.bins())),
         first_(first),
-        end_(std::min(first + slab_bins, gate.bins())),
+        end_(std::min(end, gate.bins())),
         begin_(end_ - first + 1, 0) {
     for (const BeamRegion& region : regions) widest_ = std::max(widest_, region.width.u);
     const auto below = [](const Pixel& p, std::size_t bin) { return p.bin < bin; };
@@ -83,8 +113,12 @@ class SlabSearch {
     });
     for (const Wanted& w : wanted_) ++begin_[w.bin - first_ + 1];
     for (std::size_t n = 1; n < begin_.size(); ++n) begin_[n] += begin_[n - 1];
-    for (const Wanted& w : wanted_) by_u_.emplace_back(w.u, w.bin);
-    std::sort(by_u_.begin(), by_u_.end());
+    if (empty()) return;
+    const auto [low, high] =
+        std::minmax_element(wanted_.begin(), wanted_.end(), [](const Wanted& a, const Wanted& b) { return a.u < b.u; });
+    table_.emplace(end_ - first, low->u, high->u);
+    for (const Wanted& w : wanted_) table_->count(w.bin - first_, w.u);
+    table_->add_up();
   }
 
   bool empty() const { return wanted_.empty(); }
@@ -93,13 +127,12 @@ class SlabSearch {
   }
   /// Whether a pixel is near a surfel.
   bool near(const PatchPlace& place) const {
-    if (wanted_.size() > worth_filter) return true;
     const std::size_t low = first_bin(place.range - place.reach), high = last_bin(place.range + place.reach);
-    const double reach = widest_ + place.reach_u;
-    auto at = std::lower_bound(by_u_.begin(), by_u_.end(), std::pair<double, std::uint32_t>(place.u - reach, 0));
-    for (; at != by_u_.end() && at->first <= place.u + reach; ++at)
-      if (at->second >= low && at->second <= high) return true;
-    return false;
+    return may_hold(low, high + 1, place.u, widest_ + place.reach_u);
+  }
+  /// Whether a pixel is near a patch of a surfel.
+  bool near(const PatchPlace& surfel, double range) const {
+    return may_hold(first_bin(range), last_bin(range) + 1, surfel.u, widest_ + surfel.reach_u);
   }
   /// Offers echoes as contributors of all pixels of the slab, in order.
   void offer(const Scatterers& s, const Echoes& echoes, std::vector<StrongestContributor>& found) const {
@@ -110,6 +143,7 @@ class SlabSearch {
       const auto bin = static_cast<std::size_t>(std::clamp(n, 0.0, bins_ - 1));
       if (bin + 1 < first_ || bin > end_) continue;
       const std::size_t low = std::max(bin, first_ + 1) - 1 - first_, high = std::min(bin + 2, end_) - first_;
+      if (!may_hold(low + first_, high + first_, echoes.u[i], widest_)) continue;
       for (std::size_t row = low; row < high; ++row) offer(s, echoes, i, row, found);
     }
   }
@@ -120,6 +154,11 @@ class SlabSearch {
     double u;
     std::size_t pixel;
   };
+  /// Whether a pixel may be in the bins [first, end) and within `reach` of u.
+  bool may_hold(std::size_t first, std::size_t end, double u, double reach) const {
+    first = std::max(first, first_), end = std::min(end, end_);
+    return first < end && table_->may_hold(first - first_, end - first_, u - reach, u + reach);
+  }
   std::size_t first_bin(double range) const { return bin_of(range, -2); }
   std::size_t last_bin(double range) const { return bin_of(range, 2); }
   std::size_t bin_of(double range, double more) const {
@@ -149,9 +188,9 @@ class SlabSearch {
   double bins_;
   std::size_t first_, end_;
   double widest_ = 0;
-  std::vector<std::size_t> begin_;                      // of the pixels of each bin, in wanted_
-  std::vector<Wanted> wanted_;                          // by bin, then direction cosine of the beam
-  std::vector<std::pair<double, std::uint32_t>> by_u_;  // direction cosine and bin of each
+  std::vector<std::size_t> begin_;  // of the pixels of each bin, in wanted_
+  std::vector<Wanted> wanted_;      // by bin, then direction cosine of the beam
+  std::optional<PixelTable> table_;
 };
 
 }  // namespace
@@ -164,14 +203,15 @@ std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel
   for (std::size_t b = 0; b < fan.beams(); ++b) beam_begin[b + 1] += beam_begin[b];
   std::vector<StrongestContributor> found(pixels.size());
   // Each slab of bins is searched by one thread, which visits the chunks that reach into it, in order.
-  parallel_for((gate.bins() + slab_bins - 1) / slab_bins, threads, [&](std::size_t slab) {
-    const SlabSearch search(pixels, beam_begin, regions, gate, slab * slab_bins);
+  parallel_blocks(gate.bins(), slab_bins(gate), threads, [&](std::size_t first, std::size_t end) {
+    const SlabSearch search(pixels, beam_begin, regions, gate, first, end);
     if (search.empty()) return;
     for (std::size_t c = 0; c < source.chunks.size(); ++c)
       if (search.overlaps(source.chunks[c]))
-        source.visit(
-            c, [&](const PatchPlace& place) { return search.near(place); },
-            [&](const Scatterers& s, const Echoes& echoes) { search.offer(s, echoes, found); });
+        source.visit(c,
+                     {[&](const PatchPlace& place) { return search.near(place); },
+                      [&](const PatchPlace& place, double range) { return search.near(place, range); }},
+                     [&](const Scatterers& s, const Echoes& echoes) { search.offer(s, echoes, found); });
   });
   return found;
 }

@@ -1,4 +1,5 @@
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "simulate/converge_sampling_internal.hpp"
@@ -23,25 +24,28 @@ RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
   return report;
 }
 
-/// Places of all surfels, so wide that they hold what their echoes seem to be to a moving head.
-std::vector<PatchPlace> places_of(const ResolvedPing& ping, const VisibleSurfels& visible) {
-  std::vector<PatchPlace> places = visible.place;
+/// Makes the places of surfels so wide that they hold what their echoes seem to be to a moving head.
+void widen_places(const ResolvedPing& ping, std::vector<PatchPlace>& places) {
   const EffectSettings& effects = ping.options.effects;
-  if (effects.moving != Choice::always) return places;
+  if (effects.moving != Choice::always) return;
   const double c = ping.sent.medium.sound_speed, part = most_displacement(effects.motion, c);
   for (PatchPlace& p : places) {
     p.reach += part * (p.range + p.reach);
     p.reach_u += 3 * part + effects.motion.turn_rate.norm() * 2 * (p.range + p.reach) / c;
   }
-  return places;
+}
+
+template <typename Use>
+void for_each_array(Scatterers& s, Use&& use) {
+  use(s.range), use(s.azimuth), use(s.elevation), use(s.cos_incidence), use(s.projected_area), use(s.material);
+  use(s.id), use(s.surfel);
 }
 
 /// Chunks of neighbouring surfels, and the first surfel of each.
-std::vector<std::uint32_t> divide(const VisibleSurfels& visible, const std::vector<PatchPlace>& places,
-                                  std::vector<EchoSource::Chunk>& chunks) {
+std::vector<std::uint32_t> divide(const VisibleSurfels& visible, std::vector<EchoSource::Chunk>& chunks) {
   std::vector<std::uint32_t> begin{0};
   for (std::uint32_t k = 0; k < visible.surfel.size(); ++k) {
-    const PatchPlace& p = places[k];
+    const PatchPlace& p = visible.place[k];
     if (begin.back() == k) chunks.push_back({0, p.range - p.reach, p.range + p.reach});
     EchoSource::Chunk& chunk = chunks.back();
     chunk.size += visible.first[k + 1] - visible.first[k];
@@ -50,6 +54,17 @@ std::vector<std::uint32_t> divide(const VisibleSurfels& visible, const std::vect
     if (chunk.size >= chunk_parts || k + 1 == visible.surfel.size()) begin.push_back(k + 1);
   }
   return begin;
+}
+
+/// Removes the patches of the surfels `which` that are not wanted.
+void keep_wanted(const EchoSource::Filter& wanted, const VisibleSurfels& visible, std::span<const std::uint32_t> which,
+                 Scatterers& patches) {
+  std::size_t at = 0, kept = 0;
+  for (const std::uint32_t k : which)
+    for (std::size_t end = at + visible.first[k + 1] - visible.first[k]; at < end; ++at)
+      if (wanted.patch(visible.place[k], patches.range[at]))
+        for_each_array(patches, [&](auto& a) { a[kept] = a[at]; }), ++kept;
+  for_each_array(patches, [&](auto& array) { array.resize(kept); });
 }
 
 }  // namespace
@@ -71,6 +86,7 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, Simula
     result.refraction = refract(ping, parts.sampling.scatterers);
   } else {
     parts.visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+    widen_places(ping, parts.visible.place);
     parts.sampling.report = parts.visible.report;
   }
   return parts;
@@ -95,15 +111,15 @@ EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, Ping
   source.moving = moving;
   EchoOptions on_one_thread = sent.echo_options;
   on_one_thread.threads = 1;
-  std::vector<PatchPlace> places = places_of(ping, parts.visible);
-  const std::vector<std::uint32_t> begin = divide(parts.visible, places, source.chunks);
-  source.visit = [&scene, &ping, &visible = parts.visible, places = std::move(places), begin, on_one_thread, echoes_of](
+  const std::vector<std::uint32_t> begin = divide(parts.visible, source.chunks);
+  source.visit = [&scene, &ping, &visible = parts.visible, begin, on_one_thread, echoes_of](
                      std::size_t chunk, const EchoSource::Filter& wanted, const EchoSource::Visitor& visit) {
     std::vector<std::uint32_t> which;
     for (std::uint32_t k = begin[chunk]; k < begin[chunk + 1]; ++k)
-      if (!wanted || wanted(places[k])) which.push_back(k);
+      if (!wanted.surfel || wanted.surfel(visible.place[k])) which.push_back(k);
     if (which.empty()) return;
-    const Scatterers patches = make_parts(scene, ping.view.world_from_head, visible, which, 1);
+    Scatterers patches = make_parts(scene, ping.view.world_from_head, visible, which, 1);
+    if (wanted.patch) keep_wanted(wanted, visible, which, patches);
     visit(patches, echoes_of(patches, on_one_thread));
   };
   return source;
