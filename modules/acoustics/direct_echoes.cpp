@@ -59,12 +59,15 @@ struct EchoBuilder {
   }
 };
 
-Echoes room_for(std::size_t n) {
+// In two parts, since new memory costs as much as writing to it.
+Echoes room_for(std::size_t n, int threads) {
   Echoes echoes;
-  echoes.delay.resize(n);
-  echoes.u.resize(n);
-  echoes.v.resize(n);
-  echoes.amplitude.resize(n);
+  parallel_for(2, threads, [&](std::size_t part) {
+    if (part == 0)
+      echoes.amplitude.resize(n);
+    else
+      echoes.delay.resize(n), echoes.u.resize(n), echoes.v.resize(n);
+  });
   return echoes;
 }
 
@@ -122,7 +125,7 @@ Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> mat
   require_valid(pulse, "direct_echoes");
   require_valid(medium, "direct_echoes");
   for (const Material& material : materials) require_valid(material, "direct_echoes");
-  Echoes echoes = room_for(scatterers.size());
+  Echoes echoes = room_for(scatterers.size(), options.threads);
   const EchoBuilder builder(pulse, medium, options);
   parallel_blocks(scatterers.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
     std::array<double, block> sigma, xi_re, xi_im;
@@ -149,7 +152,7 @@ Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma
   if (sigma.size() != n || xi.size() != n)
     fail(ErrorKind::argument, "target_echoes: ", n, " ranges, but ", sigma.size(), " cross-sections and ", xi.size(),
          " amplitudes");
-  Echoes echoes = room_for(n);
+  Echoes echoes = room_for(n, options.threads);
   const EchoBuilder builder(pulse, medium, options);
   for (std::size_t i = 0; i < n; ++i)
     if (!(sigma[i] >= 0 && std::isfinite(sigma[i])))

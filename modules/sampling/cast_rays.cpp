@@ -17,7 +17,7 @@ struct CastRay {
   RayHit hit;
 };
 
-std::vector<CastRay> cast_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index,
+std::vector<CastRay> cast_by_index(const GatedSurfels& surfels, const DirectionIndex& index,
                                    const std::vector<Ray>& rays, const SamplingOptions& options) {
   std::vector<CastRay> cast(rays.size());
   parallel_blocks(rays.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -35,7 +35,7 @@ std::vector<CastRay> cast_by_index(const std::vector<GatedSurfel>& surfels, cons
   return cast;
 }
 
-std::vector<CastRay> cast_by_raster(const std::vector<GatedSurfel>& surfels, const std::vector<Ray>& rays,
+std::vector<CastRay> cast_by_raster(const GatedSurfels& surfels, const std::vector<Ray>& rays,
                                     const SamplingOptions& options) {
   std::vector<CubePoint> queries(rays.size());
   for (std::size_t r = 0; r < rays.size(); ++r) queries[r] = on_cube(rays[r].along);
@@ -47,8 +47,8 @@ std::vector<CastRay> cast_by_raster(const std::vector<GatedSurfel>& surfels, con
 }
 
 // Counts the missed rays that are surrounded by surfels within three footprints.
-std::size_t count_holes(std::vector<GatedSurfel> surfels, const std::vector<Ray>& rays,
-                        const std::vector<CastRay>& cast, int threads) {
+std::size_t count_holes(GatedSurfels surfels, const std::vector<Ray>& rays, const std::vector<CastRay>& cast,
+                        int threads) {
   constexpr float footprints = 3;
   std::vector<std::uint32_t> missed;
   std::vector<CubePoint> queries;
@@ -75,7 +75,7 @@ std::size_t count_different(std::vector<std::uint32_t> values) {
 
 }  // namespace
 
-CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, Projection projection,
+CastResult cast_rays(const SceneCloud& scene, const GatedSurfels& surfels, Projection projection,
                      const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options) {
   const std::vector<Ray> rays = beam_rays(shares, options);
   const std::vector<CastRay> cast =

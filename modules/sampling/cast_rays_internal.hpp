@@ -18,7 +18,7 @@ struct CastResult {
 
 /// Casts the rays of all beams (beam_rays) and returns a scatterer for each hit inside the gate, with a projected area
 /// of r^2 times the solid angle of the ray. `projection` (not automatic) affects the cost only.
-CastResult cast_rays(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, Projection projection,
+CastResult cast_rays(const SceneCloud& scene, const GatedSurfels& surfels, Projection projection,
                      const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options);
 
 }  // namespace insonify

@@ -6,8 +6,7 @@
 
 namespace insonify {
 
-Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries,
-                             int threads) {
+Projection choose_projection(const GatedSurfels& surfels, Projection wanted, std::size_t queries, int threads) {
   if (wanted != Projection::automatic) return wanted;
   // Measured times [ns]: test of a wide surfel against a direction, drawing of a surfel, insertion into a tree, and
   // search.

@@ -9,7 +9,6 @@ namespace insonify {
 
 /// Returns `wanted`, or for automatic the projection with the lower estimated cost for `queries` directions: the
 /// raster, unless too many surfels are too wide for its tiles.
-Projection choose_projection(const std::vector<GatedSurfel>& surfels, Projection wanted, std::size_t queries,
-                             int threads);
+Projection choose_projection(const GatedSurfels& surfels, Projection wanted, std::size_t queries, int threads);
 
 }  // namespace insonify

@@ -42,7 +42,7 @@ Counted measured(const SceneCloud& scene, const HeadFrame& head, std::uint32_t s
 /// Energy that is received from each cell of range.
 class RangeEnergies {
  public:
-  RangeEnergies(const std::vector<Counted>& surfels, const RangeGate& gate, double range_resolution, int threads)
+  RangeEnergies(std::span<const Counted> surfels, const RangeGate& gate, double range_resolution, int threads)
       : start_(gate.min_range),
         resolution_(range_resolution),
         length_(std::max(range_resolution, (gate.max_range - gate.min_range) / most_ranges)),
@@ -92,12 +92,12 @@ class RangeEnergies {
 PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                        const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options) {
   const bool by_shares = options.heard && cells.scatterers_per_cell() > 0;
-  std::vector<Counted> counted(surfels.size());
+  UnsetVector<Counted> counted(surfels.size());
   parallel_blocks(surfels.size(), counted_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) counted[s] = measured(scene, head, surfels[s], cells, options.heard);
   });
-  const RangeEnergies received(by_shares ? counted : std::vector<Counted>{}, gate, cells.range_resolution(),
-                               options.threads);
+  const std::span<const Counted> heard = by_shares ? counted : std::span<const Counted>();
+  const RangeEnergies received(heard, gate, cells.range_resolution(), options.threads);
 
   PartCounts counts{std::vector<std::uint16_t>(surfels.size())};
   std::atomic<std::size_t> capped{0};

@@ -11,8 +11,7 @@ namespace insonify {
 /// Calls use(query, candidates) for each query, concurrently; `candidates` lists all surfels whose footprint cone
 /// contains the query, and possibly others. The call may modify it.
 template <typename Use>
-void for_candidates(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, int threads,
-                    const Use& use) {
+void for_candidates(const GatedSurfels& surfels, std::span<const CubePoint> queries, int threads, const Use& use) {
   const DirectionRaster raster(surfels, queries, Footprint::cone, threads);
   parallel_for(raster.tiles(), threads, [&](std::size_t t) {
     const DirectionTile tile = raster.tile(t);

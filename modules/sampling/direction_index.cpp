@@ -16,8 +16,7 @@ constexpr float chord_slack = 1e-6f, chord_factor = 1.0001f, nearest_factor = 0.
 
 }  // namespace
 
-DirectionIndex::DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, float reach,
-                               int threads) {
+DirectionIndex::DirectionIndex(const GatedSurfels& surfels, Projection projection, float reach, int threads) {
   std::map<int, std::vector<std::uint32_t>, std::greater<>> members;
   for (std::uint32_t s = 0; s < surfels.size(); ++s) {
     const float sine = reach * surfels[s].radius / surfels[s].range;

@@ -18,7 +18,7 @@ namespace insonify {
 class DirectionIndex {
  public:
   /// reach   how far from its centre a surfel is to be found, in radii of its disc
-  DirectionIndex(const std::vector<GatedSurfel>& surfels, Projection projection, float reach, int threads);
+  DirectionIndex(const GatedSurfels& surfels, Projection projection, float reach, int threads);
 
   /// Calls test(surfel) for candidates in `direction`, among them all surfels that cover it and are nearer than `range`
   /// [m], until a call returns true; returns whether one did. `scratch` is overwritten.

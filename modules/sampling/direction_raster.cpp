@@ -76,8 +76,8 @@ std::size_t DirectionTile::cell_of(const CubePoint& q) const {
   return step((q.y - y) / cell_y) * side + step((q.x - x) / cell_x);
 }
 
-DirectionRaster::DirectionRaster(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
-                                 Footprint footprint, int threads) {
+DirectionRaster::DirectionRaster(const GatedSurfels& surfels, std::span<const CubePoint> queries, Footprint footprint,
+                                 int threads) {
   bound_faces(queries, threads);
   size_cells(surfels, queries, footprint);
 
@@ -108,8 +108,7 @@ void DirectionRaster::bound_faces(std::span<const CubePoint> queries, int thread
 }
 
 // A typical footprint should cover a few cells of its face, with a bounded total number of cells per surfel and query.
-void DirectionRaster::size_cells(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries,
-                                 Footprint footprint) {
+void DirectionRaster::size_cells(const GatedSurfels& surfels, std::span<const CubePoint> queries, Footprint footprint) {
   struct Typical {
     double log_x = 0, log_y = 0, area = 0, count = 0;
   };
@@ -207,7 +206,7 @@ void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threa
     const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) / face.cell_y));
     return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
   };
-  std::vector<std::uint32_t> tile(queries.size());
+  UnsetVector<std::uint32_t> tile(queries.size());
   std::vector<std::vector<std::size_t>> next((queries.size() + directions_at_once - 1) / directions_at_once,
                                              std::vector<std::size_t>(tiles_.size(), 0));
   parallel_blocks(queries.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {

@@ -85,8 +85,7 @@ class CellLists {
 class DirectionRaster {
  public:
   /// Keeps a reference to `queries`.
-  DirectionRaster(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, Footprint footprint,
-                  int threads);
+  DirectionRaster(const GatedSurfels& surfels, std::span<const CubePoint> queries, Footprint footprint, int threads);
 
   std::size_t tiles() const { return tiles_.size(); }
   DirectionTile tile(std::size_t t) const;
@@ -120,7 +119,7 @@ class DirectionRaster {
   };
 
   void bound_faces(std::span<const CubePoint> queries, int threads);
-  void size_cells(const std::vector<GatedSurfel>& surfels, std::span<const CubePoint> queries, Footprint footprint);
+  void size_cells(const GatedSurfels& surfels, std::span<const CubePoint> queries, Footprint footprint);
   void add_boxes(const GatedSurfel& s, std::uint32_t index, Footprint footprint, std::vector<Box>& boxes) const;
   void sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads);
   void sort_queries(std::span<const CubePoint> queries, int threads);
@@ -132,8 +131,8 @@ class DirectionRaster {
   std::array<Face, 6> faces_;
   std::vector<Tile> tiles_;
   std::vector<std::uint32_t> wide_;
-  std::vector<TileBox> boxes_;
-  std::vector<std::uint32_t> queries_;
+  UnsetVector<TileBox> boxes_;
+  UnsetVector<std::uint32_t> queries_;
   std::vector<std::size_t> first_box_, first_query_;  // begin of each tile, and the end
 };
 

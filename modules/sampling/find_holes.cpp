@@ -20,9 +20,9 @@ constexpr float other_surface = 8;   // range gap between two surfaces, in spaci
 
 // The gated surfels with their own footprints, and enlarged to span a hole.
 struct FootprintSets {
-  std::vector<GatedSurfel> own, enlarged;
+  GatedSurfels own, enlarged;
 
-  explicit FootprintSets(std::vector<GatedSurfel> surfels) : own(std::move(surfels)), enlarged(own) {
+  explicit FootprintSets(GatedSurfels surfels) : own(std::move(surfels)), enlarged(own) {
     for (GatedSurfel& s : enlarged) s.radius *= rim_footprints;
   }
 };

@@ -83,7 +83,7 @@ struct View {
 };
 
 // Returns the surfels that contribute echoes, in scene order; counts the others in the report.
-std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfels, const SamplingOptions& options,
+std::vector<std::uint32_t> select_visible(const GatedSurfels& surfels, const SamplingOptions& options,
                                           SamplingReport& report) {
   std::vector<std::uint8_t> hidden(surfels.size(), 0);
   if (options.occlusion) {
@@ -99,7 +99,7 @@ std::vector<std::uint32_t> select_visible(const std::vector<GatedSurfel>& surfel
   return visible;
 }
 
-SamplingReport report_of(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
+SamplingReport report_of(const SceneCloud& scene, const GatedSurfels& surfels, const View& view) {
   const SamplingOptions& options = view.options;
   SamplingReport report;
   report.surfels = scene.size();
@@ -111,7 +111,7 @@ SamplingReport report_of(const SceneCloud& scene, const std::vector<GatedSurfel>
 }
 
 // Samples the visible part of the gated surfels.
-Sampling sample(const SceneCloud& scene, const std::vector<GatedSurfel>& surfels, const View& view) {
+Sampling sample(const SceneCloud& scene, const GatedSurfels& surfels, const View& view) {
   const SamplingOptions& options = view.options;
   Sampling result{{}, report_of(scene, surfels, view)};
   SamplingReport& report = result.report;
@@ -161,8 +161,8 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
     std::uint32_t at;  // in surfels, which ascend
   };
   constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
-  std::vector<PatchPlace> place(surfels.size());
-  std::vector<std::uint32_t> band(surfels.size());
+  UnsetVector<PatchPlace> place(surfels.size());
+  UnsetVector<std::uint32_t> band(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
@@ -176,12 +176,12 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   std::vector<std::size_t> first(1 + (band.empty() ? 0 : std::size_t{1} + *std::max_element(band.begin(), band.end())));
   for (const std::uint32_t b : band) ++first[b + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Key> keys(surfels.size());
+  UnsetVector<Key> keys(surfels.size());
   std::vector<std::size_t> next = first;
   for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {place[s].u, s};
   sorted.surfel.resize(surfels.size());
   sorted.place.resize(surfels.size());
-  std::vector<std::uint16_t> sorted_parts(surfels.size());
+  UnsetVector<std::uint16_t> sorted_parts(surfels.size());
   parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
     const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
                end = keys.begin() + static_cast<std::ptrdiff_t>(first[b + 1]);

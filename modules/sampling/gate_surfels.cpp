@@ -20,7 +20,7 @@ struct Gate {
   RangeGate range;
   double footprint;
 
-  void add_if_inside(std::size_t i, std::vector<GatedSurfel>& inside) const {
+  void add_if_inside(std::size_t i, GatedSurfels& inside) const {
     const Vector3d p = head.position(scene.point[i]);
     const double r2 = p.squaredNorm();
     if (!(r2 <= range.max_range * range.max_range) || r2 < min_distance * min_distance) return;
@@ -57,10 +57,10 @@ bool reaches(const SurfelBlock& block, const Gate& gate) {
                  gate.footprint);
 }
 
-std::vector<GatedSurfel> join(const std::vector<std::vector<GatedSurfel>>& parts, int threads) {
+GatedSurfels join(const std::vector<GatedSurfels>& parts, int threads) {
   std::vector<std::size_t> first(parts.size() + 1, 0);
   for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].size();
-  std::vector<GatedSurfel> all(first.back());
+  GatedSurfels all(first.back());
   parallel_for(parts.size(), threads, [&](std::size_t k) {
     std::copy(parts[k].begin(), parts[k].end(), all.begin() + static_cast<std::ptrdiff_t>(first[k]));
   });
@@ -87,24 +87,24 @@ bool may_intersect(const InsonifiedRegion& region, const Vector3d& ball_centre, 
                  region.footprint);
 }
 
-std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
-                                      const RangeGate& range, double footprint, int threads) {
+GatedSurfels gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector, const RangeGate& range,
+                          double footprint, int threads) {
   const Gate gate{scene, head, SectorBounds(sector), range, footprint};
-  std::vector<std::vector<GatedSurfel>> parts((scene.size() + gate_block - 1) / gate_block);
+  std::vector<GatedSurfels> parts((scene.size() + gate_block - 1) / gate_block);
   parallel_blocks(scene.size(), gate_block, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) gate.add_if_inside(i, parts[begin / gate_block]);
   });
   return join(parts, threads);
 }
 
-std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
-                                      const RangeGate& range, double footprint, int threads) {
+GatedSurfels gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
+                          const RangeGate& range, double footprint, int threads) {
   const Gate gate{prepared.scene(), head, SectorBounds(sector), range, footprint};
   const SurfelMarks marks = prepared.marks_of([&](const SurfelBlock& block) { return reaches(block, gate); }, threads);
   constexpr std::size_t words = gate_block / 64;
-  std::vector<std::vector<GatedSurfel>> parts((marks.words.size() + words - 1) / words);
+  std::vector<GatedSurfels> parts((marks.words.size() + words - 1) / words);
   parallel_blocks(marks.words.size(), words, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<GatedSurfel>& part = parts[begin / words];
+    GatedSurfels& part = parts[begin / words];
     part.reserve(marks.count(begin, end));
     marks.for_each(begin, end, [&](std::size_t i) { gate.add_if_inside(i, part); });
   });

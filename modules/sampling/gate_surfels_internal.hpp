@@ -7,6 +7,7 @@
 #include "core/pose.hpp"
 #include "sampling/beam_fan.hpp"
 #include "sampling/range_gate.hpp"
+#include "sampling/unset_vector_internal.hpp"
 #include "scene/prepared_scene.hpp"
 #include "scene/scene_cloud.hpp"
 
@@ -27,6 +28,8 @@ struct GatedSurfel {
   bool facing;               ///< front side towards the head (either side if normals are not oriented)
 };
 
+using GatedSurfels = UnsetVector<GatedSurfel>;
+
 /// Distance from a surfel's centre within which it helps to occlude others, in radii of its disc.
 inline constexpr float hiding_reach = 1.5f;
 
@@ -46,10 +49,10 @@ class HeadFrame {
 /// Returns the surfels whose disc overlaps `sector` and whose centre is within the far end of `gate`, in scene order.
 ///
 /// footprint   disc radius in units of the surfel's spacing
-std::vector<GatedSurfel> gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector,
-                                      const RangeGate& gate, double footprint, int threads);
+GatedSurfels gate_surfels(const SceneCloud& scene, const HeadFrame& head, const Sector& sector, const RangeGate& gate,
+                          double footprint, int threads);
 /// Returns the same surfels in the same order, visiting only the blocks that overlap sector and gate.
-std::vector<GatedSurfel> gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
-                                      const RangeGate& gate, double footprint, int threads);
+GatedSurfels gate_surfels(const PreparedScene& prepared, const HeadFrame& head, const Sector& sector,
+                          const RangeGate& gate, double footprint, int threads);
 
 }  // namespace insonify

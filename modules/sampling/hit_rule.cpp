@@ -14,7 +14,7 @@ constexpr float max_step = 8;           // largest range step within a cluster, 
 constexpr float half_diagonal = 0.71f;  // half diagonal of a square, in widths
 
 // Returns the end of the cluster that begins with candidate `begin`; candidates are sorted by range.
-std::size_t end_of_cluster(const std::vector<GatedSurfel>& surfels, const std::vector<std::uint32_t>& candidates,
+std::size_t end_of_cluster(const GatedSurfels& surfels, const std::vector<std::uint32_t>& candidates,
                            std::size_t begin) {
   for (std::size_t k = begin + 1; k < candidates.size(); ++k) {
     const GatedSurfel &a = surfels[candidates[k - 1]], &b = surfels[candidates[k]];
@@ -38,7 +38,7 @@ float range_on_tangent_plane(const GatedSurfel& s, const Eigen::Vector3f& direct
 
 // Returns the angularly nearest member of the cluster, optionally among those that face the head; the cluster's size if
 // there is none.
-std::size_t nearest_member(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> cluster,
+std::size_t nearest_member(const GatedSurfels& surfels, std::span<const std::uint32_t> cluster,
                            const Eigen::Vector3f& direction, bool facing_only) {
   std::size_t best = cluster.size();
   float best_chord = std::numeric_limits<float>::max();
@@ -55,7 +55,7 @@ std::size_t nearest_member(const std::vector<GatedSurfel>& surfels, std::span<co
 
 // Returns true if the ray misses a surface at its edge: it crosses none of the surfels, and seen from its intersection
 // with the nearest tangent plane all their centres lie within 90 degrees of each other.
-bool passes_beside(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> cluster,
+bool passes_beside(const GatedSurfels& surfels, std::span<const std::uint32_t> cluster,
                    const Eigen::Vector3f& direction) {
   for (const std::uint32_t c : cluster)
     if (crosses(surfels[c], direction)) return false;
@@ -96,14 +96,14 @@ Cover cover(const GatedSurfel& front, const LineOfSight& line) {
 
 float squared_chord_of(float sine) { return sine < 1 ? 2 - 2 * std::sqrt(1 - sine * sine) : 4.0f; }
 
-void keep_covering(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+void keep_covering(const Eigen::Vector3f& direction, const GatedSurfels& surfels,
                    std::vector<std::uint32_t>& candidates) {
   std::erase_if(candidates, [&](std::uint32_t c) {
     return !(squared_chord(direction, surfels[c]) <= squared_chord_of(surfels[c].radius / surfels[c].range));
   });
 }
 
-bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+bool is_surrounded(const Eigen::Vector3f& direction, const GatedSurfels& surfels,
                    std::span<const std::uint32_t> centres) {
   const Eigen::Vector3f right = direction.unitOrthogonal(), up = direction.cross(right);
   std::vector<float> angles;
@@ -117,7 +117,7 @@ bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurf
          angles.end();
 }
 
-RayOutcome hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
+RayOutcome hit_surface(const GatedSurfels& surfels, const Eigen::Vector3f& direction, bool front_only,
                        std::vector<std::uint32_t>& candidates, RayHit& hit) {
   keep_covering(direction, surfels, candidates);
   if (candidates.empty()) return RayOutcome::missed;

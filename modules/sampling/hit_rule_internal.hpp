@@ -53,7 +53,7 @@ inline float squared_chord(const Eigen::Vector3f& direction, const GatedSurfel& 
 float squared_chord_of(float sine);
 
 /// Removes the candidates whose footprint cone does not contain the direction.
-void keep_covering(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+void keep_covering(const Eigen::Vector3f& direction, const GatedSurfels& surfels,
                    std::vector<std::uint32_t>& candidates);
 
 /// Where a ray hits the scene.
@@ -65,7 +65,7 @@ struct RayHit {
 enum class RayOutcome { missed, blocked, hit };  ///< blocked: by a surface that faces away
 
 /// Returns true if the centres surround the direction: every half-plane through it contains one.
-bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurfel>& surfels,
+bool is_surrounded(const Eigen::Vector3f& direction, const GatedSurfels& surfels,
                    std::span<const std::uint32_t> centres);
 
 /// Applies the hit rule (E16): of the surfels whose cone contains the ray, the front cluster counts, and the hit is on
@@ -74,7 +74,7 @@ bool is_surrounded(const Eigen::Vector3f& direction, const std::vector<GatedSurf
 /// 90 degrees on one side. Cones thus close the gaps inside a surface without extending it at its edges. `candidates`
 /// must contain all these surfels and may contain more; it is used as scratch. front_only = false makes all surfels one
 /// cluster.
-RayOutcome hit_surface(const std::vector<GatedSurfel>& surfels, const Eigen::Vector3f& direction, bool front_only,
+RayOutcome hit_surface(const GatedSurfels& surfels, const Eigen::Vector3f& direction, bool front_only,
                        std::vector<std::uint32_t>& candidates, RayHit& hit);
 
 }  // namespace insonify

@@ -22,7 +22,7 @@ void require_valid(const SceneCloud& scene, const BeamFan& fan, const RangeGate&
 }
 
 // Visibility of the queried surfels; those that are not gated are outside.
-std::vector<Visibility> visibility_of(std::vector<GatedSurfel> surfels, const std::vector<std::uint8_t>& asked,
+std::vector<Visibility> visibility_of(GatedSurfels surfels, const std::vector<std::uint8_t>& asked,
                                       const SamplingOptions& options) {
   // find_hidden tests the surfels in the gate; the others only occlude.
   for (GatedSurfel& s : surfels) s.in_gate = s.in_gate && asked[s.surfel];

@@ -28,8 +28,7 @@ std::vector<SortedRow> sorted_rows(const BeamFan& fan) {
 
 }  // namespace
 
-std::size_t count_sparse_beams(const std::vector<GatedSurfel>& surfels, const BeamFan& fan, const RangeGate& gate,
-                               int threads) {
+std::size_t count_sparse_beams(const GatedSurfels& surfels, const BeamFan& fan, const RangeGate& gate, int threads) {
   const double height = fan.row_width > 0 ? fan.row_width : fan.elevation_width;
   const auto lobe = static_cast<float>(fan.beam_width * height);
   const auto solid_angle = [](const GatedSurfel& s) {

@@ -25,7 +25,7 @@ namespace insonify {
 namespace {
 
 // Queries the KD-trees for each surfel.
-std::vector<Cover> covers_by_index(const std::vector<GatedSurfel>& surfels, const DirectionIndex& index, int threads) {
+std::vector<Cover> covers_by_index(const GatedSurfels& surfels, const DirectionIndex& index, int threads) {
   std::vector<Cover> covers(surfels.size(), 0);
   parallel_blocks(surfels.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> scratch;
@@ -64,8 +64,7 @@ struct HidingDepth {
 // front of it are visible; only those behind it are tested one by one.
 class DepthTile {
  public:
-  DepthTile(const std::vector<GatedSurfel>& surfels, std::span<const std::uint32_t> asked,
-            std::span<const CubePoint> queries)
+  DepthTile(const GatedSurfels& surfels, std::span<const std::uint32_t> asked, std::span<const CubePoint> queries)
       : surfels_(surfels), asked_(asked), queries_(queries) {}
 
   void find_covers(const DirectionTile& tile, std::vector<Cover>& covers) {
@@ -135,7 +134,7 @@ class DepthTile {
     }
   }
 
-  const std::vector<GatedSurfel>& surfels_;
+  const GatedSurfels& surfels_;
   std::span<const std::uint32_t> asked_;
   std::span<const CubePoint> queries_;
   std::array<float, side * side> nearest_;
@@ -145,10 +144,10 @@ class DepthTile {
   std::vector<std::uint32_t> behind_;
 };
 
-std::vector<Cover> covers_by_raster(const std::vector<GatedSurfel>& surfels, int threads) {
+std::vector<Cover> covers_by_raster(const GatedSurfels& surfels, int threads) {
   const auto asked =
       list_where(surfels.size(), threads, [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing; });
-  std::vector<CubePoint> queries(asked.size());
+  UnsetVector<CubePoint> queries(asked.size());
   parallel_blocks(asked.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) queries[k] = on_cube(surfels[asked[k]].position);
   });
@@ -169,7 +168,7 @@ std::vector<Cover> covers_by_raster(const std::vector<GatedSurfel>& surfels, int
 
 }  // namespace
 
-std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, Projection projection, int threads) {
+std::vector<std::uint8_t> find_hidden(const GatedSurfels& surfels, Projection projection, int threads) {
   const std::vector<Cover> covers =
       projection == Projection::raster
           ? covers_by_raster(surfels, threads)

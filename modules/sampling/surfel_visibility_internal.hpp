@@ -9,6 +9,6 @@ namespace insonify {
 
 /// Returns 1 for each gated surfel that is hidden by another one, else 0. Tests only surfels that could give an echo
 /// (in the gate and facing the head). `projection` (not automatic) affects the cost only.
-std::vector<std::uint8_t> find_hidden(const std::vector<GatedSurfel>& surfels, Projection projection, int threads);
+std::vector<std::uint8_t> find_hidden(const GatedSurfels& surfels, Projection projection, int threads);
 
 }  // namespace insonify

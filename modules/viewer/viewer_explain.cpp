@@ -61,7 +61,7 @@ std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping,
 // The nearest surfel of the scene that helps to hide one of `hidden`, by the hit rule.
 void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& visibility) {
   const SamplingOptions& sampling = view.sampling;
-  const std::vector<GatedSurfel> gated =
+  const GatedSurfels gated =
       gate_surfels(scene, HeadFrame(scene, view.world_from_head), insonified_sector(view.fan, sampling), view.gate,
                    sampling.footprint, sampling.threads);
   std::vector<const GatedSurfel*> behind;

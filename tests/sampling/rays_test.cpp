@@ -85,7 +85,7 @@ TEST(Rays, that_meet_a_back_just_before_a_face_are_blocked) {
     const Eigen::Vector3f place(x, y, 0);
     return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.2f, 0.1f, 0, 0, true, facing};
   };
-  const auto fate = [](const std::vector<GatedSurfel>& surfels) {
+  const auto fate = [](const GatedSurfels& surfels) {
     std::vector<std::uint32_t> both = {0, 1};
     RayHit hit;
     return hit_surface(surfels, {1, 0, 0}, true, both, hit);
