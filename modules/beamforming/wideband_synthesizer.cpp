@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
+#include <latch>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -67,6 +69,12 @@ class Lazy {
   mutable std::unique_ptr<Thing> thing_;
 };
 
+/// Opens a latch when it is left, by an exception too.
+struct CountDown {
+  std::latch& latch;
+  ~CountDown() { latch.count_down(); }
+};
+
 void append(const Echoes& from, std::uint32_t i, Echoes& to) {
   to.delay.push_back(from.delay[i]);
   to.u.push_back(from.u[i]);
@@ -91,7 +99,9 @@ struct WidebandSynthesizer::Plan {
   const LevelTables& tables_of(std::size_t level) const;
   const WidebandBlock& block(std::size_t number) const;
   ComplexGrid pressure(const WidebandFeed& feed) const;
-  void add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure) const;
+  /// Adds the image of a block once wait() returns.
+  void add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure,
+                 const std::function<void()>& wait) const;
   /// Adds echoes nearer than blocks reach, element by element.
   void add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const;
   /// Calls use(plan) with this plan, or with one for all directions if `far_out` is beyond it.
@@ -159,15 +169,25 @@ ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed) const 
   parallel_blocks(head.fan.beams(), beams_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     pressure.middleRows(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin)).setZero();
   });
-  // Neighbouring blocks share bins.
-  for (const std::size_t parity : {0U, 1U})
-    parallel_for((blocks.size() + 1 - parity) / 2, options.threads,
-                 [&](std::size_t k) { add_block(2 * k + parity, feed, pressure); });
+  // Neighbouring blocks share bins: those of even numbers add to them first. Far blocks, which have most echoes, begin.
+  const std::size_t odd = blocks.size() / 2, even = blocks.size() - odd;
+  std::deque<std::latch> added;
+  for (std::size_t number = 0; number < blocks.size(); ++number) added.emplace_back(1);
+  parallel_for(blocks.size(), options.threads, [&](std::size_t k) {
+    const std::size_t number = k < even ? 2 * (even - 1 - k) : 2 * (even + odd - 1 - k) + 1;
+    const CountDown when_left{added[number]};
+    add_block(number, feed, pressure, [&] {
+      if (number % 2 == 0) return;
+      added[number - 1].wait();
+      if (number + 1 < added.size()) added[number + 1].wait();
+    });
+  });
   add_nearest(feed, pressure);
   return pressure;
 }
 
-void WidebandSynthesizer::Plan::add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure) const {
+void WidebandSynthesizer::Plan::add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure,
+                                          const std::function<void()>& wait) const {
   const FlushDenormals flush;
   const LevelTables* tables = nullptr;
   std::unique_ptr<WidebandRoom> room;
@@ -180,6 +200,7 @@ void WidebandSynthesizer::Plan::add_block(std::size_t number, const WidebandFeed
     room->add(echoes, list);
   });
   if (!room) return;
+  wait();
   room->add_image(block(number), pressure);
   tables->rooms.give(std::move(room));
 }
