@@ -33,10 +33,11 @@ bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Exte
   };
   const float front = d - reach(1, nf);
   if (!(front > 0)) return false;
-  box.x = s.position[i] / d;
-  box.y = s.position[j] / d;
-  box.half_x = reach(1 + box.x * box.x, s.away[i] - box.x * nf) / front * slack_factor + box_slack;
-  box.half_y = reach(1 + box.y * box.y, s.away[j] - box.y * nf) / front * slack_factor + box_slack;
+  const float per_d = 1 / d, per_front = slack_factor / front;
+  box.x = s.position[i] * per_d;
+  box.y = s.position[j] * per_d;
+  box.half_x = reach(1 + box.x * box.x, s.away[i] - box.x * nf) * per_front + box_slack;
+  box.half_y = reach(1 + box.y * box.y, s.away[j] - box.y * nf) * per_front + box_slack;
   return true;
 }
 
@@ -138,6 +139,7 @@ void DirectionRaster::size_cells(const GatedSurfels& surfels, std::span<const Cu
         std::sqrt(std::max({1.0, cells_per_surfel / most_cells_per_surfel, width * height / (x * y) / most_cells}));
     face.cell_x = static_cast<float>(std::max({x * larger, width / 60000, 1e-5}));
     face.cell_y = static_cast<float>(std::max({y * larger, height / 60000, 1e-5}));
+    face.per_x = 1 / face.cell_x, face.per_y = 1 / face.cell_y;
     face.nx = static_cast<int>(width / face.cell_x) + 1;
     face.ny = static_cast<int>(height / face.cell_y) + 1;
     face.columns = (face.nx + DirectionTile::side - 1) / DirectionTile::side;
@@ -154,8 +156,8 @@ void DirectionRaster::add_boxes(const GatedSurfel& s, std::uint32_t index, Footp
   if (!(s.radius > 0) || is_wide(s)) return;
   const auto add = [&](std::uint32_t f, const Extent& e) {
     const Face& face = faces_[f];
-    const float x0 = (e.x - e.half_x - face.x0) / face.cell_x, x1 = (e.x + e.half_x - face.x0) / face.cell_x;
-    const float y0 = (e.y - e.half_y - face.y0) / face.cell_y, y1 = (e.y + e.half_y - face.y0) / face.cell_y;
+    const float x0 = (e.x - e.half_x - face.x0) * face.per_x, x1 = (e.x + e.half_x - face.x0) * face.per_x;
+    const float y0 = (e.y - e.half_y - face.y0) * face.per_y, y1 = (e.y + e.half_y - face.y0) * face.per_y;
     if (face.nx == 0 || !(x1 >= 0 && y1 >= 0 && x0 < static_cast<float>(face.nx) && y0 < static_cast<float>(face.ny)))
       return;
     const auto clip = [](float v, int n) {
@@ -202,8 +204,8 @@ void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int
 void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threads) {
   const auto tile_of = [this](const CubePoint& q) {
     const Face& face = faces_[q.face];
-    const int x = std::min(face.nx - 1, static_cast<int>((q.x - face.x0) / face.cell_x));
-    const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) / face.cell_y));
+    const int x = std::min(face.nx - 1, static_cast<int>((q.x - face.x0) * face.per_x));
+    const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) * face.per_y));
     return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
   };
   UnsetVector<std::uint32_t> tile(queries.size());

@@ -99,6 +99,7 @@ class DirectionRaster {
   struct Face {
     float x0 = 1, x1 = -1, y0 = 1, y1 = -1;  // bounds of the queries on the face
     float cell_x = 1, cell_y = 1;            // widths of a cell
+    float per_x = 1, per_y = 1;              // cells per length
     int nx = 0, ny = 0;                      // cells
     int columns = 0;                         // tiles in a row
     std::size_t first_tile = 0;
