@@ -59,7 +59,7 @@ struct EchoBuilder {
   }
 };
 
-// In two parts, since new memory costs as much as writing to it.
+// By two threads, since new memory costs as much as writing to it.
 Echoes room_for(std::size_t n, int threads) {
   Echoes echoes;
   parallel_for(2, threads, [&](std::size_t part) {
