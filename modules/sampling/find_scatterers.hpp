@@ -28,8 +28,8 @@ enum class Projection {
   automatic     ///< raster or kdtree, by estimated cost
 };
 
-/// Energy that a fan of one beam receives of a surfel, in any unit: by its place in head axes, the cosine of incidence,
-/// its area [m^2] and material.
+/// Energy that is received of a surfel, in any unit: by its place in head axes, the cosine of incidence, its area [m^2]
+/// and material.
 using HeardEnergy = std::function<double(const Eigen::Vector3d&, double, double, std::size_t)>;
 
 /// Options of find_scatterers.
@@ -48,7 +48,8 @@ struct SamplingOptions {
   double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
   /// Beside main lobes, in u and v, surfels are split as inside up to this distance (E17); 2: everywhere.
   double lobe_margin = 0;
-  /// Surfels that give little of what is heard from their range are split less (E127); empty: all are split alike.
+  /// Surfels that give little of what is heard from their range, for a fan also their direction in u, are split less
+  /// (E127); empty: all are split alike.
   HeardEnergy heard = nullptr;
 };
 

@@ -9,7 +9,8 @@ namespace insonify {
 namespace {
 
 constexpr double per_distance = 0.5;  // width of a cell in side lobes, in distances from the main lobe
-constexpr double full_share = 0.125;  // of what is heard from a range: a cell that gives so much has all of its parts
+// What part of what is heard a cell gives that has all of its parts: of a range, and of a range in a main lobe.
+constexpr double full_share_of_range = 0.125, full_share_of_lobe = 0.4;
 
 /// Joins what lies within `half` of the axes.
 std::vector<std::pair<double, double>> joined_lobes(std::vector<double> axes, double half) {
@@ -37,7 +38,8 @@ double distance_from(const std::vector<std::pair<double, double>>& intervals, do
 SampledCells::SampledCells(const BeamFan& fan, const RangeGate& gate, const SamplingOptions& options)
     : scatterers_per_cell_(options.scatterers_per_cell),
       range_resolution_(options.range_resolution > 0 ? options.range_resolution : 2 * gate.bin_size),
-      main_lobe_{fan.beam_width, fan.row_width} {
+      main_lobe_{fan.beam_width, fan.row_width},
+      one_beam_(fan.beams() == 1) {
   std::vector<double> u, v;
   for (std::size_t b = 0; b < fan.beams(); ++b) {
     u.push_back(std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]));
@@ -72,11 +74,18 @@ double SampledCells::area(double range, double cos_incidence, const Widths& widt
 }
 
 double SampledCells::parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const {
-  if (!(scatterers_per_cell_ > 0)) return 1;
-  const Widths at = widths(position, std::sqrt(surface / pi));
-  return std::max(1.0, scatterers_per_cell_ * surface / area(position.norm(), cos_incidence, at));  // (E17)
+  return parts(position.norm(), surface, cos_incidence, widths(position, std::sqrt(surface / pi)));
 }
 
-double SampledCells::parts_of_share(double share) const { return scatterers_per_cell_ / full_share * share; }  // (E127)
+double SampledCells::parts(double range, double surface, double cos_incidence, const Widths& widths) const {
+  if (!(scatterers_per_cell_ > 0)) return 1;
+  return std::max(1.0, scatterers_per_cell_ * surface / area(range, cos_incidence, widths));  // (E17)
+}
+
+double SampledCells::parts_of_share(double share, const Widths& widths) const {
+  const bool in_lobe = !one_beam_ && widths.beam <= main_lobe_.beam;
+  const double of_cell = one_beam_ ? share : share * main_lobe_.beam / widths.beam;
+  return scatterers_per_cell_ / (in_lobe ? full_share_of_lobe : full_share_of_range) * of_cell;  // (E127)
+}
 
 }  // namespace insonify

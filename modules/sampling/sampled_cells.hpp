@@ -41,9 +41,15 @@ class SampledCells {
   /// How many parts a surfel needs for scatterers_per_cell parts in a cell: at least 1, not rounded; 1 for 0 per cell.
   /// Its disc is about `position`; surface [m^2].
   double parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const;
-  /// How many parts a surface needs that gives `share` of what is heard from one range (E127), not rounded: a cell that
-  /// gives an eighth or more has scatterers_per_cell.
-  double parts_of_share(double share) const;
+  /// The same for cells of these widths, as widths() returns them.
+  double parts(double range, double surface, double cos_incidence, const Widths& widths) const;
+
+  /// How many parts a surface needs that gives `share` of what is heard from a cell of shares (E127), not rounded: as
+  /// many as its cells of these widths ask for if it gives two fifths of what a main lobe of a fan hears from them, or an
+  /// eighth of what one beam, or side lobes, hear.
+  double parts_of_share(double share, const Widths& widths) const;
+  /// Width of a cell of shares, in u: a main lobe's; 2, which is all of u, for one beam.
+  double width_of_shares() const { return one_beam_ ? 2 : main_lobe_.beam; }
   /// As in the options.
   double scatterers_per_cell() const { return scatterers_per_cell_; }
   /// Length of a cell along the line of sight [m].
@@ -54,6 +60,7 @@ class SampledCells {
 
   double scatterers_per_cell_, range_resolution_;
   Widths main_lobe_;
+  bool one_beam_;
   Intervals lobes_u_, lobes_v_;
 };
 

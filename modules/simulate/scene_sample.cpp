@@ -133,36 +133,51 @@ double left_in_gate(const ResolvedPing& ping, double r) {
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
 }
 
-constexpr std::size_t intervals = 64;  // of range, over which what is heard is taken to be even
+// Intervals of range and of u, over which what is heard is taken to be even.
+constexpr std::size_t range_intervals = 64, fan_intervals = 16;
 
 /// Counts the scatterers that the whole scene would be split into, by cells (E17) and by shares (E127).
 void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Scatterers& patches, SceneSample& s) {
   const View& view = ping.view;
   const SampledCells cells(view.fan, view.gate, view.sampling);
   const HeardEnergy heard = heard_energy(ping, sampled.scene.materials);
-  const double interval = (view.gate.max_range - view.gate.min_range) / intervals;
-  const auto interval_of = [&](double range) {
-    return static_cast<std::size_t>(std::clamp((range - view.gate.min_range) / interval, 0.0, intervals - 1.0));
+  const std::size_t sides = cells.width_of_shares() < 2 ? fan_intervals : 1;
+  const double interval = (view.gate.max_range - view.gate.min_range) / range_intervals;
+  const double shares_in_interval =
+      interval / cells.range_resolution() * 2 / (static_cast<double>(sides) * cells.width_of_shares());
+  const auto interval_of = [&](const Eigen::Vector3d& p) {
+    const auto within = [](double place, std::size_t n) {
+      return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(n) - 1));
+    };
+    return within((p.norm() - view.gate.min_range) / interval, range_intervals) * sides +
+           within(0.5 * (p.y() / p.norm() + 1) * static_cast<double>(sides), sides);
   };
-  std::vector<double> by_cells, energy;  // of one surfel
-  std::array<double, intervals> received{};
+  struct Counted {
+    double by_cells, energy;
+    SampledCells::Widths widths;
+    std::size_t interval;
+  };
+  std::vector<Counted> counted;
+  std::vector<double> received(range_intervals * sides, 0);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t surfel = patches.surfel[i];
     const double times = sampled.stands_for[surfel], cosine = patches.cos_incidence[i];
     const double area = sampled.scene.area[surfel] / times;
     const Eigen::Vector3d p = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
-    by_cells.push_back(cells.parts(p, area, cosine));
-    energy.push_back(heard ? heard(p, cosine, area, patches.material[i]) : 0);
+    const SampledCells::Widths widths = cells.widths(p, std::sqrt(area / pi));
+    counted.push_back({cells.parts(patches.range[i], area, cosine, widths),
+                       heard ? heard(p, cosine, area, patches.material[i]) : 0, widths, interval_of(p)});
     if (sampled.kind[surfel] != elsewhere && sampled.kind[surfel] != other_range)
-      received[interval_of(patches.range[i])] += times * energy[i];
+      received[counted[i].interval] += times * counted[i].energy;
   }
   double none = 0;
   double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations, &none};
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t surfel = patches.surfel[i];
-    const double of_range = received[interval_of(patches.range[i])] * cells.range_resolution() / interval;
-    const double by_share = heard && of_range > 0 ? cells.parts_of_share(energy[i] / of_range) : HUGE_VAL;
-    *numbers[sampled.kind[surfel]] += sampled.stands_for[surfel] * std::max(1.0, std::min(by_cells[i], by_share));
+    const Counted& c = counted[i];
+    const double of_cell = received[c.interval] / shares_in_interval;
+    const double by_share = heard && of_cell > 0 ? cells.parts_of_share(c.energy / of_cell, c.widths) : HUGE_VAL;
+    *numbers[sampled.kind[surfel]] += sampled.stands_for[surfel] * std::max(1.0, std::min(c.by_cells, by_share));
   }
 }
 

@@ -50,7 +50,7 @@ FlatBed measure_flat_bed(const std::string& sonar, double max_range) {
   SceneCloud scene;
   add_bed(scene, -60, 60, {0, 1, 0}, {0, 0, -20});
   constexpr std::size_t parts = 5;
-  constexpr int pings = 4;
+  constexpr int pings = 8;
   std::vector<BottomSoundings> found;
   for (int p = 0; p < pings; ++p) {
     found.push_back(soundings_of(scene, head, p, true));

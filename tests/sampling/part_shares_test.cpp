@@ -79,6 +79,40 @@ TEST(PartShares, follow_from_cross_section_of_a_tilted_surfel_over_the_ranges_th
   EXPECT_EQ(seen.at(3), 0);
 }
 
+TEST(PartShares, of_a_fan_are_of_what_one_main_lobe_hears_from_a_range) {
+  // Pairs one above the other at u = 0 and at u = 0.4, discs of 3 cm seen face on from 10 m, and one alone at u = 0.3.
+  SceneCloud scene;
+  const auto add = [&scene](double u, double v) {
+    const Eigen::Vector3d along(std::sqrt(1 - u * u - v * v), u, v);
+    add_surfel(scene, 10.01 * along, -along, pi * 0.03 * 0.03);
+  };
+  add(0, 0), add(0, 0.3), add(0.4, 0), add(0.4, 0.3), add(0.3, 0.3);
+  const HeardEnergy quiet_above = [](const Eigen::Vector3d& p, double, double, std::size_t) {
+    return p.z() > 1 ? 1e-3 : 1.0;
+  };
+  const double per_cell = 1e5, share = 1e-3 / 1.001;
+  const auto parts = [&](double field_of_view, const HeardEnergy& heard) {
+    const SamplingOptions options{
+        .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .heard = heard};
+    std::vector<int> number(scene.size(), 0);
+    const BeamFan fan = make_fan(91, field_of_view, radians(1), radians(60));
+    for (const auto s : find_scatterers(scene, Pose::Identity(), fan, {9, 11, 0.01}, options).scatterers.surfel)
+      ++number[s];
+    return number;
+  };
+  // Main lobes everywhere: a surfel with all parts of its cells gives two fifths of what is heard.
+  const std::vector<int> by_cells = parts(radians(90), nullptr), of_fan = parts(radians(90), quiet_above);
+  ASSERT_GT(by_cells[1], 1000);
+  EXPECT_EQ(of_fan[0], by_cells[0]);
+  EXPECT_NEAR(of_fan[1], per_cell / 0.4 * share, 1);
+  EXPECT_EQ(of_fan[4], by_cells[4]) << "alone in its direction";
+  // Main lobes to u = 0.2: beyond, an eighth of what side lobes hear, in cells half as wide as they are off.
+  const double end = std::sin(radians(10)) + 1.5 * radians(1), half_width = 0.03 / 10.01;
+  const std::vector<int> of_lobes = parts(radians(20), quiet_above);
+  EXPECT_EQ(of_lobes[2], parts(radians(20), nullptr)[2]);
+  EXPECT_NEAR(of_lobes[3], per_cell / 0.125 * share * radians(1) / (0.5 * (0.4 - end - half_width)), 1);
+}
+
 TEST(PartShares, leave_parts_where_they_are_and_are_the_same_for_listed_and_streamed_surfels) {
   const SceneCloud scene = facing_surfels(2, 0.3);
   SamplingOptions options{.scatterers_per_cell = 1000, .occlusion = false, .azimuth_margin = pi};

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/parallel.hpp"
+#include "sampling/heard_shares_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double most_places = 65536, most_cells = 262144;  // cells of range or of u at most, and in all
+constexpr std::size_t most_spanned = 256, sums_of_energy = 4;
+
+}  // namespace
+
+HeardShares::HeardShares(std::span<const HeardSurfel> surfels, const RangeGate& gate, const SampledCells& cells,
+                         int threads)
+    : start_(gate.min_range), width_(std::max(cells.width_of_shares(), 2 / most_places)) {
+  const double reach = gate.max_range - gate.min_range, places = std::ceil(2 / width_);
+  length_ = std::max(cells.range_resolution(), reach / std::min(most_places, most_cells / places));
+  size_ = length_ / cells.range_resolution() * width_ / cells.width_of_shares();
+  places_ = static_cast<std::size_t>(places), ranges_ = static_cast<std::size_t>(reach / length_) + 1;
+  energy_.assign(places_ * ranges_, 0);
+
+  std::vector<std::vector<double>> sums(sums_of_energy);
+  parallel_for(sums.size(), threads, [&](std::size_t part) {
+    sums[part].assign(energy_.size(), 0);
+    for (std::size_t s = part * surfels.size() / sums.size(); s < (part + 1) * surfels.size() / sums.size(); ++s)
+      add(surfels[s], sums[part]);
+  });
+  for (const std::vector<double>& sum : sums)
+    std::transform(sum.begin(), sum.end(), energy_.begin(), energy_.begin(), std::plus<>());
+}
+
+double HeardShares::share(const HeardSurfel& surfel) const {
+  const Cells cells = spanned(surfel);
+  if (cells.number() > most_spanned) return HUGE_VAL;
+  if (!(surfel.energy > 0)) return 0;
+  double shares = 0;
+  for (std::size_t u = cells.u.first; u <= cells.u.second; ++u)
+    for (std::size_t k = cells.range.first; k <= cells.range.second; ++k)
+      shares += surfel.energy / energy_[u * ranges_ + k];
+  return shares / static_cast<double>(cells.number()) * size_;  // (E127)
+}
+
+void HeardShares::add(const HeardSurfel& surfel, std::vector<double>& energy) const {
+  const Cells cells = spanned(surfel);
+  if (cells.number() > most_spanned) return;
+  const double each = surfel.energy / static_cast<double>(cells.number());
+  for (std::size_t u = cells.u.first; u <= cells.u.second; ++u)
+    for (std::size_t k = cells.range.first; k <= cells.range.second; ++k) energy[u * ranges_ + k] += each;
+}
+
+HeardShares::Cells HeardShares::spanned(const HeardSurfel& surfel) const {
+  // The cells of which the middle is within `half` of a place, counted in cells; at least the one that it is in.
+  const auto span = [](double place, double half, std::size_t number) {
+    const double most = static_cast<double>(number - 1), reach = std::max(0.0, half - 0.5);
+    return Span(std::clamp(place - reach, 0.0, most), std::clamp(place + reach, 0.0, most));
+  };
+  return {span((surfel.range - start_) / length_, surfel.half_depth / length_, ranges_),
+          span((surfel.u + 1) / width_, surfel.half_u / width_, places_)};
+}
+
+}  // namespace insonify
