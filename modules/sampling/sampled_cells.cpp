@@ -83,9 +83,8 @@ double SampledCells::parts(double range, double surface, double cos_incidence, c
 }
 
 double SampledCells::parts_of_share(double share, const Widths& widths) const {
-  const bool in_lobe = !one_beam_ && widths.beam <= main_lobe_.beam;
-  const double of_cell = one_beam_ ? share : share * main_lobe_.beam / widths.beam;
-  return scatterers_per_cell_ / (in_lobe ? full_share_of_lobe : full_share_of_range) * of_cell;  // (E127)
+  if (one_beam_) return scatterers_per_cell_ / full_share_of_range * share;                             // (E127)
+  return widths.beam > main_lobe_.beam ? HUGE_VAL : scatterers_per_cell_ / full_share_of_lobe * share;  // (E127)
 }
 
 }  // namespace insonify

@@ -45,8 +45,8 @@ class SampledCells {
   double parts(double range, double surface, double cos_incidence, const Widths& widths) const;
 
   /// How many parts a surface needs that gives `share` of what is heard from a cell of shares (E127), not rounded: as
-  /// many as its cells of these widths ask for if it gives three tenths of what a main lobe of a fan hears from them, or an
-  /// eighth of what one beam, or side lobes, hear.
+  /// many as its cells ask for if it gives three tenths of what a main lobe of a fan hears, or an eighth of what one beam
+  /// does. Infinite for a fan's cells of side lobes, by their widths: each is heard together with others.
   double parts_of_share(double share, const Widths& widths) const;
   /// Width of a cell of shares, in u: a main lobe's; 2, which is all of u, for one beam.
   double width_of_shares() const { return one_beam_ ? 2 : main_lobe_.beam; }
