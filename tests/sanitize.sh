@@ -14,7 +14,8 @@ declare -A parts=(
   [laws]="laws_test extreme_test 02_thesis:laws|extreme"
   [tool]="tool_test:tool:tool\.($runs)"
   [runs]="tool_test:tool\.($runs)"
-  [docs]="insonify insonify-view:docs"
+  [docs]="insonify insonify-view:docs:docs\.commands_of_survey_work"
+  [survey]="insonify insonify-view:docs\.commands_of_survey_work"
   [view]="view_test viewer_test:view|viewer"
 )
 if [[ $# != 2 || -z ${parts[${2:-}]:-} || ! ${1:-} =~ ^(address|thread)$ ]]; then
