@@ -62,8 +62,8 @@ class ExportProducts : public ToolTest {
     return {world.x(), world.y(), utm.z()};
   }
 
-  /// The beam's sounding, somewhat behind the front of the ball.
-  static constexpr double least = ball_range - ball_radius, most = least + 0.25;
+  /// The beam's sounding, at the front of the ball within half a range resolution or somewhat behind.
+  static constexpr double least = ball_range - ball_radius - 0.006, most = ball_range - ball_radius + 0.25;
 };
 
 TEST_F(ExportProducts, gsf_has_the_ball_to_port_ahead_and_at_its_depth) {
