@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Kills a survey of 200 pings (60 for fewer than 20 kills) at random times and lets it go on, until so many kills are done: the result must have the
-# bytes of a survey in one go, no finished block may be made twice, and nothing may be left over.
+# Kills a survey of 200 pings (60 for fewer than 20 kills) at random times and lets it go on, until COUNT kills are done. The
+# result must have the bytes of a survey in one go, no finished block may be made twice, and nothing may be left over.
+# Kills hit within the time that the survey takes on this machine; a survey that ends before its kills is begun again.
+# Fails after 60 s, or 10 s for each kill if that is more.
 #   kill_survey.sh alone|parallel|slurm COUNT SEED [build/release/bin/insonify]
 #   kill_survey.sh full-disk                       the same on a disk that fills up: exit code 4, then it goes on
 # Exit code 77: the engine is not installed, or (Slurm, a disk of its own) this is not root.
@@ -23,15 +25,19 @@ finish() {
   mountpoint -q "$work/disk" 2>/dev/null && umount "$work/disk"
   rm -rf "$work"
 }
-# The processes of the tool that work in this folder.
+# Processes of the tool that run now: engines start the tool by the script `launch`, which leaves its process number.
 victims() {
-  local process
-  for process in /proc/[0-9]*; do
-    [[ $(readlink "$process/cwd" 2>/dev/null) == "$work" && $(readlink "$process/exe" 2>/dev/null) == "$tool" ]] && echo "${process#/proc/}"
+  local file
+  for file in "$work"/processes/*; do
+    [[ "/proc/${file##*/}/exe" -ef $tool ]] && echo "${file##*/}"
   done || true
 }
 trap finish EXIT
 cd "$work"
+mkdir processes
+printf '#!/bin/sh\n: >"%s/processes/$$"\nexec "%s" "$@"\n' "$work" "$tool" >launch
+chmod +x launch
+milliseconds() { echo $((${EPOCHREALTIME/[.,]/} / 1000)); }
 
 "$tool" make-scene harbour -o harbour.ply --points 6000 -q >/dev/null
 metres=$((count < 20 ? 3 : 10))
@@ -66,7 +72,14 @@ options=(m.toml -q --pings-per-block 5)
 
 # Digests of all that a survey is; its status is of the run that wrote it last.
 digests() { (cd "$1" && find . -type f ! -name 'status*.json' -print0 | sort -z | xargs -0 sha256sum); }
+begin=$(milliseconds)
 "$tool" survey "${options[@]}" -o whole -j2 >/dev/null
+# How long one process of the engine has work to do, about: a survey that goes on has less than one that begins.
+lifetime=$(($(milliseconds) - begin))
+case $engine in
+  alone) lifetime=$((lifetime / 2)) ;;
+  *) lifetime=$((lifetime / 4)) ;;
+esac
 "$tool" merge whole -q >/dev/null
 digests whole >whole.txt
 pings=$(sed -n 's/.*"pings": \([0-9]*\),.*/\1/p' whole/status.json)
@@ -104,15 +117,15 @@ if [[ $engine == full-disk ]]; then
 fi
 
 # Each engine starts what was killed again, until all is done.
-run_alone() { until "$tool" survey "${options[@]}" -o run -j2; do :; done; }
+run_alone() { until ./launch survey "${options[@]}" -o run -j2; do :; done; }
 run_parallel() {
-  until parallel --will-cite -j2 "$tool" survey "${options[@]}" -o run -j1 --shard '{}/8' ::: $(seq 0 7); do :; done
+  until parallel --will-cite -j2 ./launch survey "${options[@]}" -o run -j1 --shard '{}/8' ::: $(seq 0 7); do :; done
 }
 run_slurm() {
   cat >job.sh <<JOB
 #!/bin/sh
 #SBATCH --array=0-7 --cpus-per-task=1 --requeue --open-mode=append --output=task-%a.txt
-$tool survey ${options[*]} -o run -j "\$SLURM_CPUS_PER_TASK" --shard "\$SLURM_ARRAY_TASK_ID/\$SLURM_ARRAY_TASK_COUNT" && exit
+./launch survey ${options[*]} -o run -j "\$SLURM_CPUS_PER_TASK" --shard "\$SLURM_ARRAY_TASK_ID/\$SLURM_ARRAY_TASK_COUNT" && exit
 scontrol requeue "\${SLURM_ARRAY_JOB_ID}_\$SLURM_ARRAY_TASK_ID" && sleep 30
 JOB
   "$root/tests/tool/slurm_node.sh" slurm.log sbatch --wait job.sh
@@ -135,11 +148,13 @@ check_made() {
   done
 }
 
+# Kills one process after the other, each after a random part of a process's lifetime.
 kills=0 rounds=1
 SECONDS=0
+most_seconds=$((count > 6 ? 10 * count : 60))
 start
 while ((kills < count)); do
-  sleep "0.$((RANDOM % 60 + 5))"
+  ((SECONDS < most_seconds)) || die "$kills of $count kills in $most_seconds s: is this machine busy?"
   if ! kill -0 "$runner" 2>/dev/null; then
     wait "$runner" || die "the engine failed: $(tail -5 engine.txt)"
     check_made
@@ -148,12 +163,20 @@ while ((kills < count)); do
     start
     continue
   fi
+  [[ -n $(victims) ]] || { sleep 0.01; continue; }
+  printf -v wait_s '%d.%03d' $((wait = RANDOM * lifetime / 32768, wait / 1000)) $((wait % 1000))
+  sleep "$wait_s"
   mapfile -t running < <(victims)
   ((${#running[@]} > 0)) || continue
   kill -9 "${running[RANDOM % ${#running[@]}]}" 2>/dev/null || continue
   kills=$((kills + 1))
   check_made
 done
+for ((; SECONDS < most_seconds; )); do
+  kill -0 "$runner" 2>/dev/null || break
+  sleep 0.1
+done
+kill -0 "$runner" 2>/dev/null && die "$kills kills, but the survey has not ended after $most_seconds s: $(tail -5 engine.txt)"
 wait "$runner" || die "the engine failed: $(tail -5 engine.txt)"
 runner=
 check_made
