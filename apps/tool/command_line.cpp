@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "store/nearest_word.hpp"
 #include "tool/command_text.hpp"
+#include "tool/memory_guard.hpp"
 #include "tool/program.hpp"
 #include "tool/progress.hpp"
 #include "tool/verb.hpp"
@@ -147,8 +148,10 @@ int run_and_flush(int argc, char** argv) {
 
 int run_tool(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing
-  return run_program([&] { return run_and_flush(argc, argv); },
-                     "use a smaller scene, fewer scatterers per cell or a shorter range");
+  const char* less = "use a smaller scene, fewer scatterers per cell or a shorter range";
+  const auto run = [&] { return run_program([&] { return run_and_flush(argc, argv); }, less); };
+  const bool becomes_another = argc > 1 && argv[1] == view_verb().name;  // which guards itself
+  return becomes_another ? run() : under_memory_guard(run, less);
 }
 
 }  // namespace insonify::tool

@@ -4,6 +4,7 @@
 #include <functional>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "core/error.hpp"
 
@@ -29,7 +30,7 @@ inline std::string one_line(std::string text) {
 /// Runs a program, reports on stderr what it throws, and returns the exit code (docs/troubles.md). `less` says what
 /// takes less memory.
 inline int run_program(const std::function<int()>& run, const char* less) {
-  constexpr int exit_codes[] = {1, 2, 3, 4};  // of runtime, argument, content, file
+  constexpr int no_memory = 4, exit_codes[] = {1, 2, 3, 4, no_memory};  // of runtime, argument, content, file
   try {
     return run();
   } catch (const Interrupted& interrupted) {
@@ -43,6 +44,11 @@ inline int run_program(const std::function<int()>& run, const char* less) {
     return exit_codes[static_cast<int>(error.kind())];
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
+    return no_memory;
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
+    // A thread that cannot be started lacks memory.
+    if (error.code() == std::errc::resource_unavailable_try_again) return no_memory;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
   }

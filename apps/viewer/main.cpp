@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "store/run_directory.hpp"
+#include "tool/memory_guard.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/program.hpp"
 #include "viewer/show_viewer.hpp"
@@ -55,6 +56,8 @@ int view(int argc, char** argv) {
 }  // namespace insonify::viewer
 
 int main(int argc, char** argv) {
-  return insonify::tool::run_program([&] { return insonify::viewer::view(argc, argv); },
-                                     "view a thinner scene, or a run with --no-scene");
+  using namespace insonify;
+  const char* less = "view a thinner scene, or a run with --no-scene";
+  const auto run = [&] { return tool::run_program([&] { return viewer::view(argc, argv); }, less); };
+  return tool::under_memory_guard(run, less);
 }

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <new>
 
 #include <fcntl.h>
@@ -16,18 +15,12 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/memory_limit.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr int child_in_order = 0, child_without_memory = 1;
-
-// Address space of this process [bytes].
-std::size_t address_space() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
 
 void set_limit(decltype(RLIMIT_AS) resource, std::size_t value) {
   const rlimit limit{value, value};
@@ -112,7 +105,7 @@ void try_in_child(const std::string& path, const ChildLimits& limits, const std:
 
 std::string read_in_child(const std::string& path, const ChildLimits& limits,
                           const std::function<std::string()>& read) {
-  const std::size_t memory = address_space() + limits.memory;
+  const std::size_t memory = address_space() + std::min(limits.memory, memory_left().value_or(limits.memory));
   int ends[2];
   const bool piped = pipe2(ends, O_CLOEXEC) == 0;
   const pid_t child = piped ? fork() : -1;

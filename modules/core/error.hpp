@@ -10,7 +10,8 @@ enum class ErrorKind {
   runtime,   ///< an operation failed at run time (exit code 1)
   argument,  ///< an argument violates a rule (2)
   content,   ///< the content of a file or scene is unusable (3)
-  file       ///< a file is missing, already exists, or cannot be written (4)
+  file,      ///< a file is missing, already exists, or cannot be written (4)
+  memory     ///< the memory that this process may take is too small (4)
 };
 
 /// The exception type of all insonify functions. The text names the function or file, the value with its unit, the rule

@@ -240,7 +240,7 @@ double available_memory() {
 void require_memory(const TileSelection& selection, double bytes_per_surfel, double memory, const std::string& path) {
   const double needed = bytes_per_surfel * static_cast<double>(selection.surfels);
   if (needed > memory)
-    fail(ErrorKind::runtime, path, ": the ", selection.surfels, " surfels within reach need about ", gibibytes(needed),
+    fail(ErrorKind::memory, path, ": the ", selection.surfels, " surfels within reach need about ", gibibytes(needed),
          " of memory, ", gibibytes(memory),
          " may be used; shorten the range, use a narrower sonar or a coarser scene, ", "or raise the limit");
 }

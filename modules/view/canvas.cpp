@@ -235,17 +235,18 @@ void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, doub
   for (const PlacedText& text : bar.texts) add_text(text);
 }
 
-void Canvas::save_png(const std::string& path, const VtkMessages& messages) {
+std::string Canvas::png(const VtkMessages& messages) {
   window_->Render();
-  save_window(window_, path, messages, who_);
+  return png_of_window(window_, messages, who_);
 }
 
 void save_picture(const PictureOptions& options, const char* who, const std::string& png_path,
                   const std::function<void(Canvas&)>& draw) {
-  const VtkMessages messages;
-  Canvas canvas(options, who);
-  draw(canvas);
-  canvas.save_png(png_path, messages);
+  save_drawing(png_path, who, [&](const VtkMessages& messages) {
+    Canvas canvas(options, who);
+    draw(canvas);
+    return canvas.png(messages);
+  });
 }
 
 }  // namespace insonify

@@ -37,7 +37,7 @@ class Canvas {
   Canvas(const PictureOptions& options, const char* who);
 
   /// Draws into a renderer of the caller's window and sets its camera to show options.width x options.height pixels.
-  /// The drawing follows when that camera moves. save_png does not apply to such a canvas.
+  /// The drawing follows when that camera moves. png() does not apply to such a canvas.
   Canvas(vtkRenderer* renderer, const PictureOptions& options, const char* who);
 
   /// Sets the place in the picture of (0, 0) for everything added later; whole pixels.
@@ -59,9 +59,8 @@ class Canvas {
   /// All texts added so far, in picture coordinates.
   const std::vector<PlacedText>& texts() const { return texts_; }
 
-  /// Renders and writes a PNG. Throws Error(runtime) if VTK reported an error, Error(file) if the file cannot be
-  /// written.
-  void save_png(const std::string& path, const VtkMessages& messages);
+  /// Renders, and returns the bytes of a PNG. Throws Error(runtime) if VTK reported an error.
+  std::string png(const VtkMessages& messages);
 
  private:
   void add_quads(const std::vector<Point2>& corners, double height, const Colour& colour, double opacity);
@@ -77,7 +76,7 @@ class Canvas {
   vtkSmartPointer<vtkRenderer> renderer_;
 };
 
-/// Draws a picture off-screen and writes it. Errors as Canvas::save_png.
+/// Draws a picture off-screen and writes it. Errors as save_drawing.
 void save_picture(const PictureOptions& options, const char* who, const std::string& png_path,
                   const std::function<void(Canvas&)>& draw);
 

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include <EGL/eglext.h>
-#include <sys/mman.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -16,7 +15,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
+#include "core/memory_limit.hpp"
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
 
@@ -55,14 +56,50 @@ class MessageCollector : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCollector);
 
-// Mesa does not check that it gets memory, but ends the process: that there is enough must be known before.
-void require_memory(const char* who) {
-  constexpr std::size_t needed = std::size_t{640} << 20;
-  void* const room = mmap(nullptr, needed, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (room == MAP_FAILED)
-    fail(ErrorKind::runtime, who, ": too little memory for a picture: less than ", needed >> 20,
-         " MiB are left; raise the limit (ulimit -v)");
-  munmap(room, needed);
+// What a child draws, or the error that it met: a PNG never begins with a letter.
+std::string drawn_or_error(const std::function<std::string()>& draw) {
+  try {
+    return draw();
+  } catch (const Error& error) {
+    return static_cast<char>('a' + static_cast<int>(error.kind())) + std::string(error.what());
+  }
+}
+
+// Mesa and its compiler take about as much, and do not begin with less.
+constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
+
+[[noreturn]] void too_little_memory(const char* who, std::size_t left) {
+  fail(ErrorKind::memory, who, ": too little memory for a picture: the limit (ulimit -v) leaves ", left >> 20,
+       " MiB, a picture takes ", memory_of_a_picture >> 20, " and more; raise the limit");
+}
+
+std::string drawn_in_child(const char* who, std::size_t memory, const std::function<std::string()>& draw) {
+  constexpr unsigned most_seconds = 120;
+  std::string png;
+  try {
+    png = read_in_child(who, {memory, most_seconds}, [&] { return drawn_or_error(draw); });
+  } catch (const Error&) {  // the child was ended, or there is no memory for a child
+    too_little_memory(who, memory);
+  }
+  if (png.empty()) too_little_memory(who, memory);  // a library ended the child
+  if (png.front() >= 'a' && png.front() <= 'z') throw Error(static_cast<ErrorKind>(png.front() - 'a'), png.substr(1));
+  return png;
+}
+
+void require_png_name(const std::string& path) {
+  if (lower_case(std::filesystem::path(path).extension().string()) != ".png")
+    fail(ErrorKind::argument, path, ": pictures are written as PNG; the name must end with .png");
+}
+
+std::string bytes_of_png(vtkPNGWriter* writer, const VtkMessages& messages, const char* who) {
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* png = writer->GetResult();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
+    fail(ErrorKind::runtime, who,
+         ": cannot make a PNG: ", vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  messages.throw_first_error(who);
+  return {reinterpret_cast<const char*>(png->GetPointer(0)), static_cast<std::size_t>(png->GetNumberOfTuples())};
 }
 
 std::mutex& drawing_turn() {
@@ -86,7 +123,7 @@ EglWindow::~EglWindow() {
 }
 
 void EglWindow::open(const char* who) {
-  require_memory(who);
+  if (const auto left = memory_left(); left && *left < memory_of_a_picture) too_little_memory(who, *left);
   const EGLDisplay display = surfaceless_display();
   if (display == EGL_NO_DISPLAY) no_gl(who, "eglGetPlatformDisplayEXT");
   if (!eglInitialize(display, nullptr, nullptr)) no_gl(who, "eglInitialize");
@@ -156,21 +193,17 @@ void VtkMessages::throw_first_error(const char* who) const {
   fail(ErrorKind::runtime, who, ": VTK could not draw: ", text);
 }
 
-void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who) {
-  if (lower_case(std::filesystem::path(path).extension().string()) != ".png")
-    fail(ErrorKind::argument, path, ": pictures are written as PNG; the name must end with .png");
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* png = writer->GetResult();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
-    fail(ErrorKind::file, who, ": cannot make the PNG for ", path, ": ",
-         vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
-  messages.throw_first_error(who);
-  write_file(path,
-             {reinterpret_cast<const char*>(png->GetPointer(0)), static_cast<std::size_t>(png->GetNumberOfTuples())});
+void write_png(const std::string& path, std::string_view png) {
+  require_png_name(path);
+  write_file(path, png);
 }
 
-void save_window(vtkRenderWindow* window, const std::string& path, const VtkMessages& messages, const char* who) {
+void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who) {
+  require_png_name(path);
+  write_file(path, bytes_of_png(writer, messages, who));
+}
+
+std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, const char* who) {
   vtkNew<vtkWindowToImageFilter> picture;
   picture->SetInput(window);
   picture->SetInputBufferTypeToRGB();
@@ -179,7 +212,16 @@ void save_window(vtkRenderWindow* window, const std::string& path, const VtkMess
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(picture->GetOutputPort());
   writer->SetCompressionLevel(3);
-  write_png(writer, path, messages, who);
+  return bytes_of_png(writer, messages, who);
+}
+
+void save_drawing(const std::string& path, const char* who,
+                  const std::function<std::string(const VtkMessages&)>& draw) {
+  require_png_name(path);
+  const VtkMessages messages;  // its turn is taken before a child is made, which has no other thread to wait for
+  const auto drawing = [&] { return draw(messages); };
+  const std::optional<std::size_t> left = memory_left();
+  write_file(path, left ? drawn_in_child(who, *left, drawing) : drawing());
 }
 
 }  // namespace insonify

@@ -1,6 +1,8 @@
 #pragma once
+#include <functional>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include <EGL/egl.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -55,11 +57,18 @@ class VtkMessages {
   vtkSmartPointer<vtkOutputWindow> collector_;
 };
 
-/// Writes the window's back buffer as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK
-/// reported an error, Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
-void save_window(vtkRenderWindow* window, const std::string& path, const VtkMessages& messages, const char* who);
+/// Returns the window's back buffer as the bytes of a PNG. Throws Error(runtime) if VTK reported an error.
+std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, const char* who);
 
-/// The same for the input of `writer`.
+/// Writes the bytes of a PNG. Throws Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
+void write_png(const std::string& path, std::string_view png);
+
+/// Writes the input of `writer` as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK reported an
+/// error, Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
 void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who);
+
+/// Writes the PNG that `draw` returns, as write_png. Under a limit of address space a child process draws, since Mesa ends
+/// its process where it gets no memory: Error(memory) then.
+void save_drawing(const std::string& path, const char* who, const std::function<std::string(const VtkMessages&)>& draw);
 
 }  // namespace insonify

@@ -90,19 +90,16 @@ void draw_frame(Canvas& canvas, const SceneFrame& frame, int font) {
   if (frame.title) canvas.add_text(*frame.title);
 }
 
-}  // namespace
+constexpr const char* show_scene_name = "show_scene";
 
-void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
-                const std::string& png_path) {
-  constexpr const char* who = "show_scene";
-  require_picture_size(options, who);
-  const VtkMessages messages;
-  SceneActors actors(scene, look, options, who);
+std::string scene_png(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
+                      const VtkMessages& messages) {
+  SceneActors actors(scene, look, options, show_scene_name);
   const int font = font_size_for(options);
   const SceneFrame frame = lay_out_frame(actors.key(), actors.soundings_key(), options);
 
   // Layers from the top: the canvas with its texts, the scene in its own box, an empty background.
-  Canvas canvas(options, who);
+  Canvas canvas(options, show_scene_name);
   vtkRenderWindow* window = canvas.renderer()->GetRenderWindow();
   window->SetNumberOfLayers(2);
   canvas.renderer()->SetLayer(1);
@@ -121,7 +118,16 @@ void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOpt
 
   for (const PlacedText& text : place_labels(labels, actors.view(renderer), part, font)) canvas.add_text(text);
   draw_frame(canvas, frame, font);
-  canvas.save_png(png_path, messages);
+  return canvas.png(messages);
+}
+
+}  // namespace
+
+void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
+                const std::string& png_path) {
+  require_picture_size(options, show_scene_name);
+  save_drawing(png_path, show_scene_name,
+               [&](const VtkMessages& messages) { return scene_png(scene, look, options, messages); });
 }
 
 }  // namespace insonify

@@ -216,7 +216,7 @@ void ViewerWindow::draw_facts() {
 void ViewerWindow::save_png(const std::string& path) {
   drawn_.reset();
   draw();
-  save_window(window_, path, messages_, viewer_caller);
+  write_png(path, png_of_window(window_, messages_, viewer_caller));
 }
 
 }  // namespace insonify

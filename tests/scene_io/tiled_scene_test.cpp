@@ -195,7 +195,7 @@ TEST(TiledScene, areas_found_tile_by_tile_add_up_to_the_plate) {
 TEST(TiledScene, what_does_not_fit_into_memory_is_refused_before_it_is_read) {
   save_tiles(own_path("a.tiles"), harbour(), small_tiles());
   const TiledScene tiled(own_path("a.tiles"));
-  expect_error(ErrorKind::runtime, {"a.tiles", "surfels within reach need about", "GiB", "raise the limit"},
+  expect_error(ErrorKind::memory, {"a.tiles", "surfels within reach need about", "GiB", "raise the limit"},
                [&] { tiled.load(tiled.select_all(), 1e6); });
   EXPECT_GT(tiled.load(tiled.select(region_around({20, 3, -7}, 1)), 1e6).size(), 0U);
 }

@@ -132,7 +132,7 @@ TEST_F(EveryView, has_a_light_and_a_dark_theme) {
         const VtkMessages messages;
         Canvas canvas(options, "test");
         draw(canvas, options);
-        canvas.save_png(path, messages);
+        write_png(path, canvas.png(messages));
       }
       const ReadPicture picture = read_png(path);
       double ground = 0;
