@@ -13,7 +13,9 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "returns/looks.hpp"
+#include "store/run_manifest.hpp"
 #include "tool/label_pictures.hpp"
+#include "tool/run_checks.hpp"
 #include "view/grey_file.hpp"
 #include "view/label_colours.hpp"
 
@@ -249,15 +251,8 @@ void DatasetWriter::finish() {
                         {"head_row", r.head_row}});
   write_file(directory_.file("fan_mapping.json"), mappings.dump(2) + "\n");
   write_file(directory_.file("README.md"), card());
-  write_file(directory_.file("manifest.json"), ordered_json{{"schema", 1},
-                                                            {"insonify_version", INSONIFY_VERSION},
-                                                            {"images", images_},
-                                                            {"annotations", annotations_},
-                                                            {"classes", classes_}}
-                                                       .dump(2) +
-                                                   "\n");
 
-  // Digests of all files, by name.
+  // Digests of all files by name, for sha256sum and for the manifest.
   const fs::path root = fs::path(directory_.file("meta.jsonl")).parent_path();
   std::map<std::string, std::string> digests;
   for (const auto& entry : fs::recursive_directory_iterator(root))
@@ -266,6 +261,12 @@ void DatasetWriter::finish() {
   std::string sums;
   for (const auto& [name, digest] : digests) sums += digest + "  " + name + "\n";
   write_file(directory_.file("SHA256SUMS"), sums);
+  write_manifest(directory_, {{"schema", 1},
+                              {"insonify_version", INSONIFY_VERSION},
+                              {"images", images_},
+                              {"annotations", annotations_},
+                              {"classes", classes_},
+                              {digests_key, digests}});
 }
 
 }  // namespace insonify::tool

@@ -79,7 +79,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
   run.place = georeference_of(o, run.pings);
   if (o.to == "png") {
-    RunDirectory directory(o.output, o.force);
+    RunDirectory directory(o.output, o.force, {o.run});
     progress.step("writing " + o.output);
     const std::size_t pings = png_product(run, directory);
     print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", pings}},
@@ -92,6 +92,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
     fail(ErrorKind::argument, o.run, ": does not say where on the globe it is, which --to ", o.to,
          " needs; give --anchor LAT,LON[,HEADING] of the origin and x axis of its world, anchor in the mission, or ",
          "--utm ZONE of a world in UTM");
+  require_free_file(o.output, o.force, {o.run});
   progress.step("writing " + o.output);
   const std::size_t soundings = product.write(run);
   print_summary(common, {{"output", o.output}, {"to", o.to}, {"soundings", soundings}},

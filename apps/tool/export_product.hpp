@@ -13,7 +13,7 @@ struct ProductOptions {
   double cell = 0.5;                   ///< of a raster [m]
   int per_beam = 1;                    ///< soundings of a beam
   bool linear = false;                 ///< images of pressure in 32 bits
-  bool force = false;                  ///< replace a directory
+  bool force = false;                  ///< replace a file or directory
 };
 
 /// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws Error(argument) for a product with

@@ -8,6 +8,7 @@
 #include "formats/grey_fan.hpp"
 #include "returns/looks.hpp"
 #include "tool/product_run.hpp"
+#include "tool/run_checks.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {
@@ -42,7 +43,7 @@ std::size_t png_product(const PlacedRun& run, RunDirectory& directory) {
   });
   if (!scale) fail(ErrorKind::content, run.options.run, ": has no pings");
   const std::size_t pings = manifest["pings"].size();
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   directory.commit();
   return pings;
 }

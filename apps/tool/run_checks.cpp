@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/sha256.hpp"
+#include "store/run_manifest.hpp"
 #include "store/survey_run.hpp"
 
 namespace insonify::tool {
@@ -14,26 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// Whether a name in a manifest is of a file below its folder.
-bool lies_below(const std::string& name) {
-  const fs::path path = fs::path(name).lexically_normal();
-  return !path.empty() && path.is_relative() && *path.begin() != "..";
-}
-
-/// The digests in a manifest; empty if it has none. Throws Error(content) for one that cannot be understood.
-std::map<std::string, std::string> digests_in(const std::string& manifest) {
-  std::map<std::string, std::string> digests;
-  if (!fs::exists(manifest)) return digests;
-  const ordered_json json = ordered_json::parse(read_text_file(manifest), nullptr, false);
-  if (!json.is_object())
-    fail(ErrorKind::content, manifest, ": is damaged; run the ping again, or copy its folder again");
-  const auto found = json.find(digests_key);
-  if (found == json.end() || !found->is_object()) return digests;
-  for (const auto& [name, digest] : found->items())
-    if (digest.is_string() && lies_below(name)) digests[name] = digest.get<std::string>();
-  return digests;
-}
 
 void compare_file(RunCheck& check, const std::string& path, const std::string& name, const std::string& digest) {
   ++check.files;
@@ -78,8 +59,7 @@ RunCheck check_run(const std::string& run, const std::string& only) {
     fail(ErrorKind::file, run, ": is no folder of a run, of which --verify compares the files");
   if (is_survey_run(run)) return check_survey(run);
   RunCheck check;
-  const std::string manifest = run + "/manifest.json";
-  const auto digests = digests_in(manifest);
+  const auto digests = digests_of_run(run);
   if (digests.empty() && only.empty())
     fail(ErrorKind::content, run, ": has no manifest.json with SHA-256 of its files, so nothing can be compared");
   for (const auto& [name, digest] : digests)

@@ -9,9 +9,6 @@
 
 namespace insonify::tool {
 
-/// Key of a manifest: the SHA-256 of files, by their names.
-inline constexpr const char* digests_key = "sha256";
-
 /// Writes the last file of a run, manifest.json, with the SHA-256 of all others; what `manifest` has of them already is
 /// not computed again. Throws Error(file).
 void write_manifest(const RunDirectory& directory, nlohmann::ordered_json manifest);

@@ -17,6 +17,7 @@
 #include "store/contributor_file.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
+#include "store/run_manifest.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"

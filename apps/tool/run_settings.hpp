@@ -33,6 +33,9 @@ RunSetting seed_setting(CommonOptions& options);
 /// All settings of a ping, in the order of run.toml.
 std::vector<RunSetting> all_settings(PingOptions& options);
 
+/// The files that settings name as inputs.
+std::vector<std::string> input_files(const std::vector<RunSetting>& settings);
+
 void add_settings(OptionList list, const std::vector<RunSetting>& settings);
 
 /// The settings as TOML: "key = value" lines under their tables.

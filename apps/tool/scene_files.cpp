@@ -33,11 +33,6 @@ void require_no_loading_options(const SceneOptions& o) {
 
 bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
 
-void require_free(const std::string& output, bool force) {
-  if (!force && std::filesystem::exists(output))
-    fail(ErrorKind::file, output, ": exists already; choose another name or add --force");
-}
-
 SceneInstances instances_of_scene(const std::string& path) {
   if (is_tiles(path) || !has_cloud_field(path, "instance")) return {};
   const CloudField field = load_cloud_field(path, "instance");

@@ -16,9 +16,6 @@ namespace insonify::tool {
 /// True for a .tiles file: a scene on disk of which a ping reads only what its fan reaches.
 bool is_tiles(const std::string& path);
 
-/// Throws Error(file) if `output` exists already and may not be replaced.
-void require_free(const std::string& output, bool force);
-
 /// The instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 0.
 SceneInstances instances_of_scene(const std::string& path);
 

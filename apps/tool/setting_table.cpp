@@ -163,6 +163,13 @@ std::vector<RunSetting> all_settings(PingOptions& o) {
   return all;
 }
 
+std::vector<std::string> input_files(const std::vector<RunSetting>& settings) {
+  std::vector<std::string> files;
+  for (const RunSetting& setting : settings)
+    if (setting.is_path) files.push_back(*std::get<std::string*>(setting.value));
+  return files;
+}
+
 void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
   for (const RunSetting& s : settings) list.add(s.option, s.value, s.help, s.rules);
 }

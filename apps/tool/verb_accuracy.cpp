@@ -12,6 +12,7 @@
 #include "tool/parse_values.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/run_files.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -159,7 +160,7 @@ void accuracy(const AccuracyOptions& o) {
     fail(ErrorKind::argument, "--repeats = ", o.repeats, ", must be within 1 and 1000");
   const SweepOptions sweep = sweep_options(o);
   Progress preparing(common, 1);
-  RunDirectory directory(o.run.output, o.run.force);
+  RunDirectory directory(o.run.output, o.run.force, {o.scene.path, o.run.sonar});
   const std::vector<AccuracyStep> steps = steps_of(o, sweep, preparing);
   Progress progress(common, static_cast<int>(steps.size()) + 2);
   ordered_json manifest = manifest_of(o);
@@ -187,7 +188,7 @@ void accuracy(const AccuracyOptions& o) {
     }
   manifest["summary"] = accuracy_summary(rows);
   manifest["peak_memory_mib"] = peak_memory_mib();
-  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+  write_manifest(directory, manifest);
   directory.commit();
   print_result(common, manifest, [&] {
     if (!common.quiet) print_table(o.run.output, rows, manifest["summary"]);

@@ -6,6 +6,7 @@
 #include "beamforming/beam_pattern.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "store/output_rules.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
@@ -23,6 +24,7 @@ struct BeamPatternOptions {
   RunOptions run;  ///< of which only the sonar counts
   std::string steer = "0";
   std::string output;  ///< picture, or empty: none
+  bool force = false;
   std::string size = "1400x1050";
   bool dark = false;
 };
@@ -31,6 +33,7 @@ void add_options(OptionList list, BeamPatternOptions& o) {
   list.add("SONAR", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file", {.required = true});
   list.add("--steer", &o.steer, "azimuth of the beam [deg], positive to port, within -90 and 90");
   list.add("-o,--output", &o.output, "picture to write, .png");
+  list.add("--force", &o.force, "replace an existing picture");
   list.add("--set", &o.common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times", {.one_each = true});
   list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]");
   list.add("--dark", &o.dark, "dark background");
@@ -121,6 +124,7 @@ void beampattern(const BeamPatternOptions& o) {
   std::tie(picture.width, picture.height) = parse_size(o.size);
   picture.dark = o.dark;
   const double steering = parse_steering(o.steer);
+  if (!o.output.empty()) require_free_file(o.output, o.force, {o.run.sonar});
   const HeadSetup setup = set_up_head(o.common, o.run);
   const SteeredBeam beam{setup, setup.medium.sound_speed / setup.spec.centre_frequency, steering};
 

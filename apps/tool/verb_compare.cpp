@@ -8,6 +8,7 @@
 #include "core/units.hpp"
 #include "tool/compare_page.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 
@@ -178,9 +179,7 @@ void finish(const CompareOptions& o, std::optional<RunDirectory>& directory, con
             const std::string& table) {
   if (directory) {
     write_file(directory->file("compare.json"), result.dump(2) + "\n");
-    write_file(
-        directory->file("manifest.json"),
-        ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"compared", {o.a, o.b}}}.dump(2) + "\n");
+    write_manifest(*directory, {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"compared", {o.a, o.b}}});
     directory->commit();
   }
   print_result(o.common, result, [&] { fmt::print("{}", table); });
@@ -242,7 +241,7 @@ void compare_with_points(const CompareOptions& o, std::optional<RunDirectory>& d
 
 void compare(const CompareOptions& o) {
   std::optional<RunDirectory> directory;
-  if (!o.output.empty()) directory.emplace(o.output, o.force);
+  if (!o.output.empty()) directory.emplace(o.output, o.force, InputPaths{o.a, o.b, o.repeat});
   Progress progress(o.common, 3);
   progress.step("reading");
   if (!o.strength.empty()) return compare_with_points(o, directory);

@@ -113,7 +113,7 @@ void dataset(const DatasetOptions& o) {
   Progress progress(o.common, static_cast<int>(sources.size()) + 2);
   progress.step("reading");
   const DatasetPlan plan = plan_of(sources, o);
-  RunDirectory directory(o.output, o.force);
+  RunDirectory directory(o.output, o.force, o.runs);
   DatasetWriter writer(directory, o, plan.classes, plan.window);
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const DatasetSource& source = sources[s];

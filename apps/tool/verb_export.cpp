@@ -10,6 +10,7 @@
 #include "store/run_directory.hpp"
 #include "tool/export_product.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/run_pings.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -43,7 +44,7 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
            {.within = std::pair(1, 100), .shown_as = "INT"});
   list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
-  list.add("--force", &p.force, "replace an existing directory of an earlier export");
+  list.add("--force", &p.force, "replace an existing file, or the directory of an earlier export");
   add_common(list, o.common);
 }
 
@@ -78,7 +79,7 @@ void export_run(const ExportOptions& options) {
   Progress progress(options.common, 2);
   progress.step("reading " + o.run);
   const RunPings run = find_run_pings(o.run, o.head);
-  RunDirectory directory(o.output, o.force);
+  RunDirectory directory(o.output, o.force, {o.run});
 
   progress.step("writing " + o.output);
   std::vector<SeriesEntry> fans, images;
@@ -97,10 +98,7 @@ void export_run(const ExportOptions& options) {
   save_series(directory.file("image.pvd"), images);
   const std::optional<Soundings> returns = returns_of(o.run);
   if (returns) save_points(directory.file("returns.vtp"), *returns);
-  write_file(
-      directory.file("manifest.json"),
-      nlohmann::ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}}.dump(2) +
-          "\n");
+  write_manifest(directory, {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}});
   directory.commit();
   print_summary(options.common,
                 {{"output", o.output},

@@ -7,8 +7,10 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "store/csv_tables.hpp"
+#include "store/run_directory.hpp"
 #include "tool/image.hpp"
 #include "tool/progress.hpp"
+#include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 #include "view/show_image.hpp"
@@ -109,25 +111,7 @@ void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions pictur
   view_of(o).draw({run, o, picture, ping, path});
 }
 
-std::string frame_path(const ImageOptions& o, std::size_t ping) {
-  return (fs::path(o.output) / fmt::format("{}_{:06}.png", o.view, ping)).string();
-}
-
-/// Makes the folder of a series. Refuses a folder with pictures of an earlier series; with --force it removes them all,
-/// so that none of a longer series is left among the new ones.
-void make_frame_folder(const ImageOptions& o) {
-  std::error_code error;
-  if (fs::exists(o.output, error) && !fs::is_directory(o.output, error))
-    fail(ErrorKind::file, o.output, ": is a file, must be a folder for the pictures of --animate");
-  fs::create_directory(o.output, error);
-  if (error) fail(ErrorKind::file, o.output, ": cannot be made: ", error.message());
-  for (std::size_t ping = 0; fs::exists(frame_path(o, ping), error); ++ping) {
-    if (!o.force)
-      fail(ErrorKind::file, frame_path(o, ping),
-           ": exists already; give --force to replace the series, or another name");
-    fs::remove(frame_path(o, ping), error);
-  }
-}
+InputPaths inputs_of(const ImageOptions& o) { return {o.run, o.scene, o.sonar, o.starboard}; }
 
 void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const Annotation& annotation,
              Progress& progress) {
@@ -137,13 +121,17 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
     for (std::size_t ping = 1; ping < pings; ++ping)
       picture.max_db = std::max(picture.max_db, view_of(o).max_db(run, o, ping));
   }
-  make_frame_folder(o);
+  RunDirectory directory(o.output, o.force, inputs_of(o));
   std::vector<std::string> files;
   for (std::size_t ping = 0; ping < pings; ++ping) {
-    progress.step(fmt::format("drawing {}", frame_path(o, ping)));
-    draw_ping(run, o, picture, annotation, ping, frame_path(o, ping));
-    files.push_back(frame_path(o, ping));
+    const std::string name = fmt::format("{}_{:06}.png", o.view, ping);
+    files.push_back((fs::path(o.output) / name).string());
+    progress.step("drawing " + files.back());
+    draw_ping(run, o, picture, annotation, ping, directory.file(name));
   }
+  write_manifest(directory,
+                 {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"drawn", o.run}, {"view", o.view}});
+  directory.commit();
   print_summary(o.common, {{"output", files}, {"view", o.view}}, fmt::format("{}", fmt::join(files, "\n")));
   progress.note(fmt::format("as a film: ffmpeg -framerate 10 -i {}/{}_%06d.png -pix_fmt yuv420p {}.mp4", o.output,
                             o.view, o.view));
@@ -175,9 +163,7 @@ void image(const ImageOptions& o) {
   const PictureOptions picture = picture_options(o);
   require_title(o.title);
   const Annotation annotation = read_annotation(o);
-  std::error_code ignored;
-  if (!o.animate && !o.force && fs::exists(o.output, ignored))
-    fail(ErrorKind::file, o.output, ": exists already; give --force to replace it, or another name");
+  if (!o.animate) require_free_file(o.output, o.force, inputs_of(o));
   if (const auto draw = view_of(o).draw_alone) return draw(o, picture);
   const ImageRun run = read_image_run(o.run, o.layer);
   const std::size_t pings = run.cube.pings.size();

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/units.hpp"
+#include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
@@ -119,7 +120,7 @@ std::string heads_as_toml(const MakeMissionOptions& o, const std::string& sonar,
 }
 
 void make_mission(const MakeMissionOptions& o) {
-  require_free(o.output, o.force);
+  require_free_file(o.output, o.force, {o.scene, o.sonar});
   const Eigen::Vector3d centre = parse_vector("--centre", o.centre, "x,y,z in metres");
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 20,10");
   if (!(size[0] > 0 && size[1] >= 0)) fail(ErrorKind::argument, "--size = ", o.size, " must be two lengths in metres");

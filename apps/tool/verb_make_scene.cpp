@@ -9,6 +9,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tile_writer.hpp"
+#include "store/output_rules.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/scene_files.hpp"
@@ -85,7 +86,7 @@ void require_room(const MakeSceneOptions& o) {
 }
 
 void make_scene(const MakeSceneOptions& o) {
-  require_free(o.output, o.force);
+  require_free_file(o.output, o.force, {});
   require_room(o);
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 40,40");
   const BuiltInSceneOptions built_in{

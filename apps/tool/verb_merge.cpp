@@ -90,7 +90,7 @@ void merge(const MergeOptions& o) {
     fail(ErrorKind::argument, o.copy ? "--copy: " : "--mosaic: ", o.runs.front(),
          " is not the folder of a survey; leave it out");
   Progress progress(o.common, static_cast<int>(o.runs.size()) + 1);
-  RunDirectory directory(o.output, o.force);
+  RunDirectory directory(o.output, o.force, o.runs);
   std::vector<NamedCube> cubes;
   for (const std::string& run : o.runs) {
     progress.step("reading " + run);

@@ -70,7 +70,9 @@ void ping(const PingCommand& command) {
   const PingSetup ready = set_up_ping(o);
   const HeadSetup& setup = ready.head;
   const SimulationOptions& simulation = ready.simulation;
-  RunDirectory directory(o.run.output, o.run.force);
+  InputPaths inputs = input_files(all_settings(o));
+  inputs.insert(inputs.end(), {o.run.sonar, o.run.environment, o.run.profile});
+  RunDirectory directory(o.run.output, o.run.force, inputs);
 
   progress.step("loading " + o.scene.path);
   StopWatch watch;

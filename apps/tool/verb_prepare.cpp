@@ -7,6 +7,7 @@
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tile_writer.hpp"
+#include "store/output_rules.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_settings.hpp"
@@ -65,7 +66,7 @@ void prepare_as_tiles(const PrepareOptions& o) {
 }
 
 void prepare(const PrepareOptions& o) {
-  require_free(o.output, o.force);
+  require_free_file(o.output, o.force, {o.scene.path, o.scene.materials_file});
   if (is_tiles(o.output) && o.thin == 0) return prepare_as_tiles(o);
   Progress progress(o.common, o.thin > 0 ? 3 : 2);
   progress.step("reading and completing " + o.scene.path);

@@ -45,7 +45,7 @@ void synthesize(const SynthesizeOptions& o) {
   const CommonOptions& common = o.common;
   Progress progress(common, 3);
   const HeadSetup setup = set_up_head(common, o.run);
-  RunDirectory directory(o.run.output, o.run.force);
+  RunDirectory directory(o.run.output, o.run.force, {o.scatterers, o.run.sonar, o.run.environment, o.run.profile});
 
   progress.step("reading " + o.scatterers);
   const ScattererTable table = load_scatterer_table(o.scatterers);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
 #include "tool/memory_guard.hpp"
 #include "tool/parse_values.hpp"
@@ -27,8 +28,8 @@ ViewerOptions options_of(const ViewerCommand& command) {
   if (command.screenshot.empty() && !has_display())
     fail(ErrorKind::runtime,
          "no display: set DISPLAY, run under xvfb-run, or use insonify image (or --screenshot FILE.png)");
-  if (!command.screenshot.empty() && !command.force && std::filesystem::exists(command.screenshot))
-    fail(ErrorKind::file, command.screenshot, ": exists already; --force replaces it");
+  if (!command.screenshot.empty())
+    require_free_file(command.screenshot, command.force, {command.target, command.script});
   if (!std::filesystem::exists(command.target)) fail(ErrorKind::file, command.target, ": no such run or scene");
   return options;
 }

@@ -117,6 +117,21 @@ void synchronise_folder_of(const std::string& target) {
          "; check the disk");
 }
 
+// Exchanges the names of two folders.
+void exchange(const std::string& temporary, const std::string& target) {
+  if (renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) fail_to_write(target, errno);
+  // A file system without exchange: clear_leftovers() of the next run undoes the first step if only that was done.
+  const std::string old = sibling_name(target, "old", 0);
+  if (std::rename(target.c_str(), old.c_str()) != 0) fail_to_write(target, errno);
+  if (std::rename(temporary.c_str(), target.c_str()) != 0) {
+    const int reason = errno;
+    std::rename(old.c_str(), target.c_str());
+    fail_to_write(target, reason);
+  }
+  std::rename(old.c_str(), temporary.c_str());
+}
+
 }  // namespace
 
 PendingPath::PendingPath(const std::string& target) : target_(target) {
@@ -158,21 +173,16 @@ void PendingPath::commit() {
   if (!later) synchronise_folder_of(target_);
 }
 
-void PendingPath::commit_in_place_of_folder() {
+void PendingPath::commit_in_place_of_folder(const std::function<void(const std::string& old)>& require_removable) {
   synchronise_all(temporary_, target_);
   {
     const std::scoped_lock lock(pending_names().guard);
-    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
-      if (errno != EINVAL && errno != ENOSYS) fail_to_write(target_, errno);
-      // A file system without exchange: clear_leftovers() of the next run undoes the first step if only that was done.
-      const std::string old = sibling_name(target_, "old", 0);
-      if (std::rename(target_.c_str(), old.c_str()) != 0) fail_to_write(target_, errno);
-      if (std::rename(temporary_.c_str(), target_.c_str()) != 0) {
-        const int reason = errno;
-        std::rename(old.c_str(), target_.c_str());
-        fail_to_write(target_, reason);
-      }
-      std::rename(old.c_str(), temporary_.c_str());
+    exchange(temporary_, target_);
+    try {
+      require_removable(temporary_);
+    } catch (...) {
+      exchange(temporary_, target_);
+      throw;
     }
   }
   synchronise_folder_of(target_);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 
 namespace insonify {
@@ -25,8 +26,9 @@ class PendingPath {
   /// replaced in one step; a folder needs a free name. Throws Error(file) with the reason of the system.
   void commit();
   /// commit() for a folder that takes the place of an old one, which is removed. Both exchange their names in one step
-  /// where the file system can do that.
-  void commit_in_place_of_folder();
+  /// where the file system can do that. `require_removable` gets the old folder once nobody finds it under its name; if it
+  /// throws, the old folder gets its name back.
+  void commit_in_place_of_folder(const std::function<void(const std::string& old)>& require_removable);
 
  private:
   std::string target_, temporary_;

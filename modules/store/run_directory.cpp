@@ -1,6 +1,5 @@
 #include "store/run_directory.hpp"
 
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -23,28 +22,8 @@ std::string without_trailing_slash(const std::string& path) {
   return clean.string();
 }
 
-// True if --force may replace the folder: only empty folders and earlier runs.
-bool may_be_replaced(const fs::path& folder) {
-  constexpr std::array marks = {"manifest.json", "run.toml", "cube.h5", "sweep.csv"};
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) return false;
-  if (fs::is_empty(folder, ignored)) return true;
-  for (const char* mark : marks)
-    if (fs::exists(folder / mark, ignored)) return true;
-  return false;
-}
-
-void require_free(const std::string& target, bool force) {
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(target, ignored))) return;
-  if (!force) fail(ErrorKind::file, target, ": exists already; give --force to replace it, or another name");
-  if (!may_be_replaced(target))
-    fail(ErrorKind::file, target, ": is not a folder of an earlier run (no manifest.json in it), so --force does not ",
-         "replace it; remove it yourself, or give another name");
-}
-
 // `path` without a slash at its end, if a run may get this name.
-std::string free_name(const std::string& path, bool force) {
+std::string free_name(const std::string& path, bool force, const InputPaths& inputs) {
   const std::string target = without_trailing_slash(path);
   if (target.empty() || target == "." || target == "/" || fs::path(target).filename() == "..")
     fail(ErrorKind::file, "\"", path, "\": is not a valid name for a new folder");
@@ -52,13 +31,16 @@ std::string free_name(const std::string& path, bool force) {
   std::error_code ignored;
   if (!parent.empty() && !fs::is_directory(parent, ignored))
     fail(ErrorKind::file, target, ": folder ", parent.string(), " does not exist; create it first");
-  require_free(target, force);
-  return target;
+  require_free_folder(target, force, inputs);
+  // A link to an earlier run stays what it is: the run takes the place of the folder that it leads to.
+  const fs::path folder = fs::is_symlink(target, ignored) ? fs::canonical(target, ignored) : fs::path();
+  return folder.empty() ? target : folder.string();
 }
 
 }  // namespace
 
-RunDirectory::RunDirectory(const std::string& path, bool force) : path_(free_name(path, force)), force_(force) {
+RunDirectory::RunDirectory(const std::string& path, bool force, const InputPaths& inputs)
+    : path_(free_name(path, force, inputs)), force_(force) {
   std::error_code error;
   fs::remove_all(path_.temporary(), error);
   if (!fs::create_directory(path_.temporary(), error))
@@ -70,10 +52,11 @@ std::string RunDirectory::file(const std::string& name) const { return (fs::path
 void RunDirectory::commit() {
   const std::string& target = path_.target();
   if (committed_) fail(ErrorKind::runtime, "RunDirectory::commit: ", target, " is committed already");
-  require_free(target, force_);
   std::error_code ignored;
-  if (fs::exists(fs::symlink_status(target, ignored)))
-    path_.commit_in_place_of_folder();
+  const bool exists = fs::exists(fs::symlink_status(target, ignored));
+  if (exists && !force_) require_free_folder(target, force_, {});
+  if (exists)
+    path_.commit_in_place_of_folder([&](const std::string& old) { require_run_alone(old, target); });
   else
     path_.commit();
   committed_ = true;

@@ -3,6 +3,7 @@
 
 #include "core/pending_file.hpp"
 #include "core/pending_path.hpp"
+#include "store/output_rules.hpp"
 
 namespace insonify {
 
@@ -11,18 +12,16 @@ namespace insonify {
 /// RunDirectory of the same name.
 class RunDirectory {
  public:
-  /// Throws Error(file) if `path` exists and `force` is false, or its parent is missing or not writable.
-  /// With force, an existing folder must be empty or an earlier run (it holds manifest.json, run.toml, cube.h5 or
-  /// sweep.csv), so that a mistyped --force deletes nothing else.
-  RunDirectory(const std::string& path, bool force);
+  /// `inputs`: what the run is made of. Throws Error(file) as require_free_folder (output_rules.hpp), and if the parent of
+  /// `path` is missing or not writable.
+  RunDirectory(const std::string& path, bool force, const InputPaths& inputs = {});
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   /// Path of a file while the run is being written.
   std::string file(const std::string& name) const;
   /// Waits until the disk holds all files, and renames the folder to its final name; with force it takes the place of an old
-  /// one in one step.
-  /// Throws Error(file) if that fails, or if another program has created `path` and `force` is false.
+  /// one in one step. Throws Error(file) if that fails, or as require_free_folder: what has come since then is kept, too.
   void commit();
 
  private:

@@ -1,5 +1,7 @@
 #include "store/survey_run.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -62,6 +64,13 @@ std::string description_of(const SurveyRun& run) {
 }  // namespace
 
 bool is_survey_run(const std::string& folder) { return fs::exists(description_path(folder)); }
+
+bool is_of_survey(const std::string& folder, const std::string& name) {
+  const fs::path path(name);
+  if (path.has_parent_path()) return fs::is_directory(fs::path(folder) / *path.begin() / "blocks");
+  constexpr std::array stems = {"survey", "mission", "manifest", "returns", "coverage", "mosaic", "track"};
+  return name.starts_with("status") || std::find(stems.begin(), stems.end(), path.stem().string()) != stems.end();
+}
 
 void open_survey_run(const std::string& folder, const SurveyRun& run) {
   std::error_code error;

@@ -24,6 +24,9 @@ struct SurveyRun {
 /// Returns true if the folder holds a survey.toml.
 bool is_survey_run(const std::string& folder);
 
+/// Returns true if the file called `name` below the folder of a survey is one that survey or merge writes there.
+bool is_of_survey(const std::string& folder, const std::string& name);
+
 /// Makes the folder of a survey, or checks that it is of this mission already. Throws Error(content) if it is of
 /// another one, Error(file) if it is another folder that is not empty, or cannot be made.
 void open_survey_run(const std::string& folder, const SurveyRun& run);

@@ -84,7 +84,7 @@ TEST(PendingPath, folder_takes_the_place_of_another) {
     PendingPath pending(out);
     fs::create_directory(pending.temporary());
     write_text(pending.temporary() + "/b", "new");
-    pending.commit_in_place_of_folder();
+    pending.commit_in_place_of_folder([](const std::string&) {});
   }
   EXPECT_FALSE(fs::exists(out + "/a"));
   EXPECT_EQ(text_of(out + "/b"), "new");

@@ -12,10 +12,21 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-void make_run(const std::string& path, const std::string& manifest, bool force = false) {
+/// The manifest of a run that says `word`.
+std::string manifest_with(const std::string& word) {
+  return "{\"insonify_version\": \"1\", \"word\": \"" + word + "\"}";
+}
+
+void make_run(const std::string& path, const std::string& word, bool force = false) {
   RunDirectory run(path, force);
-  write_file(run.file("manifest.json"), manifest);
+  write_file(run.file("manifest.json"), manifest_with(word));
   run.commit();
+}
+
+std::string word_of(const std::string& run) {
+  const std::string manifest = read_text_file(run + "/manifest.json");
+  const std::size_t at = manifest.rfind(": \"") + 3;
+  return manifest.substr(at, manifest.size() - at - 2);
 }
 
 }  // namespace
@@ -48,17 +59,16 @@ TEST(RunDirectory, refuses_an_existing_folder_and_names_force) {
   make_run(out, "old");
   EXPECT_EQ(error_with_kind([&] { RunDirectory(out, false); }),
             "file: " + out + ": exists already; give --force to replace it, or another name");
-  EXPECT_EQ(read_text_file(out + "/manifest.json"), "old");
+  EXPECT_EQ(word_of(out), "old");
 }
 
 TEST(RunDirectory, with_force_replaces_a_run_but_keeps_it_until_commit) {
   const std::string out = own_path("out");
   make_run(out, "old");
-  write_file(out + "/left_over.txt", "x");
   { RunDirectory abandoned(out, true); }
-  EXPECT_EQ(read_text_file(out + "/manifest.json"), "old");
+  EXPECT_EQ(word_of(out), "old");
   make_run(out + "/", "new", true);  // a slash at the end means the same folder
-  EXPECT_EQ(read_text_file(out + "/manifest.json"), "new");
+  EXPECT_EQ(word_of(out), "new");
   EXPECT_EQ(names_in(out), (std::set<std::string>{"manifest.json"}));
   EXPECT_EQ(names_in(fs::path(out).parent_path()), (std::set<std::string>{"out"}));
 }
@@ -69,11 +79,25 @@ TEST(RunDirectory, force_does_not_replace_what_is_no_run) {
   write_file(home + "/thesis.tex", "years of work");
   EXPECT_EQ(error_with_kind([&] { RunDirectory(home, true); }),
             "file: " + home +
-                ": is not a folder of an earlier run (no manifest.json in it), so --force does not "
-                "replace it; remove it yourself, or give another name");
+                ": holds what no run of insonify wrote, or what was changed since: thesis.tex; --force replaces only "
+                "what manifest.json lists; move these files, remove the folder yourself, or give another name");
   EXPECT_EQ(read_text_file(home + "/thesis.tex"), "years of work");
   const std::string file = own_file("file", "text");
   EXPECT_THAT(error_with_kind([&] { RunDirectory(file, true); }), HasSubstr("is not a folder of an earlier run"));
+}
+
+TEST(RunDirectory, keeps_what_came_into_the_old_run_meanwhile) {
+  const std::string out = own_path("out");
+  make_run(out, "old");
+  {
+    RunDirectory run(out, true);
+    write_file(run.file("manifest.json"), manifest_with("new"));
+    write_file(out + "/thesis.tex", "years of work");
+    EXPECT_THAT(error_with_kind([&] { run.commit(); }), HasSubstr("thesis.tex"));
+  }
+  EXPECT_EQ(word_of(out), "old");
+  EXPECT_EQ(read_text_file(out + "/thesis.tex"), "years of work");
+  EXPECT_EQ(names_in(fs::path(out).parent_path()), (std::set<std::string>{"out"}));
 }
 
 TEST(RunDirectory, does_not_overwrite_what_appeared_meanwhile) {
@@ -81,7 +105,7 @@ TEST(RunDirectory, does_not_overwrite_what_appeared_meanwhile) {
   RunDirectory run(out, false);
   make_run(out, "the other one's");
   EXPECT_THAT(error_with_kind([&] { run.commit(); }), HasSubstr("exists already"));
-  EXPECT_EQ(read_text_file(out + "/manifest.json"), "the other one's");
+  EXPECT_EQ(word_of(out), "the other one's");
 }
 
 TEST(RunDirectory, needs_a_parent_folder_and_a_name) {

@@ -84,7 +84,9 @@ TEST_F(BadInput, existing_run) {
 
 TEST_F(BadInput, existing_file_of_prepare_and_make_scene) {
   expect_refused("make-scene plane -o plane.ply", 4, {"plane.ply", "--force"});
-  expect_refused("prepare plane.ply -o plane.ply", 4, {"plane.ply", "--force"});
+  expect_refused("prepare plane.ply -o plane.ply", 4, {"plane.ply", "is the input"});
+  write("old.ply", "old");
+  expect_refused("prepare plane.ply -o old.ply", 4, {"old.ply", "--force"});
 }
 
 TEST_F(BadInput, impossible_values) {

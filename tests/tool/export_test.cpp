@@ -116,5 +116,5 @@ TEST_F(Export, bad_input_gets_one_line_and_leaves_nothing) {
   expect_refused("export nothing -o vtk", 4, {"nothing"});
   expect_refused("export harbour.ply -o vtk", 3, {"harbour.ply"});
   succeed(ping + "-o out");
-  expect_refused("export out -o out", 4, {"out", "--force"});
+  expect_refused("export out -o out", 4, {"out", "is the input"});
 }

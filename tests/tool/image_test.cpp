@@ -136,7 +136,7 @@ TEST_F(ImageVerb, existing_files_are_replaced_with_force_alone) {
   EXPECT_EQ(read("x.png"), "mine");
   succeed("image out -o x.png --size 400x300 --force -q");
   EXPECT_EQ(read("x.png").substr(1, 3), "PNG");
-  expect_refused("image out --animate -o x.png", 4, {"x.png: is a file, must be a folder"});
+  expect_refused("image out --animate -o x.png --force", 4, {"x.png: is not a folder of an earlier run"});
 }
 
 TEST_F(ImageVerb, runs_that_are_none_are_told_apart) {

@@ -157,12 +157,14 @@ TEST_F(Pictures, of_a_series_have_one_scale_and_one_file_per_ping) {
   succeed("image all --ping 0 -o first.png --size 300x240 -q");
   EXPECT_EQ(read("first.png"), read("frames/fan_000000.png"));
 
-  expect_refused("image all --animate -o frames", 4, {"frames/fan_000000.png: exists already", "--force"});
-  write("frames/fan_000002.png", "of a longer series");
+  expect_refused("image all --animate -o frames", 4, {"frames: exists already", "--force"});
   write("frames/note.txt", "mine");
-  succeed("image all --animate -o frames --size 300x240 --force -q");
-  EXPECT_FALSE(fs::exists(path("frames/fan_000002.png")));
+  expect_refused("image all --animate -o frames --force", 4,
+                 {"frames: holds what no run of insonify wrote", "note.txt"});
   EXPECT_EQ(read("frames/note.txt"), "mine");
+  fs::remove(path("frames/note.txt"));
+  succeed("image a --animate -o frames --size 300x240 --force -q");
+  EXPECT_FALSE(fs::exists(path("frames/fan_000001.png")));
 }
 
 TEST_F(Pictures, take_names_from_a_file) {

@@ -62,7 +62,7 @@ TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
 
 TEST_F(Tiles, what_cannot_be_pinged_is_refused) {
   succeed("prepare harbour.ply -o harbour.tiles -q");
-  expect_refused("ping harbour.tiles -o out --memory-limit 0.001" + tiles_head, 1,
+  expect_refused("ping harbour.tiles -o out --memory-limit 0.001" + tiles_head, 4,
                  {"harbour.tiles", "need about", "GiB", "raise the limit"});
   expect_refused("ping harbour.tiles -o out --material sand" + tiles_head, 2, {"--material", "prepared already"});
   expect_refused("prepare harbour.ply -o harbour.tiles", 4, {"harbour.tiles", "exists already"});
