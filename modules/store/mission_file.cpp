@@ -124,8 +124,10 @@ void read_trajectory(const std::string& path, const TomlValue& table, MissionFil
   if (t.ned)
     for (Pose& pose : trajectory.pose) pose = from_ned(pose);
   at_line(path, table.line, [&] { require_valid(trajectory, "mission"); });
-  if (t.noise)
+  if (t.noise) {
     at_line(path, table.line, [&] { m.mission.navigation = navigation_errors(trajectory, *t.noise, m.seed); });
+    m.position_deviation = t.noise->position;
+  }
 }
 
 constexpr Named<bool> side_words[] = {{"port", false}, {"starboard", true}};

@@ -28,6 +28,7 @@ struct MissionFile {
   std::string start_utc;      ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
   std::optional<Anchor> anchor;
   std::string trajectory;            ///< path, or empty: waypoints
+  double position_deviation = 0;     ///< of nav_noise, of each coordinate [m]
   Mission mission;                   ///< listening times are 0: they follow from sonar and water
   std::vector<MissionSonar> sonars;  ///< of each head
 };
