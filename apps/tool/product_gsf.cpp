@@ -118,7 +118,7 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
                  const BottomSoundings& found) {
   const Eigen::Vector3d head = ping.world_from_head.translation();
   const ShipAxes ship = ship_axes(run, ping);
-  const double water = water_level(run.pings);
+  const double water = water_level(run.pings).value_or(0);
   GsfPing out;
   out.time = run.start + ping.time;
   out.place = geo_from_world(run.reference(), head);
@@ -167,7 +167,8 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const GsfPing& first
   survey.time = first.time;
   survey.processing.draft = first.head_depth;
   survey.processing.submersible = first.ship_depth > 0;
-  survey.processing.tide_compensated = run.pings.environment.surface.has_value();
+  survey.processing.tide_compensated = water_level(run.pings).has_value();
+  survey.processing.tidal_datum = run.pings.water.datum;
   if (run.pings.vehicle_from_head) survey.processing.mounting = mounting_of(*run.pings.vehicle_from_head);
   survey.comment = fmt::format("sonar {}, simulated by insonify {}", cube.sonar, cube.insonify_version);
   survey.history_command = command_of(run.options);

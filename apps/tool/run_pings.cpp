@@ -9,7 +9,6 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "store/environment_file.hpp"
-#include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "store/toml_tree_internal.hpp"
 #include "tool/image.hpp"
@@ -38,6 +37,7 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   if (found == file.mission.heads.end()) return;
   pings.vehicle_from_head = found->vehicle_from_head;
   pings.trajectory = std::move(file.mission.trajectory);
+  pings.water = file.water;
   pings.position_deviation = file.position_deviation;
 }
 
@@ -94,7 +94,10 @@ RunPings find_run_pings(const std::string& run, const std::string& head) {
   return pings_of_directory(run);
 }
 
-double water_level(const RunPings& run) { return run.environment.surface ? run.environment.surface->height : 0; }
+std::optional<double> water_level(const RunPings& run) {
+  if (run.water.level || !run.environment.surface) return run.water.level;
+  return run.environment.surface->height;
+}
 
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping) {
   if (!run.vehicle_from_head) return {};

@@ -9,6 +9,7 @@
 #include "core/geodesy.hpp"
 #include "returns/bottom_detection.hpp"
 #include "store/cube.hpp"
+#include "store/mission_file.hpp"
 
 namespace insonify::tool {
 
@@ -20,6 +21,7 @@ struct RunPings {
   std::string start_utc;
   std::optional<Pose> vehicle_from_head{};     ///< of its mission or --mount, at scan angle 0; absent: unknown
   std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
+  MissionWater water{};                        ///< of its mission
   std::optional<double> position_deviation{};  ///< of what its mission believes of each coordinate [m]; 0: exact
 };
 
@@ -31,8 +33,9 @@ RunPings find_run_pings(const std::string& run, const std::string& head);
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
 
-/// Height of the water level in the world [m]: of the environment's sea surface, else 0.
-double water_level(const RunPings& run);
+/// Height of the water level in the world [m]: of the mission, or of the environment's sea surface; absent if neither
+/// says it.
+std::optional<double> water_level(const RunPings& run);
 
 /// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is mounted.
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);

@@ -72,8 +72,8 @@ double largest_difference(const decode::GsfContent& read) {
 
 class ExportGsf : public ToolTest {
  protected:
-  /// The survey of a sloping bed with an em2040 that is tilted by 1 degree and turned by 4, ahead of the ship's origin,
-  /// to starboard and below.
+  /// The survey of a sloping bed with an em2040 that is tilted by 1 degree and turned by 4, below the ship's origin: at a
+  /// depth of 2.2 m to some millimetres.
   void SetUp() override {
     write("bed.obj", "v -24 -24 -12\nv 24 -24 -12\nv 24 24 -11\nv -24 24 -11\nf 1 2 3\nf 1 3 4\n");
     std::ostringstream way;
@@ -103,7 +103,7 @@ name = "swath"
 set = ["sonar.beams=32", "sonar.field_of_view_deg=90"]
 range = "6:20"
 times_s = [0, 0.7, 1.4, 2.1, 2.8]
-offset_m = [0.5, -0.3, -0.2]
+offset_m = [0, 0, -0.2]
 angles_deg = [0, 89, 4]
 [ping]
 split = true
@@ -143,7 +143,7 @@ TEST_F(ExportGsf, soundings_lie_where_the_table_has_them) {
   std::string line;
   std::getline(table, line);
   std::vector<std::vector<std::array<double, 3>>> expected(5);  // across, along, depth of each ping
-  const Pose ship_from_head = pose_from_yaw_pitch_roll({0.5, -0.3, -0.2}, 0, radians(89), radians(4));
+  const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(89), radians(4));
   while (std::getline(table, line)) {
     std::vector<double> v;
     std::istringstream cells(line);
@@ -197,7 +197,7 @@ TEST_F(ExportGsf, depth_of_the_head_height_and_place_are_those_of_the_track) {
   succeed("merge -q run");
   const auto track = nlohmann::json::parse(read("run/track.geojson"))["features"][0]["geometry"]["coordinates"];
   const decode::GsfContent gsf = content();
-  const Pose ship_from_head = pose_from_yaw_pitch_roll({0.5, -0.3, -0.2}, 0, radians(89), radians(4));
+  const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(89), radians(4));
   for (std::size_t p = 0; p < 5; ++p) {
     const decode::GsfSwath& s = gsf.swaths[p];
     const double z = (Ship{ping_step * static_cast<double>(p)}.pose() * ship_from_head).translation().z();
@@ -234,13 +234,56 @@ TEST_F(ExportGsf, names_sonar_versions_and_how_the_head_is_mounted) {
     EXPECT_NEAR(s.of_sensor.at("sector_frequency"), 4e5, 1);
     EXPECT_NEAR(s.of_sensor.at("receive_beam_width_deg"), 1, 0.051);
   }
-  EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_OFFSET"), "+00.50,+00.30,+00.20");
+  EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_OFFSET"), "+00.00,+00.00,+00.20");
   // The head's z axis, ahead of a swath, is (sin 89 cos 4, -sin 4, cos 89 cos 4) in ship axes.
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_PITCH_OFFSET"), "+01.00");
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_HEADING_OFFSET"), "+04.00");
   EXPECT_EQ(gsf.parameter.at("PLATFORM_TYPE"), "AUV");
   EXPECT_EQ(gsf.parameter.at("TIDE_COMPENSATED"), "YES");
   EXPECT_NEAR(std::stod(gsf.parameter.at("APPLIED_DRAFT")), gsf.swaths[0].depth_corrector, 0.0051);
+}
+
+// A ship that dives below a water level of z = 0.75, with its head ahead of the origin, to port and below.
+TEST_F(ExportGsf, of_a_ship_that_dives_follows_its_depth) {
+  write("dive.toml", R"(schema = 1
+[survey]
+scene = "bed.obj"
+anchor = { latitude_deg = 54.1, longitude_deg = -7.9, heading_deg = 200 }
+[trajectory]
+waypoints_m = [[-4, 0, -1], [4, 0, -3]]
+speed_m_s = 2
+[[head]]
+sonar = "r2sonic-2024"
+set = ["sonar.beams=32", "sonar.field_of_view_deg=90"]
+range = "6:20"
+times_s = [0, 1, 2]
+offset_m = [0.5, 0.3, -0.2]
+[water]
+level_m = 0.75
+datum = "LAT"
+)");
+  succeed("survey dive.toml -q -o dive");
+  succeed("export dive --to gsf -q -o dive.gsf");
+  const decode::GsfContent gsf = content("dive.gsf");
+  EXPECT_LT(largest_difference(gsf), 0.02);
+  ASSERT_EQ(gsf.swaths.size(), 3U);
+  const double length = std::hypot(8, 2), speed = 2 * 8 / length, sinking = 2 * 2 / length;
+  for (std::size_t p = 0; p < 3; ++p) {
+    const decode::GsfSwath& s = gsf.swaths[p];
+    EXPECT_NEAR(s.depth_corrector, 0.75 + 1 + 0.2 + sinking * static_cast<double>(p), 0.0051) << p;
+    EXPECT_NEAR(s.tide, -0.75, 1e-9);
+    EXPECT_NEAR(s.speed_knots, speed / 0.514444, 0.006);  // over ground
+    EXPECT_NEAR(s.course_deg, 200, 0.006);
+  }
+  EXPECT_EQ(gsf.parameter.at("TIDAL_DATUM"), "LAT");
+  EXPECT_EQ(gsf.parameter.at("TIDE_COMPENSATED"), "YES");
+  EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_OFFSET"), "+00.50,-00.30,+00.20");
+  EXPECT_NEAR(gsf.swaths[1].of_sensor.at("ping_period"), 1, 1e-6);
+  // Another level than that of the sea surface is refused.
+  write("other.toml", "[surface]\nheight_m = 1\n");
+  write("wrong.toml", replaced(read("dive.toml"), "[survey]", "[survey]\nenvironment = \"other.toml\""));
+  expect_refused("survey wrong.toml -o wrong", 3,
+                 {"[water] level_m = 0.75", "surface.height_m = 1", "leave one of them"});
 }
 
 // A run of one ping has the attitude of its --mount; of a cube alone the port axis is all that is known.
