@@ -286,6 +286,40 @@ datum = "LAT"
                  {"[water] level_m = 0.75", "surface.height_m = 1", "leave one of them"});
 }
 
+// A head that scans turns, and its ship does not.
+TEST_F(ExportGsf, of_a_scanning_head_has_the_attitude_of_its_ship) {
+  write("scan.toml", R"(schema = 1
+[survey]
+scene = "bed.obj"
+anchor = { latitude_deg = -10, longitude_deg = 179.9, heading_deg = 90 }
+[trajectory]
+waypoints_m = [[0, 0, -1], [1, 0, -1]]
+speed_m_s = 1
+[[head]]
+sonar = "seaking-profiler"
+range = "6:20"
+[head.scan]
+start_deg = -40
+stop_deg = 40
+step_deg = 20
+mode = "sector"
+dwell_s = 0.2
+)");
+  succeed("survey scan.toml -q -o scan");
+  succeed("export scan --to gsf -q -o scan.gsf");
+  const decode::GsfContent gsf = content("scan.gsf");
+  ASSERT_GE(gsf.swaths.size(), 5U);
+  for (std::size_t p = 0; p < 5; ++p) {
+    const decode::GsfSwath& s = gsf.swaths[p];
+    EXPECT_NEAR(s.heading_deg, 90, 0.006);
+    EXPECT_NEAR(s.roll_deg, 0, 0.006);
+    EXPECT_NEAR(s.pitch_deg, 0, 0.006);
+    ASSERT_EQ(s.flags, std::vector<int>{0});
+    EXPECT_NEAR(s.arrays.at(5)[0], std::abs(-40 + 20 * static_cast<double>(p)), 0.003);  // of the beam
+  }
+  EXPECT_LT(largest_difference(gsf), 0.02);
+}
+
 // A run of one ping has the attitude of its --mount; of a cube alone the port axis is all that is known.
 TEST_F(ExportGsf, of_a_ping_has_the_attitude_of_its_mounting) {
   succeed(
