@@ -1,5 +1,6 @@
 #include "tool/run_pings.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -8,9 +9,10 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "store/environment_file.hpp"
-#include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
+#include "store/toml_tree_internal.hpp"
 #include "tool/image.hpp"
+#include "tool/parse_values.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -24,6 +26,30 @@ const SurveyRunHead& head_of_survey(const SurveyRun& survey, const std::string& 
        joined(survey.heads, ", ", &SurveyRunHead::name));
 }
 
+/// Adds what a mission says of the pings of one of its heads, if it is there and has that head.
+void add_mission(const std::string& path, const std::string& head, RunPings& pings) {
+  if (!fs::exists(path)) return;
+  MissionFile file = load_mission(path);
+  const auto found = std::find_if(file.mission.heads.begin(), file.mission.heads.end(),
+                                  [&](const MissionHead& each) { return each.name == head; });
+  pings.anchor = file.anchor;
+  pings.start_utc = file.start_utc;
+  if (found == file.mission.heads.end()) return;
+  pings.vehicle_from_head = found->vehicle_from_head;
+  pings.trajectory = std::move(file.mission.trajectory);
+  pings.water = file.water;
+  pings.position_deviation = file.position_deviation;
+}
+
+/// The mounting that the run.toml of a ping records; the pose itself if it has none.
+Pose mounting_of_ping(const std::string& settings) {
+  const TomlValue document = load_toml(settings);
+  const TomlValue* ping = document.find("ping");
+  const TomlValue* mount = ping ? ping->find("mount") : nullptr;
+  if (!mount || mount->kind != TomlValue::Kind::text || mount->text.empty()) return Pose::Identity();
+  return parse_pose(mount->text, "z-up", "mount");
+}
+
 RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
   const SurveyRun survey = load_survey_run(run);
   const SurveyRunHead& head = head_of_survey(survey, run, head_name);
@@ -35,12 +61,28 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
            " is not done; run the survey (or its missing shards) again");
     if (fs::exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
   }
-  const std::string settings = run + "/" + head.name + "/run.toml", mission = run + "/mission.toml";
+  const std::string settings = run + "/" + head.name + "/run.toml";
   if (fs::exists(settings)) pings.environment = load_environment(settings);
-  if (fs::exists(mission)) {
-    const MissionFile file = load_mission(mission);
-    pings.anchor = file.anchor;
-    pings.start_utc = file.start_utc;
+  add_mission(run + "/mission.toml", head.name, pings);
+  return pings;
+}
+
+/// Of the run directory of a ping, or of a merged head within the folder of its survey.
+RunPings pings_of_directory(const std::string& run) {
+  RunPings pings;
+  pings.cubes = {run_cube_path(run)};
+  const std::string settings = run + "/run.toml";
+  if (fs::is_directory(run) && fs::exists(settings)) pings.environment = load_environment(settings);
+  if (!fs::is_directory(run)) return pings;
+  const fs::path folder = fs::canonical(run), survey = folder.parent_path();
+  if (!is_survey_run(survey.string())) {
+    if (fs::exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings);
+    return pings;
+  }
+  try {
+    add_mission((survey / "mission.toml").string(), folder.filename().string(), pings);
+  } catch (const Error&) {
+    // A merged head stands alone: where files of its mission are gone, ship and place are unknown.
   }
   return pings;
 }
@@ -49,11 +91,31 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
 
 RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);
-  RunPings pings;
-  pings.cubes = {run_cube_path(run)};
-  const std::string settings = run + "/run.toml";
-  if (fs::is_directory(run) && fs::exists(settings)) pings.environment = load_environment(settings);
-  return pings;
+  return pings_of_directory(run);
+}
+
+std::optional<double> water_level(const RunPings& run) {
+  if (run.water.level || !run.environment.surface) return run.water.level;
+  return run.environment.surface->height;
+}
+
+std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping) {
+  if (!run.vehicle_from_head) return {};
+  const Eigen::AngleAxisd turn(ping.scan ? ping.scan->angle : 0, Eigen::Vector3d::UnitZ());
+  return ping.world_from_head * (*run.vehicle_from_head * turn).inverse();
+}
+
+std::optional<Trajectory> way_of(const RunPings& run) {
+  if (run.trajectory) return run.trajectory;
+  Trajectory way;
+  for (const std::string& path : run.cubes)
+    for (const TrackPoint& point : read_track(path)) {
+      if (!way.time.empty() && !(point.time > way.time.back())) continue;
+      way.time.push_back(point.time);
+      way.pose.push_back(point.world_from_head);
+    }
+  if (way.time.size() < 2) return {};
+  return way;
 }
 
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use) {

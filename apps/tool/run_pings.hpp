@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "acoustics/environment.hpp"
+#include "acoustics/motion.hpp"
 #include "core/geodesy.hpp"
 #include "returns/bottom_detection.hpp"
 #include "store/cube.hpp"
+#include "store/mission_file.hpp"
 
 namespace insonify::tool {
 
@@ -17,15 +19,30 @@ struct RunPings {
   Environment environment{};       ///< of its run.toml, if it has one
   std::optional<Anchor> anchor{};  ///< of its mission
   std::string start_utc;
+  std::optional<Pose> vehicle_from_head{};     ///< of its mission or --mount, at scan angle 0; absent: unknown
+  std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
+  MissionWater water{};                        ///< of its mission
+  std::optional<double> position_deviation{};  ///< of what its mission believes of each coordinate [m]; 0: exact
 };
 
-/// Finds the cubes of a run directory, a cube, or a survey, of which `head` names the head; "" if it has one only. Throws
+/// Finds the cubes of a run directory (also of a merged head of a survey), a cube, or a survey, of which `head` names the head; "" if it has one only. Throws
 /// Error(file) for a run that does not exist, Error(content) for one without a cube or a survey with blocks that are not
 /// done, Error(argument) for a head that is not named or not there.
 RunPings find_run_pings(const std::string& run, const std::string& head);
 
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
+
+/// Height of the water level in the world [m]: of the mission, or of the environment's sea surface; absent if neither
+/// says it.
+std::optional<double> water_level(const RunPings& run);
+
+/// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is mounted.
+std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);
+
+/// The way of the vehicle: that of the mission, else through the places of the pings, head by head as they are stored, in
+/// the order of time. Absent for a single ping.
+std::optional<Trajectory> way_of(const RunPings& run);
 
 /// Options to find the bottom in pings of a cube.
 BottomOptions bottom_options(const Cube& cube, const Environment& environment, int per_beam);

@@ -52,6 +52,18 @@ void require_in_water(const SurveySetup& s) {
   }
 }
 
+/// The water level of soundings is that of the sea surface that pings meet.
+void require_one_water_level(const SurveySetup& s) {
+  const std::optional<double>& level = s.file.water.level;
+  for (const SurveyHead& head : s.heads) {
+    const std::optional<SeaSurface>& surface = head.setup.head.environment.surface;
+    if (level && surface && std::abs(*level - surface->height) > 0.01)
+      fail(ErrorKind::content, s.file.path, ": [water] level_m = ", *level,
+           " m, must be that of surface.height_m = ", surface->height,
+           " m of the environment to 0.01 m; leave one of them out");
+  }
+}
+
 /// Digest of a scene: of tiles that of the header, which holds a checksum over those of all tiles.
 std::string scene_digest(const std::string& path) {
   if (!is_tiles(path)) return sha256_of_file(path);
@@ -101,6 +113,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
     fail(ErrorKind::content, s.file.path, ": ", error.what());
   }
   require_in_water(s);
+  require_one_water_level(s);
   for (const SurveyHead& head : s.heads)
     if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
       fail(ErrorKind::content, s.file.path,

@@ -1,8 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "acoustics/sound_speed_profile.hpp"
 #include "core/geodesy.hpp"
@@ -10,18 +13,19 @@
 
 namespace insonify {
 
-/// A sounding of a swath, in axes of the vessel at its head.
+/// A sounding of a swath, in level axes below the head that look ahead as the ship does.
 struct GsfBeam {
   bool detected = false;   ///< else the beam is flagged as unusable, and all others are 0
-  double depth = 0;        ///< below the waterline [m], positive down, from -10 km on
+  double depth = 0;        ///< below the vertical datum [m], positive down, from -10 km on
   double across = 0;       ///< [m], positive to starboard
   double along = 0;        ///< [m], positive ahead
   double travel_time = 0;  ///< there and back [s]
-  double angle = 0;        ///< of the beam from straight down [rad], >= 0
-  double azimuth = 0;      ///< of the beam, counter-clockwise from starboard [rad]: port is pi
+  double angle = 0;        ///< of the beam from straight down at the head [rad], 0 to pi
+  double azimuth = 0;      ///< of the beam, counter-clockwise from starboard [rad]: ahead is pi / 2, port is pi
   double level_db = 0;     ///< dB re 1 uPa
   double quality = 0;      ///< log10(range / its standard deviation)
   double vertical_deviation = 0, horizontal_deviation = 0;  ///< standard deviations [m]
+  bool by_phase = false;  ///< where the phase crossed zero; else the centre of gravity of the echo
 };
 
 /// One ping of a swath, beams from port to starboard: an entry for each sounding, of which a beam may have several, and
@@ -29,37 +33,106 @@ struct GsfBeam {
 struct GsfPing {
   double time = 0;                          ///< UTC, seconds since 1970
   GeoPlace place{};                         ///< of the head
-  double heading = 0, roll = 0, pitch = 0;  ///< [rad]: clockwise from north, starboard down, bow up
+  double heading = 0, roll = 0, pitch = 0;  ///< of the ship [rad]: clockwise from north, starboard down, bow up
   double course = 0, speed = 0;             ///< over ground [rad, m/s]
-  double heave = 0;                         ///< [m], up
-  std::uint16_t number = 0;
-  double surface_sound_speed = 0;                      ///< [m/s]
+  double heave = 0;                         ///< [m], that head_depth does not have
+  double head_depth = 0;                    ///< of the head below the water level [m]; part of the depths
+  double ship_depth = 0;                    ///< of the ship's origin below the water level [m]
+  double tide = 0;        ///< what was added to depths below the water level for those below the datum [m]
+  double separation = 0;  ///< height of the datum above the ellipsoid [m]
+  std::uint32_t number = 0;
+  double period = 0;                                   ///< since the ping before [s]; 0: unknown
+  double surface_sound_speed = 0;                      ///< at the head [m/s]
   double range = 0;                                    ///< of the gate [m]
+  double sample_rate = 0;                              ///< of the beams [Hz]
+  double centre_frequency = 0, bandwidth = 0;          ///< [Hz]
+  double source_level_db = 0;                          ///< dB re 1 uPa at 1 m
+  double absorption_db_per_m = 0;                      ///< one way
   double beam_width_along = 0, beam_width_across = 0;  ///< [rad]
   std::vector<GsfBeam> beams{};
 };
 
-/// Writes bathymetry in the Generic Sensor Format 3.11 (Leidos 2024): header, processing parameters, sound-speed
-/// profile, then pings with the subrecord of a SeaBat 2 (id 114), one after the other. Depth (with an
-/// offset of 10 km, so that heights are negative depths), across and along to 0.1 mm, times to 10 ns, angles to 0.01 degrees, positions to 1e-7 degrees; errors as 95 % (1.96 deviations).
-/// The same pings give the same bytes.
+/// Sonars that GSF has a subrecord for; of all others that of a SeaBat II, which has beam widths and sound speed.
+enum class GsfSensor : std::uint8_t { seabat_ii = 114, em2040 = 149, r2sonic_2024 = 152 };
+
+/// Returns the subrecord for a sonar of this name: em2040 and r2sonic-2024 have their own.
+GsfSensor gsf_sensor_of(const std::string& sonar);
+
+/// Where a head is on its ship.
+struct GsfMounting {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< ahead, to starboard, down from the ship's origin [m]
+  double heading = 0, pitch = 0, roll = 0;  ///< from a swath straight down [rad]: clockwise, bow up, starboard down
+};
+
+/// How soundings were made, for the processing parameters of the file.
+struct GsfProcessing {
+  double draft = 0;          ///< depth of the head below the water level at the first ping [m]
+  bool submersible = false;  ///< the ship's origin is below the water level
+  bool tide_compensated = false;
+  std::string tidal_datum = "UNKNOWN";    ///< name of the vertical datum, e.g. "MSL"
+  std::optional<GsfMounting> mounting{};  ///< absent: unknown
+};
+
+/// What a file says once, before its pings.
+struct GsfSurvey {
+  GsfSensor sensor = GsfSensor::seabat_ii;
+  SoundSpeedProfile profile{};  ///< depths below the water level
+  GeoPlace place{};             ///< of the profile
+  double time = 0;              ///< of the profile, parameters, comment and history, UTC, seconds since 1970
+  GsfProcessing processing{};
+  std::string comment{};                             ///< which sonar, simulated by what
+  std::string history_command{}, history_comment{};  ///< what was done to the data
+  std::optional<double> position_deviation{};        ///< standard deviation of each coordinate [m], if known
+};
+
+/// Attitude and heave of the ship at a ping, as in GsfPing.
+struct GsfAttitude {
+  double time = 0, pitch = 0, roll = 0, heave = 0, heading = 0;
+};
+
+/// When and where the pings of a file were.
+struct GsfSummary {
+  std::size_t pings = 0, soundings = 0;
+  double begin = 0, end = 0;                        ///< UTC, seconds since 1970
+  double south = 0, west = 0, north = 0, east = 0;  ///< of the heads [rad]
+  double least_depth = 0, greatest_depth = 0;       ///< of the soundings [m]
+};
+
+/// Writes bathymetry in the Generic Sensor Format 3.11 (Leidos 2024): header, summary, comment, history, processing
+/// parameters, sound-speed profile, errors of the positions if known, pings, and after at most a minute of them their
+/// attitudes. gsf_field_rows() lists the fields. The same pings give the same bytes.
 class GsfFile {
  public:
-  /// Throws Error(file) if the file cannot be made. `reference_time` is that of the profile [s since 1970].
-  GsfFile(const std::string& path, const SoundSpeedProfile& profile, const GeoPlace& place, double reference_time,
-          const std::vector<std::string>& parameters);
-  /// Throws Error(content) for a ping without beams or of more bytes than a record may have (2^19), with a number that its field cannot hold, or a
-  /// time before 1970 or after 2106; the message names the ping and the quantity.
+  /// Throws Error(file) if the file cannot be made, Error(content) for a time before 1970 or after 2106.
+  GsfFile(const std::string& path, const GsfSurvey& survey);
+  /// Throws Error(content) for a ping without beams or of more bytes than a record may have (2^19), with a number that
+  /// its field cannot hold, or a time before 1970 or after 2106; the message names the ping and the quantity.
   void add(const GsfPing& ping);
   /// Throws Error(file) if not all could be written.
   void finish();
 
  private:
   void record(std::uint32_t id, std::string data);
+  void put_attitudes();
 
   PendingFile pending_;
   std::ofstream out_;
+  GsfSensor sensor_;
   bool scaled_ = false;  ///< whether a ping has had the scale factors
+  GsfSummary summary_{};
+  std::vector<GsfAttitude> attitudes_;  ///< that no record has yet
 };
+
+/// A field that GsfFile writes, as docs/formats.md lists it.
+struct GsfFieldRow {
+  std::string record;  ///< of which record or subrecord
+  std::string name;    ///< as the specification has it
+  std::string type;    ///< "u16", "text", ...
+  std::string step;    ///< what one is, e.g. "1/100 deg"
+  std::string meaning;
+};
+
+/// All fields of all records in the order of the file, but those that are always 0.
+std::vector<GsfFieldRow> gsf_field_rows();
 
 }  // namespace insonify

@@ -64,6 +64,23 @@ const std::vector<MissionKey<NavigationNoise>> noise_keys = {
     {"attitude_deg", [](const MissionEntry& e, NavigationNoise& n) { n.attitude = e.angle(); }},
     {"correlation_s", [](const MissionEntry& e, NavigationNoise& n) { n.correlation_time = e.positive(); }}};
 
+/// Text of printable ASCII, as formats of other programs hold it.
+std::string read_datum(const MissionEntry& e) {
+  const std::string text = e.text();
+  const bool printable = std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 127; });
+  if (text.empty() || text.size() > 32 || !printable)
+    e.refuse(" = '", text, "', must be 1 to 32 printable characters without blanks, such as MSL or LAT");
+  return text;
+}
+
+const std::vector<MissionKey<MissionWater>> water_keys = {
+    {"level_m",
+     [](const MissionEntry& e, MissionWater& w) {
+       w.level = e.number();
+       if (!std::isfinite(*w.level)) e.refuse(" = ", *w.level, ", must be finite");
+     }},
+    {"datum", [](const MissionEntry& e, MissionWater& w) { w.datum = read_datum(e); }}};
+
 const std::vector<MissionKey<Randomisation>> randomise_keys = {
     {"source_level_db", [](const MissionEntry& e, Randomisation& r) { r.source_level_db = e.not_negative(); }},
     {"noise_db", [](const MissionEntry& e, Randomisation& r) { r.noise_db = e.not_negative(); }},
@@ -124,8 +141,10 @@ void read_trajectory(const std::string& path, const TomlValue& table, MissionFil
   if (t.ned)
     for (Pose& pose : trajectory.pose) pose = from_ned(pose);
   at_line(path, table.line, [&] { require_valid(trajectory, "mission"); });
-  if (t.noise)
+  if (t.noise) {
     at_line(path, table.line, [&] { m.mission.navigation = navigation_errors(trajectory, *t.noise, m.seed); });
+    m.position_deviation = t.noise->position;
+  }
 }
 
 constexpr Named<bool> side_words[] = {{"port", false}, {"starboard", true}};
@@ -236,8 +255,9 @@ SurveyRandomisation load_survey_randomisation(const std::string& path) {
 
 MissionFile load_mission(const std::string& path) {
   const TomlValue document = load_toml(path);
-  require_known_keys(path, document,
-                     {"schema", "survey", "trajectory", "head", "leg", "template", "scene", "ping", "randomise"});
+  require_known_keys(
+      path, document,
+      {"schema", "survey", "trajectory", "head", "leg", "template", "water", "scene", "ping", "randomise"});
   if (const double schema = toml_number(path, document, "schema"); schema != mission_schema)
     fail_in_file(path, document.find("schema")->line, "schema = ", schema, ", this version reads schema ",
                  mission_schema, schema > mission_schema ? "; the mission is of a newer insonify" : "");
@@ -248,6 +268,7 @@ MissionFile load_mission(const std::string& path) {
   read_table(path, survey, survey_keys, m);
   if (m.scene.empty()) fail_in_file(path, survey.line, "missing key 'scene'");
   read_randomise(path, document, m.randomise);
+  if (const TomlValue* water = document.find("water")) read_table(path, *water, water_keys, m.water);
   read_trajectory(path, required_table(path, document, "trajectory"), m);
   read_each(path, document, "head", [&](const TomlValue& table) { read_head(path, table, m); });
   if (m.mission.heads.empty()) fail_in_file(path, document.line, "missing table [[head]]");

@@ -17,17 +17,25 @@ struct MissionSonar {
   std::vector<std::string> settings;  ///< "sonar.beams=128", ...
 };
 
+/// What a mission says of the water level, for soundings.
+struct MissionWater {
+  std::optional<double> level{};  ///< world z [m]; absent: that of the environment's surface, else 0
+  std::string datum = "UNKNOWN";  ///< name of the vertical datum z = 0, e.g. "MSL"
+};
+
 /// A mission file. Of the tables [scene] and [ping] only the lines are looked at: they hold settings of the tool.
 struct MissionFile {
   std::string path, text;            ///< text: the whole file
   std::string scene;                 ///< path
   std::string environment, profile;  ///< paths, or empty
   std::uint64_t seed = 1;
+  MissionWater water{};       ///< of the table [water]
   Randomisation randomise{};  ///< of the table [randomise]: by how much pings differ
   bool coverage = false;      ///< the survey keeps what its pings did to each surfel
   std::string start_utc;      ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
   std::optional<Anchor> anchor;
   std::string trajectory;            ///< path, or empty: waypoints
+  double position_deviation = 0;     ///< of nav_noise, of each coordinate [m]
   Mission mission;                   ///< listening times are 0: they follow from sonar and water
   std::vector<MissionSonar> sonars;  ///< of each head
 };

@@ -31,11 +31,12 @@ GsfPing golden_swath(double time) {
   GsfPing ping;
   ping.time = time, ping.place = {radians(54.1), radians(7.9), 0};
   ping.heading = radians(70), ping.course = radians(71.5), ping.speed = 1.5, ping.number = 12;
+  ping.pitch = radians(2), ping.roll = radians(-3), ping.head_depth = 1.5, ping.tide = -0.25;
   ping.surface_sound_speed = 1490.2, ping.range = 50;
   ping.beam_width_along = radians(1), ping.beam_width_across = radians(0.5);
-  ping.beams = {{true, 15, -4.0625, 3.5, 0.0212, radians(24.5), radians(140), 121.4, 3.2, 0.0125, 0.0075},
+  ping.beams = {{true, 15, -4.0625, 3.5, 0.0212, radians(24.5), radians(140), 121.4, 3.2, 0.0125, 0.0075, true},
                 {},
-                {true, -2.5, 1.5, -0.25, 0.0075, radians(10), radians(-12.5), 99.6, 2.5, 0.05, 0.025}};
+                {true, -2.5, 1.5, -0.25, 0.0075, radians(10), radians(-12.5), 99.6, 2.5, 0.05, 0.025, false}};
   return ping;
 }
 
@@ -54,8 +55,14 @@ Ping golden_ping() {
 
 TEST(GoldenBytes, of_gsf) {
   const std::string path = own_path("swaths.gsf");
-  GsfFile file(path, {{0, 25}, {1490.25, 1481}}, {radians(54.1), radians(7.9), 0}, 1777624200,
-               {"REFERENCE TIME=1970/001 00:00:00", "GEOID=WGS-84"});
+  GsfSurvey survey;
+  survey.profile = {{0, 25}, {1490.25, 1481}};
+  survey.place = {radians(54.1), radians(7.9), 0}, survey.time = 1777624200;
+  survey.comment = "sonar seabat-t50, simulated by insonify 1";
+  survey.history_command = "insonify export --to gsf", survey.history_comment = "soundings found in each ping";
+  survey.processing.mounting = GsfMounting{{0.5, 0.25, 1}, 0, radians(1.5), 0};
+  survey.position_deviation = 0.5;
+  GsfFile file(path, survey);
   for (const double time : {1777624200.25, 1777624200.75}) file.add(golden_swath(time));
   file.finish();
   EXPECT_EQ(decode::read_gsf(file_bytes(path)).swaths.size(), 2U);

@@ -201,3 +201,18 @@ TEST(MissionFile, reads_navigation_noise_and_where_the_survey_is) {
   EXPECT_EQ(frame.start_utc, "2026-05-01T08:30:00Z");
   EXPECT_EQ(frame.anchor.value().heading_deg, 30);
 }
+
+TEST(MissionFile, reads_the_water_level_and_the_datum_of_soundings) {
+  const MissionFile none = load_mission(own_file("m.toml", whole));
+  EXPECT_FALSE(none.water.level.has_value());
+  EXPECT_EQ(none.water.datum, "UNKNOWN");
+  const MissionFile m =
+      load_mission(own_file("m.toml", replaced(whole, "[ping]", "[water]\nlevel_m = 0.75\ndatum = \"MSL\"\n[ping]")));
+  EXPECT_EQ(m.water.level, 0.75);
+  EXPECT_EQ(m.water.datum, "MSL");
+  EXPECT_THAT(refusal("[ping]", "[water]\nlevel = 1\n[ping]"),
+              HasSubstr("unknown key 'level'; did you mean 'level_m'?"));
+  EXPECT_THAT(refusal("[ping]", "[water]\ndatum = \"\"\n[ping]"), HasSubstr("datum = '', must be 1 to 32 printable"));
+  EXPECT_THAT(refusal("[ping]", "[water]\ndatum = \"A B\"\n[ping]"), HasSubstr("such as MSL or LAT"));
+  EXPECT_THAT(refusal("[ping]", "[water]\nlevel_m = inf\n[ping]"), HasSubstr("level_m = inf, must be finite"));
+}

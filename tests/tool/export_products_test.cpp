@@ -77,6 +77,7 @@ TEST_F(ExportProducts, gsf_has_the_ball_to_port_ahead_and_at_its_depth) {
   EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
   EXPECT_NEAR(s.heading_deg, 70, 0.011);
   EXPECT_NEAR(s.roll_deg, 0, 0.006);
+  EXPECT_NEAR(s.pitch_deg, -pitch_deg, 0.006);  // the ship's axes are the head's
   ASSERT_EQ(s.beams, 65);
   const std::size_t beam = 64 - 44;  // port first
   ASSERT_EQ(s.flags[beam], 0);
@@ -90,7 +91,7 @@ TEST_F(ExportProducts, gsf_has_the_ball_to_port_ahead_and_at_its_depth) {
   EXPECT_NEAR(s.arrays.at(1)[beam], -pose.translation().z() + range * down, 2e-3);
   EXPECT_NEAR(s.arrays.at(5)[beam], degrees(std::acos(down)), 0.006);
   EXPECT_NEAR(s.arrays.at(18)[beam], degrees(std::atan2(ahead, -across)), 0.006);
-  EXPECT_GT(s.arrays.at(7)[beam], 80);  // dB re 1 uPa
+  EXPECT_GT(s.arrays.at(6)[beam], 80);  // dB re 1 uPa
   EXPECT_GT(s.arrays.at(9)[beam], 2);
   EXPECT_GT(s.arrays.at(19)[beam], 0);
   // Beams beside it hear it by their side lobes, at its range.
