@@ -86,7 +86,8 @@ Handle open_file(Place& place) {
   require_regular_file(place.path);
   // A damaged file can end a process within HDF5.
   constexpr ChildLimits limits{std::size_t{256} << 20, 8};
-  const std::string texts = read_in_child(place.path, limits, [&] { return walk_over(place.path); });
+  std::string texts;
+  read_in_child(place.path, limits, [&](ArraySender& to) { to(walk_over(place.path)); })(texts);
   std::istringstream parts(texts);
   for (std::string object, name, text;
        std::getline(parts, object, '\0') && std::getline(parts, name, '\0') && std::getline(parts, text, '\0');)
