@@ -40,6 +40,12 @@ class ArraySender {
     return reinterpret_cast<Number*>(take(count * sizeof(Number)));
   }
 
+  /// A place for a grid (core/grid.hpp) of numbers of so many bytes.
+  char* take_grid(Eigen::Index rows, Eigen::Index columns, std::size_t bytes) {
+    (*this)(rows, columns);
+    return take(static_cast<std::size_t>(rows * columns) * bytes);
+  }
+
   /// Sends values.
   template <typename... Values>
   void operator()(const Values&... values) {

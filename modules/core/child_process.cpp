@@ -154,7 +154,7 @@ int end_of(pid_t child, const std::string& path, const Allowed& allowed, const M
 ChildLimits limits_of_file(std::size_t bytes) {
   // Of text VTK makes larger numbers, and GDAL loads seventy libraries.
   constexpr std::size_t memory_per_byte = 40, memory_at_least = std::size_t{768} << 20;
-  constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 4;
+  constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = limits_memory ? 2 : 20;
   return {memory_per_byte * bytes + memory_at_least,
           static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
 }

@@ -1,5 +1,5 @@
 // Damages small valid files at random and reads each in a process of its own, as the tool does: it must end with 0, 2, 3 or
-// 4, by no signal, within 10 s and 1 GB, and say at most one line. Files that were found so once are read first, whole.
+// 4, by no signal, within 5 s and 1 GB, and say at most one line. Files that were found so once are read first, whole.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -23,7 +23,7 @@ using namespace insonify;
 
 namespace {
 
-constexpr double most_seconds = 10, most_mib = 1024;
+constexpr double most_seconds = 5, most_mib = 1024;
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -1,0 +1,133 @@
+#include <functional>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "store/cube_arrays_internal.hpp"
+#include "store/cube_layout_internal.hpp"
+#include "store/hdf5_internal.hpp"
+
+// Images of a cube, between the child that reads them and its parent.
+namespace insonify {
+
+using namespace hdf5;
+
+void require_complex(const Place& place, hid_t dataset, const std::string& name) {
+  const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
+  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 || H5Tget_member_index(type, "i") < 0)
+    fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
+}
+
+namespace {
+
+// Sends one image of `type` per ping.
+void send_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
+                 ArraySender& to) {
+  const Extent extent = extent_of(place, dataset, name, 3);
+  const Extent one_ping = {1, extent[1], extent[2]};
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
+  for (std::size_t p = pings.begin; p < pings.end; ++p) {
+    const Handle row = select_row(place, dataset, extent, p);
+    const auto rows = static_cast<Eigen::Index>(extent[1]), columns = static_cast<Eigen::Index>(extent[2]);
+    read_values(place, dataset, {type, memory, row}, to.take_grid(rows, columns, H5Tget_size(type)), name);
+  }
+}
+
+void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
+  if (extent_of(place, dataset, name, 3) != extent)
+    fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
+}
+
+void send_layers(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+  const std::vector<std::string> layers = names_in(place, file, layers_group);
+  to(layers);
+  for (const std::string& layer : layers) {
+    const std::string path = std::string(layers_group) + "/" + layer;
+    const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
+    require_extent(place, dataset, path, extent);
+    require_complex(place, dataset, path);
+    send_images(place, dataset, path, type, pings, to);
+  }
+}
+
+// Sends whether there is an optional map, and then that of each ping.
+void send_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+              PingRange pings, ArraySender& to) {
+  const bool there = H5Lexists(file, name.path, H5P_DEFAULT) > 0;
+  to(there);
+  if (!there) return;
+  const Handle dataset = open_dataset(place, file, name);
+  require_extent(place, dataset, name.path, extent);
+  const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
+  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
+    fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
+         8 * H5Tget_size(type));
+  send_images(place, dataset, name.path, type, pings, to);
+}
+
+template <typename Map>
+void receive_map(ArrayReceiver& sent, std::vector<Ping>& pings, const Map& map) {
+  bool there = false;
+  sent(there);
+  if (!there) return;
+  for (Ping& ping : pings) sent(std::invoke(map, ping));
+}
+
+void send_labels(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const bool there = H5Lexists(file, label_material_name.path, H5P_DEFAULT) > 0;
+  to(there);
+  if (!there) return;
+  for (const auto& [name, type] :
+       {std::pair(label_material_name, H5T_NATIVE_UINT16), std::pair(label_id_name, H5T_NATIVE_UINT32),
+        std::pair(label_share_name, H5T_NATIVE_FLOAT)}) {
+    open_dataset(place, file, name);  // all three, or none
+    send_map(place, file, name, type, extent, pings, to);
+  }
+  std::istringstream lines(read_text(place, file, label_names_attribute));
+  std::vector<std::string> names;
+  for (std::string name; std::getline(lines, name);) names.push_back(name);
+  to(names);
+}
+
+void receive_labels(ArrayReceiver& sent, std::vector<Ping>& pings) {
+  bool there = false;
+  sent(there);
+  if (!there) return;
+  receive_map(
+      sent, pings, [](Ping & ping) -> auto& { return ping.labels.material; });
+  receive_map(
+      sent, pings, [](Ping & ping) -> auto& { return ping.labels.id; });
+  receive_map(
+      sent, pings, [](Ping & ping) -> auto& { return ping.labels.share; });
+  std::vector<std::string> names;
+  sent(names);
+  for (Ping& ping : pings) ping.labels.names = names;
+}
+
+}  // namespace
+
+void send_all_images(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  send_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
+  send_layers(place, file, extent, pings, to);
+  send_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
+  send_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_labels(place, file, extent, pings, to);
+}
+
+void receive_all_images(ArrayReceiver& sent, std::vector<Ping>& pings) {
+  for (Ping& ping : pings) sent(ping.pressure);
+  std::vector<std::string> layers;
+  sent(layers);
+  for (const std::string& layer : layers)
+    for (Ping& ping : pings) sent(ping.layers.emplace_back(Layer{layer, {}}).pressure);
+  receive_map(sent, pings, &Ping::intensity);
+  receive_map(sent, pings, &Ping::level_error_db);
+  receive_map(sent, pings, &Ping::unknown);
+  receive_map(sent, pings, &Ping::split_phase);
+  receive_labels(sent, pings);
+}
+
+}  // namespace insonify
