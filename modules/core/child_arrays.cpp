@@ -1,11 +1,11 @@
 #include "core/child_arrays.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <new>
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
@@ -13,74 +13,83 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t alignment = 16;
-constexpr std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
+constexpr std::size_t page = 4096, alignment = 16;
+constexpr std::size_t aligned(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
+constexpr std::size_t head = alignment;  // holds how many bytes were used
 
 }  // namespace
 
-ArraySender::~ArraySender() { static_cast<void>(ftruncate(memory_, static_cast<off_t>(used_)) == 0); }
-
-char* ArraySender::take(std::size_t bytes) {
-  constexpr std::size_t most = std::size_t{1} << 46, step = std::size_t{1} << 24;
-  if (bytes > most) throw std::bad_alloc();
-  const std::size_t begin = used_, end = begin + aligned(bytes);
-  if (end > held_) {
-    const std::size_t held = end + std::min(end, step);
-    if (ftruncate(memory_, static_cast<off_t>(held)) != 0) throw std::bad_alloc();
-    void* const start = start_ ? mremap(start_, held_, held, MREMAP_MAYMOVE)
-                               : mmap(nullptr, held, PROT_READ | PROT_WRITE, MAP_SHARED, memory_, 0);
-    if (start == MAP_FAILED) throw std::bad_alloc();
-    start_ = static_cast<char*>(start), held_ = held;
-  }
-  used_ = end;
-  return start_ + begin;
+std::size_t address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-struct ArrayReceiver::Mapping {
-  int memory;
-  std::size_t bytes = 0;
-  char* start = nullptr;
-
-  explicit Mapping(int file) : memory(file) {
-    struct stat status {};
-    if (fstat(memory, &status) == 0) bytes = static_cast<std::size_t>(status.st_size);
-    void* const mapped = bytes == 0 ? nullptr : mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, memory, 0);
-    if (mapped != MAP_FAILED) start = static_cast<char*>(mapped);
+SharedMemory::SharedMemory() {
+  constexpr std::size_t most = std::size_t{1} << 38, least = std::size_t{1} << 20;
+  rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
+  getrlimit(RLIMIT_AS, &limit);
+  const std::size_t used = limit.rlim_cur == RLIM_INFINITY ? 0 : address_space();
+  const std::size_t left = limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+  // Not a file in memory, for whose size `ulimit -f` holds. Where memory is not promised twice, as much as is left.
+  for (std::size_t bytes = std::min(most, left / 2) / page * page; bytes >= least; bytes = bytes / 2 / page * page) {
+    void* const start = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (start == MAP_FAILED) continue;
+    start_ = static_cast<char*>(start), bytes_ = bytes;
+    return;
   }
-  ~Mapping() {
-    if (start) munmap(start, bytes);
-    close(memory);
-  }
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
-};
+  throw std::bad_alloc();
+}
 
-ArrayReceiver::ArrayReceiver(std::string path, int memory)
-    : path_(std::move(path)), mapping_(std::make_shared<const Mapping>(memory)) {
-  if (mapping_->bytes > 0 && !mapping_->start) throw std::bad_alloc();
+SharedMemory::~SharedMemory() { munmap(start_, bytes_); }
+
+void SharedMemory::keep(std::size_t bytes) {
+  const std::size_t kept = std::clamp(aligned(bytes, page), page, bytes_);
+  if (kept < bytes_) munmap(start_ + kept, bytes_ - kept);
+  bytes_ = kept;
+  mprotect(start_, bytes_, PROT_READ);
+}
+
+void SharedMemory::give_back(std::size_t begin, std::size_t end) const {
+  const std::size_t first = aligned(begin, page), last = end / page * page;
+  if (first < last) madvise(start_ + first, last - first, MADV_REMOVE);
+}
+
+ArraySender::~ArraySender() { std::memcpy(memory_.start(), &used_, sizeof used_); }
+
+char* ArraySender::take(std::size_t bytes) {
+  const std::size_t begin = head + used_, most = std::min(most_, memory_.bytes());
+  if (bytes > most || begin > most - bytes) throw std::bad_alloc();
+  used_ = std::min(aligned(begin + bytes, alignment), memory_.bytes()) - head;
+  return memory_.start() + begin;
+}
+
+ArrayReceiver::ArrayReceiver(std::string path, std::shared_ptr<SharedMemory> memory)
+    : path_(std::move(path)), memory_(std::move(memory)), at_(head) {
+  std::size_t used = 0;
+  std::memcpy(&used, memory_->start(), sizeof used);
+  end_ = head + std::min(used, memory_->bytes() - head);
+  memory_->keep(end_);
 }
 
 std::size_t ArrayReceiver::bytes_of(std::size_t count, std::size_t size) const {
-  if (size > 0 && count > (mapping_->bytes - at_) / size)
+  if (size > 0 && count > (end_ - at_) / size)
     fail(ErrorKind::content, path_, ": reading it handed over less than it announced; copy or export it again");
   return count * size;
 }
 
 const char* ArrayReceiver::take(std::size_t bytes) {
-  const char* const place = mapping_->start + at_;
-  at_ = std::min(at_ + aligned(bytes_of(bytes, 1)), mapping_->bytes);
+  const char* const place = memory_->start() + at_;
+  at_ = std::min(aligned(at_ + bytes_of(bytes, 1), alignment), end_);
   return place;
 }
 
 void ArrayReceiver::copy(void* to, std::size_t bytes) {
-  constexpr std::size_t page = 4096, large = std::size_t{1} << 20;
+  constexpr std::size_t large = std::size_t{1} << 20;
   if (bytes == 0) return;
   const std::size_t begin = at_;
   std::memcpy(to, take(bytes), bytes);
-  if (bytes < large) return;
-  const std::size_t first = (begin + page - 1) / page * page, end = at_ / page * page;
-  fallocate(mapping_->memory, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(first),
-            static_cast<off_t>(end - first));
+  if (bytes >= large) memory_->give_back(begin, at_);
 }
 
 }  // namespace insonify

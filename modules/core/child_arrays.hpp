@@ -12,24 +12,46 @@
 
 namespace insonify {
 
+/// Address space of this process [bytes].
+std::size_t address_space();
+
 namespace detail {
 /// Whether a value is handed over as its bytes.
 template <typename Value>
 constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
 }  // namespace detail
 
+/// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes none.
+class SharedMemory {
+ public:
+  /// As large as it can be, half of what the user's limits leave. Throws std::bad_alloc.
+  SharedMemory();
+  ~SharedMemory();
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+
+  /// Where it begins.
+  char* start() const { return start_; }
+  /// Its bytes.
+  std::size_t bytes() const { return bytes_; }
+  /// Gives back all but the first bytes, which are read alone from now on.
+  void keep(std::size_t bytes);
+  /// Gives back the whole pages within [begin, end).
+  void give_back(std::size_t begin, std::size_t end) const;
+
+ private:
+  std::size_t bytes_ = 0;
+  char* start_ = nullptr;
+};
+
 /// Puts values into memory that a child process shares with its parent. A type of its own is handed over by
 /// `template <typename Stream> void pass(Stream&, T&)` beside it, which names its members: stream(t.a, t.b).
 class ArraySender {
  public:
-  /// `memory` is a file in memory (memfd_create), which grows.
-  explicit ArraySender(int memory) : memory_(memory) {}
-  /// Cuts the file off behind the last value.
+  /// `memory` holds at most `most` bytes, which may grow meanwhile.
+  ArraySender(const SharedMemory& memory, const std::size_t& most) : memory_(memory), most_(most) {}
   ~ArraySender();
-  ArraySender(const ArraySender&) = delete;
-  ArraySender& operator=(const ArraySender&) = delete;
-
-  /// A place for bytes, at a multiple of 16, until the next value is sent. Throws std::bad_alloc.
+  /// A place for bytes, at a multiple of 16. Throws std::bad_alloc.
   char* take(std::size_t bytes);
 
   /// Values that the receiver reads one by one, as a vector.
@@ -100,17 +122,17 @@ class ArraySender {
     (send(others), ...);
   }
 
-  int memory_;
-  char* start_ = nullptr;
-  std::size_t used_ = 0, held_ = 0;  // bytes
+  const SharedMemory& memory_;
+  const std::size_t& most_;
+  std::size_t used_ = 0;  // bytes
 };
 
 /// Takes the values out again, in the same order. Large arrays are given back to the system as they are copied, or can be
 /// used where they are.
 class ArrayReceiver {
  public:
-  /// Maps the file in memory, and owns it. `path` begins the text of errors.
-  ArrayReceiver(std::string path, int memory);
+  /// Of what a sender left; `path` begins the text of errors.
+  ArrayReceiver(std::string path, std::shared_ptr<SharedMemory> memory);
 
   /// Where these bytes are; they live as long as `owner()`. Throws Error(content) if fewer were sent.
   const char* take(std::size_t bytes);
@@ -121,7 +143,7 @@ class ArrayReceiver {
     return reinterpret_cast<const Number*>(take(bytes_of(count, sizeof(Number))));
   }
   /// What keeps the bytes of take() alive.
-  std::shared_ptr<const void> owner() const { return mapping_; }
+  std::shared_ptr<const void> owner() const { return memory_; }
 
   /// Sets values to what was sent.
   template <typename... Values>
@@ -182,10 +204,9 @@ class ArrayReceiver {
     copy(transform.data(), sizeof(transform.matrix()));
   }
 
-  struct Mapping;
   std::string path_;
-  std::shared_ptr<const Mapping> mapping_;
-  std::size_t at_ = 0;
+  std::shared_ptr<SharedMemory> memory_;
+  std::size_t at_ = 0, end_ = 0;
 };
 
 }  // namespace insonify

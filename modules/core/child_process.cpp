@@ -6,9 +6,8 @@
 #include <cmath>
 #include <csignal>
 #include <exception>
-#include <fstream>
+#include <memory>
 #include <new>
-#include <utility>
 
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -29,13 +28,6 @@ constexpr bool limits_memory = false;  // they take terabytes of addresses
 #else
 constexpr bool limits_memory = true;
 #endif
-
-/// Address space of this process [bytes].
-std::size_t address_space() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
 
 /// What the user let this process have.
 rlim_t limit_of(decltype(RLIMIT_AS) resource) {
@@ -77,8 +69,6 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
   operator int() const { return file_; }
-  /// Leaves it to the caller.
-  int release() { return std::exchange(file_, -1); }
   /// The last line in it, in brackets, if there is one.
   std::string last_words() const {
     std::array<char, 4096> end{};
@@ -109,16 +99,17 @@ void confine(int said) {
   dup2(said, STDERR_FILENO);
 }
 
-int run_child(const std::string& path, const std::function<void(ArraySender&)>& read, int memory) {
-  const auto say = [memory](ErrorKind kind, const std::string& text) {
-    if (ftruncate(memory, 0) != 0) return child_without_memory;
-    ArraySender sender(memory);
+int run_child(const std::string& path, const std::function<void(ArraySender&)>& read, const SharedMemory& memory,
+              const Allowed& allowed) {
+  const auto say = [&](ErrorKind kind, const std::string& text) {
+    const std::size_t all = memory.bytes();
+    ArraySender sender(memory, all);
     sender(kind, text);
     return child_failed;
   };
   try {
     try {
-      ArraySender sender(memory);
+      ArraySender sender(memory, allowed.beyond_parent);
       read(sender);
       return child_in_order;
     } catch (const Error& error) {
@@ -176,26 +167,28 @@ void expect_from_file(const std::string& path, std::size_t bytes, const Announce
 
 ArrayReceiver read_in_child(const std::string& path, const ChildLimits& limits,
                             const std::function<void(ArraySender&)>& read) {
-  Allowed allowed{address_space() + limits.memory, limits.memory, limits.seconds, limit_of(RLIMIT_AS),
-                  limit_of(RLIMIT_CPU)};
-  MemoryFile memory("insonify-arrays"), said("insonify-said");
+  const auto memory = std::make_shared<SharedMemory>();
 #ifdef INSONIFY_READ_HERE  // by tests/fuzz.sh
   {
-    ArraySender sender(memory);
+    const std::size_t all = memory->bytes();
+    ArraySender sender(*memory, all);
     read(sender);
   }
-  return {path, memory.release()};
+  return {path, memory};
 #endif
-  const pid_t child = memory >= 0 && said >= 0 ? fork() : -1;
+  Allowed allowed{address_space() + limits.memory, limits.memory, limits.seconds, limit_of(RLIMIT_AS),
+                  limit_of(RLIMIT_CPU)};
+  const MemoryFile said("insonify-said");
+  const pid_t child = said >= 0 ? fork() : -1;
   if (child == 0) {
     allowed_here = &allowed;
     confine(said);
     allowed.set();
-    _exit(run_child(path, read, memory));
+    _exit(run_child(path, read, *memory, allowed));
   }
   if (child < 0) fail(ErrorKind::runtime, path, ": no process can be started to read it; end others, and run again");
   const int end = end_of(child, path, allowed, said);
-  ArrayReceiver sent(path, memory.release());
+  ArrayReceiver sent(path, memory);
   if (end == child_in_order) return sent;
   ErrorKind kind{};
   std::string text;

@@ -13,8 +13,16 @@ using namespace hdf5;
 
 void require_complex(const Place& place, hid_t dataset, const std::string& name) {
   const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
-  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 || H5Tget_member_index(type, "i") < 0)
-    fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
+  for (const char* member : {"r", "i"}) {
+    const int at = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_member_index(type, member) : -1;
+    if (at < 0) fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
+    const Handle number(place.checked(H5Tget_member_type(type, static_cast<unsigned>(at)), name), H5Tclose);
+    const std::size_t size = H5Tget_size(type), begin = H5Tget_member_offset(type, static_cast<unsigned>(at));
+    // HDF5 would read what stands there.
+    if (begin > size || H5Tget_size(number) > size - begin)
+      fail(place.kind, place.path, ": ", name, " has a member ", member, " at byte ", begin, " of ", size,
+           "; the file is damaged: copy or export it again");
+  }
 }
 
 namespace {

@@ -123,3 +123,14 @@ TEST(ChildProcess, is_short_of_memory_with_its_parent) {
   EXPECT_THROW(try_in_child("a.vtk", {.memory = std::size_t{8} << 30}, take), std::bad_alloc);
   setrlimit(RLIMIT_AS, &before);
 }
+
+TEST(ChildProcess, hands_over_arrays_where_files_must_be_small) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit narrow{1024, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &narrow);
+  std::string text;
+  read_in_child("a.h5", {}, [](ArraySender& to) { to(std::string(5000000, 'x')); })(text);
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(text.size(), 5000000U);
+}
