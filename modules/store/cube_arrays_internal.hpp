@@ -49,7 +49,7 @@ void require_complex(const hdf5::Place& place, hid_t dataset, const std::string&
 void send_all_images(const hdf5::Place& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
                      ArraySender& to);
 
-/// Fills the images of pings with what send_all_images sent.
-void receive_all_images(ArrayReceiver& sent, std::vector<Ping>& pings);
+/// Fills the images of pings with what send_all_images sent of the file at `path`.
+void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings);
 
 }  // namespace insonify

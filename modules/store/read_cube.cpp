@@ -147,7 +147,7 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
   CubeTable table;
   sent(cube, table);
   cube.pings = pings_of(table, range_of(table));
-  receive_all_images(sent, cube.pings);
+  receive_all_images(sent, path, cube.pings);
   return cube;
 }
 
@@ -191,7 +191,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
       ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
         send_all_images(place, file, table.extent, range, to);
       });
-      receive_all_images(sent, some);
+      receive_all_images(sent, path, some);
     } catch (const Error&) {
       if (at_once == 1) throw;
       at_once = 1;  // up to the ping that is damaged
