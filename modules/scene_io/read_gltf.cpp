@@ -7,15 +7,13 @@
 #include <vtkGLTFReader.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/read_apart_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
-#include "scene_io/vtk_checks_internal.hpp"
 #include "scene_io/vtk_messages_internal.hpp"
 
 // Reads glTF 2.0 (Khronos; ISO/IEC 12113) by VTK, which does not check that accessors lie within their buffers: the
@@ -197,59 +195,74 @@ std::size_t bytes_with_buffers(const GltfDocument& document) {
   return bytes;
 }
 
-/// Appends the points and faces of a part.
-void add_part(vtkPolyData* part, std::vector<double>& places, RawCloud& raw) {
-  const auto first = static_cast<std::int64_t>(places.size() / 3),
-             count = static_cast<std::int64_t>(part->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i) {
-    double p[3];
-    part->GetPoint(i, p);
-    places.insert(places.end(), {p[0], -p[2], p[1]});
-  }
+/// Appends the faces of a part whose points follow the first `first` ones.
+void add_faces(vtkPolyData* part, std::int64_t first, std::size_t points, RawCloud& raw) {
   vtkIdType corners = 0;
   const vtkIdType* ids = nullptr;
   std::vector<std::int64_t> polygon;
   vtkCellArray* polygons = part->GetPolys();
   for (polygons->InitTraversal(); polygons->GetNextCell(corners, ids);) {
     polygon.clear();
-    for (vtkIdType k = 0; k < corners; ++k) polygon.push_back(ids[k] < count ? first + ids[k] : -1);
-    add_polygon(raw, polygon, places.size() / 3);
+    for (vtkIdType k = 0; k < corners; ++k) polygon.push_back(ids[k] < part->GetNumberOfPoints() ? first + ids[k] : -1);
+    add_polygon(raw, polygon, points);
   }
+}
+
+std::vector<vtkPolyData*> parts_of(vtkMultiBlockDataSet* blocks) {
+  std::vector<vtkPolyData*> parts;
+  const auto each = vtk::TakeSmartPointer(blocks->NewIterator());
+  for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem())
+    if (auto* part = vtkPolyData::SafeDownCast(each->GetCurrentDataObject())) parts.push_back(part);
+  return parts;
+}
+
+/// Reads a document that was checked.
+SentRows read_parts(ArraySender& to, RawCloud& raw) {
+  vtkNew<VtkReadMessages> messages;
+  const QuietVtk quiet(messages);
+  vtkNew<vtkGLTFReader> reader;
+  reader->SetFileName(raw.path.c_str());
+  reader->Update();
+  if (!messages->errors.empty())
+    fail(ErrorKind::content, raw.path, ": VTK cannot read it: ", messages->errors.front(), "; export it again");
+  const std::vector<vtkPolyData*> parts = parts_of(reader->GetOutput());
+  std::size_t points = 0, first = 0;
+  for (vtkPolyData* part : parts) points += static_cast<std::size_t>(part->GetNumberOfPoints());
+  if (points == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the glTF again");
+  raw.width = points;
+  const SentRows rows = rows_of_doubles({"x", "y", "z"}, points);
+  auto* place = reinterpret_cast<double*>(to.take_array<char>(rows.rows * rows.stride));
+  for (vtkPolyData* part : parts) {
+    for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i) {
+      double p[3];
+      part->GetPoint(i, p);
+      *place++ = p[0], *place++ = -p[2], *place++ = p[1];
+    }
+    add_faces(part, static_cast<std::int64_t>(first), points, raw);
+    first += static_cast<std::size_t>(part->GetNumberOfPoints());
+  }
+  return rows;
 }
 
 }  // namespace
 
 RawCloud read_gltf(const std::string& path, const ReadOptions& options) {
-  const GltfDocument document = document_of(path);
-  try {
-    check_gltf(document);
-  } catch (const json::exception& wrong) {
-    document.refuse(std::string("its document has a value of another type (") + wrong.what() + ")");
-  }
-  const auto read_by = [&](vtkGLTFReader* reader) {
-    reader->SetFileName(path.c_str());
-    reader->Update();
-  };
-  try_in_child(path, limits_of_vtk(bytes_with_buffers(document)), [&] { read_by(vtkNew<vtkGLTFReader>().Get()); });
-  vtkNew<VtkReadMessages> messages;
-  const QuietVtk quiet(messages);
-  vtkNew<vtkGLTFReader> reader;
-  read_by(reader);
-  if (!messages->errors.empty())
-    fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(), "; export it again");
-
   RawCloud raw;
   raw.path = path;
   raw.format = "glTF mesh";
   raw.fields = {{"x", "float"}, {"y", "float"}, {"z", "float"}};
-  std::vector<double> places;
-  const auto parts = vtk::TakeSmartPointer(reader->GetOutput()->NewIterator());
-  for (parts->InitTraversal(); !parts->IsDoneWithTraversal(); parts->GoToNextItem())
-    if (auto* part = vtkPolyData::SafeDownCast(parts->GetCurrentDataObject())) add_part(part, places, raw);
-  if (places.empty()) fail(ErrorKind::content, path, ": holds no point; export the glTF again");
-  raw.width = places.size() / 3;
   raw.float_coordinates = true;
-  fill_cloud(raw, table_of_doubles({"x", "y", "z"}, std::move(places)), options);
+  read_rows_apart(raw, file_size_of(path), options, [&](ArraySender& to, RawCloud& read) {
+    const GltfDocument document = document_of(path);
+    try {
+      check_gltf(document);
+    } catch (const json::exception& wrong) {
+      document.refuse(std::string("its document has a value of another type (") + wrong.what() + ")");
+    }
+    const std::size_t bytes = bytes_with_buffers(document);
+    expect_from_file(path, bytes, {static_cast<double>(bytes), "bytes with its buffers", 16});
+    return read_parts(to, read);
+  });
   return raw;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -8,7 +7,7 @@
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/pcl_rows_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/read_apart_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 
@@ -222,6 +221,27 @@ std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
   return Eigen::Vector3d(header.viewpoint[0], header.viewpoint[1], header.viewpoint[2]);
 }
 
+/// Where the rows of a binary file are.
+RowFile row_file(const Header& header) {
+  RowFile file{header.path, "PCD binary", {},          header.points,       header.stride(),
+               header.end,  false,        header.tags, viewpoint_of(header)};
+  std::size_t offset = 0;
+  for (const Field& field : header.fields) {
+    if (field.name != "_") file.columns.push_back({field.name, type_of(header, field), offset});
+    offset += field.size * field.count;
+  }
+  return file;
+}
+
+/// Rows that are as they are in memory; PCL reads the others.
+RowTable binary_rows(const Header& header, RawCloud& raw) {
+  const RowTable table = read_rows(row_file(header), 0, header.points);
+  for (const RowTable::Column& column : table.columns) raw.fields.push_back({column.name, name_of(column.type)});
+  const bool organised = header.width * header.height != 0;
+  raw.width = organised ? header.width : header.points, raw.height = organised ? header.height : 1;
+  return table;
+}
+
 }  // namespace
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
@@ -233,8 +253,17 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   raw.format = "PCD " + header.data;
   raw.tags = header.tags;
   raw.viewpoint = viewpoint_of(header);
-  const pcl::PCLPointCloud2 cloud = read_data(header, bytes);
-  fill_cloud(raw, table_of(cloud, raw), options);
+  if (header.data == "binary") {
+    fill_cloud(raw, binary_rows(header, raw), options);
+    return raw;
+  }
+  read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud& read) {
+    expect_from_file(path, bytes, {static_cast<double>(header.points * header.stride()), "bytes of points", 1});
+    const pcl::PCLPointCloud2 cloud = read_data(header, bytes);
+    const RowTable table = table_of(cloud, read);
+    std::copy_n(table.bytes, table.rows * table.stride, to.take_array<char>(table.rows * table.stride));
+    return SentRows{table.columns, table.rows, table.stride};
+  });
   return raw;
 }
 
@@ -242,45 +271,7 @@ std::optional<RowFile> find_pcd_rows(const std::string& path) {
   const Header header = read_pcd_header(path);
   if (header.data != "binary") return std::nullopt;
   check_data(header);
-  RowFile file{path,       "PCD binary", {},          header.points,       header.stride(),
-               header.end, false,        header.tags, viewpoint_of(header)};
-  std::size_t offset = 0;
-  for (const Field& field : header.fields) {
-    if (field.name != "_") file.columns.push_back({field.name, type_of(header, field), offset});
-    offset += field.size * field.count;
-  }
-  return file;
-}
-
-RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
-  // In the order of PCLPointField's datatypes from 1 on.
-  static const std::array types = {NumberType::int8,  NumberType::uint8,  NumberType::int16,   NumberType::uint16,
-                                   NumberType::int32, NumberType::uint32, NumberType::float32, NumberType::float64,
-                                   NumberType::int64, NumberType::uint64};
-  RowTable table;
-  table.stride = cloud.point_step;
-  table.rows = static_cast<std::size_t>(cloud.width) * cloud.height;
-  if (cloud.is_bigendian)
-    fail(ErrorKind::content, raw.path, ": is_bigendian is set; turn the bytes of the numbers and clear it");
-  if (table.rows * table.stride > cloud.data.size())
-    fail(ErrorKind::content, raw.path, ": width x height x point_step = ", table.rows * table.stride,
-         " bytes, the cloud holds ", cloud.data.size(), "; fill the cloud completely");
-  if (cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step)
-    fail(ErrorKind::content, raw.path, ": row_step = ", cloud.row_step,
-         ", must be width x point_step = ", cloud.width * cloud.point_step, "; pack the rows");
-  for (const pcl::PCLPointField& field : cloud.fields) {
-    if (field.name == "_" || field.datatype < 1 || field.datatype > types.size()) continue;
-    const NumberType type = types[field.datatype - 1];
-    if (field.offset + size_of(type) > table.stride)
-      fail(ErrorKind::content, raw.path, ": field '", field.name, "' ends beyond point_step = ", table.stride,
-           " bytes; correct its offset");
-    table.columns.push_back({field.name, type, field.offset});
-    raw.fields.push_back({field.name, name_of(type)});
-  }
-  raw.width = cloud.width;
-  raw.height = cloud.height;
-  table.bytes = reinterpret_cast<const char*>(cloud.data.data());
-  return table;
+  return row_file(header);
 }
 
 }  // namespace insonify

@@ -6,9 +6,9 @@
 #include <pcl/io/ply/ply_parser.h>
 
 #include "core/error.hpp"
-#include "scene_io/pcl_rows_internal.hpp"
+#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/read_apart_internal.hpp"
 
 // PCL's parser, and not pcl::PLYReader on top of it, since PLYReader 1.13 does these things without a message: it shifts
 // coordinates that stand between or behind colours other than a run of red green blue, gives faces with 8 or 16-bit
@@ -18,10 +18,21 @@ namespace {
 
 using pcl::io::ply::ply_parser;
 
-/// Takes vertices from the parser into a PCL cloud, faces into `raw`.
+template <typename Number>
+constexpr NumberType number_type() {
+  for (int t = 0; t <= static_cast<int>(NumberType::float64); ++t) {
+    const auto type = static_cast<NumberType>(t);
+    const bool real = type >= NumberType::float32, has_sign = real || t % 2 == 0;
+    if (size_of(type) == sizeof(Number) && real == std::is_floating_point_v<Number> &&
+        has_sign == std::is_signed_v<Number>)
+      return type;
+  }
+}
+
+/// Takes vertices from the parser into rows that are sent, faces into `raw`.
 class PlyTaker {
  public:
-  explicit PlyTaker(RawCloud& raw) : raw_(raw) { cloud_.height = 1; }
+  PlyTaker(ArraySender& to, RawCloud& raw) : to_(to), raw_(raw) {}
 
   /// Empty, or what PCL found wrong.
   std::string parse(const std::string& path) {
@@ -42,21 +53,20 @@ class PlyTaker {
       return ply_parser::element_callbacks_type();
     });
     parser.end_header_callback([this] {
-      cloud_.data.resize(std::size_t{cloud_.width} * cloud_.point_step);
-      next_ = cloud_.data.data();
+      next_ = to_.take_array<char>(rows_.rows * rows_.stride);
       return true;
     });
     if (!parser.parse(path) && problem.empty()) problem = "without saying why";
     return problem;
   }
 
-  const pcl::PCLPointCloud2& cloud() const { return cloud_; }
+  const SentRows& rows() const { return rows_; }
 
  private:
   void set_vertices(std::size_t rows) {
     if (rows >= std::numeric_limits<std::uint32_t>::max())
       fail(ErrorKind::content, raw_.path, ": holds ", rows, " points, must be at most 4294967294; split it");
-    cloud_.width = static_cast<pcl::uindex_t>(rows);
+    rows_.rows = raw_.width = rows;
   }
 
   template <typename... Number>
@@ -72,13 +82,10 @@ class PlyTaker {
     ply_parser::at<Number>(scalars_) = [this](const std::string& element,
                                               const std::string& name) -> std::function<void(Number)> {
       if (element != "vertex") return {};
-      pcl::PCLPointField field;
-      field.name = name;
-      field.datatype = pcl::traits::asEnum_v<Number>;
-      field.offset = cloud_.point_step;
-      field.count = 1;
-      cloud_.fields.push_back(field);
-      cloud_.point_step += static_cast<pcl::uindex_t>(sizeof(Number));
+      const NumberType type = number_type<Number>();
+      rows_.columns.push_back({name, type, rows_.stride});
+      raw_.fields.push_back({name, name_of(type)});
+      rows_.stride += sizeof(Number);
       return [this](Number value) {
         std::memcpy(next_, &value, sizeof(Number));
         next_ += sizeof(Number);
@@ -94,17 +101,19 @@ class PlyTaker {
       return {[this](Count) { corners_.clear(); },
               [this](Number corner) {
                 const double number = static_cast<double>(corner);
-                corners_.push_back(number >= 0 && number < cloud_.width ? static_cast<std::int64_t>(number) : -1);
+                corners_.push_back(
+                    number >= 0 && number < static_cast<double>(rows_.rows) ? static_cast<std::int64_t>(number) : -1);
               },
-              [this] { add_polygon(raw_, corners_, cloud_.width); }};
+              [this] { add_polygon(raw_, corners_, rows_.rows); }};
     };
   }
 
+  ArraySender& to_;
   RawCloud& raw_;
   ply_parser::scalar_property_definition_callbacks_type scalars_;
   ply_parser::list_property_definition_callbacks_type lists_;
-  pcl::PCLPointCloud2 cloud_;
-  std::uint8_t* next_ = nullptr;  ///< where the next number of a vertex goes
+  SentRows rows_;
+  char* next_ = nullptr;  ///< where the next number of a vertex goes
   std::vector<std::int64_t> corners_;
 };
 
@@ -116,12 +125,15 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options) {
   raw.path = path;
   raw.tags = header.tags;
   raw.format = "PLY " + header.encoding;
-  PlyTaker taker(raw);
-  const std::string problem = taker.parse(path);
-  if (!problem.empty())
-    fail(ErrorKind::content, path, ": cut off, damaged or of an unknown kind: PCL stops reading ", problem,
-         "; copy the file again, or save it from CloudCompare or MeshLab");
-  fill_cloud(raw, table_of(taker.cloud(), raw), options);
+  const std::size_t bytes = file_size_of(path);
+  read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud& read) {
+    PlyTaker taker(to, read);
+    const std::string problem = taker.parse(path);
+    if (!problem.empty())
+      fail(ErrorKind::content, path, ": cut off, damaged or of an unknown kind: PCL stops reading ", problem,
+           "; copy the file again, or save it from CloudCompare or MeshLab");
+    return taker.rows();
+  });
   if (!raw.triangle.empty() || raw.bad_triangles > 0) raw.format += " mesh";
   return raw;
 }

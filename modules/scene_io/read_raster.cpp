@@ -9,10 +9,9 @@
 #include "core/geodesy.hpp"
 #include "core/units.hpp"
 #include "scene_io/file_probe_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/read_apart_internal.hpp"
 
 #ifdef INSONIFY_GDAL
-#include "core/child_process.hpp"
 #include "scene_io/gdal_library_internal.hpp"
 #endif
 
@@ -32,13 +31,14 @@ RawCloud read_raster(const std::string& path, const ReadOptions&) {
 namespace {
 
 constexpr double most_raster_cells = 0x1p28;
+constexpr std::size_t bytes_of_cell = 3 * sizeof(double);  // x, y, z
 const char* const raster_drivers[] = {"GTiff", "BAG", "netCDF", "GMT", "AAIGrid", "GSBG", "GS7BG", nullptr};
 
 /// Knows GDAL's formats, and keeps it from printing; its last message is part of ours.
 struct QuietGdal {
   QuietGdal() {
     GDALAllRegister();
-    GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond limits_of_raster
+    GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond the limits of a child
     CPLPushErrorHandler(CPLQuietErrorHandler);
   }
   ~QuietGdal() { CPLPopErrorHandler(); }
@@ -63,6 +63,9 @@ GdalFile open_raster(const std::string& path) {
   if (cells > most_raster_cells)
     fail(ErrorKind::content, path, ": has ", cells,
          " cells, must be at most 2^28; cut it out: gdal_translate -projwin WEST NORTH EAST SOUTH in.tif out.tif");
+  expect_from_file(path, file_size_of(path),
+                   {cells, "cells", bytes_of_cell,
+                    "cut it out, or save it as it is: gdal_translate -co COMPRESS=NONE in.tif out.tif"});
   return file;
 }
 
@@ -118,12 +121,22 @@ void for_each_height(const std::string& path, GDALDatasetH file, Use&& use) {
   }
 }
 
-/// What GDAL may take to read so many bytes, which may be packed.
-ChildLimits limits_of_raster(std::size_t bytes) {
-  constexpr std::size_t memory_per_byte = 4, memory_at_least = std::size_t{900} << 20;
-  constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
-  return {memory_per_byte * bytes + memory_at_least,
-          static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
+SentRows read_heights(ArraySender& to, RawCloud& raw) {
+  const QuietGdal quiet;
+  const GdalFile file = open_raster(raw.path);
+  raw.format = std::string("raster of heights, ") + GDALGetDriverShortName(GDALGetDatasetDriver(file.get()));
+  raw.fields = {{"height", GDALGetDataTypeName(GDALGetRasterDataType(GDALGetRasterBand(file.get(), 1)))}};
+  const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(file.get())) *
+                            static_cast<std::size_t>(GDALGetRasterYSize(file.get()));
+  auto* const numbers = reinterpret_cast<double*>(to.take_array<char>(bytes_of_cell * cells));
+  double* next = numbers;
+  for_each_height(raw.path, file.get(), [&](double x, double y, double z) { *next++ = x, *next++ = y, *next++ = z; });
+  if (next == numbers)
+    fail(ErrorKind::content, raw.path, ": none of its ", cells, " cells has a height: all are no data");
+  raw.width = static_cast<std::size_t>(next - numbers) / 3;
+  if (const std::size_t holes = cells - raw.width; holes > 0)
+    raw.notes.push_back(std::to_string(holes) + " cells of the raster have no height and are holes");
+  return rows_of_doubles({"x", "y", "z"}, raw.width);
 }
 
 }  // namespace
@@ -131,24 +144,9 @@ ChildLimits limits_of_raster(std::size_t bytes) {
 RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   require_readable(path);
   check_netcdf(path);
-  const QuietGdal quiet;
-  // What GDAL does not survive must not end this process.
-  try_in_child(path, limits_of_raster(file_size_of(path)),
-               [&] { for_each_height(path, open_raster(path).get(), [](double, double, double) {}); });
-  const GdalFile file = open_raster(path);
   RawCloud raw;
   raw.path = path;
-  raw.format = std::string("raster of heights, ") + GDALGetDriverShortName(GDALGetDatasetDriver(file.get()));
-  raw.fields = {{"height", GDALGetDataTypeName(GDALGetRasterDataType(GDALGetRasterBand(file.get(), 1)))}};
-  std::vector<double> numbers;
-  for_each_height(path, file.get(), [&](double x, double y, double z) { numbers.insert(numbers.end(), {x, y, z}); });
-  const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(file.get())) *
-                            static_cast<std::size_t>(GDALGetRasterYSize(file.get()));
-  if (numbers.empty()) fail(ErrorKind::content, path, ": none of its ", cells, " cells has a height: all are no data");
-  const std::size_t holes = cells - numbers.size() / 3;
-  raw.width = numbers.size() / 3;
-  if (holes > 0) raw.notes.push_back(std::to_string(holes) + " cells of the raster have no height and are holes");
-  fill_cloud(raw, table_of_doubles({"x", "y", "z"}, std::move(numbers)), options);
+  read_rows_apart(raw, file_size_of(path), options, read_heights);
   return raw;
 }
 

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/read_apart_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 #include "scene_io/vtk_checks_internal.hpp"
 #include "scene_io/vtk_messages_internal.hpp"
@@ -89,7 +89,7 @@ void add_faces(vtkPolyData* data, RawCloud& raw) {
 }
 
 /// Points, normals and one-component point arrays as rows of doubles.
-RowTable table_of(vtkPolyData* data, RawCloud& raw) {
+SentRows send_rows(vtkPolyData* data, RawCloud& raw, ArraySender& to) {
   std::vector<vtkDataArray*> arrays = {data->GetPoints()->GetData()};
   std::vector<std::string> names = {"x", "y", "z"};
   for (const std::string& name : names) raw.fields.push_back({name, arrays[0]->GetDataTypeAsString()});
@@ -107,52 +107,46 @@ RowTable table_of(vtkPolyData* data, RawCloud& raw) {
     names.push_back(array->GetName());
     raw.fields.push_back({array->GetName(), array->GetDataTypeAsString()});
   }
-  std::vector<double> rows(static_cast<std::size_t>(data->GetNumberOfPoints()) * names.size());
-  double* out = rows.data();
+  const SentRows rows = rows_of_doubles(names, static_cast<std::size_t>(data->GetNumberOfPoints()));
+  auto* out = reinterpret_cast<double*>(to.take_array<char>(rows.rows * rows.stride));
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     for (vtkDataArray* array : arrays) {
       array->GetTuple(i, out);
       out += array->GetNumberOfComponents();
     }
   }
-  return table_of_doubles(names, std::move(rows));
+  return rows;
+}
+
+/// Reads a file that passed the checks of its format.
+SentRows read_by_vtk(ArraySender& to, RawCloud& raw) {
+  vtkNew<VtkReadMessages> messages;
+  const QuietVtk quiet(messages);
+  const vtkSmartPointer<vtkPolyData> data = read_polydata(raw.path, extension_of(raw.path));
+  if (!messages->errors.empty())
+    fail(ErrorKind::content, raw.path, ": VTK cannot read it: ", messages->errors.front(),
+         "; the file is damaged or cut off: copy or export it again");
+  for (const std::string& warning : messages->warnings) raw.notes.push_back("VTK: " + warning);
+  if (!data || !data->GetPoints() || data->GetNumberOfPoints() == 0)
+    fail(ErrorKind::content, raw.path, ": holds no point; export the ", raw.format, " again");
+  raw.width = static_cast<std::size_t>(data->GetNumberOfPoints());
+  raw.float_coordinates = data->GetPoints()->GetDataType() == VTK_FLOAT;
+  add_faces(data, raw);
+  if (!raw.triangle.empty() || raw.bad_triangles > 0) raw.format += " mesh";
+  return send_rows(data, raw, to);
 }
 
 }  // namespace
-
-ChildLimits limits_of_vtk(std::size_t bytes) {
-  // Compressed arrays unpack, and text becomes shorter.
-  constexpr std::size_t memory_per_byte = 40, memory_at_least = 300 << 20;
-  constexpr std::size_t bytes_per_second = 1 << 20, seconds_at_least = 8;
-  return {memory_per_byte * bytes + memory_at_least,
-          static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
-}
 
 RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
   const std::string extension = extension_of(path);
   RawCloud raw;
   raw.path = path;
   raw.format = extension == ".vtk" ? "VTK legacy polydata" : extension == ".vtp" ? "VTK XML polydata" : "STL";
-  if (extension == ".vtk") check_legacy_vtk(path);
   if (extension == ".vtp") check_xml(path);
   if (extension == ".stl") check_stl(path);
-  // What the checks do not see must not end this process.
-  if (extension != ".stl")
-    try_in_child(path, limits_of_vtk(file_size_of(path)), [&] { read_polydata(path, extension); });
-  vtkNew<VtkReadMessages> messages;
-  const QuietVtk quiet(messages);
-  const vtkSmartPointer<vtkPolyData> data = read_polydata(path, extension);
-  if (!messages->errors.empty())
-    fail(ErrorKind::content, path, ": VTK cannot read it: ", messages->errors.front(),
-         "; the file is damaged or cut off: copy or export it again");
-  for (const std::string& warning : messages->warnings) raw.notes.push_back("VTK: " + warning);
-  if (!data || !data->GetPoints() || data->GetNumberOfPoints() == 0)
-    fail(ErrorKind::content, path, ": holds no point; export the ", raw.format, " again");
-  raw.width = static_cast<std::size_t>(data->GetNumberOfPoints());
-  raw.float_coordinates = data->GetPoints()->GetDataType() == VTK_FLOAT;
-  add_faces(data, raw);
-  if (!raw.triangle.empty() || raw.bad_triangles > 0) raw.format += " mesh";
-  fill_cloud(raw, table_of(data, raw), options);
+  if (extension == ".vtk") check_legacy_vtk(path);
+  read_rows_apart(raw, file_size_of(path), options, read_by_vtk);
   return raw;
 }
 

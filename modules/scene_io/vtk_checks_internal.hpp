@@ -5,8 +5,6 @@
 
 #include <vtkXMLPolyDataReader.h>
 
-#include "core/child_process.hpp"
-
 // Private to scene_io: what a VTK file announces against what it holds. VTK takes memory for whatever a file announces,
 // and reads beyond it.
 namespace insonify {
@@ -14,9 +12,6 @@ namespace insonify {
 /// Throws Error(content) unless `path` is a legacy VTK file of DATASET POLYDATA, and every array holds the numbers, and
 /// every cell the corners, that it announces.
 void check_legacy_vtk(const std::string& path);
-
-/// What VTK may take in a child process to read so many bytes.
-ChildLimits limits_of_vtk(std::size_t bytes);
 
 /// A reader of .vtp that refuses what a file of this size cannot hold, before memory is taken for it, and arrays that end
 /// before their announced number, which VTK leaves as the memory was.

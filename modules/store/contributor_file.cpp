@@ -22,13 +22,12 @@ constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name
     names_name{"/material_names", ""};
 
 template <typename Number>
-void read_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
-                  std::vector<Number>& numbers) {
+void send_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent, ArraySender& to) {
   const Handle dataset = open_dataset(place, file, name);
   if (extent_of(place, dataset, name.path, 3) != extent)
     fail(place.kind, place.path, ": ", name.path, " differs in extent from ", surfel_name.path);
-  numbers.resize(extent[0] * extent[1] * extent[2]);
-  read_values(place, dataset, {type_of<Number>(false)}, numbers.data(), name.path);
+  Number* const numbers = to.take_array<Number>(extent[0] * extent[1] * extent[2]);
+  read_values(place, dataset, {type_of<Number>(false)}, numbers, name.path);
 }
 
 void write_names(const Place& place, hid_t file, const std::vector<std::string>& names) {
@@ -183,36 +182,35 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 
 std::uintmax_t contributor_bytes(const std::string& path) {
   constexpr std::uintmax_t bytes_of_entry = 19;
-  const QuietErrors quiet;
-  Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
-  require_ours(place, file);
-  const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
+  Extent extent;
+  read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+    require_ours(place, file);
+    to(extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3));
+  })(extent);
   return bytes_of_entry * extent[0] * extent[1] * extent[2];
 }
 
 NamedContributors read_contributor_file(const std::string& path) {
-  const QuietErrors quiet;
-  Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
-  require_ours(place, file);
+  ArrayReceiver sent = read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+    require_ours(place, file);
+    const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
+    to(extent);
+    send_numbers<std::uint32_t>(place, file, surfel_name, extent, to);
+    send_numbers<std::uint32_t>(place, file, id_name, extent, to);
+    send_numbers<float>(place, file, share_name, extent, to);
+    send_numbers<float>(place, file, elevations_name, extent, to);
+    send_numbers<std::uint16_t>(place, file, material_name, extent, to);
+    send_numbers<std::uint8_t>(place, file, path_name, extent, to);
+    to(read_names(place, file));
+  });
   NamedContributors named;
   Contributors& c = named.contributors;
-  const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
+  Extent extent;
+  sent(extent, c.surfel, c.id, c.share, c.elevation, c.material, c.path, named.materials);
   c.beams = extent[0], c.bins = extent[1], c.per_pixel = extent[2];
-  read_numbers(place, file, surfel_name, extent, c.surfel);
-  read_numbers(place, file, id_name, extent, c.id);
-  read_numbers(place, file, share_name, extent, c.share);
-  read_numbers(place, file, elevations_name, extent, c.elevation);
-  read_numbers(place, file, material_name, extent, c.material);
-  std::vector<std::uint8_t> kinds;
-  read_numbers(place, file, path_name, extent, kinds);
-  for (const std::uint8_t kind : kinds) {
-    if (kind > static_cast<std::uint8_t>(PathKind::two_bounces))
-      fail(place.kind, path, ": ", path_name.path, " holds ", int{kind}, ", must be 0, 1 or 2");
-    c.path.push_back(static_cast<PathKind>(kind));
-  }
-  named.materials = read_names(place, file);
+  for (const PathKind kind : c.path)
+    if (kind > PathKind::two_bounces)
+      fail(ErrorKind::content, path, ": ", path_name.path, " holds ", static_cast<int>(kind), ", must be 0, 1 or 2");
   return named;
 }
 

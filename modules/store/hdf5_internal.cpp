@@ -137,13 +137,11 @@ std::string read_text(const Place& place, hid_t where, const char* name) {
     place.checked(H5Aread(attribute, stored, text.data()), name);
     return text.substr(0, text.find('\0'));
   }
-  std::string object(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(where, nullptr, 0))), '\0');
-  H5Iget_name(where, object.data(), object.size() + 1);
-  const auto read = place.texts.find({object, name});
-  if (read == place.texts.end())
-    fail(place.kind, place.path, ": attribute '", name, "' of ", object,
-         " cannot be read; copy or export the file again");
-  return read->second;
+  char* characters = nullptr;
+  place.checked(H5Aread(attribute, stored, &characters), name);
+  const std::string text = characters ? characters : "";
+  H5free_memory(characters);
+  return text;
 }
 
 Handle create_file(const Place& place, const std::string& name) {

@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <map>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -8,6 +8,7 @@
 
 #include <hdf5.h>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "store/cube_layout_internal.hpp"
@@ -31,9 +32,6 @@ class QuietErrors {
 struct Place {
   std::string path;
   ErrorKind kind;
-  /// Attributes of text of any length in a file that is read, by object and name. HDF5 takes their places in the file as
-  /// they are, so another process has read them (open_file).
-  std::map<std::pair<std::string, std::string>, std::string> texts{};
 
   /// Throws Error "path: what: HDF5's reason".
   [[noreturn]] void fail_here(const std::string& what) const;
@@ -87,9 +85,12 @@ void write_hdf5(const std::string& path, Body&& body) {
   pending.commit();
 }
 
-/// Opens an existing file for reading. Throws Error(file) if it is missing or a folder, Error(content) if it is not
-/// HDF5. Sets place.texts.
-Handle open_file(Place& place);
+/// Opens an existing file for reading, where a crash within HDF5 ends a child alone. Throws Error(file) if it is missing or a
+/// folder, Error(content) if it is not HDF5.
+Handle open_file(const Place& place);
+
+/// Returns what read(place, file, to) sent from a child process. Throws as open_file and read do, and as read_in_child.
+ArrayReceiver read_apart(const std::string& path, const std::function<void(const Place&, hid_t, ArraySender&)>& read);
 
 /// How the chunks of a dataset are stored: as they are, or shuffled and deflated at level 1, without loss.
 enum class Packing { none, deflate };
@@ -131,8 +132,7 @@ struct Values {
   hid_t type, memory = H5S_ALL, selected = H5S_ALL;
 };
 
-/// Reads values of a dataset. What is packed, or put together of other files, is read by another process, since HDF5 reads
-/// beyond a damaged chunk. Throws Error(content) that names `what`.
+/// Reads values of a dataset. Throws Error(content) that names `what`.
 void read_values(const Place& place, hid_t dataset, const Values& values, void* to, const std::string& what);
 
 /// UTF-8 text padded with zeros to `length` bytes, or of any length.

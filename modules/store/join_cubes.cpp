@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
@@ -73,7 +74,7 @@ void add_track(const Place& place, hid_t file, Track& track) {
 }
 
 void add_part(JoinedCube& joined, const std::string& path) {
-  Place place{path, ErrorKind::content};
+  const Place place{path, ErrorKind::content};
   const Handle file = open_file(place);
   const Extent extent = extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3);
   const std::string sonar = read_text(place, file, "sonar");
@@ -157,59 +158,93 @@ void refer_to_parts(const Place& place, const JoinedCube& joined, const std::str
   place.checked(H5Pset_fill_value(properties, type, missing), image);
 }
 
-/// Copies an image of all parts, ping by ping.
+/// Copies an image of all parts, a few pings at a time.
 void copy_images(const Place& place, const JoinedCube& joined, const std::string& image, hid_t type, hid_t dataset) {
-  const Extent one = {1, joined.extent[1], joined.extent[2]};
-  const Handle memory = rows(place, one, 0, 1);
-  std::vector<char> bytes(one[1] * one[2] * H5Tget_size(type));
+  constexpr hsize_t bytes_at_once = 16 << 20;
+  const hsize_t bytes = joined.extent[1] * joined.extent[2] * H5Tget_size(type);
+  const hsize_t at_once = std::max<hsize_t>(1, bytes_at_once / std::max<hsize_t>(1, bytes));
   hsize_t row = 0;
   for (const Part& part : joined.parts) {
-    Place from{part.path, ErrorKind::content};
-    const Handle file = open_file(from);
-    const Handle source = open_dataset(from, file, {image.c_str(), ""});
-    const Extent extent = {part.pings, one[1], one[2]};
-    for (hsize_t p = 0; p < part.pings; ++p, ++row) {
-      read_values(from, source, {type, memory, rows(from, extent, p, 1)}, bytes.data(), image);
-      place.checked(H5Dwrite(dataset, type, memory, rows(place, joined.extent, row, 1), H5P_DEFAULT, bytes.data()),
+    const Extent extent = {part.pings, joined.extent[1], joined.extent[2]};
+    for (hsize_t first = 0; first < part.pings; first += at_once) {
+      const hsize_t count = std::min(at_once, part.pings - first);
+      const Extent some = {count, extent[1], extent[2]};
+      const Handle memory = rows(place, some, 0, count);
+      ArrayReceiver sent = read_apart(part.path, [&](const Place& from, hid_t file, ArraySender& to) {
+        const Handle source = open_dataset(from, file, {image.c_str(), ""});
+        read_values(from, source, {type, memory, rows(from, extent, first, count)}, to.take(count * bytes), image);
+      });
+      place.checked(H5Dwrite(dataset, type, memory, rows(place, joined.extent, row, count), H5P_DEFAULT,
+                             sent.take(count * bytes)),
                     image);
+      row += count;
     }
   }
 }
 
+/// How the parts are joined.
+struct Join {
+  bool copy;           ///< images; else they are referred to
+  bool tried = false;  ///< without the numbers of images
+};
+
 void write_image(const Place& place, const JoinedCube& joined, const std::string& image, const Place& from, hid_t first,
-                 hid_t file, bool copy) {
+                 hid_t file, Join join) {
   const Handle like = open_dataset(place, first, {image.c_str(), ""});
   const Handle type(place.checked(H5Dget_type(like), image), H5Tclose);
-  const Handle properties(place.checked(copy ? H5Dget_create_plist(like) : H5Pcreate(H5P_DATASET_CREATE), image),
+  const Handle properties(place.checked(join.copy ? H5Dget_create_plist(like) : H5Pcreate(H5P_DATASET_CREATE), image),
                           H5Pclose);
   place.checked(H5Pset_obj_track_times(properties, false), image);
-  if (!copy) refer_to_parts(place, joined, image, type, properties);
+  if (!join.copy) refer_to_parts(place, joined, image, type, properties);
   const Handle space(place.checked(H5Screate_simple(3, joined.extent.data(), nullptr), image), H5Sclose);
   const Handle dataset(
       place.checked(H5Dcreate2(file, image.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), image),
       H5Dclose);
   Copy attributes{from, dataset};
   place.checked(H5Aiterate2(like, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &attributes), image);
-  if (copy) copy_images(place, joined, image, type, dataset);
+  if (join.copy && !join.tried) copy_images(place, joined, image, type, dataset);
+}
+
+/// A file that is kept in memory, and lost; its name, which HDF5 looks for, cannot be there.
+Handle create_in_memory(const Place& place) {
+  constexpr std::size_t step = 1 << 20;
+  const Handle access(place.checked(H5Pcreate(H5P_FILE_ACCESS), "file"), H5Pclose);
+  place.checked(H5Pset_fapl_core(access, step, false), "file");
+  return {place.checked(H5Fcreate((place.path + "/tried").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "file"),
+          H5Fclose};
+}
+
+void join_parts(const std::string& path, const std::vector<std::string>& parts, Join join) {
+  const QuietErrors quiet;
+  JoinedCube joined;
+  for (const std::string& part : parts) add_part(joined, part);
+  const Place from{parts.front(), ErrorKind::content};
+  const Handle first = open_file(from);
+  const auto write = [&](const Place& place, hid_t file) {
+    copy_axes(place, from, first, file);
+    write_tracks(place, file, joined);
+    const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
+    if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
+      create_ordered_group(place, file, layers_group);
+    for (const std::string& image : joined.images) write_image(place, joined, image, from, first, file, join);
+  };
+  if (!join.tried) return write_hdf5(path, write);
+  const Place nowhere{path, ErrorKind::file};
+  write(nowhere, create_in_memory(nowhere));
 }
 
 }  // namespace
 
 void join_cubes(const std::string& path, const std::vector<std::string>& parts, bool copy) {
   if (parts.empty()) fail(ErrorKind::argument, "join_cubes: ", path, ": no parts, must be at least one");
-  const QuietErrors quiet;
-  JoinedCube joined;
-  for (const std::string& part : parts) add_part(joined, part);
-  Place from{parts.front(), ErrorKind::content};
-  const Handle first = open_file(from);
-  write_hdf5(path, [&](const Place& place, hid_t file) {
-    copy_axes(place, from, first, file);
-    write_tracks(place, file, joined);
-    const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
-    if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
-      create_ordered_group(place, file, layers_group);
-    for (const std::string& image : joined.images) write_image(place, joined, image, from, first, file, copy);
-  });
+  // A child makes every call of HDF5 on the parts first, so that none can end this process.
+  std::size_t bytes = 0;
+  for (const std::string& part : parts) {
+    require_regular_file(part);
+    bytes += std::filesystem::file_size(part);
+  }
+  try_in_child(parts.front(), limits_of_file(bytes), [&] { join_parts(path, parts, {copy, true}); });
+  join_parts(path, parts, {copy});
 }
 
 }  // namespace insonify

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <functional>
-#include <span>
 #include <sstream>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
-#include "store/cube.hpp"
+#include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
@@ -40,96 +39,25 @@ std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name,
 }
 
 // Reads fan and gate, common to all pings; invalid values are errors of the file.
-Ping read_axes(const Place& place, hid_t file, const Extent& extent) {
-  Ping ping;
-  ping.fan.azimuth = read_all<double>(place, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
-  ping.fan.elevation = read_all<double>(place, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
-  ping.fan.beam_width = read_number(place, file, "beam_width");
-  ping.fan.elevation_width = read_number(place, file, "elevation_width");
-  if (H5Aexists(file, "row_width") > 0) ping.fan.row_width = read_number(place, file, "row_width");
-  ping.gate = {read_number(place, file, "min_range"), read_number(place, file, "max_range"),
-               read_number(place, file, "bin_size")};
+void read_axes(const Place& place, hid_t file, CubeTable& table) {
+  const Extent& extent = table.extent;
+  table.fan.azimuth = read_all<double>(place, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
+  table.fan.elevation = read_all<double>(place, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
+  table.fan.beam_width = read_number(place, file, "beam_width");
+  table.fan.elevation_width = read_number(place, file, "elevation_width");
+  if (H5Aexists(file, "row_width") > 0) table.fan.row_width = read_number(place, file, "row_width");
+  table.gate = {read_number(place, file, "min_range"), read_number(place, file, "max_range"),
+                read_number(place, file, "bin_size")};
   try {
-    require_valid(ping.fan, "cube");
-    require_valid(ping.gate, "cube");
+    require_valid(table.fan, "cube");
+    require_valid(table.gate, "cube");
   } catch (const Error& error) {
     fail(place.kind, place.path, ": ", error.what());
   }
-  if (ping.gate.bins() != extent[2])
+  if (table.gate.bins() != extent[2])
     fail(place.kind, place.path, ": /pressure has ", extent[2], " bins, but min_range, max_range and bin_size give ",
-         ping.gate.bins());
+         table.gate.bins());
   read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
-  return ping;
-}
-
-// Reads one image per ping, from ping `first` of the cube on, with values of `type`, into the member selected by `part`.
-template <typename Part>
-void read_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, std::span<Ping> pings,
-                 std::size_t first, Part part) {
-  const Extent extent = extent_of(place, dataset, name, 3);
-  const Extent one_ping = {1, extent[1], extent[2]};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    auto& image = part(pings[p]);
-    image.resize(static_cast<Eigen::Index>(extent[1]), static_cast<Eigen::Index>(extent[2]));
-    const Handle row = select_row(place, dataset, extent, first + p);
-    read_values(place, dataset, {type, memory, row}, image.data(), name);
-  }
-}
-
-void require_complex(const Place& place, hid_t dataset, const std::string& name) {
-  const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
-  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_member_index(type, "r") < 0 || H5Tget_member_index(type, "i") < 0)
-    fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
-}
-
-void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
-  if (extent_of(place, dataset, name, 3) != extent)
-    fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
-}
-
-void read_layers(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
-  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
-  for (const std::string& layer : names_in(place, file, layers_group)) {
-    const std::string path = std::string(layers_group) + "/" + layer;
-    const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
-    require_extent(place, dataset, path, extent);
-    require_complex(place, dataset, path);
-    for (Ping& ping : pings) ping.layers.push_back({layer, {}});
-    read_images(place, dataset, path, type, pings, first,
-                [](Ping& ping) -> ComplexGridF& { return ping.layers.back().pressure; });
-  }
-}
-
-// Reads an optional map into what `map` gives of each ping.
-template <typename Map>
-void read_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-              std::span<Ping> pings, std::size_t first, const Map& map) {
-  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return;
-  const Handle dataset = open_dataset(place, file, name);
-  require_extent(place, dataset, name.path, extent);
-  const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
-  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
-    fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
-         8 * H5Tget_size(type));
-  read_images(
-      place, dataset, name.path, type, pings, first, [&map](Ping & ping) -> auto& { return std::invoke(map, ping); });
-}
-
-void read_labels(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
-  if (H5Lexists(file, label_material_name.path, H5P_DEFAULT) <= 0) return;
-  const auto read_part = [&](const DatasetName& name, hid_t type, auto label) {
-    open_dataset(place, file, name);  // all three, or none
-    read_map(
-        place, file, name, type, extent, pings, first, [label](Ping & ping) -> auto& { return ping.labels.*label; });
-  };
-  read_part(label_material_name, H5T_NATIVE_UINT16, &PixelLabels::material);
-  read_part(label_id_name, H5T_NATIVE_UINT32, &PixelLabels::id);
-  read_part(label_share_name, H5T_NATIVE_FLOAT, &PixelLabels::share);
-  std::istringstream lines(read_text(place, file, label_names_attribute));
-  std::vector<std::string> names;
-  for (std::string name; std::getline(lines, name);) names.push_back(name);
-  for (Ping& ping : pings) ping.labels.names = names;
 }
 
 std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
@@ -155,44 +83,28 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
   return track;
 }
 
-// What is known of the pings of a cube without their images.
-struct CubeTable {
-  Extent extent;  // of /pressure
-  Ping common;
-  std::vector<TrackPoint> track;
-};
-
 CubeTable read_table(const Place& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   CubeTable table;
   table.extent = extent_of(place, dataset, pressure_name.path, 3);
   require_complex(place, dataset, pressure_name.path);
   table.track = track_of(place, file, table.extent[0]);
-  table.common = read_axes(place, file, table.extent);
-  table.common.expected_level = H5Aexists(file, expected_level_attribute) > 0;
+  read_axes(place, file, table);
+  table.expected_level = H5Aexists(file, expected_level_attribute) > 0;
   return table;
 }
 
-Ping ping_of(const CubeTable& table, std::size_t p) {
-  Ping ping = table.common;
-  ping.time = table.track[p].time;
-  ping.number = table.track[p].number;
-  ping.world_from_head = table.track[p].world_from_head;
-  ping.scan = table.track[p].scan;
-  return ping;
-}
-
-// Fills the images of pings, of which the first is number `first` in the cube.
-void fill_images(const Place& place, hid_t file, const Extent& extent, std::span<Ping> pings, std::size_t first) {
-  const Handle dataset = open_dataset(place, file, pressure_name);
-  read_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, first,
-              [](Ping& ping) -> ComplexGridF& { return ping.pressure; });
-  read_layers(place, file, extent, pings, first);
-  read_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::intensity);
-  read_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::level_error_db);
-  read_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, first, &Ping::unknown);
-  read_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, first, &Ping::split_phase);
-  read_labels(place, file, extent, pings, first);
+/// The pings without their images.
+std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
+  std::vector<Ping> pings;
+  for (std::size_t p = range.begin; p < range.end; ++p) {
+    Ping& ping = pings.emplace_back();
+    const TrackPoint& point = table.track[p];
+    ping.fan = table.fan, ping.gate = table.gate, ping.expected_level = table.expected_level;
+    ping.time = point.time, ping.number = point.number, ping.world_from_head = point.world_from_head;
+    ping.scan = point.scan;
+  }
+  return pings;
 }
 
 Cube read_attributes(const Place& place, hid_t file) {
@@ -212,61 +124,92 @@ Cube read_attributes(const Place& place, hid_t file) {
   return cube;
 }
 
+/// Pings of so few bytes that memory stays small, and starting a process for them costs little.
+std::size_t pings_at_once(const Extent& extent) {
+  constexpr std::size_t bytes = 16 << 20, bytes_of_sample = 8;
+  return std::max<std::size_t>(1, bytes / (bytes_of_sample * std::max<std::size_t>(1, extent[1] * extent[2])));
+}
+
 }  // namespace
 
 Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
-  const QuietErrors quiet;
-  Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
-  Cube cube = read_attributes(place, file);
-  const CubeTable table = read_table(place, file);
-  const std::size_t begin = std::min(first, table.track.size()),
-                    end = begin + std::min(count, table.track.size() - begin);
-  for (std::size_t p = begin; p < end; ++p) cube.pings.push_back(ping_of(table, p));
-  fill_images(place, file, table.extent, cube.pings, begin);
+  const auto range_of = [&](const CubeTable& table) {
+    const std::size_t begin = std::min(first, table.track.size());
+    return PingRange{begin, begin + std::min(count, table.track.size() - begin)};
+  };
+  ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+    const Cube cube = read_attributes(place, file);
+    const CubeTable table = read_table(place, file);
+    to(cube, table);
+    send_all_images(place, file, table.extent, range_of(table), to);
+  });
+  Cube cube;
+  CubeTable table;
+  sent(cube, table);
+  cube.pings = pings_of(table, range_of(table));
+  receive_all_images(sent, path, cube.pings);
   return cube;
 }
 
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
-  const QuietErrors quiet;
-  Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
-  require_schema(place, file);
-  const Handle dataset = open_dataset(place, file, pressure_name);
-  const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
-  require_complex(place, dataset, pressure_name.path);
-  if (beam >= extent[1] || first + count > extent[0])
-    fail(ErrorKind::argument, "read_beam: pings ", first, " to ", first + count, ", beam ", beam, ", must be within ",
-         extent[0], " and ", extent[1]);
-  ComplexGridF rows(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(extent[2]));
-  if (count == 0) return rows;
-  const Extent start{first, beam, 0}, size{count, 1, extent[2]};
-  const Handle space(place.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
-  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
-  const Handle memory(place.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
-  read_values(place, dataset, {complex_type(place, H5T_NATIVE_FLOAT), memory, space}, rows.data(), "/pressure");
+  ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+    require_schema(place, file);
+    const Handle dataset = open_dataset(place, file, pressure_name);
+    const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
+    require_complex(place, dataset, pressure_name.path);
+    if (beam >= extent[1] || first + count > extent[0])
+      fail(ErrorKind::argument, "read_beam: pings ", first, " to ", first + count, ", beam ", beam, ", must be within ",
+           extent[0], " and ", extent[1]);
+    const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+    char* const rows =
+        to.take_grid(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(extent[2]), H5Tget_size(type));
+    if (count == 0) return;
+    const Extent start{first, beam, 0}, size{count, 1, extent[2]};
+    const Handle space(place.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
+    place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
+    const Handle memory(place.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
+    read_values(place, dataset, {type, memory, space}, rows, "/pressure");
+  });
+  ComplexGridF rows;
+  sent(rows);
   return rows;
 }
 
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
-  const QuietErrors quiet;
-  Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
-  const Cube cube = read_attributes(place, file);
-  const CubeTable table = read_table(place, file);
-  for (std::size_t p = 0; p < table.track.size(); ++p) {
-    Ping ping = ping_of(table, p);
-    fill_images(place, file, table.extent, {&ping, 1}, p);
-    use(cube, ping);
+  Cube cube;
+  CubeTable table;
+  read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+    to(read_attributes(place, file));
+    to(read_table(place, file));
+  })(cube, table);
+  const std::size_t pings = table.track.size();
+  std::size_t at_once = pings_at_once(table.extent);
+  for (std::size_t begin = 0; begin < pings;) {
+    const PingRange range{begin, std::min(begin + at_once, pings)};
+    std::vector<Ping> some = pings_of(table, range);
+    try {
+      ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+        send_all_images(place, file, table.extent, range, to);
+      });
+      receive_all_images(sent, path, some);
+    } catch (const Error&) {
+      if (at_once == 1) throw;
+      at_once = 1;  // up to the ping that is damaged
+      continue;
+    }
+    for (const Ping& ping : some) use(cube, ping);
+    begin = range.end;
   }
 }
 
 std::vector<TrackPoint> read_track(const std::string& path) {
-  const QuietErrors quiet;
-  Place place{path, ErrorKind::content};
-  const Handle file = open_file(place);
-  require_schema(place, file);
-  return track_of(place, file, extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3)[0]);
+  std::vector<TrackPoint> track;
+  read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+    require_schema(place, file);
+    const Handle dataset = open_dataset(place, file, pressure_name);
+    to(track_of(place, file, extent_of(place, dataset, pressure_name.path, 3)[0]));
+  })(track);
+  return track;
 }
 
 }  // namespace insonify

@@ -1,5 +1,6 @@
 #include "view/grey_file.hpp"
 
+#include <array>
 #include <fstream>
 
 #include <vtkImageData.h>
@@ -7,7 +8,9 @@
 #include <vtkPNGReader.h>
 #include <vtkPNGWriter.h>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "view/label_colours.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_colours_internal.hpp"
@@ -46,21 +49,31 @@ Grid<std::uint16_t> values_of(vtkImageData* image) {
       .template cast<std::uint16_t>();
 }
 
-// VTK's reader draws the rest of a truncated file as black: the file must end as a PNG does.
-void require_whole_png(const std::string& path) {
+/// The head of a PNG (Portable Network Graphics 1.2, 11.2.2), of a file that ends as one does: VTK's reader draws the rest
+/// of a truncated file as black.
+struct PngHead {
+  std::size_t bytes = 0;  ///< of the file
+  double width = 0, height = 0;
+  int bits = 0, channels = 1;
+};
+
+PngHead png_head(const std::string& path) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(ErrorKind::file, path, ": cannot be read");
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) fail(ErrorKind::content, path, ": does not begin as a PNG does");
-  if (bytes.size() < 20 || bytes.find("IEND", bytes.size() - 20) == bytes.npos)
+  if (bytes.size() < 45 || bytes.find("IEND", bytes.size() - 20) == bytes.npos)
     fail(ErrorKind::content, path, ": does not end as a PNG does; the file is truncated, copy it again");
+  const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); };
+  const auto number = [&](std::size_t at) {
+    return ((byte(at) * 256.0 + byte(at + 1)) * 256 + byte(at + 2)) * 256 + byte(at + 3);
+  };
+  constexpr std::array channels = {1, 1, 3, 1, 2, 3, 4};  // by the type of its colours
+  return {bytes.size(), number(16), number(20), byte(24), byte(25) < channels.size() ? channels[byte(25)] : 4};
 }
 
-}  // namespace
-
-GreyPicture load_grey_png(const std::string& path) {
-  require_whole_png(path);
-  const VtkMessages messages;
+GreyPicture read_png(const std::string& path) {
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -72,6 +85,21 @@ GreyPicture load_grey_png(const std::string& path) {
          " channels, must have one: a grey value for each beam and bin");
   if (image->GetScalarType() == VTK_UNSIGNED_SHORT) return {16, values_of<std::uint16_t>(image)};
   return {8, values_of<std::uint8_t>(image)};
+}
+
+}  // namespace
+
+GreyPicture load_grey_png(const std::string& path) {
+  const PngHead head = png_head(path);
+  ArrayReceiver sent = read_in_child(path, limits_of_file(head.bytes), [&](ArraySender& to) {
+    expect_from_file(path, head.bytes,
+                     {head.width * head.height, "pixels", head.channels * (head.bits > 8 ? 2.0 : 1.0), "crop it"});
+    const GreyPicture picture = read_png(path);
+    to(picture.bits, picture.value);
+  });
+  GreyPicture picture;
+  sent(picture.bits, picture.value);
+  return picture;
 }
 
 void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { save_png_of(path, grey); }

@@ -56,15 +56,6 @@ class MessageCollector : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCollector);
 
-// What a child draws, or the error that it met: a PNG never begins with a letter.
-std::string drawn_or_error(const std::function<std::string()>& draw) {
-  try {
-    return draw();
-  } catch (const Error& error) {
-    return static_cast<char>('a' + static_cast<int>(error.kind())) + std::string(error.what());
-  }
-}
-
 // Mesa and its compiler take about as much, and do not begin with less.
 constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
 
@@ -73,17 +64,20 @@ constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
        " MiB, a picture takes ", memory_of_a_picture >> 20, " and more; raise the limit");
 }
 
-std::string drawn_in_child(const char* who, std::size_t memory, const std::function<std::string()>& draw) {
+std::string drawn_in_child(const char* who, std::size_t left, const std::function<std::string()>& draw) {
   constexpr unsigned most_seconds = 120;
-  std::string png;
+  constexpr std::size_t most_bytes = std::size_t{32} << 20;
   try {
-    png = read_in_child(who, {memory, most_seconds}, [&] { return drawn_or_error(draw); });
-  } catch (const Error&) {  // the child was ended, or there is no memory for a child
-    too_little_memory(who, memory);
+    // It may have more than is left, so that whatever ends it counts as a lack of memory.
+    std::string png;
+    read_in_child(who, {2 * left, most_seconds, most_bytes}, [&](ArraySender& send) { send(draw()); })(png);
+    return png;
+  } catch (const std::bad_alloc&) {
+    too_little_memory(who, left);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::content) too_little_memory(who, left);  // a library ended the child by itself
+    throw;
   }
-  if (png.empty()) too_little_memory(who, memory);  // a library ended the child
-  if (png.front() >= 'a' && png.front() <= 'z') throw Error(static_cast<ErrorKind>(png.front() - 'a'), png.substr(1));
-  return png;
 }
 
 void require_png_name(const std::string& path) {

@@ -18,14 +18,12 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStructuredGrid.h>
-#include <vtkXMLImageDataReader.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLWriter.h>
 
 #include "core/error.hpp"
-#include "core/input_file.hpp"
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
 #include "view/drawn_cells_internal.hpp"
@@ -218,29 +216,6 @@ void save_map_image(const std::string& path, const HorizontalMap& map) {
   image->GetCellData()->SetActiveScalars(map.fields.front().name.c_str());
   vtkNew<vtkXMLImageDataWriter> writer;
   write_xml(*writer, image, path, "save_map_image");
-}
-
-HorizontalMap load_map_image(const std::string& path) {
-  require_regular_file(path);
-  const VtkMessages messages;
-  vtkNew<vtkXMLImageDataReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
-  const std::array<int, 3> points = {image->GetDimensions()[0], image->GetDimensions()[1], image->GetDimensions()[2]};
-  vtkCellData* cells = image->GetCellData();
-  if (points[0] < 2 || points[1] < 2 || points[2] != 1 || cells->GetNumberOfArrays() == 0)
-    fail(ErrorKind::content, path, ": is not a map that insonify wrote");
-  HorizontalMap map{image->GetOrigin()[0], image->GetOrigin()[1], image->GetSpacing()[0], {}};
-  for (int a = 0; a < cells->GetNumberOfArrays(); ++a) {
-    vtkDataArray* array = cells->GetArray(a);
-    SampleField field{array->GetName(), Grid<float>(points[0] - 1, points[1] - 1)};
-    for (Eigen::Index row = 0; row < field.values.cols(); ++row)
-      for (Eigen::Index column = 0; column < field.values.rows(); ++column)
-        field.values(column, row) = static_cast<float>(array->GetComponent(row * field.values.rows() + column, 0));
-    map.fields.push_back(std::move(field));
-  }
-  return map;
 }
 
 void save_map_picture(const std::string& stem, const HorizontalMap& map, double window) {

@@ -59,13 +59,13 @@ TEST(ParallelFor, uses_as_many_threads_as_it_may) {
 
 TEST(ParallelFor, in_a_forked_child_works_alone) {
   parallel_for(100, 4, [](std::size_t) {});
-  EXPECT_EQ(read_in_child("sum", {},
-                          [] {
-                            std::atomic<std::size_t> sum{0};
-                            parallel_for(100, 4, [&](std::size_t i) { sum += i; });
-                            return std::to_string(sum);
-                          }),
-            "4950");
+  std::size_t sum_there = 0;
+  read_in_child("sum", {}, [](ArraySender& to) {
+    std::atomic<std::size_t> sum{0};
+    parallel_for(100, 4, [&](std::size_t i) { sum += i; });
+    to(sum.load());
+  })(sum_there);
+  EXPECT_EQ(sum_there, 4950U);
 }
 
 TEST(ParallelBlocks, tile_the_range_without_overlap) {

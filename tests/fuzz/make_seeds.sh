@@ -8,7 +8,7 @@ set -euo pipefail
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
 mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials profile \
-  trajectory tum scatterers labels cube contributors aris npy work
+  trajectory tum scatterers labels cube contributors aris npy png run work
 
 # Formats that the tool writes.
 "$tool" make-scene poles --points 40 -o ply/scene.ply -q >/dev/null
@@ -18,7 +18,9 @@ mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environm
 "$tool" ping work/poles.ply --sonar p900-45 --set sonar.beams=4 --pose=0,0,0,0,0,0 --range 3:5 --layers --noise \
   --multipath --set surface.height_m=2 --keep contributors --no-picture -q -o work/run >/dev/null
 cp work/run/cube.h5 cube/ && cp work/run/contributors.h5 contributors/ && cp work/run/run.toml environment/
-cp work/run/run.toml sonar/
+cp work/run/run.toml sonar/ && cp work/run/run.toml run/
+"$tool" image work/run --view grey -o png/eight.png -q >/dev/null
+"$tool" image work/run --view grey --bits 16 -o png/sixteen.png -q >/dev/null
 "$tool" export work/run --to las --utm 32N -o las/bottom.las -q >/dev/null
 "$tool" export work/run --to geotiff --cell 0.05 --utm 32N -o tiff/bottom.tif -q >/dev/null
 "$tool" export work/run -o work/vtk -q >/dev/null

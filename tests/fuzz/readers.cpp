@@ -12,6 +12,10 @@
 #include "store/materials_file.hpp"
 #include "store/mission_file.hpp"
 #include "store/sonar_file.hpp"
+#ifdef INSONIFY_FUZZ_TOOL
+#include "tool/run_settings.hpp"
+#include "view/grey_file.hpp"
+#endif
 
 namespace insonify {
 namespace {
@@ -61,6 +65,10 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"contributors", ".h5", [](const std::string& path) { read_contributor_file(path); }},
       {"aris", ".aris", [](const std::string& path) { read_aris_frame(path, 0); }},
       {"npy", ".npy", [](const std::string& path) { read_npy(path); }},
+#ifdef INSONIFY_FUZZ_TOOL
+      {"png", ".png", [](const std::string& path) { load_grey_png(path); }},
+      {"run", ".toml", [](const std::string& path) { tool::load_ping_settings(path); }},
+#endif
   };
   return readers;
 }

@@ -120,3 +120,21 @@ TEST(Gltf, that_contradicts_itself_is_refused) {
   expect_error(ErrorKind::content, {"text.glb", "expected 'glTF'"},
                [] { load_scene(own_file("text.glb", "solid of another kind")); });
 }
+
+// VTK's JSON throws on these; what it says is part of the reason.
+TEST(Gltf, values_that_vtk_cannot_take_are_refused) {
+  const auto refused = [](const char* pointer, const json& value, const std::string& part) {
+    json document = turned_triangle();
+    document[json::json_pointer(pointer)] = value;
+    expect_error(ErrorKind::content, {"bad.gltf", part, "copy or export it again"},
+                 [&] { load_scene(own_file("bad.gltf", document.dump())); });
+  };
+  refused("/materials", json::array({5}), "cannot be read (");
+  refused("/nodes/1/matrix", std::vector<std::string>(16, "NaN"), "cannot be read (");
+  refused("/nodes/1/translation", {"a", "b", "c"}, "cannot be read (");
+  refused("/nodes/1/children", {1}, "several parents");
+  std::string text = turned_triangle().dump();
+  text.replace(text.find("\"rotation\":["), 12, "\"matrix\":[NaN");
+  expect_error(ErrorKind::content, {"bad.gltf", "JSON cannot be read"},
+               [&] { load_scene(own_file("bad.gltf", text)); });
+}

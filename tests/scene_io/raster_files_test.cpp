@@ -3,6 +3,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "core/stop_watch.hpp"
 #include "scene_io/load_scene.hpp"
 #include "support/test.hpp"
 
@@ -179,6 +180,27 @@ TEST(RasterFiles, damaged_ones_are_not_to_be_renamed) {
 }
 
 // A GeoTIFF that insonify exported, by GDAL: place, projection, no data, names and heights.
+// A few bytes that unpack to gigabytes: refused before they are unpacked.
+TEST(RasterFiles, that_unpack_to_too_much_are_refused_at_once) {
+  GDALAllRegister();
+  for (const char* packing : {"COMPRESS=LZW", "COMPRESS=ZSTD", "COMPRESS=DEFLATE"}) {
+    const char* const options[] = {packing, "TILED=YES", "BLOCKXSIZE=2048", "BLOCKYSIZE=2048", nullptr};
+    const std::string path = own_path("bomb.tif");
+    const GDALDatasetH file =
+        GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), 10000, 10000, 1, GDT_Byte, const_cast<char**>(options));
+    if (!file) continue;  // this GDAL lacks it
+    double transform[6] = {west, raster_cell, 0, north, 0, -raster_cell};
+    GDALSetGeoTransform(file, transform);
+    GDALClose(file);
+    ASSERT_LT(std::filesystem::file_size(path), 1000000U) << packing;
+    StopWatch watch;
+    expect_error(ErrorKind::content,
+                 {"bomb.tif: announces 100000000 cells, 2288.8", "MiB are taken at most", "COMPRESS=NONE"},
+                 [&] { load_scene(path); });
+    EXPECT_LT(watch.lap(), 5) << packing;
+  }
+}
+
 TEST(RasterFiles, of_insonify_are_read_by_gdal) {
   GDALAllRegister();
   const GDALDatasetH file = GDALOpen(INSONIFY_GOLDEN_RASTER, GA_ReadOnly);

@@ -21,3 +21,25 @@ TEST(GreyFile, reads_what_it_wrote_in_8_and_16_bits) {
               HasSubstr("content: other.png: does not begin as a PNG does"));
   EXPECT_THAT(error_with_kind([&] { load("none.png"); }), HasSubstr("file: none.png"));
 }
+
+// libpng leaves a damaged file by a jump to where VTK's reader has not been.
+TEST(GreyFile, refuses_damaged_files_and_says_why) {
+  const Grid<std::uint8_t> grey = Grid<std::uint8_t>::Constant(30, 40, 7);
+  save_grey_png(own_path("good.png"), grey);
+  const std::string good = file_bytes(own_path("good.png"));
+  const auto load = [](const std::string& path) { load_grey_png(path); };
+  const auto damaged = [&](std::size_t at, const std::string& bytes) {
+    return error_of_file(load, "a.png", std::string(good).replace(at, bytes.size(), bytes));
+  };
+  const std::size_t data = good.find("IDAT") + 4;
+  for (const auto& [at, bytes] : {std::pair<std::size_t, std::string>{19, "\x01"},  // width
+                                  {24, "\x03"},                                     // bits
+                                  {data, "\xff"},
+                                  {data + 3, "\xff\xff"},
+                                  {12, "IHDX"}})
+    EXPECT_THAT(damaged(at, bytes), AllOf(HasSubstr("content: a.png: reading it ends with signal"), HasSubstr("libpng"),
+                                          HasSubstr("copy or export it again")))
+        << at;
+  EXPECT_THAT(damaged(16, "\x10"),  // 268 million pixels in each row
+              AllOf(HasSubstr("content: a.png: announces 8053064880 pixels"), HasSubstr("64 MiB are taken at most")));
+}

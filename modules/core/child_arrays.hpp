@@ -1,0 +1,209 @@
+#pragma once
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace insonify {
+
+namespace detail {
+/// Whether a value is handed over as its bytes.
+template <typename Value>
+constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
+}  // namespace detail
+
+/// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes none.
+class SharedMemory {
+ public:
+  /// As large as it can be: `most` bytes, or half of what the user's limits leave. Throws std::bad_alloc.
+  explicit SharedMemory(std::size_t most = std::size_t{1} << 38);
+  ~SharedMemory();
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+
+  /// Where it begins.
+  char* start() const { return start_; }
+  /// Its bytes.
+  std::size_t bytes() const { return bytes_; }
+  /// Gives back all but the first bytes, which are read alone from now on.
+  void keep(std::size_t bytes);
+  /// Gives back the whole pages within [begin, end).
+  void give_back(std::size_t begin, std::size_t end) const;
+
+ private:
+  std::size_t bytes_ = 0;
+  char* start_ = nullptr;
+};
+
+/// Puts values into memory that a child process shares with its parent. A type of its own is handed over by
+/// `template <typename Stream> void pass(Stream&, T&)` beside it, which names its members: stream(t.a, t.b).
+class ArraySender {
+ public:
+  /// `memory` holds at most `most` bytes, which may grow meanwhile.
+  ArraySender(const SharedMemory& memory, const std::size_t& most) : memory_(memory), most_(most) {}
+  ~ArraySender();
+  /// A place for bytes, at a multiple of 16. Throws std::bad_alloc.
+  char* take(std::size_t bytes);
+
+  /// Values that the receiver reads one by one, as a vector.
+  template <typename Number>
+  Number* take_array(std::size_t count) {
+    static_assert(detail::is_plain<Number>);
+    (*this)(count);
+    return reinterpret_cast<Number*>(take(count * sizeof(Number)));
+  }
+
+  /// A place for a grid (core/grid.hpp) of numbers of so many bytes.
+  char* take_grid(Eigen::Index rows, Eigen::Index columns, std::size_t bytes) {
+    (*this)(rows, columns);
+    return take(static_cast<std::size_t>(rows * columns) * bytes);
+  }
+
+  /// Sends values.
+  template <typename... Values>
+  void operator()(const Values&... values) {
+    (send(values), ...);
+  }
+
+ private:
+  void send_bytes(const void* bytes, std::size_t count) {
+    if (count > 0) std::memcpy(take(count), bytes, count);
+  }
+  template <typename Value>
+  void send(const Value& value) {
+    if constexpr (detail::is_plain<Value>)
+      send_bytes(&value, sizeof value);
+    else
+      pass(*this, const_cast<Value&>(value));
+  }
+  void send(const std::string& text) {
+    send(text.size());
+    send_bytes(text.data(), text.size());
+  }
+  template <typename Value>
+  void send(const std::vector<Value>& values) {
+    send(values.size());
+    if constexpr (detail::is_plain<Value>)
+      send_bytes(values.data(), values.size() * sizeof(Value));
+    else
+      for (const Value& value : values) send(value);
+  }
+  template <typename Value>
+  void send(const std::optional<Value>& value) {
+    send(value.has_value());
+    if (value) send(*value);
+  }
+  template <typename Value, int Rows, int Columns, int Options>
+  void send(const Eigen::Array<Value, Rows, Columns, Options>& grid) {
+    send(grid.rows(), grid.cols());
+    send_bytes(grid.data(), static_cast<std::size_t>(grid.size()) * sizeof(Value));
+  }
+  template <typename Value, int Rows, int Columns>
+  void send(const Eigen::Matrix<Value, Rows, Columns>& matrix) {
+    static_assert(Rows != Eigen::Dynamic && Columns != Eigen::Dynamic);
+    send_bytes(matrix.data(), sizeof(Value) * static_cast<std::size_t>(Rows * Columns));
+  }
+  template <typename Value, int Dimensions, int Mode>
+  void send(const Eigen::Transform<Value, Dimensions, Mode>& transform) {
+    send_bytes(transform.data(), sizeof(transform.matrix()));
+  }
+  template <typename First, typename... Others>
+  void send(const First& first, const Others&... others) {
+    send(first);
+    (send(others), ...);
+  }
+
+  const SharedMemory& memory_;
+  const std::size_t& most_;
+  std::size_t used_ = 0;  // bytes
+};
+
+/// Takes the values out again, in the same order. Large arrays are given back to the system as they are copied, or can be
+/// used where they are.
+class ArrayReceiver {
+ public:
+  /// Of what a sender left; `path` begins the text of errors.
+  ArrayReceiver(std::string path, std::shared_ptr<SharedMemory> memory);
+
+  /// Where these bytes are; they live as long as `owner()`. Throws Error(content) if fewer were sent.
+  const char* take(std::size_t bytes);
+  /// The numbers of ArraySender::take_array where they are.
+  template <typename Number>
+  const Number* take_array(std::size_t& count) {
+    (*this)(count);
+    return reinterpret_cast<const Number*>(take(bytes_of(count, sizeof(Number))));
+  }
+  /// What keeps the bytes of take() alive.
+  std::shared_ptr<const void> owner() const { return memory_; }
+
+  /// Sets values to what was sent.
+  template <typename... Values>
+  void operator()(Values&... values) {
+    (receive(values), ...);
+  }
+
+ private:
+  std::size_t bytes_of(std::size_t count, std::size_t size) const;
+  void copy(void* to, std::size_t bytes);
+  template <typename Value>
+  void receive(Value& value) {
+    if constexpr (detail::is_plain<Value>)
+      copy(&value, sizeof value);
+    else
+      pass(*this, value);
+  }
+  std::size_t receive_size(std::size_t size_of_one) {
+    std::size_t count = 0;
+    receive(count);
+    bytes_of(count, size_of_one);  // before memory is taken for it
+    return count;
+  }
+  void receive(std::string& text) {
+    text.resize(receive_size(1));
+    copy(text.data(), text.size());
+  }
+  template <typename Value>
+  void receive(std::vector<Value>& values) {
+    values.resize(receive_size(detail::is_plain<Value> ? sizeof(Value) : 1));
+    if constexpr (detail::is_plain<Value>)
+      copy(values.data(), values.size() * sizeof(Value));
+    else
+      for (Value& value : values) receive(value);
+  }
+  template <typename Value>
+  void receive(std::optional<Value>& value) {
+    bool there = false;
+    receive(there);
+    value.reset();
+    if (there) receive(value.emplace());
+  }
+  template <typename Value, int Rows, int Columns, int Options>
+  void receive(Eigen::Array<Value, Rows, Columns, Options>& grid) {
+    Eigen::Index rows = 0, columns = 0;
+    receive(rows);
+    receive(columns);
+    bytes_of(static_cast<std::size_t>(rows), bytes_of(static_cast<std::size_t>(columns), sizeof(Value)));
+    grid.resize(rows, columns);
+    copy(grid.data(), static_cast<std::size_t>(grid.size()) * sizeof(Value));
+  }
+  template <typename Value, int Rows, int Columns>
+  void receive(Eigen::Matrix<Value, Rows, Columns>& matrix) {
+    copy(matrix.data(), sizeof(Value) * static_cast<std::size_t>(Rows * Columns));
+  }
+  template <typename Value, int Dimensions, int Mode>
+  void receive(Eigen::Transform<Value, Dimensions, Mode>& transform) {
+    copy(transform.data(), sizeof(transform.matrix()));
+  }
+
+  std::string path_;
+  std::shared_ptr<SharedMemory> memory_;
+  std::size_t at_ = 0, end_ = 0;
+};
+
+}  // namespace insonify

@@ -1,0 +1,55 @@
+#pragma once
+#include "core/child_arrays.hpp"
+#include "store/cube.hpp"
+#include "store/hdf5_internal.hpp"
+
+// Private to store: what a child that reads a cube hands over.
+namespace insonify {
+
+template <typename Stream>
+void pass(Stream& stream, BeamFan& fan) {
+  stream(fan.azimuth, fan.elevation, fan.beam_width, fan.elevation_width, fan.row_width);
+}
+
+template <typename Stream>
+void pass(Stream& stream, TrackPoint& point) {
+  stream(point.number, point.time, point.world_from_head, point.scan);
+}
+
+/// Every member but the pings.
+template <typename Stream>
+void pass(Stream& stream, Cube& cube) {
+  stream(cube.sound_speed, cube.absorption_db_per_m, cube.centre_frequency, cube.bandwidth, cube.source_level_db,
+         cube.seed, cube.tolerance, cube.keep_bits, cube.sonar, cube.insonify_version);
+}
+
+/// What is known of the pings of a cube without their images.
+struct CubeTable {
+  hdf5::Extent extent{};  ///< of /pressure
+  BeamFan fan{};
+  RangeGate gate{};
+  bool expected_level = false;
+  std::vector<TrackPoint> track{};
+};
+
+template <typename Stream>
+void pass(Stream& stream, CubeTable& table) {
+  stream(table.extent, table.fan, table.gate, table.expected_level, table.track);
+}
+
+/// Pings of a cube by their order in it.
+struct PingRange {
+  std::size_t begin = 0, end = 0;
+};
+
+/// Throws Error(content) unless a dataset holds complex numbers.
+void require_complex(const hdf5::Place& place, hid_t dataset, const std::string& name);
+
+/// Sends the images of pings of a cube of `extent`: pressure, layers, maps and labels.
+void send_all_images(const hdf5::Place& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
+                     ArraySender& to);
+
+/// Fills the images of pings with what send_all_images sent of the file at `path`.
+void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings);
+
+}  // namespace insonify

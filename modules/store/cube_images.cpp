@@ -1,0 +1,207 @@
+#include <array>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "store/cube_arrays_internal.hpp"
+#include "store/cube_layout_internal.hpp"
+#include "store/hdf5_internal.hpp"
+
+// Images of a cube, between the child that reads them and its parent.
+namespace insonify {
+
+using namespace hdf5;
+
+void require_complex(const Place& place, hid_t dataset, const std::string& name) {
+  const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
+  for (const char* member : {"r", "i"}) {
+    const int at = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_member_index(type, member) : -1;
+    if (at < 0) fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
+    const Handle number(place.checked(H5Tget_member_type(type, static_cast<unsigned>(at)), name), H5Tclose);
+    const std::size_t size = H5Tget_size(type), begin = H5Tget_member_offset(type, static_cast<unsigned>(at));
+    // HDF5 would read what stands there.
+    if (begin > size || H5Tget_size(number) > size - begin)
+      fail(place.kind, place.path, ": ", name, " has a member ", member, " at byte ", begin, " of ", size,
+           "; the file is damaged: copy or export it again");
+  }
+}
+
+namespace {
+
+/// Bytes of an image in the file.
+struct Piece {
+  std::uint64_t begin, bytes;
+};
+
+/// Where the parts of a large image are in the file as they are in memory, one after the other; empty if it is small, packed,
+/// of another type, or not in this file.
+std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hsize_t ping) {
+  constexpr hsize_t large = 1 << 20;
+  const hsize_t row = extent[2] * H5Tget_size(type);
+  const Handle stored(H5Dget_type(dataset), H5Tclose), properties(H5Dget_create_plist(dataset), H5Pclose);
+  if (extent[1] * row < large || H5Tequal(stored, type) <= 0 || H5Pget_nfilters(properties) != 0) return {};
+  const Handle file(H5Iget_file_id(dataset), H5Fclose), made(H5Fget_create_plist(file), H5Pclose);
+  hsize_t before_file = 0;
+  if (H5Pget_userblock(made, &before_file) < 0 || before_file != 0) return {};
+  if (H5Pget_layout(properties) == H5D_CONTIGUOUS) {
+    const haddr_t begin = H5Dget_offset(dataset);
+    return begin == HADDR_UNDEF ? std::vector<Piece>{}
+                                : std::vector{Piece{begin + ping * extent[1] * row, extent[1] * row}};
+  }
+  std::array<hsize_t, 3> chunk{};
+  if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 3, chunk.data()) != 3 || chunk[0] != 1 ||
+      chunk[1] == 0 || chunk[2] != extent[2])
+    return {};
+  std::vector<Piece> pieces;
+  for (hsize_t beam = 0; beam < extent[1]; beam += chunk[1]) {
+    const std::array<hsize_t, 3> first = {ping, beam, 0};
+    unsigned skipped_filters = 0;
+    haddr_t begin = HADDR_UNDEF;
+    hsize_t bytes = 0;
+    if (H5Dget_chunk_info_by_coord(dataset, first.data(), &skipped_filters, &begin, &bytes) < 0 || begin == HADDR_UNDEF)
+      return {};
+    pieces.push_back({begin, std::min(chunk[1], extent[1] - beam) * row});
+  }
+  return pieces;
+}
+
+// Sends one image of `type` per ping: where a large one is in the file, which the parent copies from there, else its numbers.
+void send_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
+                 ArraySender& to) {
+  const Extent extent = extent_of(place, dataset, name, 3);
+  const Extent one_ping = {1, extent[1], extent[2]};
+  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
+  for (std::size_t p = pings.begin; p < pings.end; ++p) {
+    const std::vector<Piece> pieces = pieces_of(dataset, type, extent, p);
+    to(pieces);
+    if (!pieces.empty()) {
+      to(extent[1], extent[2]);
+      continue;
+    }
+    const Handle row = select_row(place, dataset, extent, p);
+    const auto rows = static_cast<Eigen::Index>(extent[1]), columns = static_cast<Eigen::Index>(extent[2]);
+    read_values(place, dataset, {type, memory, row}, to.take_grid(rows, columns, H5Tget_size(type)), name);
+  }
+}
+
+/// Sets an image to what send_images sent of it.
+template <typename Number>
+void receive_image(ArrayReceiver& sent, const std::string& path, Grid<Number>& image) {
+  std::vector<Piece> pieces;
+  sent(pieces);
+  if (pieces.empty()) return sent(image);
+  hsize_t beams = 0, bins = 0;
+  sent(beams, bins);
+  image.resize(static_cast<Eigen::Index>(beams), static_cast<Eigen::Index>(bins));
+  std::uint64_t bytes = 0;
+  for (const Piece& piece : pieces) bytes += piece.bytes;
+  std::ifstream file(path, std::ios::binary);
+  if (bytes != sizeof(Number) * beams * bins) file.setstate(std::ios::failbit);
+  char* to = reinterpret_cast<char*>(image.data());
+  for (const Piece& piece : pieces) {
+    file.seekg(static_cast<std::streamoff>(piece.begin)).read(to, static_cast<std::streamsize>(piece.bytes));
+    to += piece.bytes;
+  }
+  if (!file) fail(ErrorKind::content, path, ": an image ends beyond the file; it is cut off: copy or export it again");
+}
+
+void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
+  if (extent_of(place, dataset, name, 3) != extent)
+    fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
+}
+
+void send_layers(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+  const std::vector<std::string> layers = names_in(place, file, layers_group);
+  to(layers);
+  for (const std::string& layer : layers) {
+    const std::string path = std::string(layers_group) + "/" + layer;
+    const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
+    require_extent(place, dataset, path, extent);
+    require_complex(place, dataset, path);
+    send_images(place, dataset, path, type, pings, to);
+  }
+}
+
+// Sends whether there is an optional map, and then that of each ping.
+void send_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+              PingRange pings, ArraySender& to) {
+  const bool there = H5Lexists(file, name.path, H5P_DEFAULT) > 0;
+  to(there);
+  if (!there) return;
+  const Handle dataset = open_dataset(place, file, name);
+  require_extent(place, dataset, name.path, extent);
+  const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
+  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
+    fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
+         8 * H5Tget_size(type));
+  send_images(place, dataset, name.path, type, pings, to);
+}
+
+template <typename Map>
+void receive_map(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings, const Map& map) {
+  bool there = false;
+  sent(there);
+  if (!there) return;
+  for (Ping& ping : pings) receive_image(sent, path, std::invoke(map, ping));
+}
+
+void send_labels(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const bool there = H5Lexists(file, label_material_name.path, H5P_DEFAULT) > 0;
+  to(there);
+  if (!there) return;
+  for (const auto& [name, type] :
+       {std::pair(label_material_name, H5T_NATIVE_UINT16), std::pair(label_id_name, H5T_NATIVE_UINT32),
+        std::pair(label_share_name, H5T_NATIVE_FLOAT)}) {
+    open_dataset(place, file, name);  // all three, or none
+    send_map(place, file, name, type, extent, pings, to);
+  }
+  std::istringstream lines(read_text(place, file, label_names_attribute));
+  std::vector<std::string> names;
+  for (std::string name; std::getline(lines, name);) names.push_back(name);
+  to(names);
+}
+
+void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {
+  bool there = false;
+  sent(there);
+  if (!there) return;
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.material; });
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.id; });
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.share; });
+  std::vector<std::string> names;
+  sent(names);
+  for (Ping& ping : pings) ping.labels.names = names;
+}
+
+}  // namespace
+
+void send_all_images(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const Handle dataset = open_dataset(place, file, pressure_name);
+  send_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
+  send_layers(place, file, extent, pings, to);
+  send_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
+  send_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_labels(place, file, extent, pings, to);
+}
+
+void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {
+  for (Ping& ping : pings) receive_image(sent, path, ping.pressure);
+  std::vector<std::string> layers;
+  sent(layers);
+  for (const std::string& layer : layers)
+    for (Ping& ping : pings) receive_image(sent, path, ping.layers.emplace_back(Layer{layer, {}}).pressure);
+  receive_map(sent, path, pings, &Ping::intensity);
+  receive_map(sent, path, pings, &Ping::level_error_db);
+  receive_map(sent, path, pings, &Ping::unknown);
+  receive_map(sent, path, pings, &Ping::split_phase);
+  receive_labels(sent, path, pings);
+}
+
+}  // namespace insonify
