@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utc.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double las_step = 1e-4;  // of coordinates [m]
 constexpr std::uint16_t las_header_bytes = 375, las_point_bytes = 30 + 4 + 4 + 4 + 2;
-constexpr double gps_epoch = 315964800;  // 1980-01-06, seconds since 1970
+constexpr double adjusted_by = 1e9;  // of adjusted GPS time [s]
 constexpr std::uint8_t bathymetric_point = 40;
 
 /// An extra dimension; types as the specification numbers them.
@@ -128,7 +129,7 @@ void LasFile::add(const LasPoint& point) {
   put_little(bytes, std::uint8_t{0});
   put_little(bytes, std::int16_t{0});
   put_little(bytes, std::uint16_t{0});
-  put_little(bytes, point.time - gps_epoch - 1e9);
+  put_little(bytes, gps_time_of_utc(point.time) - adjusted_by);
   put_little(bytes, point.level_db);
   put_little(bytes, point.deviation);
   put_little(bytes, point.ping);

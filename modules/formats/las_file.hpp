@@ -25,7 +25,7 @@ struct LasPoint {
 };
 
 /// Writes points as LAS 1.4 (ASPRS 2019), point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB
-/// from 0, class 40 (bathymetric point), adjusted GPS time (leap seconds left out), and level_db, deviation, ping and beam
+/// from 0, class 40 (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation, ping and beam
 /// as extra bytes; the zone as well-known text. Points stream: only the header is written twice.
 class LasFile {
  public:

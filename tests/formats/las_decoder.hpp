@@ -9,7 +9,7 @@ namespace insonify::decode {
 
 struct LasRow {
   std::array<double, 3> place;
-  double time;  ///< seconds since 1970, leap seconds left out
+  double time;  ///< UTC, seconds since 1970; of files of 2017 or later, with 18 leap seconds
   unsigned intensity, classification;
   float level_db, deviation;
   unsigned ping, beam;
@@ -37,7 +37,7 @@ inline std::vector<LasRow> read_las(const std::string& bytes) {
     c.text(2);
     row.classification = static_cast<unsigned>(c.unsigned_little(1));
     c.text(5);
-    row.time = c.float64() + 1e9 + 315964800;
+    row.time = c.float64() + 1e9 + 315964800 - 18;
     row.level_db = c.float32(), row.deviation = c.float32();
     row.ping = static_cast<unsigned>(c.unsigned_little(4)), row.beam = static_cast<unsigned>(c.unsigned_little(2));
     rows.push_back(row);
