@@ -220,6 +220,17 @@ std::string DatasetWriter::card() const {
          "SHA256SUMS`.\n\nLevels are those of the simulation; scenes and their licences are the user's.\n";
 }
 
+// Readers resolve lists from the folder of the file itself, as long as there is no `path`, and demand train and val.
+std::string DatasetWriter::yolo_yaml(const Form& form) const {
+  std::string yaml = "train: train.txt\n";
+  yaml += form.lists.contains("val") ? "val: val.txt\n" : "val: train.txt  # there is no image of val\n";
+  if (form.lists.contains("test")) yaml += "test: test.txt\n";
+  yaml += "names:\n";
+  for (std::size_t k = 1; k < classes_.size(); ++k)
+    yaml += fmt::format("  {}: {}\n", k - 1, ordered_json(classes_[k]).dump());
+  return yaml;
+}
+
 void DatasetWriter::finish() {
   std::size_t labelled = 0;
   for (std::size_t k = 2; k < polar_.pixels.size(); ++k) labelled += polar_.pixels[k];
@@ -227,16 +238,11 @@ void DatasetWriter::finish() {
     fail(ErrorKind::content, "no pixel of ", images_, " images shows a surface by --share ", options_.share,
          "; lower it, or look where the scene is");
   for (const Form* form : {&polar_, &fan_}) {
-    std::string yaml = "path: .\n";
     for (const auto& [split, coco] : form->coco) {
       write_file(directory_.file(form->name + "/annotations/instances_" + split + ".json"), coco.dump() + "\n");
       write_file(directory_.file(form->name + "/" + split + ".txt"), form->lists.at(split));
-      yaml += split + ": " + split + ".txt\n";
     }
-    yaml += "names:\n";
-    for (std::size_t k = 1; k < classes_.size(); ++k)
-      yaml += fmt::format("  {}: {}\n", k - 1, ordered_json(classes_[k]).dump());
-    write_file(directory_.file(form->name + "/data.yaml"), yaml);
+    write_file(directory_.file(form->name + "/data.yaml"), yolo_yaml(*form));
   }
   write_file(directory_.file("meta.jsonl"), meta_);
   write_file(directory_.file("palette.json"), palette_json(classes_).dump(2) + "\n");

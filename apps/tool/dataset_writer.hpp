@@ -61,6 +61,7 @@ class DatasetWriter {
                 std::optional<std::size_t> row, const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
   std::string card() const;
+  std::string yolo_yaml(const Form& form) const;
   const FanRaster& raster_of(const Ping& ping);
 
   const RunDirectory& directory_;
