@@ -80,8 +80,7 @@ const FanRaster& DatasetWriter::raster_of(const Ping& ping) {
   return at->second;
 }
 
-void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                        std::optional<std::size_t> row) {
+void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image) {
   const Grid<float> level = dataset_levels(cube, ping, options_);
   std::set<std::uint8_t> stuff;
   for (std::size_t k = 2; k < classes_.size(); ++k)
@@ -93,29 +92,31 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
 
   // The same labels in both forms.
   const FanRaster& raster = raster_of(ping);
-  save_grey_png(directory_.file("polar/images/" + name + ".png"), polar_picture(quantise_16(level, window_), ping.fan));
-  save_grey_png(directory_.file("fan/images/" + name + ".png"),
+  save_grey_png(directory_.file("polar/images/" + image.name + ".png"),
+                polar_picture(quantise_16(level, window_), ping.fan));
+  save_grey_png(directory_.file("fan/images/" + image.name + ".png"),
                 fan_picture(quantise_8(level, window_), raster, std::uint8_t{0}));
   const LabelMap polar{polar_picture(category, ping.fan), polar_picture(object, ping.fan)};
   const LabelMap fan{fan_picture(category, raster, std::uint8_t{0}), fan_picture(object, raster, std::uint16_t{0})};
   ++images_;
-  add_form(polar_, source, name, polar);
-  add_form(fan_, source, name, fan);
-  add_meta(source, cube, ping, name, row, polar);
+  add_form(polar_, image, polar);
+  add_form(fan_, image, fan);
+  add_meta(source, cube, ping, image, polar);
+  tally_.add(image.split, source.scene_digest, ping.world_from_head.translation(), ping.gate.max_range);
 }
 
-void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std::string& name, const LabelMap& map) {
+void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelMap& map) {
   const auto path = [&](const char* folder, const char* ending) {
-    return directory_.file(form.name + "/" + folder + "/" + name + ending);
+    return directory_.file(form.name + "/" + folder + "/" + image.name + ending);
   };
   save_grey_png(path("masks", ".png"), map.category);
   save_label_png(path("colours", ".png"), map.category);
   save_grey_png(path("instances", ".png"), map.instance);
   for (const std::uint8_t category : map.category.reshaped()) ++form.pixels[category];
 
-  ordered_json& coco = form.coco.try_emplace(source.split, empty_coco()).first->second;
+  ordered_json& coco = form.coco.try_emplace(image.split, empty_coco()).first->second;
   const auto rows = map.category.rows(), columns = map.category.cols();
-  coco["images"].push_back({{"id", images_}, {"file_name", name + ".png"}, {"width", columns}, {"height", rows}});
+  coco["images"].push_back({{"id", images_}, {"file_name", image.name + ".png"}, {"width", columns}, {"height", rows}});
   std::string yolo;
   for (const Annotation& a : annotations_of(map)) {
     ++annotations_;
@@ -132,15 +133,15 @@ void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std:
                         (a.top + 0.5 * a.height) / height, a.width / width, a.height / height);
   }
   write_file(path("labels", ".txt"), yolo);
-  form.lists[source.split] += "./images/" + name + ".png\n";
+  form.lists[image.split] += "./images/" + image.name + ".png\n";
 }
 
-void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                             std::optional<std::size_t> row, const LabelMap& map) {
+void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
+                             const LabelMap& map) {
   std::vector<std::size_t> pixels(classes_.size());
   for (const std::uint8_t category : map.category.reshaped()) ++pixels[category];
-  ordered_json meta = {{"name", name},
-                       {"split", source.split},
+  ordered_json meta = {{"name", image.name},
+                       {"split", image.split},
                        {"run", fs::path(source.run).filename().string()},
                        {"head", source.head},
                        {"scene", fs::path(source.scene).filename().string()},
@@ -162,7 +163,7 @@ void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, cons
                          {"max_db", window_.max_db},
                          {"tvg_db_per_decade", options_.raw ? ordered_json() : ordered_json(options_.tvg)}}},
                        {"polar_pixels", pixels}};
-  if (row) meta["row"] = *row, meta["row_elevation_deg"] = degrees(ping.fan.elevation.front());
+  if (image.row) meta["row"] = *image.row, meta["row_elevation_deg"] = degrees(ping.fan.elevation.front());
   if (source.randomisation && source.randomisation->spread.any())
     meta["randomised"] = randomised_json(randomised(source.randomisation->spread, source.randomisation->seed,
                                                     {.head = source.head_index, .number = ping.number}));
@@ -212,8 +213,14 @@ std::string DatasetWriter::card() const {
       "bits; `annotations`: COCO with run lengths; `labels`: "
       "YOLO, classes counted from shadow = 0. In masks alone: {}.\n\n",
       options_.stuff.empty() ? "none" : joined(options_.stuff));
-  text += "## Split\n\nBy scene: no scene is in two of train, val and test.\n\n| split | images |\n|---|---|\n";
-  for (const auto& [split, coco] : polar_.coco) text += fmt::format("| {} | {} |\n", split, coco["images"].size());
+  const SplitUnit& by = *std::find_if(split_units().begin(), split_units().end(),
+                                      [&](const SplitUnit& each) { return options_.split_by == each.name; });
+  text += fmt::format(
+      "## Split\n\nBy {}: {}.\n\n| split | images | taken within range of an image of train |\n|---|---|---|\n",
+      by.name, by.means);
+  for (const auto& [split, images] : tally_.images())
+    text += fmt::format("| {} | {} | {} |\n", split, images,
+                        split == "train" ? "" : std::to_string(tally_.near_train(split)));
   return text +
          "\n`meta.jsonl` has pose, sonar, water, seed and mapping of every image, and by how much it was randomised. "
          "`SHA256SUMS` checks the files: `sha256sum -c "

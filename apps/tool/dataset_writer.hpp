@@ -11,6 +11,7 @@
 #include "returns/quantise.hpp"
 #include "store/run_directory.hpp"
 #include "tool/dataset_runs.hpp"
+#include "tool/dataset_split.hpp"
 #include "tool/label_pictures.hpp"
 #include "tool/options.hpp"
 
@@ -28,8 +29,14 @@ struct DatasetOptions {
   bool raw = false;                  ///< no TVG
   std::vector<std::string> stuff;    ///< materials that are in masks alone
   std::string row;                   ///< of heads with several rows of beams: a number, all, or empty: the middle one
-  std::string split = "80:10:10";
+  std::string split = "80:10:10", split_by = "scene";
   bool force = false;
+};
+
+/// An image of a data set.
+struct DatasetImage {
+  std::string name, split;           ///< split: train, val or test
+  std::optional<std::size_t> row{};  ///< of its head's beams, if that has several
 };
 
 /// Writes images, masks, boxes and lists of a data set into a folder.
@@ -39,14 +46,14 @@ class DatasetWriter {
   DatasetWriter(const RunDirectory& directory, const DatasetOptions& options, std::vector<std::string> classes,
                 GreyWindow window);
 
-  /// Adds a ping of one row of beams: `row` of its head, if that has several.
-  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-           std::optional<std::size_t> row = {});
+  /// Adds a ping of one row of beams.
+  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image);
   /// Writes what lists all images. Throws Error(content) if no pixel of any image shows a surface.
   void finish();
 
   std::size_t images() const { return images_; }
   std::size_t annotations() const { return annotations_; }
+  const SplitTally& tally() const { return tally_; }
 
  private:
   /// One of the two forms of the images, polar or fan.
@@ -56,9 +63,9 @@ class DatasetWriter {
     std::map<std::string, std::string> lists{};
     std::vector<std::size_t> pixels{};  ///< of each class
   };
-  void add_form(Form& form, const DatasetSource& source, const std::string& name, const LabelMap& map);
-  void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                std::optional<std::size_t> row, const LabelMap& map);
+  void add_form(Form& form, const DatasetImage& image, const LabelMap& map);
+  void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
+                const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
   std::string card() const;
   std::string yolo_yaml(const Form& form) const;
@@ -72,6 +79,7 @@ class DatasetWriter {
   Form polar_{"polar"}, fan_{"fan"};
   std::string meta_, sonars_;
   std::map<std::string, FanRaster> rasters_;
+  SplitTally tally_;
 };
 
 /// Levels of a ping as the images show them: with the options' TVG.
