@@ -7,6 +7,18 @@
 #include "scene_io/row_file_internal.hpp"
 
 namespace insonify {
+namespace {
+
+/// A float as it is; of a whole number its 32 bits, since -1 stands for 4294967295.
+template <typename Value>
+Value from_file(double value) {
+  if constexpr (std::is_integral_v<Value>)
+    return static_cast<Value>(static_cast<std::int64_t>(value));
+  else
+    return static_cast<Value>(value);
+}
+
+}  // namespace
 
 Soundings load_soundings(const std::string& path) {
   require_readable(path);
@@ -33,7 +45,7 @@ Soundings load_soundings(const std::string& path) {
       [&](const SoundingColumn& column, auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         each_row(std::string("scalar_") + column.name,
-                 [&](std::size_t, double value) { values.push_back(static_cast<Value>(value)); });
+                 [&](std::size_t, double value) { values.push_back(from_file<Value>(value)); });
       },
       soundings);
   return soundings;
