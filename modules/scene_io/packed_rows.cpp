@@ -7,6 +7,7 @@
 #include "returns/sounding_columns.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_columns_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -100,16 +101,18 @@ PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format) {
   return rows;
 }
 
-PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
+PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns) {
   const bool ply = format == CloudFormat::ply;
   const bool wide = ply && !scene.origin.isZero(0);
   PackedRows rows;
   rows.rows = scene.size();
   rows.comments = tag_lines(scene);
+  if (columns.material != "material" || !columns.others.empty())
+    rows.comments.push_back("insonify material_field " + columns.material);
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
   rows.columns.push_back({"area", NumberType::float32});
-  rows.columns.push_back({"material", NumberType::uint32});
+  rows.columns.push_back({columns.material, NumberType::uint32});
   // An int ends at 2^31 - 1; a double holds every id.
   const bool long_ids = ply && std::any_of(scene.id.begin(), scene.id.end(), [](auto id) { return id > 2147483647; });
   rows.columns.push_back({"id", long_ids ? NumberType::float64 : NumberType::uint32});
@@ -125,6 +128,7 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
       put(out, scene.id[i]);
     if (!scene.noise.empty()) put(out, scene.noise[i]);
   };
+  add_columns(rows, columns, format);
   return rows;
 }
 

@@ -8,6 +8,7 @@
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/number_type_internal.hpp"
+#include "scene_io/scene_columns.hpp"
 
 // Private to scene_io: a cloud as rows of packed little-endian numbers, the data section of binary PLY and PCD.
 namespace insonify {
@@ -53,9 +54,9 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
 PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who);
 
 /// x y z (double if `wide`), normal, area (float32), material, id (uint32; in PLY float64 if one is above 2147483647), noise
-/// (float32) if the scene has it.
+/// (float32) if the scene has it, then the other columns.
 enum class CloudFormat { ply, pcd };
-PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
+PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns = {});
 /// Its x y z alone.
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 

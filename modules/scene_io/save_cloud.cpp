@@ -50,9 +50,9 @@ void write_cloud(const std::string& path, CloudFormat format, const PackedRows& 
 
 }  // namespace
 
-void save_scene(const std::string& path, const SceneCloud& scene) {
+void save_scene(const std::string& path, const SceneCloud& scene, const SceneColumns& columns) {
   const CloudFormat format = format_for(path, scene);
-  write_cloud(path, format, rows_of(scene, format));
+  write_cloud(path, format, rows_of(scene, format, columns));
 }
 
 void save_bare_points(const std::string& path, const SceneCloud& scene) {

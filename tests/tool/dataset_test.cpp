@@ -337,6 +337,14 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
   const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
   ASSERT_EQ(classes.size(), 4U);
   EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
+  // Prepared, the scene has the same objects.
+  succeed("prepare balls.csv -o balls.ply -q");
+  succeed(
+      "ping balls.ply --sonar p900-45 --set sonar.beams=64 --pose=0,0,0,0,8,0 --range 3:9 --no-picture -q --keep "
+      "contributors -o prepared");
+  succeed("dataset prepared -o prepared_set --least-pixels 30");
+  const nlohmann::json again = nlohmann::json::parse(read("prepared_set/polar/annotations/instances_train.json"));
+  EXPECT_EQ(again["annotations"], all["annotations"]);
   // So they are in the images of the run itself, where surfels of a ball are of its instance.
   const std::vector<std::uint32_t> material = raw_labels(path("balls/contributors.h5"), "/material_image"),
                                    object = raw_labels(path("balls/contributors.h5"), "/instance_image");

@@ -84,8 +84,7 @@ TEST_F(Survey, returns_know_time_head_ping_and_beam) {
   merged("run");
   const std::string ply = read("run/returns.ply");
   const std::string header = ply.substr(0, ply.find("end_header"));
-  for (const char* column :
-       {"double x", "int scalar_ping", "int scalar_beam", "double scalar_time", "int scalar_head"})
+  for (const char* column : {"double x", "int scalar_ping", "int scalar_beam", "double scalar_time", "int scalar_head"})
     EXPECT_THAT(header, HasSubstr(std::string("property ") + column + "\n"));
   std::size_t rows = 0;
   std::istringstream(header.substr(header.find("vertex ") + 7)) >> rows;
