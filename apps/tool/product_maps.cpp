@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -12,6 +10,7 @@
 #include "formats/geotiff_file.hpp"
 #include "formats/las_file.hpp"
 #include "tool/product_run.hpp"
+#include "tool/sounding_map.hpp"
 
 namespace insonify::tool {
 
@@ -30,42 +29,18 @@ std::size_t las_product(const PlacedRun& run) {
 }
 
 std::size_t geotiff_product(const PlacedRun& run) {
-  struct Cell {
-    double count = 0, height = 0, intensity = 0;
-  };
   if (!(run.options.cell > 0)) fail(ErrorKind::argument, "--cell = ", run.options.cell, " m, must be > 0");
   const UtmWorld world(run.reference());
-  std::map<std::pair<std::int64_t, std::int64_t>, Cell> cells;  // by row and column
+  SoundingMap map(run.options.cell);
   const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const Eigen::Vector3d at = world.place(found.position[i]);
-      Cell& cell = cells[{static_cast<std::int64_t>(std::floor(at.y() / run.options.cell)),
-                          static_cast<std::int64_t>(std::floor(at.x() / run.options.cell))}];
-      cell.count += 1;
-      cell.height += at.z();
-      cell.intensity += power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i]));
-    }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      map.add(world.place(found.position[i]),
+              power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
   });
-  if (cells.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
-  std::int64_t west = cells.begin()->first.second, east = west;
-  for (const auto& [at, cell] : cells) west = std::min(west, at.second), east = std::max(east, at.second);
-  const std::int64_t south = cells.begin()->first.first, rows = cells.rbegin()->first.first - south + 1;
-  const std::int64_t columns = east - west + 1;
-  if (static_cast<double>(rows) * static_cast<double>(columns) > 0x1p26)
-    fail(ErrorKind::argument, "--cell = ", run.options.cell, " m gives ", rows, " x ", columns,
-         " cells, must give at most 2^26");
-  const Grid<float> none = Grid<float>::Constant(rows, columns, std::numeric_limits<float>::quiet_NaN());
-  std::vector<GeoBand> bands = {
-      {"height [m]", none}, {"level [dB re 1 uPa at 1 m]", none}, {"soundings", Grid<float>::Zero(rows, columns)}};
-  for (const auto& [at, cell] : cells) {
-    const std::int64_t row = at.first - south, column = at.second - west;
-    bands[0].values(row, column) = static_cast<float>(cell.height / cell.count);
-    bands[1].values(row, column) = static_cast<float>(db_from_power(cell.intensity / cell.count));
-    bands[2].values(row, column) = static_cast<float>(cell.count);
-  }
-  write_geotiff(run.options.output, bands,
-                {world.zone, static_cast<double>(west) * run.options.cell,
-                 static_cast<double>(south) * run.options.cell, run.options.cell});
+  if (map.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
+  GeoGrid grid = map.grid();
+  grid.zone = world.zone;
+  write_geotiff(run.options.output, map.bands(), grid);
   return soundings;
 }
 
