@@ -34,6 +34,7 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
       fail(ErrorKind::content, run, ": block ", b, " of ", head.name,
            " is not done; run the survey (or its missing shards) again");
     if (fs::exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
+    if (fs::exists(files.returns)) pings.returns.push_back(files.returns);
   }
   const std::string settings = run + "/" + head.name + "/run.toml", mission = run + "/mission.toml";
   if (fs::exists(settings)) pings.environment = load_environment(settings);
@@ -51,6 +52,7 @@ RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);
   RunPings pings;
   pings.cubes = {run_cube_path(run)};
+  if (fs::is_directory(run) && fs::exists(run + "/returns.ply")) pings.returns = {run + "/returns.ply"};
   const std::string settings = run + "/run.toml";
   if (fs::is_directory(run) && fs::exists(settings)) pings.environment = load_environment(settings);
   return pings;

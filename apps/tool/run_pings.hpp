@@ -13,9 +13,10 @@ namespace insonify::tool {
 
 /// The pings of a run or of one head of a survey: cubes whose pings are read one at a time.
 struct RunPings {
-  std::vector<std::string> cubes;  ///< paths
-  Environment environment{};       ///< of its run.toml, if it has one
-  std::optional<Anchor> anchor{};  ///< of its mission
+  std::vector<std::string> cubes;    ///< paths
+  std::vector<std::string> returns;  ///< paths of the returns of its pings, if it has any
+  Environment environment{};         ///< of its run.toml, if it has one
+  std::optional<Anchor> anchor{};    ///< of its mission
   std::string start_utc;
 };
 

@@ -65,11 +65,16 @@ std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m)
   return fields;
 }
 
-/// The returns beside a run or of a merged survey; nothing if there are none.
-std::optional<Soundings> returns_of(const std::string& run) {
-  const std::filesystem::path path = std::filesystem::path(run) / "returns.ply";
-  if (!std::filesystem::exists(path)) return {};
-  return load_soundings(path.string());
+/// Writes the returns of a run or of the head of a survey; how many, or nothing if there are none.
+std::optional<std::size_t> save_returns(const RunPings& run, const std::string& path) {
+  if (run.returns.empty()) return {};
+  const SurveyReturns returns = load_survey_returns(run.returns);
+  std::vector<PointColumn> more;
+  if (!returns.time.empty())
+    more = {{"time", "s", returns.time},
+            {"head", "number in the mission, from 0", {returns.head.begin(), returns.head.end()}, true}};
+  save_points(path, returns.soundings, more);
+  return returns.soundings.size();
 }
 
 void export_run(const ExportOptions& options) {
@@ -95,8 +100,7 @@ void export_run(const ExportOptions& options) {
   });
   save_series(directory.file("fan.pvd"), fans);
   save_series(directory.file("image.pvd"), images);
-  const std::optional<Soundings> returns = returns_of(o.run);
-  if (returns) save_points(directory.file("returns.vtp"), *returns);
+  const std::optional<std::size_t> returns = save_returns(run, directory.file("returns.vtp"));
   write_file(
       directory.file("manifest.json"),
       nlohmann::ordered_json{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}}.dump(2) +
@@ -107,9 +111,9 @@ void export_run(const ExportOptions& options) {
                  {"to", o.to},
                  {"pings", images.size()},
                  {"grids", fans.size()},
-                 {"returns", returns ? returns->size() : 0}},
+                 {"returns", returns.value_or(0)}},
                 fmt::format("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView", o.output, fans.size(),
-                            images.size(), images.size(), returns ? fmt::format(", {} returns", returns->size()) : ""));
+                            images.size(), images.size(), returns ? fmt::format(", {} returns", *returns) : ""));
 }
 
 }  // namespace

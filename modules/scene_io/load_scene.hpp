@@ -90,4 +90,13 @@ LoadedScene load_scene(const std::string& path, const LoadOptions& options = {})
 /// naming it.
 Soundings load_soundings(const std::string& path);
 
+/// Soundings of a survey, when they were sent [s] and by which head of the mission, from 0; both empty of a single run.
+struct SurveyReturns {
+  Soundings soundings;
+  std::vector<double> time{};
+  std::vector<std::uint32_t> head{};
+};
+/// Reads soundings with the columns that save_survey_returns adds, one file after the other; errors as load_soundings.
+SurveyReturns load_survey_returns(const std::vector<std::string>& paths);
+
 }  // namespace insonify
