@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
+#include "tool/run_pings.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -60,14 +61,6 @@ void split_by(std::vector<DatasetSource>& sources, const std::vector<double>& sh
 
 /// Where in the list of runs a source stands, as a key that sorts.
 std::string run_key(const DatasetSource& source) { return fmt::format("{:08} ", source.run_index); }
-
-/// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.
-std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
-  std::size_t number = 0;
-  for (std::size_t k = 0; k < legs.size(); ++k)
-    if (time >= legs[k].from - 1e-9) number = k + 1;
-  return number;
-}
 
 void split_by_leg(std::vector<DatasetSource>& sources, const std::vector<double>& shares) {
   std::map<std::size_t, std::vector<MissionLeg>> legs;

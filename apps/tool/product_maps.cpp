@@ -1,6 +1,8 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,15 +16,47 @@
 
 namespace insonify::tool {
 
+namespace {
+
+/// Number of each sounding among those of its beam, nearest first, from 1, and how many these are.
+std::vector<std::pair<std::uint8_t, std::uint8_t>> returns_of_beams(const BottomSoundings& found) {
+  std::vector<std::pair<std::uint8_t, std::uint8_t>> numbers;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::uint8_t number = 1, returns = 0;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (found.beam[k] == found.beam[i]) {
+        ++returns;
+        if (found.range[k] < found.range[i] || (found.range[k] == found.range[i] && k < i)) ++number;
+      }
+    numbers.emplace_back(number, returns);
+  }
+  return numbers;
+}
+
+/// Angle of a place from straight down [rad], positive to the starboard of a head.
+double angle_from_nadir(const Pose& world_from_head, const Eigen::Vector3d& place) {
+  const Eigen::Vector3d away = place - world_from_head.translation();
+  const Eigen::Vector2d port = world_from_head.linear().col(1).head<2>();
+  const double across = port.norm() > 0 ? -port.normalized().dot(away.head<2>()) : 0;
+  return std::atan2(across, -away.z());
+}
+
+}  // namespace
+
 std::size_t las_product(const PlacedRun& run) {
   const UtmWorld world(run.reference());
   std::unique_ptr<LasFile> file;
+  const LasOptions options{run.options.las_version == "1.2" ? 2 : 4, run.start};
   const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     if (!file)
-      file = std::make_unique<LasFile>(run.options.output, world.zone, world.place(ping.world_from_head.translation()));
+      file = std::make_unique<LasFile>(run.options.output, world.zone, world.place(ping.world_from_head.translation()),
+                                       options);
+    const auto returns = returns_of_beams(found);
+    const auto line = static_cast<std::uint16_t>(leg_at(run.pings.legs, ping.time));
     for (std::size_t i = 0; i < found.size(); ++i)
       file->add({world.place(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
-                 static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i])});
+                 static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i]), line,
+                 returns[i].first, returns[i].second, angle_from_nadir(ping.world_from_head, found.position[i])});
   });
   file->finish();
   return soundings;

@@ -42,11 +42,20 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
     const MissionFile file = load_mission(mission);
     pings.anchor = file.anchor;
     pings.start_utc = file.start_utc;
+    pings.legs = file.mission.legs;
   }
   return pings;
 }
 
 }  // namespace
+
+std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
+  constexpr double rounding = 1e-9;  // of times between legs [s]
+  std::size_t number = 0;
+  for (std::size_t k = 0; k < legs.size(); ++k)
+    if (time >= legs[k].from - rounding) number = k + 1;
+  return number;
+}
 
 RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);

@@ -7,6 +7,7 @@
 #include "acoustics/environment.hpp"
 #include "core/geodesy.hpp"
 #include "returns/bottom_detection.hpp"
+#include "simulate/mission.hpp"
 #include "store/cube.hpp"
 
 namespace insonify::tool {
@@ -18,7 +19,11 @@ struct RunPings {
   Environment environment{};         ///< of its run.toml, if it has one
   std::optional<Anchor> anchor{};    ///< of its mission
   std::string start_utc;
+  std::vector<MissionLeg> legs{};  ///< of its mission
 };
+
+/// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.
+std::size_t leg_at(const std::vector<MissionLeg>& legs, double time);
 
 /// Finds the cubes of a run directory, a cube, or a survey, of which `head` names the head; "" if it has one only. Throws
 /// Error(file) for a run that does not exist, Error(content) for one without a cube or a survey with blocks that are not

@@ -42,6 +42,7 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
            {.within = std::pair(1, 100), .shown_as = "INT"});
+  list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
   list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
   list.add("--force", &p.force, "replace an existing directory of an earlier export");
   add_common(list, o.common);
