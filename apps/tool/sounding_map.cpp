@@ -20,8 +20,13 @@ std::int64_t cell_of(double coordinate, double cell) {
 
 void SoundingMap::add(const Eigen::Vector3d& place, double intensity) {
   Cell& cell = cells_[{cell_of(place.y(), cell_), cell_of(place.x(), cell_)}];
+  const double z = place.z();
+  cell.least = cell.count == 0 ? z : std::min(cell.least, z);
+  cell.most = cell.count == 0 ? z : std::max(cell.most, z);
   cell.count += 1;
-  cell.height += place.z();
+  const double off = z - cell.mean;  // Welford's sums, which heights far from 0 do not cancel
+  cell.mean += off / cell.count;
+  cell.squares += off * (z - cell.mean);
   cell.intensity += intensity;
 }
 
@@ -38,13 +43,15 @@ SoundingMap::Extent SoundingMap::extent() const {
 std::vector<GeoBand> SoundingMap::bands() const {
   const auto [west, south, columns, rows] = extent();
   const Grid<float> none = Grid<float>::Constant(rows, columns, std::numeric_limits<float>::quiet_NaN());
-  std::vector<GeoBand> bands = {
-      {"height [m]", none}, {"level [dB re 1 uPa at 1 m]", none}, {"soundings", Grid<float>::Zero(rows, columns)}};
+  std::vector<GeoBand> bands;
+  for (const BandMeaning& meaning : sounding_bands) bands.push_back({meaning.name, meaning.unit, none});
+  bands[2].values.setZero();
   for (const auto& [at, cell] : cells_) {
     const std::int64_t row = at.first - south, column = at.second - west;
-    bands[0].values(row, column) = static_cast<float>(cell.height / cell.count);
-    bands[1].values(row, column) = static_cast<float>(db_from_power(cell.intensity / cell.count));
-    bands[2].values(row, column) = static_cast<float>(cell.count);
+    const double of_cell[] = {cell.mean,  db_from_power(cell.intensity / cell.count),
+                              cell.count, cell.count > 1 ? std::sqrt(cell.squares / (cell.count - 1)) : std::nan(""),
+                              cell.least, cell.most};
+    for (std::size_t k = 0; k < bands.size(); ++k) bands[k].values(row, column) = static_cast<float>(of_cell[k]);
   }
   return bands;
 }

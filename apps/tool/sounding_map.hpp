@@ -15,6 +15,15 @@ namespace insonify::tool {
 /// the division, stands on it.
 std::int64_t cell_of(double coordinate, double cell);
 
+/// A band of such a map.
+struct BandMeaning {
+  const char *name, *unit;
+};
+/// The bands in the order of the file.
+inline constexpr BandMeaning sounding_bands[] = {{"height", "m"},   {"level", "dB re 1 uPa at 1 m"},
+                                                 {"soundings", ""}, {"deviation", "m"},
+                                                 {"lowest", "m"},   {"highest", "m"}};
+
 /// Soundings in cells of a grid.
 class SoundingMap {
  public:
@@ -25,13 +34,15 @@ class SoundingMap {
   void add(const Eigen::Vector3d& place, double intensity);
   bool empty() const { return cells_.empty(); }
 
-  /// The bands of a raster, and where it lies, without its zone. Throws Error(argument) for more than 2^26 cells.
+  /// The bands of a raster: mean height, level, number of soundings, standard deviation, least and largest height, and where it lies, without its zone. Throws Error(argument) for more than 2^26 cells.
   std::vector<GeoBand> bands() const;
   GeoGrid grid() const;
 
  private:
   struct Cell {
-    double count = 0, height = 0, intensity = 0;
+    double count = 0, intensity = 0;
+    double mean = 0, squares = 0;  ///< of heights; squares: of their differences from the mean, summed
+    double least = 0, most = 0;
   };
   struct Extent {
     std::int64_t west, south, columns, rows;

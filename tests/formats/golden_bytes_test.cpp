@@ -95,7 +95,7 @@ TEST(GoldenBytes, of_mcap) {
 TEST(GoldenBytes, of_geotiff) {
   const std::string path = own_path("bed.tif");
   std::vector<GeoBand> bands(2);
-  bands[0].name = "height [m]", bands[1].name = "soundings";
+  bands[0].name = "height", bands[0].unit = "m", bands[1].name = "soundings";
   bands[0].values.resize(2, 3), bands[1].values.resize(2, 3);
   bands[0].values << -20, -21, std::numeric_limits<float>::quiet_NaN(), -18, -17.5F, 2.25F;
   bands[1].values << 1, 2, 0, 4, 5, 6;

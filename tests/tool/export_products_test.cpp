@@ -120,7 +120,7 @@ TEST_F(ExportProducts, las_and_geotiff_have_it_at_its_place_in_utm) {
   // Each sounding of the LAS file lies in a cell of the map whose mean height is near its own; the other cells are empty.
   const decode::GeotiffContent map = decode::read_geotiff(read_bytes("ball.tif"));
   EXPECT_EQ(map.epsg, 32632);
-  ASSERT_EQ(map.bands.size(), 3U);
+  ASSERT_EQ(map.bands.size(), 6U);
   float counted = 0;
   for (const float count : map.bands[2]) counted += count;
   const std::vector<decode::LasRow> rows = decode::read_las(read_bytes("ball.las"));
