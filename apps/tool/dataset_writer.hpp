@@ -27,7 +27,8 @@ struct DatasetOptions {
   int columns = 512;                 ///< of fan pictures
   double tvg = 40;                   ///< [dB per decade of range]
   bool raw = false;                  ///< no TVG
-  std::vector<std::string> stuff;    ///< materials that are in masks alone
+  std::vector<std::string> stuff;    ///< classes that are in masks alone
+  bool polygons = false;             ///< outlines beside the masks of COCO
   std::string row;                   ///< of heads with several rows of beams: a number, all, or empty: the middle one
   std::string split = "80:10:10", split_by = "scene";
   bool force = false;
@@ -52,7 +53,9 @@ class DatasetWriter {
   void finish();
 
   std::size_t images() const { return images_; }
-  std::size_t annotations() const { return annotations_; }
+  /// Boxes of a form, polar or fan.
+  std::size_t boxes_of_polar() const { return polar_.boxes; }
+  std::size_t boxes_of_fan() const { return fan_.boxes; }
   const SplitTally& tally() const { return tally_; }
 
  private:
@@ -62,13 +65,17 @@ class DatasetWriter {
     std::map<std::string, nlohmann::ordered_json> coco{};  ///< of each split
     std::map<std::string, std::string> lists{};
     std::vector<std::size_t> pixels{};  ///< of each class
+    std::size_t boxes = 0;
+    std::map<std::string, nlohmann::ordered_json> outlines{};  ///< of each split: polygons of its annotations, in order
   };
   void add_form(Form& form, const DatasetImage& image, const LabelMap& map);
   void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
                 const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
+  std::vector<std::size_t> boxed_classes() const;
+  void write_lists(Form& form, const std::vector<std::size_t>& boxed) const;
   std::string card() const;
-  std::string yolo_yaml(const Form& form) const;
+  std::string yolo_yaml(const Form& form, const std::vector<std::size_t>& boxed) const;
   const FanRaster& raster_of(const Ping& ping);
 
   const RunDirectory& directory_;

@@ -32,8 +32,9 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("--least-pixels", &o.least_pixels, "of an object, in the polar image",
            {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
   list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
-  list.add("--stuff", &o.stuff, "materials that have no boxes, e.g. sand; several with commas",
+  list.add("--stuff", &o.stuff, "classes that have no boxes, e.g. sand or shadow; several with commas",
            {.comma_separated = true});
+  list.add("--polygons", &o.polygons, "COCO with outlines too, holes filled: annotations/polygons_SPLIT.json");
   list.add("--row", &o.row,
            "of heads with several rows of beams: the number of one, from 0 at the bottom, or all: an image of each; "
            "default: the middle one");
@@ -104,9 +105,9 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
     });
   }
   for (const std::string& name : o.stuff)
-    if (std::find(plan.classes.begin() + 2, plan.classes.end(), name) == plan.classes.end())
-      fail(ErrorKind::argument, "--stuff = ", name, " is no material of the runs; they have ",
-           joined(std::vector<std::string>(plan.classes.begin() + 2, plan.classes.end())));
+    if (std::find(plan.classes.begin() + 1, plan.classes.end(), name) == plan.classes.end())
+      fail(ErrorKind::argument, "--stuff = ", name, " is no class of the runs; they have ",
+           joined(std::vector<std::string>(plan.classes.begin() + 1, plan.classes.end())));
   return plan;
 }
 
@@ -144,17 +145,18 @@ void dataset(const DatasetOptions& o) {
     splits[split] = {{"images", count}, {"near_train", split == "train" ? count : writer.tally().near_train(split)}};
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, split);
   }
-  const nlohmann::ordered_json result = {{"folder", o.output},
-                                         {"images", writer.images()},
-                                         {"splits", splits},
-                                         {"notes", notes},
-                                         {"annotations", writer.annotations()},
-                                         {"classes", plan.classes},
-                                         {"window_db", {plan.window.min_db, plan.window.max_db}},
-                                         {"peak_memory_mib", peak_memory_mib()}};
+  const nlohmann::ordered_json result = {
+      {"folder", o.output},
+      {"images", writer.images()},
+      {"splits", splits},
+      {"notes", notes},
+      {"boxes", {{"polar", writer.boxes_of_polar()}, {"fan", writer.boxes_of_fan()}}},
+      {"classes", plan.classes},
+      {"window_db", {plan.window.min_db, plan.window.max_db}},
+      {"peak_memory_mib", peak_memory_mib()}};
   print_summary(o.common, result,
-                fmt::format("{}: {} images ({}) with {} boxes; classes {}", o.output, writer.images(), counts,
-                            writer.annotations(), joined(plan.classes)));
+                fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}", o.output, writer.images(),
+                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), joined(plan.classes)));
 }
 
 }  // namespace

@@ -68,7 +68,14 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
   for (const std::string form : {"polar", "fan"}) {
     const nlohmann::json c = coco(form);
     ASSERT_EQ(c["images"].size(), 4U);
-    EXPECT_EQ(c["categories"].size(), classes.size() - 1);
+    std::set<int> boxed;
+    for (const auto& a : c["annotations"]) boxed.insert(a["category_id"].get<int>());
+    for (const auto& category : c["categories"]) {
+      EXPECT_EQ(category["name"], classes.at(category["id"]));
+      EXPECT_NE(category["name"], "sand");  // no box has it
+    }
+    EXPECT_LE(boxed.size(), c["categories"].size());
+    EXPECT_EQ(c["annotations"].size(), manifest["boxes"][form].get<std::size_t>());
     std::map<int, std::string> name_of;
     std::size_t areas = 0;
     for (const auto& image : c["images"]) {
@@ -182,8 +189,9 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
     const nlohmann::json& image = image_of.at(a["image_id"]);
     const double w = image["width"], h = image["height"], x = a["bbox"][0], y = a["bbox"][1], bw = a["bbox"][2],
                  bh = a["bbox"][3];
-    expected[image["file_name"]].push_back(
-        {a["category_id"].get<double>() - 1, (x + bw / 2) / w, (y + bh / 2) / h, bw / w, bh / h});
+    double number = 0;  // among the categories, in their order
+    while (c["categories"][static_cast<std::size_t>(number)]["id"] != a["category_id"]) ++number;
+    expected[image["file_name"]].push_back({number, (x + bw / 2) / w, (y + bh / 2) / h, bw / w, bh / h});
   }
   ASSERT_FALSE(expected.empty());
   for (const auto& [name, boxes] : expected) {
@@ -200,6 +208,44 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
       read("set/fan/data.yaml"),
       testing::StartsWith("train: train.txt\nval: train.txt  # there is no image of val\nnames:\n  0: \"shadow\"\n"));
   EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000003.png\n"));
+}
+
+// Only classes that have boxes are named; shadow can be left to the masks, and outlines stand beside run lengths.
+TEST_F(DatasetRun, names_classes_with_boxes_and_draws_their_outlines) {
+  succeed("dataset survey -o set --stuff sand,shadow --polygons");
+  const auto manifest = nlohmann::json::parse(read("set/manifest.json"));
+  const auto names = manifest["boxed_classes"].get<std::vector<std::string>>();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "shadow") + std::count(names.begin(), names.end(), "sand"), 0);
+  std::string yaml = "names:\n";
+  for (std::size_t k = 0; k < names.size(); ++k) yaml += "  " + std::to_string(k) + ": \"" + names[k] + "\"\n";
+  EXPECT_THAT(read("set/fan/data.yaml"), testing::EndsWith(yaml));
+  EXPECT_GT((png("polar/masks/000_000003.png").value == 1).count(), 0);  // the masks have shadows nevertheless
+  for (const std::string form : {"polar", "fan"}) {
+    const nlohmann::json c = coco(form);
+    const auto outlined = nlohmann::json::parse(read("set/" + form + "/annotations/polygons_train.json"));
+    ASSERT_EQ(outlined["annotations"].size(), c["annotations"].size());
+    ASSERT_GT(c["annotations"].size(), 0U);
+    for (std::size_t k = 0; k < c["annotations"].size(); ++k) {
+      const auto &a = c["annotations"][k], &b = outlined["annotations"][k];
+      EXPECT_EQ(a["id"], b["id"]);
+      EXPECT_EQ(a["bbox"], b["bbox"]);
+      // All pixels lie within, and no part leaves the box.
+      double within = 0, right = 0, top = 1e9;
+      for (const auto& part : b["segmentation"]) {
+        const auto line = part.get<std::vector<int>>();
+        ASSERT_GE(line.size(), 8U);
+        for (std::size_t i = 0; i < line.size(); i += 2) {
+          const std::size_t next = (i + 2) % line.size();
+          within += 0.5 * (line[i] * line[next + 1] - line[next] * line[i + 1]);
+          right = std::max<double>(right, line[i]), top = std::min<double>(top, line[i + 1]);
+        }
+      }
+      EXPECT_GE(within, a["area"].get<double>());
+      EXPECT_EQ(right, a["bbox"][0].get<double>() + a["bbox"][2].get<double>());
+      EXPECT_EQ(top, a["bbox"][1].get<double>());
+    }
+  }
+  expect_refused("dataset survey -o none --stuff gold", 2, {"--stuff = gold", "shadow"});
 }
 
 TEST_F(DatasetRun, meta_says_pose_seed_mapping_and_what_was_randomised) {
