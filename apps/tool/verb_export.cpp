@@ -50,18 +50,19 @@ void add_options(OptionList list, ExportOptions& o) {
 
 /// All fields that a cube holds per sample of a ping.
 std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m) {
+  constexpr const char* level_unit = "dB re 1 uPa";
   const Grid<float> level = level_db(ping);
   std::vector<SampleField> fields = {
-      {"level_db", level},
-      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, absorption_db_per_m})},
-      {"pressure_re", ping.pressure.real()},
-      {"pressure_im", ping.pressure.imag()}};
+      {"level_db", level, level_unit},
+      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, absorption_db_per_m}), "dB re 1 uPa at 1 m"},
+      {"pressure_re", ping.pressure.real(), "Pa, amplitude"},
+      {"pressure_im", ping.pressure.imag(), "Pa, amplitude"}};
   for (const Layer& layer : ping.layers)
-    fields.push_back(
-        {"level_db_" + layer.name, level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure})});
-  if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping)});
-  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db});
-  if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase});
+    fields.push_back({"level_db_" + layer.name,
+                      level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure}), level_unit});
+  if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping), level_unit});
+  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db, "dB"});
+  if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase, "rad"});
   if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
   return fields;
 }

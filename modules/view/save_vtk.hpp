@@ -14,6 +14,7 @@ namespace insonify {
 struct SampleField {
   std::string name;    ///< of the array in the file, e.g. level_db
   Grid<float> values;  ///< beams x bins
+  std::string unit{};  ///< in the text array `units` of the field data, "name: unit", and as UNITS_LABEL; empty: none
 };
 
 /// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges

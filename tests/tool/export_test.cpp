@@ -3,6 +3,7 @@
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -51,6 +52,18 @@ TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   grid->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
   EXPECT_EQ(static_cast<float>(range[1]), level.maxCoeff());
   EXPECT_THAT(read("vtk/fan.pvd"), HasSubstr("file=\"fan_000000.vts\""));
+  for (vtkDataSet* data : {static_cast<vtkDataSet*>(image->GetOutput()), static_cast<vtkDataSet*>(grid->GetOutput())}) {
+    auto* units = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("units"));
+    ASSERT_NE(units, nullptr);
+    std::string all;
+    for (vtkIdType i = 0; i < units->GetNumberOfValues(); ++i) all += units->GetValue(i) + "\n";
+    for (const char* unit : {"level_db: dB re 1 uPa\n", "range_compensated_level_db: dB re 1 uPa at 1 m\n",
+                             "pressure_re: Pa, amplitude\n", "pressure_im: Pa, amplitude\n"})
+      EXPECT_THAT(all, HasSubstr(unit));
+    EXPECT_STREQ(data->GetCellData()->GetArray("level_db")->GetInformation()->Get(vtkDataArray::UNITS_LABEL()),
+                 "dB re 1 uPa");
+  }
+  EXPECT_THAT(read("vtk/fan_000000.vts").substr(0, 400), HasSubstr("compressor=\"vtkZLibDataCompressor\""));
 }
 
 // What ParaView shows of the returns: places in double and every column under its name, with its unit.
