@@ -84,9 +84,8 @@ TEST(GoldenBytes, of_mcap) {
   constexpr std::uint64_t time = 1777624200250000000;
   file.add(image, time, projected_sonar_image(ping, time, 4e5, 1490.25, {0, 0}, {false, {40, 120}, 1}));
   file.add(fan, time, fan_image(ping, time, {0, 0}, {40, 120}, 8));
-  file.add(points, time,
-           point_cloud(std::vector<Eigen::Vector3d>{{1, 2, -15}}, std::vector<float>{121.5F}, {0, 0, 0}, time));
-  file.add(tf, time, head_transforms(ping.world_from_head, {0, 0, 0}, time));
+  file.add(points, time, point_cloud(decode::soundings_at({{1, 2, -15}}, {121.5F}), {0, 0, 0}, time));
+  file.add(tf, time, head_transform(ping.world_from_head, {0, 0, 0}, time));
   file.finish();
   EXPECT_EQ(decode::read_mcap(file_bytes(path)).messages.size(), 4U);
   expect_golden(path, "log.mcap");

@@ -99,7 +99,7 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
     }
   }
   EXPECT_EQ(counted, static_cast<double>(soundings));
-  EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 4U);
+  EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 5U + 1);  // with a fix of each ping
   EXPECT_EQ(nlohmann::json::parse(read("product.png/manifest.json"))["pings"].size(), 4U);
   EXPECT_TRUE(std::filesystem::exists(path("product.png/fan_000003.png")));
   EXPECT_TRUE(std::filesystem::exists(path("vtk/fan_000003.vts")));
