@@ -9,6 +9,8 @@ if("beamforming" IN_LIST insonify_modules)
 endif()
 if("store" IN_LIST insonify_modules)
   pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # CMake's own module asks for C
+  find_library(HDF5_HL_LIBRARY NAMES hdf5_hl hdf5_serial_hl HINTS ${HDF5_LIBRARY_DIRS} REQUIRED)  # dimension scales
+  set_property(TARGET PkgConfig::HDF5 APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${HDF5_HL_LIBRARY})
   find_package(tomlplusplus REQUIRED)
 endif()
 if("scene_io" IN_LIST insonify_modules)

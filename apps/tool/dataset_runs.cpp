@@ -31,7 +31,8 @@ std::vector<DatasetSource> sources_of_survey(const std::string& run) {
   const std::string mission = (fs::path(run) / "mission.toml").string();
   std::vector<DatasetSource> sources;
   for (std::size_t h = 0; h < survey.heads.size(); ++h) {
-    DatasetSource source{run, survey.heads[h].name, h, {}, {}, {}, {}};
+    DatasetSource source;
+    source.run = run, source.head = survey.heads[h].name, source.head_index = h;
     for (std::size_t b = 0; b < survey.heads[h].blocks(); ++b) {
       const BlockFiles files = block_files(run, source.head, static_cast<std::int64_t>(b));
       if (!find_mark(files, survey.mission_sha256))
@@ -49,43 +50,35 @@ std::vector<DatasetSource> sources_of_survey(const std::string& run) {
 
 std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs) {
   std::vector<DatasetSource> sources;
-  for (const std::string& run : runs) {
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::string& run = runs[r];
+    const std::size_t before = sources.size();
     if (is_survey_run(run)) {
       for (DatasetSource& source : sources_of_survey(run)) sources.push_back(std::move(source));
-      continue;
+    } else {
+      DatasetSource& source = sources.emplace_back();
+      source.run = run, source.cubes = {run_cube_path(run)};
+      find_scene(source, fs::is_directory(run) ? run : fs::path(run).parent_path().string());
     }
-    DatasetSource source{run, {}, 0, {run_cube_path(run)}, {}, {}, {}};
-    find_scene(source, fs::is_directory(run) ? run : fs::path(run).parent_path().string());
-    sources.push_back(std::move(source));
+    for (std::size_t s = before; s < sources.size(); ++s) {
+      sources[s].run_index = r;
+      for (const std::string& cube : sources[s].cubes)
+        for (const TrackPoint& ping : read_track(cube)) sources[s].track.push_back(ping);
+    }
   }
   return sources;
 }
 
-void split_by_scene(std::vector<DatasetSource>& sources, const std::vector<double>& shares) {
-  std::set<std::string> scenes;
-  for (const DatasetSource& source : sources) scenes.insert(source.scene_digest);
-  const double sum = shares[0] + shares[1] + shares[2], count = static_cast<double>(scenes.size());
-  const double train = std::max(1.0, std::round(count * shares[0] / sum));
-  const double val = std::round(count * (shares[0] + shares[1]) / sum);
-  double scene = 0;
-  for (const std::string& digest : scenes) {
-    const char* split = scene < train ? "train" : scene < val ? "val" : "test";
-    for (DatasetSource& source : sources)
-      if (source.scene_digest == digest) source.split = split;
-    ++scene;
-  }
-}
-
-void for_each_labelled_ping(const DatasetSource& source, const std::function<void(const Cube&, const Ping&)>& body) {
-  for (const std::string& path : source.cubes) {
-    const Cube cube = read_cube(path);
-    for (const Ping& ping : cube.pings) {
+void for_each_labelled_ping(const DatasetSource& source,
+                            const std::function<void(const Cube&, const Ping&, std::size_t)>& body) {
+  std::size_t place = 0;
+  for (const std::string& path : source.cubes)
+    read_cube_pings(path, [&](const Cube& cube, const Ping& ping) {
       if (ping.labels.empty())
         fail(ErrorKind::content, path, ": ping ", ping.number,
              " has no labels: make it with --keep contributors, in a mission keep = [\"contributors\"] under [ping]");
-      body(cube, ping);
-    }
-  }
+      body(cube, ping, place++);
+    });
 }
 
 }  // namespace insonify::tool

@@ -16,11 +16,13 @@ namespace insonify::tool {
 /// Cubes of one head of a run or survey, read one after the other.
 struct DatasetSource {
   std::string run, head;       ///< head: of a survey; else empty
+  std::size_t run_index = 0;   ///< in the list of runs
   std::size_t head_index = 0;  ///< in the mission
   std::vector<std::string> cubes;
-  std::string scene;         ///< path, or empty: unknown
-  std::string scene_digest;  ///< of the file; of a run without its scene that of the run's name
-  std::string split;         ///< train, val or test
+  std::vector<TrackPoint> track;     ///< all pings, in the order of the cubes
+  std::string scene;                 ///< path, or empty: unknown
+  std::string scene_digest;          ///< of the file; of a run without its scene that of the run's name
+  std::vector<std::string> split{};  ///< train, val or test, of each ping
   std::optional<SurveyRandomisation> randomisation{};  ///< of a mission
   SceneInstances instances{};                          ///< if the scene's cloud has a field `instance`
 };
@@ -29,11 +31,9 @@ struct DatasetSource {
 /// not whole.
 std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs);
 
-/// Gives whole scenes to train, val and test, in the order of their digests: shares are those of scenes, the first one
-/// trains. Sets the split of every source.
-void split_by_scene(std::vector<DatasetSource>& sources, const std::vector<double>& shares);
-
-/// Calls `body` for every ping of a source, a cube in memory at a time. Throws Error(content) for pings without labels.
-void for_each_labelled_ping(const DatasetSource& source, const std::function<void(const Cube&, const Ping&)>& body);
+/// Calls `body` with every ping of a source and its place in the track, one in memory at a time. Throws Error(content)
+/// for pings without labels.
+void for_each_labelled_ping(const DatasetSource& source,
+                            const std::function<void(const Cube&, const Ping&, std::size_t)>& body);
 
 }  // namespace insonify::tool

@@ -82,11 +82,10 @@ const FanRaster& DatasetWriter::raster_of(const Ping& ping) {
   return at->second;
 }
 
-void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                        std::optional<std::size_t> row) {
+void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image) {
   const Grid<float> level = dataset_levels(cube, ping, options_);
   std::set<std::uint8_t> stuff;
-  for (std::size_t k = 2; k < classes_.size(); ++k)
+  for (std::size_t k = 1; k < classes_.size(); ++k)
     if (std::find(options_.stuff.begin(), options_.stuff.end(), classes_[k]) != options_.stuff.end())
       stuff.insert(static_cast<std::uint8_t>(k));
   const Grid<std::uint8_t> category = classes_of(ping.labels, options_.share, classes_);
@@ -95,32 +94,33 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
 
   // The same labels in both forms.
   const FanRaster& raster = raster_of(ping);
-  save_grey_png(directory_.file("polar/images/" + name + ".png"), polar_picture(quantise_16(level, window_), ping.fan));
-  save_grey_png(directory_.file("fan/images/" + name + ".png"),
+  save_grey_png(directory_.file("polar/images/" + image.name + ".png"),
+                polar_picture(quantise_16(level, window_), ping.fan));
+  save_grey_png(directory_.file("fan/images/" + image.name + ".png"),
                 fan_picture(quantise_8(level, window_), raster, std::uint8_t{0}));
   const LabelMap polar{polar_picture(category, ping.fan), polar_picture(object, ping.fan)};
   const LabelMap fan{fan_picture(category, raster, std::uint8_t{0}), fan_picture(object, raster, std::uint16_t{0})};
   ++images_;
-  add_form(polar_, source, name, polar);
-  add_form(fan_, source, name, fan);
-  add_meta(source, cube, ping, name, row, polar);
+  add_form(polar_, image, polar);
+  add_form(fan_, image, fan);
+  add_meta(source, cube, ping, image, polar);
+  tally_.add(image.split, source.scene_digest, ping.world_from_head.translation(), ping.gate.max_range);
 }
 
-void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std::string& name, const LabelMap& map) {
+void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelMap& map) {
   const auto path = [&](const char* folder, const char* ending) {
-    return directory_.file(form.name + "/" + folder + "/" + name + ending);
+    return directory_.file(form.name + "/" + folder + "/" + image.name + ending);
   };
   save_grey_png(path("masks", ".png"), map.category);
   save_label_png(path("colours", ".png"), map.category);
   save_grey_png(path("instances", ".png"), map.instance);
   for (const std::uint8_t category : map.category.reshaped()) ++form.pixels[category];
 
-  ordered_json& coco = form.coco.try_emplace(source.split, empty_coco()).first->second;
+  ordered_json& coco = form.coco.try_emplace(image.split, empty_coco()).first->second;
   const auto rows = map.category.rows(), columns = map.category.cols();
-  coco["images"].push_back({{"id", images_}, {"file_name", name + ".png"}, {"width", columns}, {"height", rows}});
-  std::string yolo;
+  coco["images"].push_back({{"id", images_}, {"file_name", image.name + ".png"}, {"width", columns}, {"height", rows}});
   for (const Annotation& a : annotations_of(map)) {
-    ++annotations_;
+    ++annotations_, ++form.boxes;
     coco["annotations"].push_back({{"id", annotations_},
                                    {"image_id", images_},
                                    {"category_id", a.category},
@@ -129,20 +129,17 @@ void DatasetWriter::add_form(Form& form, const DatasetSource& source, const std:
                                    {"area", a.area},
                                    {"iscrowd", 0},
                                    {"segmentation", {{"size", {rows, columns}}, {"counts", a.counts}}}});
-    const double width = static_cast<double>(columns), height = static_cast<double>(rows);
-    yolo += fmt::format("{} {:.6f} {:.6f} {:.6f} {:.6f}\n", a.category - 1, (a.left + 0.5 * a.width) / width,
-                        (a.top + 0.5 * a.height) / height, a.width / width, a.height / height);
+    if (options_.polygons) form.outlines[image.split].push_back(outlines_of(map.instance, a.instance));
   }
-  write_file(path("labels", ".txt"), yolo);
-  form.lists[source.split] += "./images/" + name + ".png\n";
+  form.lists[image.split] += "./images/" + image.name + ".png\n";
 }
 
-void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                             std::optional<std::size_t> row, const LabelMap& map) {
+void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
+                             const LabelMap& map) {
   std::vector<std::size_t> pixels(classes_.size());
   for (const std::uint8_t category : map.category.reshaped()) ++pixels[category];
-  ordered_json meta = {{"name", name},
-                       {"split", source.split},
+  ordered_json meta = {{"name", image.name},
+                       {"split", image.split},
                        {"run", fs::path(source.run).filename().string()},
                        {"head", source.head},
                        {"scene", fs::path(source.scene).filename().string()},
@@ -164,7 +161,7 @@ void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, cons
                          {"max_db", window_.max_db},
                          {"tvg_db_per_decade", options_.raw ? ordered_json() : ordered_json(options_.tvg)}}},
                        {"polar_pixels", pixels}};
-  if (row) meta["row"] = *row, meta["row_elevation_deg"] = degrees(ping.fan.elevation.front());
+  if (image.row) meta["row"] = *image.row, meta["row_elevation_deg"] = degrees(ping.fan.elevation.front());
   if (source.randomisation && source.randomisation->spread.any())
     meta["randomised"] = randomised_json(randomised(source.randomisation->spread, source.randomisation->seed,
                                                     {.head = source.head_index, .number = ping.number}));
@@ -175,26 +172,24 @@ void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, cons
 }
 
 ordered_json DatasetWriter::empty_coco() const {
-  ordered_json categories = ordered_json::array();
-  for (std::size_t k = 1; k < classes_.size(); ++k)
-    categories.push_back({{"id", k}, {"name", classes_[k]}, {"supercategory", k == 1 ? "shadow" : "surface"}});
   return {{"info",
            {{"description", "simulated sonar images"}, {"contributor", std::string("insonify ") + INSONIFY_VERSION}}},
           {"licenses", ordered_json::array()},
           {"images", ordered_json::array()},
           {"annotations", ordered_json::array()},
-          {"categories", categories}};
+          {"categories", ordered_json::array()}};
 }
 
 std::string DatasetWriter::card() const {
   std::string text = fmt::format(
-      "# Simulated sonar images\n\n{} images with {} boxes in two forms, made by insonify {}.\n\nSonars:\n{}\n"
+      "# Simulated sonar images\n\n{} images in two forms, with {} boxes in the polar and {} in the fan ones, made by "
+      "insonify {}.\n\nSonars:\n{}\n"
       "## Images\n\n`polar/images`: 16 bits, a column for each beam from port to starboard, the first row is the "
       "farthest bin. `fan/images`: 8 bits, true "
       "geometry, forward up, starboard right; `fan_mapping.json` says where. Grey is linear in dB: black {:g} dB or "
       "below, white {:g} dB or above, {}. All "
       "images have this one mapping.\n\n",
-      images_, annotations_, INSONIFY_VERSION, sonars_, window_.min_db, window_.max_db,
+      images_, polar_.boxes, fan_.boxes, INSONIFY_VERSION, sonars_, window_.min_db, window_.max_db,
       options_.raw ? "levels as received (re 1 uPa)"
                    : fmt::format("levels with a time-varied gain of {:g} log r + 2 a r", options_.tvg));
   text += fmt::format(
@@ -212,14 +207,69 @@ std::string DatasetWriter::card() const {
   text += fmt::format(
       "\n`masks`: class; `colours`: the same in the colours of `palette.json`; `instances`: number of the object, 16 "
       "bits; `annotations`: COCO with run lengths; `labels`: "
-      "YOLO, classes counted from shadow = 0. In masks alone: {}.\n\n",
+      "YOLO, the classes that have boxes counted from 0 (`data.yaml`). In masks alone: {}.\n\n",
       options_.stuff.empty() ? "none" : joined(options_.stuff));
-  text += "## Split\n\nBy scene: no scene is in two of train, val and test.\n\n| split | images |\n|---|---|\n";
-  for (const auto& [split, coco] : polar_.coco) text += fmt::format("| {} | {} |\n", split, coco["images"].size());
+  const SplitUnit& by = *std::find_if(split_units().begin(), split_units().end(),
+                                      [&](const SplitUnit& each) { return options_.split_by == each.name; });
+  text += fmt::format(
+      "## Split\n\nBy {}: {}.\n\n| split | images | taken within range of an image of train |\n|---|---|---|\n",
+      by.name, by.means);
+  for (const auto& [split, images] : tally_.images())
+    text += fmt::format("| {} | {} | {} |\n", split, images,
+                        split == "train" ? "" : std::to_string(tally_.near_train(split)));
   return text +
          "\n`meta.jsonl` has pose, sonar, water, seed and mapping of every image, and by how much it was randomised. "
          "`SHA256SUMS` checks the files: `sha256sum -c "
          "SHA256SUMS`.\n\nLevels are those of the simulation; scenes and their licences are the user's.\n";
+}
+
+// The classes that a box of either form has, by their values in masks; YOLO numbers them in this order from 0.
+std::vector<std::size_t> DatasetWriter::boxed_classes() const {
+  std::set<std::size_t> boxed;
+  for (const Form* form : {&polar_, &fan_})
+    for (const auto& [split, coco] : form->coco)
+      for (const auto& annotation : coco["annotations"]) boxed.insert(annotation["category_id"].get<std::size_t>());
+  return {boxed.begin(), boxed.end()};
+}
+
+// Readers resolve lists from the folder of the file itself, as long as there is no `path`, and demand train and val.
+std::string DatasetWriter::yolo_yaml(const Form& form, const std::vector<std::size_t>& boxed) const {
+  std::string yaml = "train: train.txt\n";
+  yaml += form.lists.contains("val") ? "val: val.txt\n" : "val: train.txt  # there is no image of val\n";
+  if (form.lists.contains("test")) yaml += "test: test.txt\n";
+  yaml += "names:\n";
+  for (std::size_t k = 0; k < boxed.size(); ++k)
+    yaml += fmt::format("  {}: {}\n", k, ordered_json(classes_[boxed[k]]).dump());
+  return yaml;
+}
+
+// What names classes by those that have boxes: COCO's categories, and the labels of YOLO.
+void DatasetWriter::write_lists(Form& form, const std::vector<std::size_t>& boxed) const {
+  for (auto& [split, coco] : form.coco) {
+    for (const std::size_t k : boxed)
+      coco["categories"].push_back(
+          {{"id", k}, {"name", classes_[k]}, {"supercategory", k == 1 ? "shadow" : "surface"}});
+    std::map<std::size_t, std::string> labels;
+    for (const auto& a : coco["annotations"]) {
+      const auto number = std::find(boxed.begin(), boxed.end(), a["category_id"].get<std::size_t>()) - boxed.begin();
+      const double height = a["segmentation"]["size"][0], width = a["segmentation"]["size"][1];
+      const double left = a["bbox"][0], top = a["bbox"][1], wide = a["bbox"][2], tall = a["bbox"][3];
+      labels[a["image_id"].get<std::size_t>()] +=
+          fmt::format("{} {:.6f} {:.6f} {:.6f} {:.6f}\n", number, (left + 0.5 * wide) / width,
+                      (top + 0.5 * tall) / height, wide / width, tall / height);
+    }
+    for (const auto& image : coco["images"])
+      write_file(directory_.file(form.name + "/labels/" +
+                                 fs::path(image["file_name"].get<std::string>()).stem().string() + ".txt"),
+                 labels[image["id"].get<std::size_t>()]);
+    write_file(directory_.file(form.name + "/annotations/instances_" + split + ".json"), coco.dump() + "\n");
+    write_file(directory_.file(form.name + "/" + split + ".txt"), form.lists.at(split));
+    if (!options_.polygons) continue;
+    for (std::size_t k = 0; k < coco["annotations"].size(); ++k)
+      coco["annotations"][k]["segmentation"] = form.outlines[split][k];
+    write_file(directory_.file(form.name + "/annotations/polygons_" + split + ".json"), coco.dump() + "\n");
+  }
+  write_file(directory_.file(form.name + "/data.yaml"), yolo_yaml(form, boxed));
 }
 
 void DatasetWriter::finish() {
@@ -228,18 +278,10 @@ void DatasetWriter::finish() {
   if (labelled == 0)
     fail(ErrorKind::content, "no pixel of ", images_, " images shows a surface by --share ", options_.share,
          "; lower it, or look where the scene is");
-  for (const Form* form : {&polar_, &fan_}) {
-    std::string yaml = "path: .\n";
-    for (const auto& [split, coco] : form->coco) {
-      write_file(directory_.file(form->name + "/annotations/instances_" + split + ".json"), coco.dump() + "\n");
-      write_file(directory_.file(form->name + "/" + split + ".txt"), form->lists.at(split));
-      yaml += split + ": " + split + ".txt\n";
-    }
-    yaml += "names:\n";
-    for (std::size_t k = 1; k < classes_.size(); ++k)
-      yaml += fmt::format("  {}: {}\n", k - 1, ordered_json(classes_[k]).dump());
-    write_file(directory_.file(form->name + "/data.yaml"), yaml);
-  }
+  const std::vector<std::size_t> boxed = boxed_classes();
+  std::vector<std::string> boxed_names;
+  for (const std::size_t k : boxed) boxed_names.push_back(classes_[k]);
+  for (Form* form : {&polar_, &fan_}) write_lists(*form, boxed);
   write_file(directory_.file("meta.jsonl"), meta_);
   write_file(directory_.file("palette.json"), palette_json(classes_).dump(2) + "\n");
   ordered_json mappings = ordered_json::array();
@@ -265,6 +307,8 @@ void DatasetWriter::finish() {
                               {"insonify_version", INSONIFY_VERSION},
                               {"images", images_},
                               {"annotations", annotations_},
+                              {"boxes", {{"polar", polar_.boxes}, {"fan", fan_.boxes}}},
+                              {"boxed_classes", boxed_names},
                               {"classes", classes_},
                               {digests_key, digests}});
 }

@@ -11,6 +11,7 @@
 #include "returns/quantise.hpp"
 #include "store/run_directory.hpp"
 #include "tool/dataset_runs.hpp"
+#include "tool/dataset_split.hpp"
 #include "tool/label_pictures.hpp"
 #include "tool/options.hpp"
 
@@ -26,10 +27,17 @@ struct DatasetOptions {
   int columns = 512;                 ///< of fan pictures
   double tvg = 40;                   ///< [dB per decade of range]
   bool raw = false;                  ///< no TVG
-  std::vector<std::string> stuff;    ///< materials that are in masks alone
+  std::vector<std::string> stuff;    ///< classes that are in masks alone
+  bool polygons = false;             ///< outlines beside the masks of COCO
   std::string row;                   ///< of heads with several rows of beams: a number, all, or empty: the middle one
-  std::string split = "80:10:10";
+  std::string split = "80:10:10", split_by = "scene";
   bool force = false;
+};
+
+/// An image of a data set.
+struct DatasetImage {
+  std::string name, split;           ///< split: train, val or test
+  std::optional<std::size_t> row{};  ///< of its head's beams, if that has several
 };
 
 /// Writes images, masks, boxes and lists of a data set into a folder.
@@ -39,14 +47,16 @@ class DatasetWriter {
   DatasetWriter(const RunDirectory& directory, const DatasetOptions& options, std::vector<std::string> classes,
                 GreyWindow window);
 
-  /// Adds a ping of one row of beams: `row` of its head, if that has several.
-  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-           std::optional<std::size_t> row = {});
+  /// Adds a ping of one row of beams.
+  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image);
   /// Writes what lists all images. Throws Error(content) if no pixel of any image shows a surface.
   void finish();
 
   std::size_t images() const { return images_; }
-  std::size_t annotations() const { return annotations_; }
+  /// Boxes of a form, polar or fan.
+  std::size_t boxes_of_polar() const { return polar_.boxes; }
+  std::size_t boxes_of_fan() const { return fan_.boxes; }
+  const SplitTally& tally() const { return tally_; }
 
  private:
   /// One of the two forms of the images, polar or fan.
@@ -55,12 +65,17 @@ class DatasetWriter {
     std::map<std::string, nlohmann::ordered_json> coco{};  ///< of each split
     std::map<std::string, std::string> lists{};
     std::vector<std::size_t> pixels{};  ///< of each class
+    std::size_t boxes = 0;
+    std::map<std::string, nlohmann::ordered_json> outlines{};  ///< of each split: polygons of its annotations, in order
   };
-  void add_form(Form& form, const DatasetSource& source, const std::string& name, const LabelMap& map);
-  void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const std::string& name,
-                std::optional<std::size_t> row, const LabelMap& map);
+  void add_form(Form& form, const DatasetImage& image, const LabelMap& map);
+  void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
+                const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
+  std::vector<std::size_t> boxed_classes() const;
+  void write_lists(Form& form, const std::vector<std::size_t>& boxed) const;
   std::string card() const;
+  std::string yolo_yaml(const Form& form, const std::vector<std::size_t>& boxed) const;
   const FanRaster& raster_of(const Ping& ping);
 
   const RunDirectory& directory_;
@@ -71,6 +86,7 @@ class DatasetWriter {
   Form polar_{"polar"}, fan_{"fan"};
   std::string meta_, sonars_;
   std::map<std::string, FanRaster> rasters_;
+  SplitTally tally_;
 };
 
 /// Levels of a ping as the images show them: with the options' TVG.

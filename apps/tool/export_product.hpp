@@ -12,6 +12,7 @@ struct ProductOptions {
   std::string anchor, utm, start_utc;  ///< where and when; empty: as the mission says
   double cell = 0.5;                   ///< of a raster [m]
   int per_beam = 1;                    ///< soundings of a beam
+  std::string las_version = "1.4";     ///< or 1.2
   bool linear = false;                 ///< images of pressure in 32 bits
   bool force = false;                  ///< replace a file or directory
 };

@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,60 +12,69 @@
 #include "formats/geotiff_file.hpp"
 #include "formats/las_file.hpp"
 #include "tool/product_run.hpp"
+#include "tool/sounding_map.hpp"
 
 namespace insonify::tool {
+
+namespace {
+
+/// Number of each sounding among those of its beam, nearest first, from 1, and how many these are.
+std::vector<std::pair<std::uint8_t, std::uint8_t>> returns_of_beams(const BottomSoundings& found) {
+  std::vector<std::pair<std::uint8_t, std::uint8_t>> numbers;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::uint8_t number = 1, returns = 0;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (found.beam[k] == found.beam[i]) {
+        ++returns;
+        if (found.range[k] < found.range[i] || (found.range[k] == found.range[i] && k < i)) ++number;
+      }
+    numbers.emplace_back(number, returns);
+  }
+  return numbers;
+}
+
+/// Angle of a place from straight down [rad], positive to the starboard of a head.
+double angle_from_nadir(const Pose& world_from_head, const Eigen::Vector3d& place) {
+  const Eigen::Vector3d away = place - world_from_head.translation();
+  const Eigen::Vector2d port = world_from_head.linear().col(1).head<2>();
+  const double across = port.norm() > 0 ? -port.normalized().dot(away.head<2>()) : 0;
+  return std::atan2(across, -away.z());
+}
+
+}  // namespace
 
 std::size_t las_product(const PlacedRun& run) {
   const UtmWorld world(run.reference());
   std::unique_ptr<LasFile> file;
+  const LasOptions options{run.options.las_version == "1.2" ? 2 : 4, run.start};
   const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     if (!file)
-      file = std::make_unique<LasFile>(run.options.output, world.zone, world.place(ping.world_from_head.translation()));
+      file = std::make_unique<LasFile>(run.options.output, world.zone, world.place(ping.world_from_head.translation()),
+                                       options);
+    const auto returns = returns_of_beams(found);
+    const auto line = static_cast<std::uint16_t>(leg_at(run.pings.legs, ping.time));
     for (std::size_t i = 0; i < found.size(); ++i)
       file->add({world.place(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
-                 static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i])});
+                 static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i]), line,
+                 returns[i].first, returns[i].second, angle_from_nadir(ping.world_from_head, found.position[i])});
   });
   file->finish();
   return soundings;
 }
 
 std::size_t geotiff_product(const PlacedRun& run) {
-  struct Cell {
-    double count = 0, height = 0, intensity = 0;
-  };
   if (!(run.options.cell > 0)) fail(ErrorKind::argument, "--cell = ", run.options.cell, " m, must be > 0");
   const UtmWorld world(run.reference());
-  std::map<std::pair<std::int64_t, std::int64_t>, Cell> cells;  // by row and column
+  SoundingMap map(run.options.cell);
   const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const Eigen::Vector3d at = world.place(found.position[i]);
-      Cell& cell = cells[{static_cast<std::int64_t>(std::floor(at.y() / run.options.cell)),
-                          static_cast<std::int64_t>(std::floor(at.x() / run.options.cell))}];
-      cell.count += 1;
-      cell.height += at.z();
-      cell.intensity += power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i]));
-    }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      map.add(world.place(found.position[i]),
+              power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
   });
-  if (cells.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
-  std::int64_t west = cells.begin()->first.second, east = west;
-  for (const auto& [at, cell] : cells) west = std::min(west, at.second), east = std::max(east, at.second);
-  const std::int64_t south = cells.begin()->first.first, rows = cells.rbegin()->first.first - south + 1;
-  const std::int64_t columns = east - west + 1;
-  if (static_cast<double>(rows) * static_cast<double>(columns) > 0x1p26)
-    fail(ErrorKind::argument, "--cell = ", run.options.cell, " m gives ", rows, " x ", columns,
-         " cells, must give at most 2^26");
-  const Grid<float> none = Grid<float>::Constant(rows, columns, std::numeric_limits<float>::quiet_NaN());
-  std::vector<GeoBand> bands = {
-      {"height [m]", none}, {"level [dB re 1 uPa at 1 m]", none}, {"soundings", Grid<float>::Zero(rows, columns)}};
-  for (const auto& [at, cell] : cells) {
-    const std::int64_t row = at.first - south, column = at.second - west;
-    bands[0].values(row, column) = static_cast<float>(cell.height / cell.count);
-    bands[1].values(row, column) = static_cast<float>(db_from_power(cell.intensity / cell.count));
-    bands[2].values(row, column) = static_cast<float>(cell.count);
-  }
-  write_geotiff(run.options.output, bands,
-                {world.zone, static_cast<double>(west) * run.options.cell,
-                 static_cast<double>(south) * run.options.cell, run.options.cell});
+  if (map.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
+  GeoGrid grid = map.grid();
+  grid.zone = world.zone;
+  write_geotiff(run.options.output, map.bands(), grid);
   return soundings;
 }
 

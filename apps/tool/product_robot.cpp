@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,23 +14,34 @@ namespace {
 
 constexpr int fan_rows_of_pixels = 480;
 
+/// Quality of service of a topic whose last message is kept for those who listen later, as ROS 2 records it.
+constexpr const char* kept_for_late_listeners =
+    "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n  deadline:\n    sec: 9223372036\n    nsec: "
+    "854775807\n"
+    "  lifespan:\n    sec: 9223372036\n    nsec: 854775807\n  liveliness: 1\n  liveliness_lease_duration:\n"
+    "    sec: 9223372036\n    nsec: 854775807\n  avoid_ros_namespace_conventions: false";
+
 /// Topics of a robot's log, made with the first ping, whose levels give the scale of images.
 struct RobotLog {
   McapFile file;
   GreyScale grey;
   SonarImageScale scale;
   Eigen::Vector3d origin;
-  std::uint16_t image, fan, points, transforms;
+  std::uint16_t image, fan, points, transforms, fixed_transforms;
+  std::optional<std::uint16_t> fix{};  ///< of a run with a place on the globe
 
-  RobotLog(const ProductOptions& o, const Cube& cube, const Ping& ping)
+  RobotLog(const ProductOptions& o, const Cube& cube, const Ping& ping, bool placed)
       : file(o.output), grey(cube, ping), origin(ping.world_from_head.translation()) {
     // Single precision holds world coordinates to a millimetre up to some kilometres.
     origin = origin.norm() > 1e4 ? Eigen::Vector3d(origin.array().round()) : Eigen::Vector3d(0, 0, 0);
     scale = {o.linear, grey.window, std::max(1e-12, 4 * static_cast<double>(ping.pressure.abs().maxCoeff()))};
     const std::map<std::string, std::string> greys = {{"black_db", fmt::format("{}", grey.window.min_db)},
                                                       {"white_db", fmt::format("{}", grey.window.max_db)},
-                                                      {"reference", "dB re 1 uPa at 1 m"}};
-    const std::map<std::string, std::string> numbers = {{"full_scale_pa", fmt::format("{}", scale.full_scale)}};
+                                                      {"reference", "dB re 1 uPa at 1 m"},
+                                                      {"law", "level = black_db + value / 255 (white_db - black_db)"},
+                                                      {"gain", "40 log10(range) + 2 absorption range"}};
+    const std::map<std::string, std::string> numbers = {{"full_scale_pa", fmt::format("{}", scale.full_scale)},
+                                                        {"law", "amplitude = value / 4294967295 full_scale_pa"}};
     const std::map<std::string, std::string> place = {
         {"origin_m", fmt::format("{},{},{}", origin.x(), origin.y(), origin.z())}};
     const auto add = [&](const char* topic, const RosType& type, const std::map<std::string, std::string>& about) {
@@ -39,6 +51,8 @@ struct RobotLog {
     fan = add("/sonar/fan", image_type(), greys);
     points = add("/sonar/points", point_cloud_type(), place);
     transforms = add("/tf", transforms_type(), place);
+    fixed_transforms = add("/tf_static", transforms_type(), {{"offered_qos_profiles", kept_for_late_listeners}});
+    if (placed) fix = add("/sonar/fix", nav_sat_fix_type(), {{"frame_id", "head"}});
   }
 };
 
@@ -47,14 +61,20 @@ struct RobotLog {
 std::size_t mcap_product(const PlacedRun& run) {
   std::unique_ptr<RobotLog> log;
   const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
-    if (!log) log = std::make_unique<RobotLog>(run.options, cube, ping);
     const auto time = static_cast<std::uint64_t>(std::llround((run.start + ping.time) * 1e9));
-    log->file.add(log->transforms, time, head_transforms(ping.world_from_head, log->origin, time));
+    if (!log) {
+      log = std::make_unique<RobotLog>(run.options, cube, ping, run.place.has_value());
+      log->file.add(log->fixed_transforms, time, sonar_transform(time));
+    }
+    log->file.add(log->transforms, time, head_transform(ping.world_from_head, log->origin, time));
+    if (log->fix)
+      log->file.add(*log->fix, time,
+                    nav_sat_fix(geo_from_world(run.reference(), ping.world_from_head.translation()), time));
     log->file.add(
         log->image, time,
         projected_sonar_image(ping, time, cube.centre_frequency, cube.sound_speed, log->grey.tvg, log->scale));
     log->file.add(log->fan, time, fan_image(ping, time, log->grey.tvg, log->scale.window, fan_rows_of_pixels));
-    log->file.add(log->points, time, point_cloud(found.position, found.level_db, log->origin, time));
+    log->file.add(log->points, time, point_cloud(found, log->origin, time));
   });
   log->file.finish();
   return soundings;

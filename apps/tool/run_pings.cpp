@@ -34,6 +34,7 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
                                   [&](const MissionHead& each) { return each.name == head; });
   pings.anchor = file.anchor;
   pings.start_utc = file.start_utc;
+  pings.legs = file.mission.legs;
   if (found == file.mission.heads.end()) return;
   pings.vehicle_from_head = found->vehicle_from_head;
   pings.trajectory = std::move(file.mission.trajectory);
@@ -60,6 +61,7 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
       fail(ErrorKind::content, run, ": block ", b, " of ", head.name,
            " is not done; run the survey (or its missing shards) again");
     if (fs::exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
+    if (fs::exists(files.returns)) pings.returns.push_back(files.returns);
   }
   const std::string settings = run + "/" + head.name + "/run.toml";
   if (fs::exists(settings)) pings.environment = load_environment(settings);
@@ -71,6 +73,7 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
 RunPings pings_of_directory(const std::string& run) {
   RunPings pings;
   pings.cubes = {run_cube_path(run)};
+  if (fs::is_directory(run) && fs::exists(run + "/returns.ply")) pings.returns = {run + "/returns.ply"};
   const std::string settings = run + "/run.toml";
   if (fs::is_directory(run) && fs::exists(settings)) pings.environment = load_environment(settings);
   if (!fs::is_directory(run)) return pings;
@@ -88,6 +91,14 @@ RunPings pings_of_directory(const std::string& run) {
 }
 
 }  // namespace
+
+std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
+  constexpr double rounding = 1e-9;  // of times between legs [s]
+  std::size_t number = 0;
+  for (std::size_t k = 0; k < legs.size(); ++k)
+    if (time >= legs[k].from - rounding) number = k + 1;
+  return number;
+}
 
 RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);

@@ -8,6 +8,7 @@
 #include "acoustics/motion.hpp"
 #include "core/geodesy.hpp"
 #include "returns/bottom_detection.hpp"
+#include "simulate/mission.hpp"
 #include "store/cube.hpp"
 #include "store/mission_file.hpp"
 
@@ -15,15 +16,20 @@ namespace insonify::tool {
 
 /// The pings of a run or of one head of a survey: cubes whose pings are read one at a time.
 struct RunPings {
-  std::vector<std::string> cubes;  ///< paths
-  Environment environment{};       ///< of its run.toml, if it has one
-  std::optional<Anchor> anchor{};  ///< of its mission
+  std::vector<std::string> cubes;    ///< paths
+  std::vector<std::string> returns;  ///< paths of the returns of its pings, if it has any
+  Environment environment{};         ///< of its run.toml, if it has one
+  std::optional<Anchor> anchor{};    ///< of its mission
   std::string start_utc;
   std::optional<Pose> vehicle_from_head{};     ///< of its mission or --mount, at scan angle 0; absent: unknown
   std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
   MissionWater water{};                        ///< of its mission
   std::optional<double> position_deviation{};  ///< of what its mission believes of each coordinate [m]; 0: exact
+  std::vector<MissionLeg> legs{};              ///< of its mission
 };
+
+/// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.
+std::size_t leg_at(const std::vector<MissionLeg>& legs, double time);
 
 /// Finds the cubes of a run directory (also of a merged head of a survey), a cube, or a survey, of which `head` names the head; "" if it has one only. Throws
 /// Error(file) for a run that does not exist, Error(content) for one without a cube or a survey with blocks that are not

@@ -90,8 +90,10 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockReturns& returns) const {
   if (!pings.empty()) {
     if (setup_.file.coverage) save_coverage(files.coverage, covered);
     drop_unlike_layers(pings);
-    write_cube(whole ? files.cube : files.partial_cube,
-               cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head));
+    Cube cube = cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head);
+    cube.head = setup_.file.mission.heads[block.head].name;
+    cube.start_utc = setup_.file.start_utc, cube.anchor = setup_.file.anchor;
+    write_cube(whole ? files.cube : files.partial_cube, cube);
     save_survey_returns(whole ? files.returns : files.partial_returns, soundings, time,
                         static_cast<std::uint32_t>(block.head));
   }

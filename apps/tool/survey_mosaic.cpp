@@ -78,7 +78,8 @@ void save_mosaic(const std::string& folder, const std::vector<HeadCubes>& heads,
   }
 
   const MosaicMap laid = mosaic.map();
-  const HorizontalMap map{laid.x, laid.y, laid.cell, {{"strength_db", laid.strength_db}, {"samples", laid.samples}}};
+  const HorizontalMap map{
+      laid.x, laid.y, laid.cell, {{"strength_db", laid.strength_db, "dB re 1 m^2 per m^2"}, {"samples", laid.samples}}};
   const std::string stem = (std::filesystem::path(folder) / "mosaic").string();
   constexpr double window_db = 45;
   save_map_image(stem + ".vti", map);

@@ -34,6 +34,15 @@ SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, s
   return head;
 }
 
+/// Pings of a block: as asked for, as a survey that was begun has them, or as many as fill the bytes of a block.
+std::size_t block_size(const SurveyOptions& o, const SurveyRun& begun, const std::string& head, std::size_t ping_bytes,
+                       bool coverage) {
+  if (o.pings_per_block > 0) return static_cast<std::size_t>(o.pings_per_block);
+  for (const SurveyRunHead& there : begun.heads)
+    if (there.name == head) return there.pings_per_block;
+  return std::clamp<std::size_t>(most_block_bytes / ping_bytes, 1, coverage ? most_covering_pings : most_block_pings);
+}
+
 /// Throws Error(content) "file: head 'name', ping i at t s: ..." about a ping.
 template <typename... Parts>
 [[noreturn]] void refuse_ping(const SurveySetup& s, const SurveyPing& ping, const Parts&... parts) {
@@ -96,16 +105,13 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   SurveySetup s;
   s.file = load_mission(o.mission);
   Mission& mission = s.file.mission;
+  const SurveyRun begun = is_survey_run(o.output) ? load_survey_run(o.output) : SurveyRun{};
   std::vector<std::size_t> per_block;
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
     s.heads.push_back(set_up_survey_head(o, s.file, h));
     const HeadSetup& head = s.heads.back().setup.head;
     mission.heads[h].listening_time = 2 * head.head.gate.max_range / head.medium.sound_speed;
-    const std::size_t fitting = most_block_bytes / pressure_bytes(head.head);
-    per_block.push_back(
-        o.pings_per_block > 0
-            ? static_cast<std::size_t>(o.pings_per_block)
-            : std::clamp<std::size_t>(fitting, 1, s.file.coverage ? most_covering_pings : most_block_pings));
+    per_block.push_back(block_size(o, begun, mission.heads[h].name, pressure_bytes(head.head), s.file.coverage));
   }
   try {
     s.pings = survey_pings(mission);

@@ -21,7 +21,7 @@ struct SurveyOptions {
   CommonOptions common;
   std::string mission, output;
   std::string shard = "0/1";
-  int pings_per_block = 0;  ///< 0: as many as fill 32 MiB, at most 64
+  int pings_per_block = 0;  ///< 0: as the folder has them, else as many as fill 32 MiB, at most 64
   bool plan = false;
 };
 

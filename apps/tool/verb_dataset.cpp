@@ -32,12 +32,18 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("--least-pixels", &o.least_pixels, "of an object, in the polar image",
            {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
   list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
-  list.add("--stuff", &o.stuff, "materials that have no boxes, e.g. sand; several with commas",
+  list.add("--stuff", &o.stuff, "classes that have no boxes, e.g. sand or shadow; several with commas",
            {.comma_separated = true});
+  list.add("--polygons", &o.polygons, "COCO with outlines too, holes filled: annotations/polygons_SPLIT.json");
   list.add("--row", &o.row,
            "of heads with several rows of beams: the number of one, from 0 at the bottom, or all: an image of each; "
            "default: the middle one");
-  list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of the scenes");
+  list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of what --split-by names");
+  std::vector<std::string> units;
+  std::string means = "what stays together in train, val or test";
+  for (const SplitUnit& unit : split_units())
+    units.push_back(unit.name), means += std::string("; ") + unit.name + ": " + unit.means;
+  list.add("--split-by", &o.split_by, means, {.words = units});
   list.add("--force", &o.force, "replace an existing data set");
   add_common(list, o.common);
 }
@@ -83,7 +89,7 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
     DatasetSource first = source;
     first.cubes.resize(1);
     bool begun = false;
-    for_each_labelled_ping(first, [&](const Cube& cube, const Ping& ping) {
+    for_each_labelled_ping(first, [&](const Cube& cube, const Ping& ping, std::size_t) {
       if (begun) return;
       begun = true;
       for (const std::string& name : ping.labels.names)
@@ -99,9 +105,9 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
     });
   }
   for (const std::string& name : o.stuff)
-    if (std::find(plan.classes.begin() + 2, plan.classes.end(), name) == plan.classes.end())
-      fail(ErrorKind::argument, "--stuff = ", name, " is no material of the runs; they have ",
-           joined(std::vector<std::string>(plan.classes.begin() + 2, plan.classes.end())));
+    if (std::find(plan.classes.begin() + 1, plan.classes.end(), name) == plan.classes.end())
+      fail(ErrorKind::argument, "--stuff = ", name, " is no class of the runs; they have ",
+           joined(std::vector<std::string>(plan.classes.begin() + 1, plan.classes.end())));
   return plan;
 }
 
@@ -109,7 +115,7 @@ void dataset(const DatasetOptions& o) {
   if (!(o.share > 0 && o.share <= 1)) fail(ErrorKind::argument, "--share = ", o.share, ", must be > 0 and at most 1");
   const std::vector<double> shares = parse_split(o.split);
   std::vector<DatasetSource> sources = dataset_sources(o.runs);
-  split_by_scene(sources, shares);
+  split_pings(sources, o.split_by, shares);
   Progress progress(o.common, static_cast<int>(sources.size()) + 2);
   progress.step("reading");
   const DatasetPlan plan = plan_of(sources, o);
@@ -118,25 +124,39 @@ void dataset(const DatasetOptions& o) {
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const DatasetSource& source = sources[s];
     progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
-    for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping) {
+    for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping, std::size_t place) {
       const std::string name = fmt::format("{:03}_{:06}", s, ping.number);
-      if (rows_of(ping) == 1 && o.row.empty()) return writer.add(source, cube, ping, name);
+      const std::string& split = source.split.at(place);
+      if (rows_of(ping) == 1 && o.row.empty()) return writer.add(source, cube, ping, {name, split});
       for (const std::size_t row : chosen_rows(ping, o))
-        writer.add(source, cube, row_of(ping, row), name + fmt::format("_row{:02}", row), row);
+        writer.add(source, cube, row_of(ping, row), {name + fmt::format("_row{:02}", row), split, row});
     });
   }
   progress.step("listing");
   writer.finish();
   directory.commit();
-  const nlohmann::ordered_json result = {{"folder", o.output},
-                                         {"images", writer.images()},
-                                         {"annotations", writer.annotations()},
-                                         {"classes", plan.classes},
-                                         {"window_db", {plan.window.min_db, plan.window.max_db}},
-                                         {"peak_memory_mib", peak_memory_mib()}};
+  const std::vector<std::string> notes = writer.tally().notes(o.split_by, o.split, shares);
+  for (const std::string& note : notes) progress.note(note);
+  nlohmann::ordered_json splits;
+  std::string counts;
+  for (const std::string& split : split_names) {
+    const auto images = writer.tally().images();
+    const std::size_t count = images.contains(split) ? images.at(split) : 0;
+    splits[split] = {{"images", count}, {"near_train", split == "train" ? count : writer.tally().near_train(split)}};
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, split);
+  }
+  const nlohmann::ordered_json result = {
+      {"folder", o.output},
+      {"images", writer.images()},
+      {"splits", splits},
+      {"notes", notes},
+      {"boxes", {{"polar", writer.boxes_of_polar()}, {"fan", writer.boxes_of_fan()}}},
+      {"classes", plan.classes},
+      {"window_db", {plan.window.min_db, plan.window.max_db}},
+      {"peak_memory_mib", peak_memory_mib()}};
   print_summary(o.common, result,
-                fmt::format("{}: {} images with {} boxes; classes {}", o.output, writer.images(), writer.annotations(),
-                            joined(plan.classes)));
+                fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}", o.output, writer.images(),
+                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), joined(plan.classes)));
 }
 
 }  // namespace
@@ -144,7 +164,8 @@ void dataset(const DatasetOptions& o) {
 Verb dataset_verb() {
   return make_verb<DatasetOptions>("dataset", "images with labels to learn from: COCO, YOLO, masks",
                                    {"insonify dataset survey -o dataset --stuff sand",
-                                    "insonify dataset reef wreck harbour -o dataset --split 70:15:15"},
+                                    "insonify dataset reef wreck harbour -o dataset --split 70:15:15",
+                                    "insonify dataset survey -o dataset --split-by leg"},
                                    add_options, dataset);
 }
 

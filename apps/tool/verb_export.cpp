@@ -43,6 +43,7 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
            {.within = std::pair(1, 100), .shown_as = "INT"});
+  list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
   list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
   list.add("--force", &p.force, "replace an existing file, or the directory of an earlier export");
   add_common(list, o.common);
@@ -50,27 +51,33 @@ void add_options(OptionList list, ExportOptions& o) {
 
 /// All fields that a cube holds per sample of a ping.
 std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m) {
+  constexpr const char* level_unit = "dB re 1 uPa";
   const Grid<float> level = level_db(ping);
   std::vector<SampleField> fields = {
-      {"level_db", level},
-      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, absorption_db_per_m})},
-      {"pressure_re", ping.pressure.real()},
-      {"pressure_im", ping.pressure.imag()}};
+      {"level_db", level, level_unit},
+      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, absorption_db_per_m}), "dB re 1 uPa at 1 m"},
+      {"pressure_re", ping.pressure.real(), "Pa, amplitude"},
+      {"pressure_im", ping.pressure.imag(), "Pa, amplitude"}};
   for (const Layer& layer : ping.layers)
-    fields.push_back(
-        {"level_db_" + layer.name, level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure})});
-  if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping)});
-  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db});
-  if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase});
+    fields.push_back({"level_db_" + layer.name,
+                      level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure}), level_unit});
+  if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping), level_unit});
+  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db, "dB"});
+  if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase, "rad"});
   if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
   return fields;
 }
 
-/// The returns beside a run or of a merged survey; nothing if there are none.
-std::optional<Soundings> returns_of(const std::string& run) {
-  const std::filesystem::path path = std::filesystem::path(run) / "returns.ply";
-  if (!std::filesystem::exists(path)) return {};
-  return load_soundings(path.string());
+/// Writes the returns of a run or of the head of a survey; how many, or nothing if there are none.
+std::optional<std::size_t> save_returns(const RunPings& run, const std::string& path) {
+  if (run.returns.empty()) return {};
+  const SurveyReturns returns = load_survey_returns(run.returns);
+  std::vector<PointColumn> more;
+  if (!returns.time.empty())
+    more = {{"time", "s", returns.time},
+            {"head", "number in the mission, from 0", {returns.head.begin(), returns.head.end()}, true}};
+  save_points(path, returns.soundings, more);
+  return returns.soundings.size();
 }
 
 void export_run(const ExportOptions& options) {
@@ -96,8 +103,7 @@ void export_run(const ExportOptions& options) {
   });
   save_series(directory.file("fan.pvd"), fans);
   save_series(directory.file("image.pvd"), images);
-  const std::optional<Soundings> returns = returns_of(o.run);
-  if (returns) save_points(directory.file("returns.vtp"), *returns);
+  const std::optional<std::size_t> returns = save_returns(run, directory.file("returns.vtp"));
   write_manifest(directory, {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}});
   directory.commit();
   print_summary(options.common,
@@ -105,9 +111,9 @@ void export_run(const ExportOptions& options) {
                  {"to", o.to},
                  {"pings", images.size()},
                  {"grids", fans.size()},
-                 {"returns", returns ? returns->size() : 0}},
+                 {"returns", returns.value_or(0)}},
                 fmt::format("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView", o.output, fans.size(),
-                            images.size(), images.size(), returns ? fmt::format(", {} returns", returns->size()) : ""));
+                            images.size(), images.size(), returns ? fmt::format(", {} returns", *returns) : ""));
 }
 
 }  // namespace

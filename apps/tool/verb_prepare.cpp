@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "scene/thin_scene.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -48,7 +49,10 @@ void prepare_as_tiles(const PrepareOptions& o) {
   options.load = load_options(o.common, o.scene);
   options.progress = [&](double part) { progress.show(part, "preparing " + o.output); };
   const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
-  const auto notes = loading_notes(prepared.report);
+  auto notes = loading_notes(prepared.report);
+  if (!prepared.report.other_columns.empty())
+    notes.push_back(fmt::format("{}: tiles have no place for its columns {}: prepare a .ply to keep them", o.scene.path,
+                                joined(prepared.report.other_columns)));
   for (const std::string& note : notes) progress.note(note);
   const ordered_json result = {{"output", o.output},
                                {"points_read", prepared.report.points_read},
@@ -70,12 +74,16 @@ void prepare(const PrepareOptions& o) {
   if (is_tiles(o.output) && o.thin == 0) return prepare_as_tiles(o);
   Progress progress(o.common, o.thin > 0 ? 3 : 2);
   progress.step("reading and completing " + o.scene.path);
-  LoadedScene loaded = load_scene(o.scene.path, load_options(o.common, o.scene));
+  LoadOptions loading = load_options(o.common, o.scene);
+  loading.keep_columns = !is_tiles(o.output);
+  LoadedScene loaded = load_scene(o.scene.path, loading);
   auto notes = loading_notes(loaded.report);
   if (o.thin > 0) {
     const std::size_t all = loaded.scene.size();
     progress.step(fmt::format("thinning {} surfels", all));
-    loaded.scene = thin_scene(loaded.scene, o.thin);
+    SceneCloud thinned = thin_scene(loaded.scene, o.thin);
+    loaded.columns = columns_of(loaded.columns, loaded.scene.id, thinned.id);
+    loaded.scene = std::move(thinned);
     notes.push_back(
         fmt::format("thinned to {} m: {} of {} surfels kept, with the area of all", o.thin, loaded.scene.size(), all));
   }
@@ -84,7 +92,7 @@ void prepare(const PrepareOptions& o) {
   if (is_tiles(o.output))
     save_tiles(o.output, loaded.scene);
   else
-    save_scene(o.output, loaded.scene);
+    save_scene(o.output, loaded.scene, loaded.columns);
 
   const double area = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0);
   const ordered_json result = {

@@ -28,7 +28,9 @@ void add_options(OptionList list, SurveyOptions& o) {
   list.add("--shard", &o.shard,
            "I/N: make every Nth block of pings, beginning with block I, from 0 to N-1; counted head after head");
   list.add("--pings-per-block", &o.pings_per_block,
-           "stored together, so that as many are made again after a kill; 0: as many as fill 32 MiB, at most 64",
+           "stored together, so that as many are made again after a kill; 0: those of a survey that is gone on with, "
+           "else as "
+           "many as fill 32 MiB, at most 64",
            {.within = std::pair(0, 100000), .shown_as = "INT"});
   list.add("--plan", &o.plan,
            "only print how many pings, bytes and CPU hours; makes a few pings of each head to measure");

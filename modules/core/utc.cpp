@@ -1,5 +1,6 @@
 #include "core/utc.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +9,30 @@
 #include "core/text.hpp"
 
 namespace insonify {
+namespace {
+
+constexpr double seconds_since_1970(int year, unsigned month, unsigned day) {
+  using namespace std::chrono;
+  const sys_days date(year_month_day{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)});
+  return 86400.0 * static_cast<double>(date.time_since_epoch().count());
+}
+
+/// Starts of the days before which a second was put in, since GPS time began (IERS, leap-seconds.list of 2025-07-07).
+constexpr double leap_days[] = {
+    seconds_since_1970(1981, 7, 1), seconds_since_1970(1982, 7, 1), seconds_since_1970(1983, 7, 1),
+    seconds_since_1970(1985, 7, 1), seconds_since_1970(1988, 1, 1), seconds_since_1970(1990, 1, 1),
+    seconds_since_1970(1991, 1, 1), seconds_since_1970(1992, 7, 1), seconds_since_1970(1993, 7, 1),
+    seconds_since_1970(1994, 7, 1), seconds_since_1970(1996, 1, 1), seconds_since_1970(1997, 7, 1),
+    seconds_since_1970(1999, 1, 1), seconds_since_1970(2006, 1, 1), seconds_since_1970(2009, 1, 1),
+    seconds_since_1970(2012, 7, 1), seconds_since_1970(2015, 7, 1), seconds_since_1970(2017, 1, 1)};
+
+}  // namespace
+
+int leap_seconds_of_gps(double utc) {
+  return static_cast<int>(std::upper_bound(std::begin(leap_days), std::end(leap_days), utc) - std::begin(leap_days));
+}
+
+double gps_time_of_utc(double utc) { return utc - seconds_since_1970(1980, 1, 6) + leap_seconds_of_gps(utc); }
 
 std::string utc_after(const std::string& start, double seconds) {
   using namespace std::chrono;

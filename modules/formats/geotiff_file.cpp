@@ -32,11 +32,18 @@ TiffEntry tiff_text(std::uint16_t tag, std::string text) {
   return {tag, tiff_ascii, static_cast<std::uint32_t>(text.size()), text};
 }
 
-std::string band_names(const std::vector<GeoBand>& bands) {
+/// Names and units of the bands, as GDAL keeps them.
+std::string band_metadata(const std::vector<GeoBand>& bands) {
   std::string text = "<GDALMetadata>\n";
-  for (std::size_t i = 0; i < bands.size(); ++i)
-    text += "  <Item name=\"DESCRIPTION\" sample=\"" + std::to_string(i) + "\" role=\"description\">" + bands[i].name +
-            "</Item>\n";
+  const auto add = [&](const char* name, const char* role, std::size_t band, const std::string& value) {
+    if (!value.empty())
+      text += std::string("  <Item name=\"") + name + "\" sample=\"" + std::to_string(band) + "\" role=\"" + role +
+              "\">" + value + "</Item>\n";
+  };
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    add("DESCRIPTION", "description", i, bands[i].name);
+    add("UNITTYPE", "unittype", i, bands[i].unit);
+  }
   return text + "</GDALMetadata>\n";
 }
 
@@ -67,7 +74,7 @@ std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const Geo
   entries.push_back(tiff_entry(33922, tiff_double, std::vector<double>{0, 0, 0, grid.west, north, 0}));
   const auto code = static_cast<std::uint16_t>(epsg_code(grid.zone));
   entries.push_back(tiff_entry(34735, tiff_short, Shorts{1, 1, 1, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, code}));
-  entries.push_back(tiff_text(42112, band_names(bands)));
+  entries.push_back(tiff_text(42112, band_metadata(bands)));
   entries.push_back(tiff_text(42113, "nan"));
   return entries;
 }

@@ -9,8 +9,8 @@ namespace insonify {
 
 /// A band of a raster; NaN: no value.
 struct GeoBand {
-  std::string name;
-  Grid<float> values;  ///< columns along easting, rows along northing, from the south-west
+  std::string name, unit;  ///< unit: as GDAL's metadata have it, e.g. m; may be empty
+  Grid<float> values;      ///< columns along easting, rows along northing, from the south-west
 };
 
 /// Where a raster lies.

@@ -1,19 +1,42 @@
 #include "formats/las_file.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/units.hpp"
+#include "core/utc.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {
 namespace {
 
-constexpr double las_step = 1e-4;  // of coordinates [m]
-constexpr std::uint16_t las_header_bytes = 375, las_point_bytes = 30 + 4 + 4 + 4 + 2;
-constexpr double gps_epoch = 315964800;  // 1980-01-06, seconds since 1970
-constexpr std::uint8_t bathymetric_point = 40;
+constexpr double las_step = 1e-4;          // of coordinates [m]
+constexpr double scan_angle_step = 0.006;  // [deg]
+constexpr std::uint16_t extra_bytes_length = 4 + 4 + 4 + 2;
+constexpr double adjusted_by = 1e9;  // of adjusted GPS time [s]
+
+/// What differs between versions.
+struct LasVersion {
+  int minor;
+  std::uint16_t header_bytes;
+  std::uint8_t point_format;
+  std::uint16_t point_bytes, encoding;
+  std::uint8_t most_returns, classification;
+};
+constexpr LasVersion las_versions[] = {
+    {2, 227, 1, 28 + extra_bytes_length, 0x01, 5, 2},     // adjusted GPS time; ground
+    {4, 375, 6, 30 + extra_bytes_length, 0x11, 15, 40}};  // well-known text; bathymetric
+
+const LasVersion& las_version(int minor) {
+  for (const LasVersion& version : las_versions)
+    if (version.minor == minor) return version;
+  fail(ErrorKind::argument, "LasFile: options.minor = ", minor, ", must be 2 or 4");
+}
 
 /// An extra dimension; types as the specification numbers them.
 struct ExtraBytes {
@@ -49,6 +72,26 @@ std::string extra_bytes_record() {
   return data;
 }
 
+/// The keys of GeoTIFF for a projected zone, cells not said.
+std::string geo_keys(const UtmZone& zone) {
+  std::string data;
+  const auto code = static_cast<std::uint16_t>(epsg_code(zone));
+  for (const std::uint16_t number :
+       std::initializer_list<std::uint16_t>{1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, code})
+    put_little(data, number);
+  return data;
+}
+
+/// Day of the year, from 1, and year of a time; 0, 0 for 0.
+std::pair<std::uint16_t, std::uint16_t> day_and_year(double utc) {
+  using namespace std::chrono;
+  if (utc == 0) return {0, 0};
+  const sys_days day(days(static_cast<int>(std::floor(utc / 86400))));
+  const year of = year_month_day(day).year();
+  return {static_cast<std::uint16_t>((day - sys_days(of / January / 1)).count() + 1),
+          static_cast<std::uint16_t>(static_cast<int>(of))};
+}
+
 }  // namespace
 
 std::string utm_wkt(const UtmZone& zone) {
@@ -65,50 +108,60 @@ std::string utm_wkt(const UtmZone& zone) {
          std::to_string(epsg_code(zone)) + R"("]])";
 }
 
-LasFile::LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset)
+LasFile::LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options)
     : pending_(path),
       out_(pending_.temporary(), std::ios::binary),
-      wkt_(utm_wkt(zone)),
+      zone_(zone),
+      options_(options),
       offset_(offset.array().round()) {
   out_ << header();
 }
 
 /// Public header block and variable length records.
 std::string LasFile::header() const {
+  const LasVersion& version = las_version(options_.minor);
   std::string records;
-  put_variable_record(records, "LASF_Projection", 2112, "OGC WKT", wkt_ + '\0');
+  if (version.minor == 4)
+    put_variable_record(records, "LASF_Projection", 2112, "OGC WKT", utm_wkt(zone_) + '\0');
+  else
+    put_variable_record(records, "LASF_Projection", 34735, "GeoTIFF keys", geo_keys(zone_));
   put_variable_record(records, "LASF_Spec", 4, "Extra Bytes", extra_bytes_record());
 
   std::string bytes = "LASF";
   put_little(bytes, std::uint16_t{0});
-  put_little(bytes, std::uint16_t{0x11});  // adjusted GPS time, well-known text
-  bytes.append(16, '\0');                  // project
-  bytes.push_back(1), bytes.push_back(4);
+  put_little(bytes, version.encoding);
+  bytes.append(16, '\0');  // project
+  bytes.push_back(1), bytes.push_back(static_cast<char>(version.minor));
   put_field(bytes, "insonify", 32);
   put_field(bytes, "insonify export", 32);
-  put_little(bytes, std::uint32_t{0});  // day and year of creation: the same points, the same bytes
-  put_little(bytes, las_header_bytes);
-  put_little(bytes, static_cast<std::uint32_t>(las_header_bytes + records.size()));
+  const auto [day, year] = day_and_year(options_.start);  // of the survey: the same points, the same bytes
+  put_little(bytes, day), put_little(bytes, year);
+  put_little(bytes, version.header_bytes);
+  put_little(bytes, static_cast<std::uint32_t>(version.header_bytes + records.size()));
   put_little(bytes, std::uint32_t{2});  // variable length records
-  put_little(bytes, std::uint8_t{6});
-  put_little(bytes, las_point_bytes);
-  bytes.append(4 + 5 * 4, '\0');  // legacy counts
+  put_little(bytes, version.point_format);
+  put_little(bytes, version.point_bytes);
+  const bool legacy = version.minor < 4;  // counts of 32 bits, which later versions leave empty
+  put_little(bytes, static_cast<std::uint32_t>(legacy ? points_ : 0));
+  for (std::size_t k = 0; k < 5; ++k) put_little(bytes, static_cast<std::uint32_t>(legacy ? by_return_[k] : 0));
   for (int axis = 0; axis < 3; ++axis) put_little(bytes, las_step);
   for (int axis = 0; axis < 3; ++axis) put_little(bytes, offset_[axis]);
   for (int axis = 0; axis < 3; ++axis) {
     put_little(bytes, points_ > 0 ? most_[axis] : 0.0);
     put_little(bytes, points_ > 0 ? least_[axis] : 0.0);
   }
-  put_little(bytes, std::uint64_t{0});  // waveforms
-  put_little(bytes, std::uint64_t{0});  // extended records: start and number
-  put_little(bytes, std::uint32_t{0});
-  put_little(bytes, points_);
-  put_little(bytes, points_);  // all are first returns
-  bytes.append(14 * 8, '\0');
+  if (!legacy) {
+    put_little(bytes, std::uint64_t{0});  // waveforms
+    put_little(bytes, std::uint64_t{0});  // extended records: start and number
+    put_little(bytes, std::uint32_t{0});
+    put_little(bytes, points_);
+    for (const std::uint64_t count : by_return_) put_little(bytes, count);
+  }
   return bytes + records;
 }
 
 void LasFile::add(const LasPoint& point) {
+  const LasVersion& version = las_version(options_.minor);
   std::string bytes;
   for (int axis = 0; axis < 3; ++axis) {
     const double steps = std::nearbyint((point.position[axis] - offset_[axis]) / las_step);
@@ -122,19 +175,30 @@ void LasFile::add(const LasPoint& point) {
   }
   const double level = std::clamp(static_cast<double>(point.level_db), 0.0, 655.35);
   put_little(bytes, static_cast<std::uint16_t>(std::nearbyint(100 * level)));
-  put_little(bytes, std::uint8_t{0x11});  // first of one return
-  put_little(bytes, std::uint8_t{0});
-  put_little(bytes, bathymetric_point);
-  put_little(bytes, std::uint8_t{0});
-  put_little(bytes, std::int16_t{0});
-  put_little(bytes, std::uint16_t{0});
-  put_little(bytes, point.time - gps_epoch - 1e9);
+  const int number = std::clamp<int>(point.return_number, 1, version.most_returns);
+  const int returns = std::clamp<int>(point.returns, number, version.most_returns);
+  const double angle = degrees(point.scan_angle);
+  if (version.minor == 4) {
+    put_little(bytes, static_cast<std::uint8_t>(number | returns << 4));
+    put_little(bytes, std::uint8_t{0});
+    put_little(bytes, version.classification);
+    put_little(bytes, std::uint8_t{0});
+    put_little(bytes, static_cast<std::int16_t>(std::nearbyint(std::clamp(angle, -180.0, 180.0) / scan_angle_step)));
+  } else {
+    put_little(bytes, static_cast<std::uint8_t>(number | returns << 3));
+    put_little(bytes, version.classification);
+    put_little(bytes, static_cast<std::int8_t>(std::nearbyint(std::clamp(angle, -90.0, 90.0))));
+    put_little(bytes, std::uint8_t{0});
+  }
+  put_little(bytes, point.source);
+  put_little(bytes, gps_time_of_utc(point.time) - adjusted_by);
   put_little(bytes, point.level_db);
   put_little(bytes, point.deviation);
   put_little(bytes, point.ping);
   put_little(bytes, point.beam);
   out_ << bytes;
   ++points_;
+  ++by_return_[static_cast<std::size_t>(number - 1)];
 }
 
 void LasFile::finish() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -22,16 +23,27 @@ struct LasPoint {
   float deviation = 0;                                 ///< of the range [m]
   std::uint32_t ping = 0;
   std::uint16_t beam = 0;
+  std::uint16_t source = 0;                     ///< number of the line of the survey, from 1; 0: of none
+  std::uint8_t return_number = 1, returns = 1;  ///< among the soundings of its beam, nearest first
+  double scan_angle = 0;                        ///< from straight down [rad], positive to starboard
+};
+
+/// Options of a LasFile.
+struct LasOptions {
+  int minor = 4;     ///< of the version: 4, point format 6; or 2, point format 1
+  double start = 0;  ///< UTC, seconds since 1970: day and year of the header; 0: not known
 };
 
 /// Writes points as LAS 1.4 (ASPRS 2019), point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB
-/// from 0, class 40 (bathymetric point), adjusted GPS time (leap seconds left out), and level_db, deviation, ping and beam
-/// as extra bytes; the zone as well-known text. Points stream: only the header is written twice.
+/// from 0, class 40 (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation, ping and beam
+/// as extra bytes; the zone as well-known text. LAS 1.2, for readers that know no other: point format 1, class 2 (ground,
+/// as there is no 40), at most five returns, scan angles in whole degrees, the zone as GeoTIFF keys. Points stream: only the
+/// header is written twice.
 class LasFile {
  public:
-  /// Throws Error(file) if the file cannot be made. `offset` [m] is subtracted from coordinates, which may be up to
-  /// 214 km from it.
-  LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset);
+  /// Throws Error(file) if the file cannot be made, Error(argument) for another version. `offset` [m] is subtracted from
+  /// coordinates, which may be up to 214 km from it.
+  LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options = {});
   /// Throws Error(content) for a point that is not finite or too far from the offset.
   void add(const LasPoint& point);
   /// Throws Error(file) if not all could be written.
@@ -42,9 +54,11 @@ class LasFile {
 
   PendingFile pending_;
   std::ofstream out_;
-  std::string wkt_;
+  UtmZone zone_;
+  LasOptions options_;
   Eigen::Vector3d offset_;
   std::uint64_t points_ = 0;
+  std::array<std::uint64_t, 15> by_return_{};
   Eigen::Vector3d least_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d most_ = -least_;
 };

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "formats/grey_fan.hpp"
 #include "formats/packed_bytes_internal.hpp"
 #include "returns/looks.hpp"
@@ -42,10 +45,16 @@ const std::string header_part = part_line + "std_msgs/Header\nbuiltin_interfaces
                                 part_line + "builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
 const std::string vector_part = part_line + "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
 constexpr std::uint32_t dtype_uint8 = 0, dtype_uint32 = 4;
-constexpr std::uint8_t float32_field = 7;
+constexpr std::uint8_t uint32_field = 6, float32_field = 7;  // of PointField
+
+/// A window whose grey values are the nearest ones by level = black + grey / 255 (white - black): quantise_8 rounds up (E58).
+GreyWindow nearest_grey(const GreyWindow& window) {
+  const double half_step = (window.max_db - window.min_db) / 255 / 2;
+  return {window.min_db + half_step, window.max_db + half_step};
+}
 
 Grid<std::uint8_t> greys_of(const Ping& ping, const Tvg& tvg, const GreyWindow& window) {
-  return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
+  return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), nearest_grey(window));
 }
 
 }  // namespace
@@ -118,9 +127,9 @@ std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double f
   if (scale.linear) {
     for (Eigen::Index n = 0; n < ping.pressure.cols(); ++n)
       for (Eigen::Index b = 0; b < ping.pressure.rows(); ++b)
-        put_little(data, static_cast<std::uint32_t>(
+        put_little(data, static_cast<std::uint32_t>(std::nearbyint(
                              4294967295.0 *
-                             std::min(1.0, static_cast<double>(std::abs(ping.pressure(b, n))) / scale.full_scale)));
+                             std::min(1.0, static_cast<double>(std::abs(ping.pressure(b, n))) / scale.full_scale))));
   } else {
     const Grid<std::uint8_t> grey = greys_of(ping, tvg, scale.window);
     for (Eigen::Index n = 0; n < grey.cols(); ++n)
@@ -132,7 +141,7 @@ std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double f
 }
 
 std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height) {
-  const GreyFan raster = grey_fan(ping, tvg, window, height);
+  const GreyFan raster = grey_fan(ping, tvg, nearest_grey(window), height);
   CdrMessage message;
   message.header(time, "head");
   message.count(static_cast<std::size_t>(raster.grey.rows()));
@@ -145,47 +154,85 @@ std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, cons
   return message.raw();
 }
 
-std::string point_cloud(std::span<const Eigen::Vector3d> positions, std::span<const float> level_db,
-                        const Eigen::Vector3d& origin, std::uint64_t time) {
+RosType nav_sat_fix_type() {
+  return {
+      "sensor_msgs/msg/NavSatFix",
+      "std_msgs/Header header\nsensor_msgs/NavSatStatus status\nfloat64 latitude\nfloat64 longitude\n"
+      "float64 altitude\nfloat64[9] position_covariance\nuint8 COVARIANCE_TYPE_UNKNOWN=0\n"
+      "uint8 COVARIANCE_TYPE_APPROXIMATED=1\nuint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2\nuint8 COVARIANCE_TYPE_KNOWN=3\n"
+      "uint8 position_covariance_type\n" +
+          header_part + part_line +
+          "sensor_msgs/NavSatStatus\nint8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\n"
+          "int8 STATUS_GBAS_FIX=2\nint8 status\nuint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\n"
+          "uint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nuint16 service\n"};
+}
+
+std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& origin, std::uint64_t time) {
+  constexpr std::size_t stride = 4 * std::size(ros_point_fields);
   CdrMessage message;
   message.header(time, "world");
   message.count(1);
-  message.count(positions.size());
-  message.count(4);
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    message.text(std::array{"x", "y", "z", "intensity"}[k]);
-    message.put(4 * k);
-    message.put(float32_field);
+  message.count(found.size());
+  message.count(std::size(ros_point_fields));
+  for (std::size_t k = 0; k < std::size(ros_point_fields); ++k) {
+    message.text(ros_point_fields[k].name);
+    message.count(4 * k);
+    message.put(std::string_view(ros_point_fields[k].type) == "float32" ? float32_field : uint32_field);
     message.count(1);
   }
   message.put(std::uint8_t{0});  // little-endian
-  message.count(16);
-  message.count(16 * positions.size());
-  message.count(16 * positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
+  message.count(stride);
+  message.count(stride * found.size());
+  message.count(stride * found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      put_little(message.raw(), static_cast<float>(positions[i][axis] - origin[axis]));
-    put_little(message.raw(), level_db[i]);
+      put_little(message.raw(), static_cast<float>(found.position[i][axis] - origin[axis]));
+    for (const float number :
+         {found.level_db[i], static_cast<float>(found.range[i]), found.deviation[i], found.quality[i]})
+      put_little(message.raw(), number);
+    put_little(message.raw(), found.beam[i]);
+    put_little(message.raw(), static_cast<std::uint32_t>(found.method[i]));
   }
   message.put(std::uint8_t{1});  // all are finite
   return message.raw();
 }
 
-std::string head_transforms(const Pose& world_from_head, const Eigen::Vector3d& origin, std::uint64_t time) {
+namespace {
+
+std::string transform_message(const char* parent, const char* child, const Pose& parent_from_child,
+                              std::uint64_t time) {
   CdrMessage message;
-  const auto put_transform = [&](const char* parent, const char* child, const Eigen::Vector3d& place,
-                                 const Eigen::Matrix3d& turn) {
-    message.header(time, parent);
-    message.text(child);
-    message.vector(place);
-    const Eigen::Quaterniond q(turn);
-    message.put(q.x()), message.put(q.y()), message.put(q.z()), message.put(q.w());
-  };
-  Eigen::Matrix3d head_from_sonar;  // columns: up, starboard, forward
-  head_from_sonar << 0, 0, 1, 0, -1, 0, 1, 0, 0;
-  message.count(2);
-  put_transform("world", "head", world_from_head.translation() - origin, world_from_head.linear());
-  put_transform("head", "head_sonar", Eigen::Vector3d::Zero(), head_from_sonar);
+  message.count(1);
+  message.header(time, parent);
+  message.text(child);
+  message.vector(parent_from_child.translation());
+  const Eigen::Quaterniond q(parent_from_child.linear());
+  message.put(q.x()), message.put(q.y()), message.put(q.z()), message.put(q.w());
+  return message.raw();
+}
+
+}  // namespace
+
+std::string head_transform(const Pose& world_from_head, const Eigen::Vector3d& origin, std::uint64_t time) {
+  Pose pose = world_from_head;
+  pose.translation() -= origin;
+  return transform_message("world", "head", pose, time);
+}
+
+std::string sonar_transform(std::uint64_t time) {
+  Pose head_from_sonar = Pose::Identity();  // columns: up, starboard, forward
+  head_from_sonar.linear() << 0, 0, 1, 0, -1, 0, 1, 0, 0;
+  return transform_message("head", "head_sonar", head_from_sonar, time);
+}
+
+std::string nav_sat_fix(const GeoPlace& place, std::uint64_t time) {
+  CdrMessage message;
+  message.header(time, "head");
+  message.put(std::int8_t{0});    // a fix
+  message.put(std::uint16_t{1});  // of GPS
+  for (const double number : {degrees(place.latitude), degrees(place.longitude), place.height}) message.put(number);
+  for (int k = 0; k < 9; ++k) message.put(0.0);
+  message.put(std::uint8_t{0});  // the covariance is not known
   return message.raw();
 }
 

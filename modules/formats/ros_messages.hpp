@@ -1,10 +1,11 @@
 #pragma once
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include <Eigen/Core>
 
+#include "core/geodesy.hpp"
+#include "returns/bottom_detection.hpp"
 #include "returns/ping.hpp"
 #include "returns/quantise.hpp"
 
@@ -19,11 +20,12 @@ RosType projected_sonar_image_type();  ///< marine_acoustic_msgs/msg/ProjectedSo
 RosType image_type();                  ///< sensor_msgs/msg/Image
 RosType point_cloud_type();            ///< sensor_msgs/msg/PointCloud2
 RosType transforms_type();             ///< tf2_msgs/msg/TFMessage
+RosType nav_sat_fix_type();            ///< sensor_msgs/msg/NavSatFix
 
 /// What an image means in numbers.
 struct SonarImageScale {
-  bool linear = false;    ///< UINT32, 2^32 - 1 at `full_scale`; else UINT8, grey values of `window` (E58)
-  GreyWindow window{};    ///< [dB re 1 uPa at 1 m]
+  bool linear = false;  ///< UINT32, 2^32 - 1 at `full_scale`; else UINT8, nearest grey of `window`: black 0, white 255
+  GreyWindow window{};  ///< [dB re 1 uPa at 1 m]
   double full_scale = 1;  ///< [Pa]
 };
 
@@ -38,12 +40,27 @@ std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double f
 /// nearest beam and bin, 0 outside.
 std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height);
 
-/// Returns a PointCloud2 of world positions x, y, z [m] and intensities [dB re 1 uPa], float32, in the frame "world", less
-/// `origin` [m].
-std::string point_cloud(std::span<const Eigen::Vector3d> positions, std::span<const float> level_db,
-                        const Eigen::Vector3d& origin, std::uint64_t time);
+/// A field of the points of point_cloud.
+struct RosPointField {
+  const char *name, *type, *unit;
+};
+/// The fields in the order of the message; types as PointField has them.
+inline constexpr RosPointField ros_point_fields[] = {
+    {"x", "float32", "m"},      {"y", "float32", "m"},
+    {"z", "float32", "m"},      {"intensity", "float32", "dB re 1 uPa"},
+    {"range", "float32", "m"},  {"deviation", "float32", "m"},
+    {"quality", "float32", ""}, {"beam", "uint32", ""},
+    {"method", "uint32", ""}};
 
-/// Returns the transforms world to head (less `origin`) and head to head_sonar.
-std::string head_transforms(const Pose& world_from_head, const Eigen::Vector3d& origin, std::uint64_t time);
+/// Returns a PointCloud2 of soundings in the frame "world", less `origin` [m]: ros_point_fields.
+std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& origin, std::uint64_t time);
+
+/// Returns the transform world to head (less `origin`), and that of head to head_sonar, which never changes.
+std::string head_transform(const Pose& world_from_head, const Eigen::Vector3d& origin, std::uint64_t time);
+/// The transform from head to head_sonar.
+std::string sonar_transform(std::uint64_t time);
+
+/// Returns a NavSatFix of the head: latitude and longitude on WGS 84, altitude above the ellipsoid, without covariance.
+std::string nav_sat_fix(const GeoPlace& place, std::uint64_t time);
 
 }  // namespace insonify

@@ -73,9 +73,9 @@ MeshPlace place_on(const SceneMesh& mesh, std::size_t triangle, const Vector3d& 
   const Corners corners = corners_of(mesh, triangle);
   Eigen::Index nearest = 0;
   weights.maxCoeff(&nearest);
+  const std::uint32_t corner = mesh.triangle[triangle][static_cast<std::size_t>(nearest)];
   return {weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2],
-          normal_at(mesh, triangle, weights, cross_of(corners).normalized()),
-          mesh.material[mesh.triangle[triangle][static_cast<std::size_t>(nearest)]]};
+          normal_at(mesh, triangle, weights, cross_of(corners).normalized()), mesh.material[corner], corner};
 }
 
 Vector3d uniform_weights(double along, double across) {

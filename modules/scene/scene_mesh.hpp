@@ -40,6 +40,7 @@ struct MeshPlace {
   Eigen::Vector3d position;  ///< [m], relative to the origin of the mesh
   Eigen::Vector3d normal;    ///< unit vector
   std::uint16_t material;    ///< of the nearest corner
+  std::uint32_t corner;      ///< the nearest one
 };
 
 /// The place with these barycentric weights in a triangle. Its normal is the interpolated one of the corners if all

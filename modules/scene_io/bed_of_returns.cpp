@@ -42,7 +42,7 @@ void each_return(const RowFile& file, const Take& take) {
     for (std::size_t i = 0; i < rows.rows; ++i) {
       const char* row = rows.bytes + i * rows.stride;
       const auto value = [&](std::size_t k) { return columns[k]->value(row); };
-      if (value(5) == Soundings::none) continue;
+      if (value(5) == Soundings::none || value(5) == -1) continue;  // of an older version, or of this one
       take(Eigen::Vector3d(value(0), value(1), value(2)), value(3), value(4));
     }
   }

@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/scene_columns_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -91,6 +93,28 @@ void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScen
       " intervals: their Lambert coefficient is the default, -27 dB");
 }
 
+/// The table of materials: the caller's by number, unless the file names its materials and the table has one of these
+/// names; then the file's numbers stand for its names, and materials that the table lacks are those of the file.
+std::vector<Material> materials_of(const RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  std::vector<Material> own = raw.tags.materials;
+  if (options.materials.empty()) return own;
+  if (options.material || !options.material_field.intervals.empty()) return options.materials;
+  std::vector<std::string> missing;
+  bool known = false;
+  for (Material& material : own) {
+    if (material.name == "unlabelled") continue;  // as tables call gaps between their labels
+    const auto same = std::find_if(options.materials.begin(), options.materials.end(),
+                                   [&](const Material& other) { return other.name == material.name; });
+    if (same != options.materials.end())
+      material = *same, known = true;
+    else
+      missing.push_back(material.name);
+  }
+  if (!known) return options.materials;
+  if (!missing.empty()) report.notes.push_back("the table of materials has no " + joined(missing) + ": as in the file");
+  return own;
+}
+
 /// Refuses intervals that are empty, refer to no given material, or overlap.
 void check_intervals(const LoadOptions& options, const char* who) {
   const std::vector<MaterialInterval>& intervals = options.material_field.intervals;
@@ -122,6 +146,7 @@ LoadReport begin_report(const RawCloud& raw) {
   report.triangles_read = raw.triangles_in_file;
   report.dropped_not_finite = raw.not_finite;
   report.notes = raw.notes;
+  report.other_columns = raw.other_columns;
   return report;
 }
 
@@ -194,7 +219,7 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
 void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneCloud& scene = result.scene;
   const std::vector<std::uint16_t>& labels = scene.material;
-  scene.materials = !options.materials.empty() ? options.materials : raw.tags.materials;
+  scene.materials = materials_of(raw, options, result.report);
   result.report.materials_found = !labels.empty() || !raw.tags.materials.empty();
   if (options.material || labels.empty()) return give_one_material(options.material.value_or(0), scene);
   result.report.material_field = raw.label_field;
@@ -227,6 +252,7 @@ void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
   keep_only(raw.noise, keep);
   keep_only(raw.label, keep);
   keep_only(raw.id, keep);
+  for (SceneColumn& column : raw.columns) keep_rows(column, keep);
 }
 
 LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
@@ -260,6 +286,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     sample_mesh(raw, options, result);
   }
   scene.origin = raw.origin;
+  if (options.keep_columns) result.columns = take_columns(raw, options);
   note_no_area(std::accumulate(scene.area.begin(), scene.area.end(), 0.0), result.report.notes);
   if (!raw.tags.prepared) {
     for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area), options.unit)) {

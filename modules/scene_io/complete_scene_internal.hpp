@@ -59,8 +59,9 @@ void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep);
 /// Makes the triangles of raw.raster, if there are any, the mesh of a completed cloud.
 void add_raster(const RawCloud& raw, LoadedScene& result);
 
-/// Samples a mesh: fills points, normals, areas, labels and ids of result.scene, and the report.
-void sample_mesh(const RawCloud& mesh, const LoadOptions& options, LoadedScene& result);
+/// Samples a mesh: fills points, normals, areas, labels and ids of result.scene, and the report; columns of the corners
+/// become columns of the surfels.
+void sample_mesh(RawCloud& mesh, const LoadOptions& options, LoadedScene& result);
 
 /// Warnings about doubtful coordinates: units, precision. `spacing` is the typical spacing of the cloud [m]; `unit` has
 /// been applied already.

@@ -59,7 +59,7 @@ class CoverageReader {
   CoverageReader(const std::string& path, std::size_t batch) : batch_(std::max<std::size_t>(64, batch)) {
     require_readable(path);
     std::optional<RowFile> file = find_ply_rows(path);
-    const auto same = [](const auto& a, const auto& b) { return a.name == b.name && a.type == b.type; };
+    const auto same = [](const auto& a, const auto& b) { return same_column(a, b); };
     if (!file || file->big_endian ||
         !std::equal(file->columns.begin(), file->columns.end(), coverage_columns().begin(), coverage_columns().end(),
                     same))

@@ -39,7 +39,7 @@ class MapRows {
   explicit MapRows(const std::string& path) {
     require_readable(path);
     std::optional<RowFile> file = find_ply_rows(path);
-    const auto same = [](const auto& a, const auto& b) { return a.name == b.name && a.type == b.type; };
+    const auto same = [](const auto& a, const auto& b) { return same_column(a, b); };
     if (!file || file->big_endian || file->columns.size() != map_columns().size() + 3 ||
         !std::equal(map_columns().begin(), map_columns().end(), file->columns.begin() + 3, same))
       fail(ErrorKind::content, path, ": is not an insonification.ply of a ping");

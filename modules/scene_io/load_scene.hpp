@@ -10,6 +10,7 @@
 #include "scene/material_field.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene/scene_mesh.hpp"
+#include "scene_io/scene_columns.hpp"
 
 namespace insonify {
 
@@ -19,7 +20,8 @@ struct LoadOptions {
   int normal_neighbours = 32;                ///< for the planes of estimated normals
   double mesh_spacing = 0;                   ///< [m] between surfels of a mesh; 0: see LoadedScene::mesh
   double unit = 1;                           ///< metres per unit of the file, e.g. 0.001 for millimetres
-  std::vector<Material> materials;           ///< by label; empty: those in the file, else a default one per label
+  std::vector<Material> materials;           ///< by label, or by name if the file names its own and one of these has
+                                             ///< that name; empty: those in the file, else a default one per label
   std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
   std::uint64_t seed = 1;                    ///< of mesh sampling
   int threads = 0;                           ///< 0: all cores
@@ -27,6 +29,7 @@ struct LoadOptions {
   /// wins. Empty: estimated, unless the file is a prepared one. Meshes and tiles have none.
   std::optional<double> scan_noise{};
   bool keep_strays = false;        ///< points far from all others keep the areas that are estimated of them
+  bool keep_columns = false;       ///< read the columns that a scene makes no use of, too
   MaterialField material_field{};  ///< which scalar field says the material, and how; unused with `material`
 };
 
@@ -48,6 +51,7 @@ struct LoadReport {
   std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
   std::string material_field;                ///< as the file calls it; empty: none was read
+  std::vector<std::string> other_columns{};  ///< of the file, of which the scene makes no use
   std::size_t outside_intervals = 0;         ///< surfels, or corners of a mesh, whose number lies in no interval
 };
 
@@ -59,6 +63,8 @@ struct LoadedScene {
   /// of heights, of which `scene` has the points. A ping samples it by what its head resolves (mesh_surfels). A raster is
   /// a cloud without normals and areas whose points stand on a grid along x and y and show no noise.
   std::optional<SceneMesh> mesh{};
+  SceneColumns
+      columns{};  ///< of the surfels, with options.keep_columns; of a sampled mesh those of the nearest corners
 };
 
 /// Extensions of the files that load_scene reads: ".pcd .ply .obj ...", separated by spaces, for messages and help.
@@ -83,5 +89,14 @@ LoadedScene load_scene(const std::string& path, const LoadOptions& options = {})
 /// Error(file) if it is missing or unreadable; Error(content) if it is truncated, not a binary PLY, or lacks a column,
 /// naming it.
 Soundings load_soundings(const std::string& path);
+
+/// Soundings of a survey, when they were sent [s] and by which head of the mission, from 0; both empty of a single run.
+struct SurveyReturns {
+  Soundings soundings;
+  std::vector<double> time{};
+  std::vector<std::uint32_t> head{};
+};
+/// Reads soundings with the columns that save_survey_returns adds, one file after the other; errors as load_soundings.
+SurveyReturns load_survey_returns(const std::vector<std::string>& paths);
 
 }  // namespace insonify

@@ -7,36 +7,79 @@
 #include "scene_io/row_file_internal.hpp"
 
 namespace insonify {
+namespace {
+
+/// A float as it is; of a whole number its 32 bits, since -1 stands for 4294967295.
+template <typename Value>
+Value from_file(double value) {
+  if constexpr (std::is_integral_v<Value>)
+    return static_cast<Value>(static_cast<std::int64_t>(value));
+  else
+    return static_cast<Value>(value);
+}
+
+/// The rows of a PLY of points, by columns.
+class ReturnsTable {
+ public:
+  explicit ReturnsTable(const std::string& path) : path_(path) {
+    require_readable(path);
+    const std::optional<RowFile> file = find_ply_rows(path);
+    if (!file || file->big_endian)
+      fail(ErrorKind::content, path,
+           ": is not a binary little-endian PLY of points, so it was not written by save_soundings");
+    table_ = read_rows(*file, 0, file->rows);
+  }
+  std::size_t rows() const { return table_.rows; }
+  bool has(const std::string& name) const { return find(name) != table_.columns.end(); }
+
+  /// Appends a column.
+  template <typename Value>
+  void append(const std::string& name, std::vector<Value>& values) const {
+    const auto column = find(name);
+    if (column == table_.columns.end())
+      fail(ErrorKind::content, path_, ": has no column '", name, "', so it was not written by save_soundings");
+    for (std::size_t i = 0; i < table_.rows; ++i)
+      values.push_back(from_file<Value>(column->value(table_.bytes + i * table_.stride)));
+  }
+
+ private:
+  std::vector<RowTable::Column>::const_iterator find(const std::string& name) const {
+    return std::find_if(table_.columns.begin(), table_.columns.end(),
+                        [&](const RowTable::Column& c) { return c.name == name; });
+  }
+  std::string path_;
+  RowTable table_;
+};
+
+void append_soundings(const ReturnsTable& table, Soundings& soundings) {
+  std::vector<double> places[3];
+  const char* axes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) table.append(axes[axis], places[axis]);
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    soundings.position.emplace_back(places[0][i], places[1][i], places[2][i]);
+  each_column(
+      [&](const SoundingColumn& column, auto& values) { table.append(std::string("scalar_") + column.name, values); },
+      soundings);
+}
+
+}  // namespace
 
 Soundings load_soundings(const std::string& path) {
-  require_readable(path);
-  const std::optional<RowFile> file = find_ply_rows(path);
-  if (!file || file->big_endian)
-    fail(ErrorKind::content, path,
-         ": is not a binary little-endian PLY of points, so it was not written by save_soundings");
-  const RowTable table = read_rows(*file, 0, file->rows);
-  const auto each_row = [&](const std::string& name, auto&& take) {
-    const auto column = std::find_if(table.columns.begin(), table.columns.end(),
-                                     [&](const RowTable::Column& c) { return c.name == name; });
-    if (column == table.columns.end())
-      fail(ErrorKind::content, path, ": has no column '", name, "', so it was not written by save_soundings");
-    for (std::size_t i = 0; i < table.rows; ++i)
-      take(i, read_number(table.bytes + i * table.stride + column->offset, column->type));
-  };
-
   Soundings soundings;
-  soundings.position.resize(table.rows);
-  const char* axes[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis)
-    each_row(axes[axis], [&](std::size_t i, double value) { soundings.position[i][axis] = value; });
-  each_column(
-      [&](const SoundingColumn& column, auto& values) {
-        using Value = typename std::decay_t<decltype(values)>::value_type;
-        each_row(std::string("scalar_") + column.name,
-                 [&](std::size_t, double value) { values.push_back(static_cast<Value>(value)); });
-      },
-      soundings);
+  append_soundings(ReturnsTable(path), soundings);
   return soundings;
+}
+
+SurveyReturns load_survey_returns(const std::vector<std::string>& paths) {
+  SurveyReturns returns;
+  for (const std::string& path : paths) {
+    const ReturnsTable table(path);
+    append_soundings(table, returns.soundings);
+    if (!table.has("scalar_head")) continue;
+    table.append("scalar_time", returns.time);
+    table.append("scalar_head", returns.head);
+  }
+  return returns;
 }
 
 }  // namespace insonify

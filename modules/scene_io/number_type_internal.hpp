@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 namespace insonify {
 
@@ -19,6 +20,13 @@ constexpr const char* name_of(NumberType type) {
   constexpr std::array<const char*, 10> names = {"int8",   "uint8", "int16",  "uint16",  "int32",
                                                  "uint32", "int64", "uint64", "float32", "float64"};
   return names[static_cast<std::size_t>(type)];
+}
+
+/// The size of a type by its name, 0 of another name.
+inline std::size_t size_named(std::string_view name) {
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(NumberType::float64); ++k)
+    if (const auto type = static_cast<NumberType>(k); name == name_of(type)) return size_of(type);
+  return 0;
 }
 
 template <typename T>

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/error.hpp"
@@ -5,6 +7,7 @@
 #include "returns/sounding_columns.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_columns_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -23,6 +26,13 @@ void add_columns(PackedRows& rows, const std::string& prefix, std::initializer_l
   for (const char* name : names) rows.columns.push_back({prefix + name, type});
 }
 
+/// What a PLY calls a type. Open3D skips columns of uint and ushort: uint32 is "int", whose bits are the same.
+const char* ply_type(NumberType type) {
+  constexpr std::array<const char*, 10> names = {"char", "uchar",  "short",  "ushort", "int",
+                                                 "int",  "double", "double", "float",  "double"};
+  return names[static_cast<std::size_t>(type)];
+}
+
 }  // namespace
 
 std::string ply_header(const PackedRows& rows) {
@@ -30,10 +40,7 @@ std::string ply_header(const PackedRows& rows) {
   for (const std::string& comment : rows.comments) header += "comment " + comment + "\n";
   header += "element vertex " + std::to_string(rows.rows) + "\n";
   for (const PackedRows::Column& column : rows.columns) {
-    const char* type = column.type == NumberType::float64   ? "double"
-                       : column.type == NumberType::float32 ? "float"
-                       : column.type == NumberType::uint16  ? "ushort"
-                                                            : "uint";
+    const char* type = ply_type(column.type);
     header += std::string("property ") + type + " " + column.name + "\n";
   }
   return header + "end_header\n";
@@ -41,6 +48,7 @@ std::string ply_header(const PackedRows& rows) {
 
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who) {
   const std::size_t n = soundings.size();
+  const bool ply = !prefix.empty();
   PackedRows rows;
   rows.rows = n;
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
@@ -52,7 +60,9 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
                ", must be the same; fill every column");
         const bool real = std::is_same_v<decltype(column.front()), const float&>;
         rows.columns.push_back({prefix + about.name, real ? NumberType::float32 : NumberType::uint32});
-        rows.comments.push_back("unit " + prefix + about.name + " " + about.unit);
+        std::string unit = about.unit;
+        if (const std::size_t none = unit.find("4294967295"); ply && none != unit.npos) unit.replace(none, 10, "-1");
+        rows.comments.push_back("unit " + prefix + about.name + " " + unit);
       },
       soundings);
   rows.write_row = [&soundings, wide](std::size_t i, char* out) {
@@ -91,29 +101,34 @@ PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format) {
   return rows;
 }
 
-PackedRows rows_of(const SceneCloud& scene, CloudFormat format) {
+PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns) {
   const bool ply = format == CloudFormat::ply;
   const bool wide = ply && !scene.origin.isZero(0);
   PackedRows rows;
   rows.rows = scene.size();
   rows.comments = tag_lines(scene);
+  if (columns.material != "material" || !columns.others.empty())
+    rows.comments.push_back("insonify material_field " + columns.material);
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
   rows.columns.push_back({"area", NumberType::float32});
-  rows.columns.push_back({"material", ply ? NumberType::uint16 : NumberType::uint32});
-  rows.columns.push_back({"id", NumberType::uint32});
+  rows.columns.push_back({columns.material, NumberType::uint32});
+  // An int ends at 2^31 - 1; a double holds every id.
+  const bool long_ids = ply && std::any_of(scene.id.begin(), scene.id.end(), [](auto id) { return id > 2147483647; });
+  rows.columns.push_back({"id", long_ids ? NumberType::float64 : NumberType::uint32});
   if (!scene.noise.empty()) rows.columns.push_back({"noise", NumberType::float32});
-  rows.write_row = [&scene, wide, ply](std::size_t i, char* out) {
+  rows.write_row = [&scene, wide, long_ids](std::size_t i, char* out) {
     put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
     for (const float n : scene.normal[i]) put(out, n);
     put(out, scene.area[i]);
-    if (ply)
-      put(out, scene.material[i]);
+    put(out, std::uint32_t{scene.material[i]});
+    if (long_ids)
+      put(out, static_cast<double>(scene.id[i]));
     else
-      put(out, std::uint32_t{scene.material[i]});
-    put(out, scene.id[i]);
+      put(out, scene.id[i]);
     if (!scene.noise.empty()) put(out, scene.noise[i]);
   };
+  add_columns(rows, columns, format);
   return rows;
 }
 

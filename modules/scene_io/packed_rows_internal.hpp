@@ -8,6 +8,7 @@
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/number_type_internal.hpp"
+#include "scene_io/scene_columns.hpp"
 
 // Private to scene_io: a cloud as rows of packed little-endian numbers, the data section of binary PLY and PCD.
 namespace insonify {
@@ -30,6 +31,13 @@ struct PackedRows {
   }
 };
 
+/// True if two columns have one name and their numbers the same bits: a PLY calls a uint32 int, files of old uint.
+template <typename Column, typename Other>
+bool same_column(const Column& a, const Other& b) {
+  const auto bits = [](NumberType type) { return type == NumberType::int32 ? NumberType::uint32 : type; };
+  return a.name == b.name && bits(a.type) == bits(b.type);
+}
+
 /// Copies a number to `out` and advances `out`.
 template <typename T>
 void put(char*& out, T value) {
@@ -38,17 +46,17 @@ void put(char*& out, T value) {
 }
 
 /// x y z (double if `wide`) level_db range azimuth elevation (float32) ping beam bin (uint32) true_elevation (float32)
-/// true_surfel true_material (uint32); all but the coordinates named `prefix` + name. Throws Error(argument) unless all columns have one length.
+/// true_surfel true_material (uint32, -1 in a PLY for none); all but the coordinates named `prefix` + name, which a PLY has. Throws Error(argument) unless all columns have one length.
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who);
 
 /// The same for a PCD, of float32 less an origin, with intensity (level_db, float32) and label (true_material, uint32),
 /// the names by which PCL's own point types know them.
 PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who);
 
-/// x y z (double if `wide`), normal, area (float32), material (uint16 in PLY, uint32 in PCD), id (uint32), noise (float32) if the
-/// scene has it.
+/// x y z (double if `wide`), normal, area (float32), material, id (uint32; in PLY float64 if one is above 2147483647), noise
+/// (float32) if the scene has it, then the other columns.
 enum class CloudFormat { ply, pcd };
-PackedRows rows_of(const SceneCloud& scene, CloudFormat format);
+PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns = {});
 /// Its x y z alone.
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 
@@ -56,7 +64,7 @@ PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 /// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
 PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
 
-/// Header of a binary little-endian PLY of points.
+/// Header of a binary little-endian PLY of points: columns of uint32 are "int", which every reader takes.
 std::string ply_header(const PackedRows& rows);
 
 /// Header of a binary PCD, including its DATA line (written by PCL); comments become "# " lines.

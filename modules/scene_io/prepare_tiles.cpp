@@ -61,6 +61,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     whole.too_far += raw.too_far;
     whole.float_coordinates = raw.float_coordinates;
     whole.label_field = raw.label_field;
+    whole.other_columns = raw.other_columns;
     survey.normals = !raw.normal.empty();
     survey.areas = !raw.area.empty();
     survey.labels = !raw.label.empty();
@@ -134,6 +135,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   whole.tags = survey.file.tags;
   if (survey.file.viewpoint) whole.viewpoint = options.load.unit * *survey.file.viewpoint;
   if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
+  if (survey.reading.material_field.name.empty()) survey.reading.material_field.name = whole.tags.material_field;
   survey.reading.origin = Vector3d::Zero();
   survey_rows(survey, options);
   if (!survey.normals)
@@ -148,7 +150,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   report.path = whole.path;
   report.format = survey.file.format;
   report.points_read = survey.file.rows;
-  report.dropped_not_finite = whole.not_finite;
+  report.dropped_not_finite = whole.not_finite, report.other_columns = whole.other_columns;
   report.areas_estimated = !survey.areas || survey.bad_areas > 0;
   if (survey.bad_areas > 0)
     report.notes.push_back("at least " + share(survey.bad_areas, survey.file.rows, "areas") +

@@ -23,6 +23,7 @@ struct SceneTags {
   bool oriented = true;
   std::optional<Eigen::Vector3d> origin;
   std::vector<Material> materials;
+  std::string material_field;  ///< name of the column of materials, if it is said
 };
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
@@ -46,7 +47,9 @@ struct RawCloud {
   std::vector<std::uint16_t> label;  ///< no_label where the number is not an index, or in no interval
   std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;
-  std::vector<double> extra;  ///< of ReadOptions::extra_field, if the file has it
+  std::vector<double> extra;               ///< of ReadOptions::extra_field, if the file has it
+  std::vector<SceneColumn> columns;        ///< with ReadOptions::keep_columns: the others, and that of the labels
+  std::vector<std::string> other_columns;  ///< names of the others
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<std::array<std::uint32_t, 3>> raster;  ///< triangles between the points, if they are a raster of heights
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
@@ -88,6 +91,7 @@ struct ReadOptions {
   int threads = 0;
   MaterialField material_field{};  ///< source of the labels
   std::string extra_field{};       ///< a column that is read as it is, or empty
+  bool keep_columns = false;
   std::optional<Eigen::Vector3d>
       origin{};  ///< [m], of the whole cloud if this is a batch, which may then hold no usable point
 };

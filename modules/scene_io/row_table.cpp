@@ -11,19 +11,13 @@
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
+#include "scene_io/scene_columns_internal.hpp"
 #include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t block_rows = 1 << 16;
-
-/// A field's name in lower case without CloudCompare's prefix "scalar_", and with blanks as CloudCompare writes them.
-std::string plain_name(std::string name) {
-  std::replace(name.begin(), name.end(), ' ', '_');
-  name = lower_case(std::move(name));
-  return name.rfind("scalar_", 0) == 0 ? name.substr(7) : name;
-}
 
 /// The first column whose plain name is among `names`, in the order of `names`; null if none.
 const RowTable::Column* find_column(const RowTable& table, std::initializer_list<std::string> names) {
@@ -143,6 +137,18 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
   return good;
 }
 
+/// The columns that a scene makes no use of.
+std::vector<const RowTable::Column*> others_of(const RowTable& table, const Columns& found) {
+  std::vector<const RowTable::Column*> used = {found.area, found.label, found.id, found.noise};
+  used.insert(used.end(), found.position.begin(), found.position.end());
+  if (found.normal[0] && found.normal[1] && found.normal[2])
+    used.insert(used.end(), found.normal.begin(), found.normal.end());
+  std::vector<const RowTable::Column*> others;
+  for (const RowTable::Column& column : table.columns)
+    if (std::find(used.begin(), used.end(), &column) == used.end()) others.push_back(&column);
+  return others;
+}
+
 }  // namespace
 
 void require_usable_points(const RawCloud& raw, std::size_t points) {
@@ -187,7 +193,8 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1)
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");
-  const Columns found = find_columns(table, raw.path, options.material_field.name);
+  const std::string& asked = options.material_field.name;
+  const Columns found = find_columns(table, raw.path, asked.empty() ? raw.tags.material_field : asked);
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
   if (raw.viewpoint) *raw.viewpoint *= options.unit;
@@ -208,6 +215,11 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   if (extra != table.columns.end()) raw.extra.resize(table.rows);
   const bool ids = found.id && holds_ids(table, *found.id, options.threads);
   if (ids) raw.id.resize(table.rows);
+  for (const RowTable::Column* column : others_of(table, found)) {
+    raw.other_columns.push_back(column->name);
+    if (options.keep_columns) raw.columns.push_back(copy_of(table, *column));
+  }
+  if (found.label && options.keep_columns) raw.columns.push_back(copy_of(table, *found.label));
   if (found.id && !ids)
     raw.notes.push_back("field '" + found.id->name + "' does not hold 32-bit integers: ids renumbered");
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {

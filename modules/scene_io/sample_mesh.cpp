@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "scene_io/complete_scene_internal.hpp"
+#include "scene_io/scene_columns_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -109,8 +110,9 @@ Surface measure(const SceneMesh& mesh) {
   return surface;
 }
 
-/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area.
-void place_surfel(const SceneMesh& mesh, const Surface& surface, std::uint64_t seed, std::size_t i, SceneCloud& scene) {
+/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area; returns its nearest corner.
+std::uint32_t place_surfel(const SceneMesh& mesh, const Surface& surface, std::uint64_t seed, std::size_t i,
+                           SceneCloud& scene) {
   const double part = surface.total() / static_cast<double>(scene.size());
   const auto random = random_uniform(seed, RandomStage::mesh_points, {.first = i});
   const double at = std::min((static_cast<double>(i) + random[0]) * part, std::nextafter(surface.total(), 0.0));
@@ -121,6 +123,7 @@ void place_surfel(const SceneMesh& mesh, const Surface& surface, std::uint64_t s
   scene.point[i] = place.position.cast<float>();
   scene.normal[i] = place.normal.cast<float>();
   scene.material[i] = place.material;
+  return place.corner;
 }
 
 /// Turns every triangle's winding towards the viewpoint [m, relative to the origin].
@@ -173,7 +176,7 @@ void add_raster(const RawCloud& raw, LoadedScene& result) {
   result.mesh = std::move(mesh);
 }
 
-void sample_mesh(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
+void sample_mesh(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneMesh mesh = usable_mesh(raw, options, result.report);
   SceneCloud& scene = result.scene;
   mesh.material = std::move(scene.material);
@@ -189,9 +192,11 @@ void sample_mesh(const RawCloud& raw, const LoadOptions& options, LoadedScene& r
   std::iota(scene.id.begin(), scene.id.end(), 0u);
   scene.material.resize(count);
   scene.normals_oriented = mesh.normals_oriented;
+  std::vector<std::uint32_t> corner(count);
   parallel_blocks(count, 1 << 12, options.threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) place_surfel(mesh, surface, options.seed, i, scene);
+    for (std::size_t i = first; i < last; ++i) corner[i] = place_surfel(mesh, surface, options.seed, i, scene);
   });
+  for (SceneColumn& column : raw.columns) keep_rows(column, corner);
 
   if (options.mesh_spacing > 0) return;
   mesh.whole = {count, std::sqrt(surface.total() / static_cast<double>(count)), 0};

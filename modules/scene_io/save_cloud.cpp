@@ -50,9 +50,9 @@ void write_cloud(const std::string& path, CloudFormat format, const PackedRows& 
 
 }  // namespace
 
-void save_scene(const std::string& path, const SceneCloud& scene) {
+void save_scene(const std::string& path, const SceneCloud& scene, const SceneColumns& columns) {
   const CloudFormat format = format_for(path, scene);
-  write_cloud(path, format, rows_of(scene, format));
+  write_cloud(path, format, rows_of(scene, format, columns));
 }
 
 void save_bare_points(const std::string& path, const SceneCloud& scene) {
@@ -109,7 +109,7 @@ void join_clouds(const std::string& path, const std::vector<std::string>& parts)
       all.comments = file->comments;
       for (const auto& column : file->columns) all.columns.push_back({column.name, column.type});
     }
-    const auto same = [](const auto& a, const auto& b) { return a.name == b.name && a.type == b.type; };
+    const auto same = [](const auto& a, const auto& b) { return same_column(a, b); };
     if (!std::equal(file->columns.begin(), file->columns.end(), all.columns.begin(), all.columns.end(), same))
       fail(ErrorKind::content, part, ": has other columns than ", parts.front());
     all.rows += file->rows;

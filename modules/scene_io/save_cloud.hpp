@@ -6,17 +6,18 @@
 #include "returns/insonification.hpp"
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
+#include "scene_io/scene_columns.hpp"
 
 namespace insonify {
 
 /// Writes a prepared scene as binary .ply (x y z nx ny nz area material id) or .pcd (the same, with normals named
-/// normal_x ... as in PCL). Comment lines hold the origin, the materials (name and numbers) and whether normals are
+/// normal_x ... as in PCL), and further columns. Comment lines hold the origin, the materials (name and numbers) and whether normals are
 /// oriented. PLY coordinates are double if the origin is not zero: load_scene restores the scene without estimating
 /// anything, coordinates within a nanometre (for an origin of 5000 km), everything else bit for bit. PCD coordinates
 /// are float32: a scene beyond 2000 m from zero, which would lose more than 0.1 mm, must be a PLY. Written to a
 /// temporary name, then renamed. Throws as require_valid; Error(argument) for another extension or a scene too far from
 /// zero for PCD, Error(content) if it is empty, Error(file) if it cannot write.
-void save_scene(const std::string& path, const SceneCloud& scene);
+void save_scene(const std::string& path, const SceneCloud& scene, const SceneColumns& columns = {});
 
 /// Writes the points of a scene alone, as a scanner gives them: x y z, as save_scene in all else.
 void save_bare_points(const std::string& path, const SceneCloud& scene);

@@ -60,7 +60,9 @@ RawCloud read_cloud(const std::string& path, const ReadOptions& options) {
 }
 
 ReadOptions read_options(const LoadOptions& options) {
-  return {options.unit, options.threads, options.material ? MaterialField{} : options.material_field};
+  ReadOptions reading{options.unit, options.threads, options.material ? MaterialField{} : options.material_field};
+  reading.keep_columns = options.keep_columns;
+  return reading;
 }
 
 LoadedScene load_all_tiles(const std::string& path, const LoadOptions& options) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "beamforming/sonar_head.hpp"
+#include "core/geodesy.hpp"
 #include "returns/ping.hpp"
 #include "simulate/simulation_options.hpp"
 
@@ -25,8 +26,10 @@ struct Cube {
   std::uint64_t seed = 0;
   double tolerance = 0;
   int keep_bits = all_bits;  ///< significant bits of pressures that write_cube keeps, 1 to all_bits
-  std::string sonar;         ///< name of the head
+  std::string sonar;         ///< name of the head's sonar
   std::string insonify_version;
+  std::string head{}, start_utc{};  ///< of a survey: name of the head, and time 0 if it is known
+  std::optional<Anchor> anchor{};   ///< of a survey that says where its world is
 };
 
 /// A cube for pings of `head` in `medium` (SimulatedPing::medium, or medium_of at the centre frequency) by `options`: every
@@ -39,7 +42,9 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// min_range, max_range, bin_size [m]. Layers are written as /layers/NAME with the extent of /pressure; so are, if the
 /// pings have them, /intensity [Pa^2], /level_error_db (float32), /unknown (uint8) and /split_phase [rad] (float32), and of pings with
 /// labels /label_material (uint16), /label_id (uint32), /label_share (float32) and the attribute label_names, one name a line.
-/// The attribute expected_level marks expected levels.
+/// The attribute expected_level marks expected levels; head, start_utc and anchor_latitude_deg, anchor_longitude_deg and
+/// anchor_heading_deg say of a survey what the members do. Datasets have units, long_name and named dimensions, whose
+/// scales are /ping, /azimuth and /range; pressures say in `convention` how a level follows from them.
 /// Pings of a scanning head add /scan_angle [rad] and /sweep (pings), /beam_time [s] (pings x beams) and /beam_pose
 /// (pings x beams x 4 x 4).
 /// /unknown and labels are deflated. With fewer keep_bits than all, /pressure and /layers are rounded to so many significant

@@ -6,22 +6,33 @@ namespace insonify {
 /// Version of the layout of cube.h5, raised when readers of the previous one would fail.
 constexpr std::int64_t cube_schema = 1;
 
-/// Path of a dataset in the file, and its unit for the attribute "units" ("": none).
+/// Path of a dataset in the file, its unit for the attribute "units" and what it is, signs included, for "long_name" ("":
+/// none).
 struct DatasetName {
   const char* path;
   const char* unit;
+  const char* about = "";
 };
-constexpr DatasetName pressure_name{"/pressure", "Pa"};
+constexpr DatasetName pressure_name{"/pressure", "Pa", "sound pressure of the received signal, complex amplitude"};
+/// Attribute of pressures: what their numbers are, for levels that are right.
+constexpr const char* convention_attribute = "convention";
+constexpr const char* pressure_convention =
+    "complex amplitude of the analytic signal at baseband; rms = abs / sqrt(2); "
+    "level [dB re 1 uPa] = 20 log10(abs / sqrt(2) / 1e-6)";
 /// Group of the layers, each a dataset like /pressure; absent without layers.
 constexpr const char* layers_group = "/layers";
 /// Optional maps of the extent of /pressure, one real number per cell.
-constexpr DatasetName intensity_name{"/intensity", "Pa^2"};
-constexpr DatasetName level_error_name{"/level_error_db", "dB"};
-constexpr DatasetName unknown_name{"/unknown", ""};
-constexpr DatasetName split_phase_name{"/split_phase", "rad"};
-constexpr DatasetName label_material_name{"/label_material", ""};
-constexpr DatasetName label_id_name{"/label_id", ""};
-constexpr DatasetName label_share_name{"/label_share", ""};
+constexpr DatasetName intensity_name{"/intensity", "Pa^2",
+                                     "mean over the looks of the squared magnitude of the amplitude; level [dB re 1 "
+                                     "uPa] = 10 log10(intensity / 2 / 1e-12)"};
+constexpr DatasetName level_error_name{"/level_error_db", "dB", "standard error of the expected level"};
+constexpr DatasetName unknown_name{"/unknown", "", "1 where surface may be missing because the scan has a hole"};
+constexpr DatasetName split_phase_name{"/split_phase", "rad",
+                                       "phase of the port half of the array against its starboard half"};
+constexpr DatasetName label_material_name{"/label_material", "",
+                                          "material, index into label_names; 65535: nothing, 65534: shadow"};
+constexpr DatasetName label_id_name{"/label_id", "", "id of the strongest surfel in the scene; 4294967295: none"};
+constexpr DatasetName label_share_name{"/label_share", "", "share of the energy that is of the material, 0 to 1"};
 /// Root attribute: names of the materials of /label_material, one a line.
 constexpr const char* label_names_attribute = "label_names";
 /// Root attribute: significant bits of the pressures, if they are rounded.
@@ -29,16 +40,56 @@ constexpr const char* keep_bits_attribute = "keep_bits";
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.
 constexpr const char* expected_level_attribute = "expected_level";
 constexpr const char* expected_level_text = "expected level, no speckle";
-constexpr DatasetName range_name{"/range", "m"};
-constexpr DatasetName azimuth_name{"/azimuth", "rad"};
-constexpr DatasetName elevation_name{"/elevation", "rad"};
-constexpr DatasetName pose_name{"/pose", "m"};
-constexpr DatasetName time_name{"/time", "s"};
-constexpr DatasetName ping_name{"/ping", ""};
+constexpr DatasetName range_name{"/range", "m", "middle of the bins, one way"};
+constexpr DatasetName azimuth_name{"/azimuth", "rad", "of the beams about the z axis of the head, positive to port"};
+constexpr DatasetName elevation_name{"/elevation", "rad", "of the beams above the x-y plane of the head, positive up"};
+constexpr DatasetName pose_name{"/pose", "1, 1, 1, m",
+                                "world_from_head, row-major: columns 0 to 2 are the axes of the head (forward, port, "
+                                "up) in the world, without unit, column 3 its place [m]"};
+constexpr DatasetName time_name{"/time", "s", "of transmission, from start_utc or the begin of the run"};
+constexpr DatasetName ping_name{"/ping", "", "number of the ping"};
 /// Of a scanning head alone: time and pose of every beam, and the head's own turn.
-constexpr DatasetName beam_time_name{"/beam_time", "s"};
-constexpr DatasetName beam_pose_name{"/beam_pose", "m"};
-constexpr DatasetName scan_angle_name{"/scan_angle", "rad"};
-constexpr DatasetName sweep_name{"/sweep", ""};
+constexpr DatasetName beam_time_name{"/beam_time", "s", "of transmission, of every beam"};
+constexpr DatasetName beam_pose_name{"/beam_pose", "1, 1, 1, m", "of every beam, as pose"};
+constexpr DatasetName scan_angle_name{"/scan_angle", "rad",
+                                      "turn of the head about its z axis, positive to port; part of the pose"};
+constexpr DatasetName sweep_name{"/sweep", "", "number of the sweep"};
+
+/// Root attributes of cubes of a survey: name of the head, time 0, place of the world's origin and heading of its x axis.
+constexpr const char* head_attribute = "head";
+constexpr const char* start_utc_attribute = "start_utc";
+constexpr const char* anchor_latitude_attribute = "anchor_latitude_deg";
+constexpr const char* anchor_longitude_attribute = "anchor_longitude_deg";
+constexpr const char* anchor_heading_attribute = "anchor_heading_deg";
+
+/// All datasets that a cube can have, and what their dimensions are: "ping", "beam", "bin".
+struct CubeDataset {
+  DatasetName name;
+  const char* dimensions[4];  ///< null: no further one has a name
+};
+constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}},
+                                         {intensity_name, {"ping", "beam", "bin"}},
+                                         {level_error_name, {"ping", "beam", "bin"}},
+                                         {unknown_name, {"ping", "beam", "bin"}},
+                                         {split_phase_name, {"ping", "beam", "bin"}},
+                                         {label_material_name, {"ping", "beam", "bin"}},
+                                         {label_id_name, {"ping", "beam", "bin"}},
+                                         {label_share_name, {"ping", "beam", "bin"}},
+                                         {range_name, {"bin"}},
+                                         {azimuth_name, {"beam"}},
+                                         {elevation_name, {"beam"}},
+                                         {pose_name, {"ping"}},
+                                         {time_name, {"ping"}},
+                                         {ping_name, {"ping"}},
+                                         {beam_time_name, {"ping", "beam"}},
+                                         {beam_pose_name, {"ping", "beam"}},
+                                         {scan_angle_name, {"ping"}},
+                                         {sweep_name, {"ping"}}};
+/// The scale of each kind of dimension.
+struct CubeScale {
+  const char* dimension;
+  DatasetName name;
+};
+constexpr CubeScale cube_scales[] = {{"ping", ping_name}, {"beam", azimuth_name}, {"bin", range_name}};
 
 }  // namespace insonify

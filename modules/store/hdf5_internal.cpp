@@ -170,6 +170,7 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
       place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
       H5Dclose);
   if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
+  if (*name.about) write_attribute(place, dataset, "long_name", std::string(name.about));
   return dataset;
 }
 

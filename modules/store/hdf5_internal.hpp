@@ -95,7 +95,7 @@ ArrayReceiver read_apart(const std::string& path, const std::function<void(const
 /// How the chunks of a dataset are stored: as they are, or shuffled and deflated at level 1, without loss.
 enum class Packing { none, deflate };
 
-/// Creates a dataset without timestamps, with its unit as attribute "units"; chunked if `chunk` is not empty.
+/// Creates a dataset without timestamps, with its unit and name as attributes "units" and "long_name"; chunked if `chunk` is not empty.
 Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {}, Packing packing = Packing::none);
 

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/input_file.hpp"
+#include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
@@ -103,6 +104,7 @@ struct Copy {
 
 /// Copies an attribute of a number or text.
 herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) try {
+  if (names_dimensions(name)) return 0;
   const Copy& copy = *static_cast<const Copy*>(to);
   const Handle attribute(H5Aopen(from, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose),
       space(H5Aget_space(attribute), H5Sclose);
@@ -122,8 +124,14 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to)
 void copy_axes(const Place& place, const Place& from, hid_t first, hid_t file) {
   Copy copy{from, file};
   place.checked(H5Aiterate2(first, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &copy), "attributes");
-  for (const DatasetName& axis : {range_name, azimuth_name, elevation_name})
-    place.checked(H5Ocopy(first, axis.path, file, axis.path, H5P_DEFAULT, H5P_DEFAULT), axis.path);
+  const Handle bare(place.checked(H5Pcreate(H5P_OBJECT_COPY), "axes"), H5Pclose);
+  place.checked(H5Pset_copy_object(bare, H5O_COPY_WITHOUT_ATTR_FLAG), "axes");
+  for (const DatasetName& axis : {range_name, azimuth_name, elevation_name}) {
+    place.checked(H5Ocopy(first, axis.path, file, axis.path, bare, H5P_DEFAULT), axis.path);
+    const Handle source = open_dataset(from, first, axis), made = open_dataset(place, file, axis);
+    Copy attributes{from, made};
+    place.checked(H5Aiterate2(source, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &attributes), axis.path);
+  }
 }
 
 void write_tracks(const Place& place, hid_t file, const JoinedCube& joined) {
@@ -227,6 +235,7 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
     if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
       create_ordered_group(place, file, layers_group);
     for (const std::string& image : joined.images) write_image(place, joined, image, from, first, file, join);
+    name_dimensions(place, file);
   };
   if (!join.tried) return write_hdf5(path, write);
   const Place nowhere{path, ErrorKind::file};

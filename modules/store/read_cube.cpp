@@ -121,6 +121,12 @@ Cube read_attributes(const Place& place, hid_t file) {
   cube.tolerance = read_number(place, file, "tolerance");
   if (H5Aexists(file, keep_bits_attribute) > 0)
     cube.keep_bits = static_cast<int>(read_integer(place, file, keep_bits_attribute));
+  if (H5Aexists(file, head_attribute) > 0) cube.head = read_text(place, file, head_attribute);
+  if (H5Aexists(file, start_utc_attribute) > 0) cube.start_utc = read_text(place, file, start_utc_attribute);
+  if (H5Aexists(file, anchor_latitude_attribute) > 0)
+    cube.anchor = {read_number(place, file, anchor_latitude_attribute),
+                   read_number(place, file, anchor_longitude_attribute),
+                   read_number(place, file, anchor_heading_attribute)};
   return cube;
 }
 

@@ -52,6 +52,17 @@ void require_new(const std::string& folder) {
       fail(ErrorKind::file, folder, ": holds ", name, " but no survey.toml, so it is no survey; choose another folder");
 }
 
+/// Refuses blocks of another size, and a survey.toml that was changed.
+void require_same_blocks(const std::string& folder, const SurveyRun& there, const SurveyRun& run) {
+  for (std::size_t h = 0; h < std::min(there.heads.size(), run.heads.size()); ++h)
+    if (const std::size_t held = there.heads[h].pings_per_block; held != run.heads[h].pings_per_block)
+      fail(ErrorKind::argument, folder, ": blocks of head ", there.heads[h].name, " hold ", held, " pings, not ",
+           run.heads[h].pings_per_block, " as asked for; leave the number out to go on, or choose another folder");
+  if (there.heads != run.heads)
+    fail(ErrorKind::content, description_path(folder), ": lists heads or pings that its mission does not have; ",
+         "choose another folder");
+}
+
 std::string description_of(const SurveyRun& run) {
   std::string text = "# A survey: blocks of pings in NAME/blocks, joined by `insonify merge`.\nschema = " +
                      std::to_string(survey_schema) + "\nmission_sha256 = \"" + run.mission_sha256 + "\"\n";
@@ -81,9 +92,10 @@ void open_survey_run(const std::string& folder, const SurveyRun& run) {
     write_file(description_path(folder), description_of(run));
   }
   const SurveyRun there = load_survey_run(folder);
-  if (there.mission_sha256 != run.mission_sha256 || there.heads != run.heads)
+  if (there.mission_sha256 != run.mission_sha256)
     fail(ErrorKind::content, folder, ": holds a survey of another mission, or of this one with other inputs (SHA-256 ",
          there.mission_sha256.substr(0, 12), ", not ", run.mission_sha256.substr(0, 12), "); choose another folder");
+  require_same_blocks(folder, there, run);
   for (const SurveyRunHead& head : run.heads) {
     fs::create_directories(block_files(folder, head.name, 0).folder, error);
     if (error) fail(ErrorKind::file, folder, ": cannot be created: ", error.message());

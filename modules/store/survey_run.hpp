@@ -28,7 +28,8 @@ bool is_survey_run(const std::string& folder);
 bool is_of_survey(const std::string& folder, const std::string& name);
 
 /// Makes the folder of a survey, or checks that it is of this mission already. Throws Error(content) if it is of
-/// another one, Error(file) if it is another folder that is not empty, or cannot be made.
+/// another one, Error(argument) if its blocks have another size, Error(file) if it is another folder that is not empty,
+/// or cannot be made.
 void open_survey_run(const std::string& folder, const SurveyRun& run);
 
 /// Throws Error(file) if `folder` is not of a survey, Error(content) if its survey.toml is damaged.

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "store/cube.hpp"
+#include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
@@ -103,6 +104,8 @@ void write_images(const Place& place, hid_t file, const DatasetName& name, const
   const Handle stored = image_type<Number>(place, true), here = image_type<Number>(place, false);
   const Handle dataset =
       create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins}, packing);
+  if constexpr (std::is_same_v<Number, std::complex<float>>)
+    write_attribute(place, dataset, convention_attribute, std::string(pressure_convention));
   const Extent one_ping = {1, beams, bins};
   const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
@@ -140,7 +143,7 @@ void write_layers(const Place& place, hid_t file, const Cube& cube) {
   const Handle group = create_ordered_group(place, file, layers_group);
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const std::string path = std::string(layers_group) + "/" + layers[l].name;
-    write_pressures(place, file, {path.c_str(), pressure_name.unit}, cube,
+    write_pressures(place, file, {path.c_str(), pressure_name.unit, pressure_name.about}, cube,
                     [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
   }
 }
@@ -235,6 +238,12 @@ void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
   write_attribute(place, file, "min_range", ping.gate.min_range);
   write_attribute(place, file, "max_range", ping.gate.max_range);
   write_attribute(place, file, "bin_size", ping.gate.bin_size);
+  if (!cube.head.empty()) write_attribute(place, file, head_attribute, cube.head);
+  if (!cube.start_utc.empty()) write_attribute(place, file, start_utc_attribute, cube.start_utc);
+  if (!cube.anchor) return;
+  write_attribute(place, file, anchor_latitude_attribute, cube.anchor->latitude_deg);
+  write_attribute(place, file, anchor_longitude_attribute, cube.anchor->longitude_deg);
+  write_attribute(place, file, anchor_heading_attribute, cube.anchor->heading_deg);
 }
 
 }  // namespace
@@ -250,6 +259,7 @@ void write_cube(const std::string& path, const Cube& cube) {
                     [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
     write_layers(place, file, cube);
     write_maps(place, file, cube.pings);
+    name_dimensions(place, file);
   });
 }
 

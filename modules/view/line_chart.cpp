@@ -20,12 +20,13 @@
 namespace insonify {
 namespace {
 
-vtkNew<vtkFloatArray> column(const char* name, const std::vector<double>& values) {
+// Places along an axis from 0 at `low` to 1 at `high`, which single precision holds wherever the axis begins.
+vtkNew<vtkFloatArray> column(const char* name, const std::vector<double>& values, double low, double high) {
   vtkNew<vtkFloatArray> column;
   column->SetName(name);
   column->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i)
-    column->SetValue(static_cast<vtkIdType>(i), static_cast<float>(values[i]));
+    column->SetValue(static_cast<vtkIdType>(i), static_cast<float>((values[i] - low) / (high - low)));
   return column;
 }
 
@@ -52,10 +53,10 @@ LineChart with_logarithms_taken(LineChart chart) {
   return chart;
 }
 
-void add_plot(vtkChartXY& chart, const ChartLine& line, const Colour& colour, double width) {
+void add_plot(vtkChartXY& chart, const Axes& axes, const ChartLine& line, const Colour& colour, double width) {
   vtkNew<vtkTable> table;
-  table->AddColumn(column("x", line.x));
-  table->AddColumn(column("y", line.y));
+  table->AddColumn(column("x", line.x, axes.low_x, axes.high_x));
+  table->AddColumn(column("y", line.y, axes.low_y, axes.high_y));
   const bool points = line.style == LineStyle::points || line.x.size() < 2;
   vtkPlot* plot = chart.AddPlot(points ? vtkChart::POINTS : vtkChart::LINE);
   plot->SetInputData(table, 0, 1);
@@ -77,19 +78,17 @@ void add_chart(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& l
   chart->SetLayoutStrategy(vtkChart::AXES_TO_RECT);
   chart->SetSize(vtkRectf(static_cast<float>(origin.x + frame.left), static_cast<float>(origin.y + frame.bottom),
                           static_cast<float>(frame.width()), static_cast<float>(frame.height())));
-  const auto hide = [&](int which, double low, double high) {
+  for (const int which : {vtkAxis::BOTTOM, vtkAxis::LEFT}) {
     vtkAxis* axis = chart->GetAxis(which);
     axis->SetBehavior(vtkAxis::FIXED);
-    axis->SetRange(low, high);
+    axis->SetRange(0, 1);
     axis->SetTitle("");
     axis->SetLabelsVisible(false);
     axis->SetTicksVisible(false);
     axis->SetGridVisible(false);
     axis->SetAxisVisible(false);
-  };
-  hide(vtkAxis::BOTTOM, axes.low_x, axes.high_x);
-  hide(vtkAxis::LEFT, axes.low_y, axes.high_y);
-  for (std::size_t i = lines.size(); i-- > 0;) add_plot(*chart, lines[i], line_colour(i, dark), width);
+  }
+  for (std::size_t i = lines.size(); i-- > 0;) add_plot(*chart, axes, lines[i], line_colour(i, dark), width);
 
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);

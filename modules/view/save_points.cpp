@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
@@ -22,8 +23,30 @@
 
 namespace insonify {
 
-void save_points(const std::string& path, const Soundings& soundings) {
+namespace {
+
+/// Adds a column to the point data, and its unit to the list of units.
+template <typename Array, typename Column>
+void add_column(vtkPolyData* data, vtkStringArray* units, const std::string& name, const std::string& unit,
+                const Column& column) {
+  const auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(static_cast<vtkIdType>(column.size()));
+  std::copy(column.begin(), column.end(), array->GetPointer(0));
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
+  data->GetPointData()->AddArray(array);
+  units->InsertNextValue(name + ": " + unit);
+}
+
+}  // namespace
+
+void save_points(const std::string& path, const Soundings& soundings, const std::vector<PointColumn>& more) {
   const auto count = static_cast<vtkIdType>(soundings.size());
+  const auto require_length = [&](const std::string& name, std::size_t length) {
+    if (length != soundings.size())
+      fail(ErrorKind::argument, "save_points: ", path, ": column '", name, "' has ", length,
+           " entries, must have one for each of the ", soundings.size(), " soundings");
+  };
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -40,20 +63,19 @@ void save_points(const std::string& path, const Soundings& soundings) {
   units->InsertNextValue("Points: m");
   each_column(
       [&](const SoundingColumn& about, const auto& column) {
-        if (column.size() != soundings.size())
-          fail(ErrorKind::argument, "save_points: ", path, ": column '", about.name, "' has ", column.size(),
-               " entries, must have one for each of the ", soundings.size(), " soundings");
+        require_length(about.name, column.size());
         using Real = std::is_same<typename std::decay_t<decltype(column)>::value_type, float>;
         using Array = std::conditional_t<Real::value, vtkFloatArray, vtkUnsignedIntArray>;
-        const auto array = vtkSmartPointer<Array>::New();
-        array->SetName(about.name);
-        array->SetNumberOfValues(count);
-        std::copy(column.begin(), column.end(), array->GetPointer(0));
-        array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), about.unit);
-        data->GetPointData()->AddArray(array);
-        units->InsertNextValue(std::string(about.name) + ": " + about.unit);
+        add_column<Array>(data, units, about.name, about.unit, column);
       },
       soundings);
+  for (const PointColumn& column : more) {
+    require_length(column.name, column.values.size());
+    if (column.whole)
+      add_column<vtkUnsignedIntArray>(data, units, column.name, column.unit, column.values);
+    else
+      add_column<vtkDoubleArray>(data, units, column.name, column.unit, column.values);
+  }
   data->GetPointData()->SetActiveScalars("level_db");
   data->GetFieldData()->AddArray(units);
   vtkNew<vtkXMLPolyDataWriter> writer;

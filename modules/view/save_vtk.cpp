@@ -1,22 +1,23 @@
 #include "view/save_vtk.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <sstream>
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -45,25 +46,26 @@ void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, 
   write_file(path, writer.GetOutputString());
 }
 
-namespace {
+void list_units(vtkDataSet* data, const std::string& places, const std::vector<SampleField>& fields) {
+  vtkNew<vtkStringArray> units;
+  units->SetName("units");
+  units->InsertNextValue(places);
+  for (const SampleField& field : fields)
+    if (!field.unit.empty()) units->InsertNextValue(field.name + ": " + field.unit);
+  data->GetFieldData()->AddArray(units);
+}
 
-/// An array of cell data; of a fan with ranges varying fastest.
-vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count) {
+vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count,
+                                          const std::string& unit) {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
+  if (!unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
   array->SetName(name.c_str());
   array->SetNumberOfValues(static_cast<vtkIdType>(count));
   std::copy(values, values + count, array->GetPointer(0));
   return array;
 }
 
-void require_map(const HorizontalMap& map, const char* who) {
-  if (map.fields.empty()) fail(ErrorKind::argument, who, ": no field to write");
-  const Grid<float>& first = map.fields.front().values;
-  for (const SampleField& field : map.fields)
-    if (field.values.size() == 0 || field.values.rows() != first.rows() || field.values.cols() != first.cols())
-      fail(ErrorKind::argument, who, ": ", field.name, " is ", field.values.rows(), " x ", field.values.cols(),
-           ", must have cells, as many as ", map.fields.front().name);
-}
+namespace {
 
 void require_fields(const BeamFan& fan, const RangeGate& gate, const std::vector<SampleField>& fields,
                     const char* who) {
@@ -146,8 +148,9 @@ void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gat
                           static_cast<int>(elevations.size()));
       grid->SetPoints(corners(cells.edges, elevations, gate, world_from_head));
     }
-    grid->GetCellData()->AddArray(cell_array(field.name, values.data(), values.size()));
+    grid->GetCellData()->AddArray(cell_array(field.name, values.data(), values.size(), field.unit));
   }
+  list_units(grid, "Points: m", fields);
   grid->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLStructuredGridWriter> writer;
   write_xml(*writer, grid, path, "save_fan_grid");
@@ -194,57 +197,12 @@ void save_sample_image(const std::string& path, const BeamFan& fan, const RangeG
   // Cells are ordered with beams varying fastest.
   for (const SampleField& field : fields) {
     const Grid<float> values = field.values.transpose();
-    image->GetCellData()->AddArray(cell_array(field.name, values.data(), fan.beams() * gate.bins()));
+    image->GetCellData()->AddArray(cell_array(field.name, values.data(), fan.beams() * gate.bins(), field.unit));
   }
+  list_units(image, "x: number of the beam, y: range in m", fields);
   image->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLImageDataWriter> writer;
   write_xml(*writer, image, path, "save_sample_image");
-}
-
-void save_map_image(const std::string& path, const HorizontalMap& map) {
-  require_map(map, "save_map_image");
-  const Grid<float>& first = map.fields.front().values;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(first.rows()) + 1, static_cast<int>(first.cols()) + 1, 1);
-  image->SetOrigin(map.x, map.y, 0);
-  image->SetSpacing(map.cell, map.cell, map.cell);
-  // Cells are ordered with columns varying fastest.
-  for (const SampleField& field : map.fields) {
-    const Grid<float> values = field.values.transpose();
-    image->GetCellData()->AddArray(cell_array(field.name, values.data(), static_cast<std::size_t>(values.size())));
-  }
-  image->GetCellData()->SetActiveScalars(map.fields.front().name.c_str());
-  vtkNew<vtkXMLImageDataWriter> writer;
-  write_xml(*writer, image, path, "save_map_image");
-}
-
-void save_map_picture(const std::string& stem, const HorizontalMap& map, double window) {
-  require_map(map, "save_map_picture");
-  const Grid<float>& values = map.fields.front().values;
-  const float highest = values.isFinite().select(values, -std::numeric_limits<float>::infinity()).maxCoeff();
-  if (!std::isfinite(highest)) fail(ErrorKind::content, "save_map_picture: ", stem, ": no cell has a value");
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(values.rows()), static_cast<int>(values.cols()), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (Eigen::Index row = 0; row < values.cols(); ++row)
-    for (Eigen::Index column = 0; column < values.rows(); ++column) {
-      const double below = (highest - values(column, row)) / window;
-      *pixel++ = std::isfinite(below) ? static_cast<unsigned char>(std::lround(255 - 254 * std::min(below, 1.0))) : 0;
-    }
-  const VtkMessages messages;
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  write_png(writer, stem + ".png", messages, "save_map_picture");
-
-  // The world file holds the size of a pixel and the middle of the upper left one.
-  std::ostringstream world;
-  world.precision(17);
-  world << map.cell << "\n0\n0\n"
-        << -map.cell << "\n"
-        << map.x + map.cell / 2 << "\n"
-        << map.y + (static_cast<double>(values.cols()) - 0.5) * map.cell << "\n";
-  write_file(stem + ".pgw", world.str());
 }
 
 void save_series(const std::string& path, const std::vector<SeriesEntry>& entries) {

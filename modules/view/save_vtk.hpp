@@ -14,6 +14,7 @@ namespace insonify {
 struct SampleField {
   std::string name;    ///< of the array in the file, e.g. level_db
   Grid<float> values;  ///< beams x bins
+  std::string unit{};  ///< in the text array `units` of the field data, "name: unit", and as UNITS_LABEL; empty: none
 };
 
 /// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges
@@ -50,11 +51,18 @@ HorizontalMap load_map_image(const std::string& path);
 /// no value is finite.
 void save_map_picture(const std::string& stem, const HorizontalMap& map, double window);
 
+/// A further column of points.
+struct PointColumn {
+  std::string name, unit;
+  std::vector<double> values;
+  bool whole = false;  ///< whole numbers from 0
+};
+
 /// Writes soundings as VTK polydata (.vtp): a vertex each in the world [m, double], the columns as point data under their
-/// names, level_db first, and their units as the text array `units` of the field data, "name: unit" each, and as
+/// names, level_db first, then those of `more`, and their units as the text array `units` of the field data, "name: unit" each, and as
 /// UNITS_LABEL of the arrays. Written to a temporary name, then renamed. Throws Error(argument) for columns of different
 /// lengths, Error(file) if it cannot write.
-void save_points(const std::string& path, const Soundings& soundings);
+void save_points(const std::string& path, const Soundings& soundings, const std::vector<PointColumn>& more = {});
 
 /// A file of a time series.
 struct SeriesEntry {

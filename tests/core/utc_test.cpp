@@ -11,3 +11,15 @@ TEST(Utc, goes_on_over_days_and_years) {
        {"2026-13-01T00:00:00Z", "2026-02-30T00:00:00Z", "2026-05-01T24:00:00Z", "2026-05-01", "2026-05-01T08:30:00"})
     EXPECT_THAT(error_of([&] { utc_after(bad, 0); }), HasSubstr(bad));
 }
+
+// Known pairs: GPS week 2416, day 5 begins 18 s before 2026-05-01 in UTC; the second that ended 2016 was the eighteenth.
+TEST(Utc, gives_gps_time_with_leap_seconds) {
+  EXPECT_EQ(gps_time_of_utc(315964800), 0);
+  EXPECT_EQ(gps_time_of_utc(1777593600 - 18), (2416 * 7 + 5) * 86400.0);
+  EXPECT_EQ(leap_seconds_of_gps(0), 0);
+  EXPECT_EQ(leap_seconds_of_gps(1483228799.5), 17);
+  EXPECT_EQ(leap_seconds_of_gps(1483228800), 18);
+  EXPECT_EQ(leap_seconds_of_gps(362793599.5), 0);
+  EXPECT_EQ(leap_seconds_of_gps(362793600), 1);
+  EXPECT_EQ(leap_seconds_of_gps(1e10), 18);
+}

@@ -13,7 +13,7 @@ std::vector<GeoBand> two_bands() {
   height << -20, -21, no_value, -18, -17.5F, -16;
   count << 1, 2, 0, 4, 5, 6;
   std::vector<GeoBand> bands(2);
-  bands[0].name = "height [m]", bands[0].values = height;
+  bands[0].name = "height", bands[0].unit = "m", bands[0].values = height;
   bands[1].name = "soundings", bands[1].values = count;
   return bands;
 }
@@ -36,6 +36,11 @@ TEST(GeotiffFile, holds_what_its_specifications_say) {
   std::string no_data;
   for (const double c : tags[42113]) no_data.push_back(static_cast<char>(c));
   EXPECT_EQ(no_data, std::string("nan\0", 4));
+  std::string metadata;
+  for (const double c : tags[42112]) metadata.push_back(static_cast<char>(c));
+  EXPECT_THAT(metadata,
+              testing::AllOf(HasSubstr("<Item name=\"DESCRIPTION\" sample=\"0\" role=\"description\">height</Item>"),
+                             HasSubstr("<Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">m</Item>")));
   ASSERT_EQ(tags[273].size(), 2U);
   decode::Cursor heights(bytes, static_cast<std::size_t>(tags[273][0]));
   for (const float expected : {-18.0F, -17.5F, -16.0F, -20.0F, -21.0F})

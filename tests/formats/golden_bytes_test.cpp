@@ -91,9 +91,8 @@ TEST(GoldenBytes, of_mcap) {
   constexpr std::uint64_t time = 1777624200250000000;
   file.add(image, time, projected_sonar_image(ping, time, 4e5, 1490.25, {0, 0}, {false, {40, 120}, 1}));
   file.add(fan, time, fan_image(ping, time, {0, 0}, {40, 120}, 8));
-  file.add(points, time,
-           point_cloud(std::vector<Eigen::Vector3d>{{1, 2, -15}}, std::vector<float>{121.5F}, {0, 0, 0}, time));
-  file.add(tf, time, head_transforms(ping.world_from_head, {0, 0, 0}, time));
+  file.add(points, time, point_cloud(decode::soundings_at({{1, 2, -15}}, {121.5F}), {0, 0, 0}, time));
+  file.add(tf, time, head_transform(ping.world_from_head, {0, 0, 0}, time));
   file.finish();
   EXPECT_EQ(decode::read_mcap(file_bytes(path)).messages.size(), 4U);
   expect_golden(path, "log.mcap");
@@ -102,7 +101,7 @@ TEST(GoldenBytes, of_mcap) {
 TEST(GoldenBytes, of_geotiff) {
   const std::string path = own_path("bed.tif");
   std::vector<GeoBand> bands(2);
-  bands[0].name = "height [m]", bands[1].name = "soundings";
+  bands[0].name = "height", bands[0].unit = "m", bands[1].name = "soundings";
   bands[0].values.resize(2, 3), bands[1].values.resize(2, 3);
   bands[0].values << -20, -21, std::numeric_limits<float>::quiet_NaN(), -18, -17.5F, 2.25F;
   bands[1].values << 1, 2, 0, 4, 5, 6;

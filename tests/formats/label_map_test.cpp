@@ -49,3 +49,34 @@ TEST(LabelMap, refuses_maps_that_do_not_fit) {
     annotations_of({four_objects().category, Grid<std::uint16_t>::Ones(4, 5)});
   });
 }
+
+TEST(LabelMap, outlines_follow_the_sides_of_pixels) {
+  Grid<std::uint16_t> map(4, 6);
+  map << 0, 7, 7, 0, 0, 0,  //
+      0, 7, 7, 0, 0, 0,     //
+      0, 0, 0, 7, 7, 7,     //
+      0, 0, 0, 7, 7, 7;
+  // Two parts that touch at a corner alone.
+  EXPECT_EQ(outlines_of(map, 7), (std::vector<std::vector<int>>{{1, 0, 3, 0, 3, 2, 1, 2}, {3, 2, 6, 2, 6, 4, 3, 4}}));
+  EXPECT_TRUE(outlines_of(map, 3).empty());
+  map.setConstant(1);
+  map.block(1, 1, 2, 3).setZero();  // a hole, which is left out
+  EXPECT_EQ(outlines_of(map, 1), (std::vector<std::vector<int>>{{0, 0, 6, 0, 6, 4, 0, 4}}));
+  // Of any picture without holes: the area within is that of the pixels.
+  for (int seed = 0; seed < 20; ++seed) {
+    Grid<std::uint16_t> bars = Grid<std::uint16_t>::Zero(12, 17);
+    int area = 0;
+    for (Eigen::Index column = 0; column < 17; ++column) {
+      const Eigen::Index height = (seed * 7 + column * column * 5) % 12;
+      bars.col(column).tail(height).setConstant(2);
+      area += static_cast<int>(height);
+    }
+    double found = 0;
+    for (const std::vector<int>& line : outlines_of(bars, 2))
+      for (std::size_t k = 0; k < line.size(); k += 2) {
+        const std::size_t next = (k + 2) % line.size();
+        found += 0.5 * (line[k] * line[next + 1] - line[next] * line[k + 1]);
+      }
+    EXPECT_EQ(found, area) << seed;
+  }
+}

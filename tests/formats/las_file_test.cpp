@@ -1,6 +1,6 @@
 #include "formats/las_file.hpp"
 
-#include "formats/file_cursor.hpp"
+#include "formats/las_decoder.hpp"
 #include "scene_io/load_scene.hpp"
 #include "support/test.hpp"
 
@@ -66,7 +66,7 @@ TEST(LasFile, holds_what_its_specification_says) {
     EXPECT_EQ(point.unsigned_little(2), 0x11U);
     EXPECT_EQ(point.unsigned_little(1), 40U);
     point.text(5);
-    EXPECT_NEAR(point.float64() + 1e9 + 315964800, las_points[i].time, 1e-6);
+    EXPECT_NEAR(point.float64() + 1e9 + 315964800 - 18, las_points[i].time, 1e-6);  // 18 leap seconds since 1980
     EXPECT_EQ(point.float32(), las_points[i].level_db);
     EXPECT_EQ(point.float32(), las_points[i].deviation);
     EXPECT_EQ(point.unsigned_little(4), las_points[i].ping);
@@ -107,4 +107,65 @@ TEST(LasFile, refuses_points_that_it_cannot_hold) {
                   },
                   ErrorKind::content),
               HasSubstr("must be finite"));
+}
+
+// By the offsets of ASPRS LAS 1.2, tables 3 and 5 to 8: for readers that know no 1.4.
+TEST(LasFile, of_version_2_holds_the_same_points) {
+  const std::string path = own_path("old.las");
+  LasFile file(path, las_zone, las_points[0].position, {2, 1777624200});
+  for (const LasPoint& point : las_points) file.add(point);
+  file.finish();
+  const std::string bytes = file_bytes(path);
+  EXPECT_EQ(decode::Cursor(bytes, 90).unsigned_little(2), 121U);  // 1 May 2026
+  EXPECT_EQ(decode::Cursor(bytes, 92).unsigned_little(2), 2026U);
+  EXPECT_EQ(decode::Cursor(bytes, 94).unsigned_little(2), 227U);
+  EXPECT_EQ(decode::Cursor(bytes, 107).unsigned_little(4), 3U);
+  EXPECT_EQ(decode::Cursor(bytes, 111).unsigned_little(4), 3U);  // first returns
+  decode::Cursor keys(bytes, 227 + 2);
+  EXPECT_EQ(keys.text(15), "LASF_Projection");
+  keys.text(1);
+  EXPECT_EQ(keys.unsigned_little(2), 34735U);
+  EXPECT_EQ(decode::Cursor(bytes, 227 + 54 + 30).unsigned_little(2), 32632U);
+  const std::vector<decode::LasRow> rows = decode::read_las(bytes);
+  ASSERT_EQ(rows.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(rows[i].place[0], las_points[i].position.x(), 5.1e-5);
+    EXPECT_NEAR(rows[i].time, las_points[i].time, 1e-6);
+    EXPECT_EQ(rows[i].classification, 2U);
+    EXPECT_EQ(rows[i].level_db, las_points[i].level_db);
+    EXPECT_EQ(rows[i].beam, las_points[i].beam);
+  }
+  EXPECT_EQ(load_scene(path).scene.size(), 3U);
+  EXPECT_THAT(error_of(
+                  [] {
+                    LasFile(own_path("odd.las"), las_zone, {0, 0, 0}, {3, 0});
+                  },
+                  ErrorKind::argument),
+              HasSubstr("minor = 3, must be 2 or 4"));
+}
+
+TEST(LasFile, counts_returns_of_a_beam_and_says_line_and_angle) {
+  for (const int minor : {2, 4}) {
+    const std::string path = own_path("returns.las");
+    LasFile file(path, las_zone, {0, 0, 0}, {minor, 0});
+    LasPoint point;
+    point.source = 7, point.returns = 3;
+    for (std::uint8_t number = 1; number <= 3; ++number) {
+      point.return_number = number, point.scan_angle = radians(-60 + 30.0 * number);
+      file.add(point);
+    }
+    file.finish();
+    const std::vector<decode::LasRow> rows = decode::read_las(file_bytes(path));
+    for (unsigned i = 0; i < 3; ++i) {
+      EXPECT_EQ(rows[i].return_number, i + 1);
+      EXPECT_EQ(rows[i].returns, 3U);
+      EXPECT_EQ(rows[i].source, 7U);
+      EXPECT_NEAR(rows[i].scan_angle_deg, -30 + 30.0 * i, 0.003);
+    }
+    const std::string bytes = file_bytes(path);
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_EQ(minor == 4 ? decode::Cursor(bytes, 255 + 8 * k).unsigned_little(8)
+                           : decode::Cursor(bytes, 111 + 4 * k).unsigned_little(4),
+                k < 3 ? 1U : 0U);
+  }
 }

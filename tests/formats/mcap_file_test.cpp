@@ -80,8 +80,11 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
     const auto tf = file.add_topic("/tf", transforms_type().name, transforms_type().text);
     file.add(image, 1, fan_image(ping, 1, {0, 0}, {most - 50, most}, 40));
     const std::vector<Eigen::Vector3d> at{{1e6 + 1, 2, -3}, {1e6 - 4, 5, 6.5}};
-    file.add(cloud, 2, point_cloud(at, std::vector<float>{101, 88.5F}, {1e6, 0, 0}, 2));
-    file.add(tf, 3, head_transforms(ping.world_from_head, {1, 2, 3}, 3));
+    file.add(cloud, 2, point_cloud(decode::soundings_at(at, {101, 88.5F}), {1e6, 0, 0}, 2));
+    file.add(tf, 3, head_transform(ping.world_from_head, {1, 2, 3}, 3));
+    file.add(tf, 4, sonar_transform(4));
+    const auto fix = file.add_topic("/fix", nav_sat_fix_type().name, nav_sat_fix_type().text);
+    file.add(fix, 5, nav_sat_fix({radians(54.1), radians(7.9), -12.5}, 5));
     file.finish();
   }
   const decode::McapContent read = decode::read_mcap(file_bytes(path));
@@ -101,15 +104,29 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
 
   const decode::RosMessage& cloud = read.messages.at(1).content;
   EXPECT_EQ(cloud.one("width"), 2);
-  EXPECT_EQ(cloud.one("point_step"), 16);
+  EXPECT_EQ(cloud.one("point_step"), 36);
   EXPECT_EQ(cloud.texts.at("fields[3].name"), "intensity");
   EXPECT_EQ(cloud.one("fields[2].offset"), 8);
   EXPECT_EQ(cloud.one("fields[0].datatype"), 7);
   std::string raw;
   for (const double byte : cloud.numbers.at("data")) raw.push_back(static_cast<char>(byte));
   decode::Cursor points(raw);
-  for (const float expected : {1.0F, 2.0F, -3.0F, 101.0F, -4.0F, 5.0F, 6.5F, 88.5F})
-    EXPECT_EQ(points.float32(), expected);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const float n = static_cast<float>(i);
+    for (const float expected : {1 - 5 * n, 2 + 3 * n, -3 + 9.5F * n, 101 - 12.5F * n, 12.5F + n, 0.25F, 1.5F})
+      EXPECT_EQ(points.float32(), expected);
+    EXPECT_EQ(points.unsigned_little(4), i + 7);
+    EXPECT_EQ(points.unsigned_little(4), 2U);  // by phase
+  }
+  const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
+  for (std::size_t k = 0; k < std::size(ros_point_fields); ++k) {
+    const std::string name = "fields[" + std::to_string(k) + "].";
+    EXPECT_EQ(cloud.texts.at(name + "name"), ros_point_fields[k].name);
+    EXPECT_EQ(cloud.one(name + "offset"), 4 * static_cast<double>(k));
+    EXPECT_EQ(cloud.one(name + "datatype"), ros_point_fields[k].type == std::string("float32") ? 7 : 6);
+    EXPECT_THAT(page, HasSubstr(std::string("| `") + ros_point_fields[k].name + "` | " + ros_point_fields[k].unit +
+                                (*ros_point_fields[k].unit ? " | " : "| ") + ros_point_fields[k].type + " |"));
+  }
 
   const decode::RosMessage& tf = read.messages.at(2).content;
   EXPECT_EQ(tf.texts.at("transforms[0].header.frame_id"), "world");
@@ -118,10 +135,22 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
   EXPECT_NEAR(tf.one("transforms[0].transform.rotation.z"), std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(tf.one("transforms[0].transform.rotation.w"), std::sqrt(0.5), 1e-12);
   // Z of head_sonar lies ahead, X up.
-  const auto part = [&](const char* name) { return tf.one(std::string("transforms[1].transform.rotation.") + name); };
+  const decode::RosMessage& fixed = read.messages.at(3).content;
+  EXPECT_EQ(fixed.texts.at("transforms[0].header.frame_id"), "head");
+  EXPECT_EQ(fixed.texts.at("transforms[0].child_frame_id"), "head_sonar");
+  const auto part = [&](const char* name) {
+    return fixed.one(std::string("transforms[0].transform.rotation.") + name);
+  };
   const Eigen::Quaterniond turn(part("w"), part("x"), part("y"), part("z"));
   EXPECT_LT((turn * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm(), 1e-12);
   EXPECT_LT((turn * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  const decode::RosMessage& fix = read.messages.at(4).content;
+  EXPECT_NEAR(fix.one("latitude"), 54.1, 1e-12);
+  EXPECT_NEAR(fix.one("longitude"), 7.9, 1e-12);
+  EXPECT_EQ(fix.one("altitude"), -12.5);
+  EXPECT_EQ(fix.one("status.status"), 0);
+  EXPECT_EQ(fix.one("status.service"), 1);
+  EXPECT_EQ(fix.numbers.at("position_covariance").size(), 9U);
 }
 
 TEST(McapFile, indexes_many_messages_in_chunks) {

@@ -72,13 +72,15 @@ std::string written_log(const char* name) {
   };
   const auto image = add("/sonar/image", projected_sonar_image_type()), fan = add("/sonar/fan", image_type());
   const auto points = add("/sonar/points", point_cloud_type()), tf = add("/tf", transforms_type());
+  const auto fix = add("/sonar/fix", nav_sat_fix_type());
   for (std::uint64_t i = 0; i < 60; ++i) {  // several chunks
     const std::uint64_t time = 1777624200500000000 + i * 100000000;
     const std::vector<Eigen::Vector3d> at{{1, 2 + static_cast<double>(i), -3}, {-4, 5, 6.5}};
     file.add(image, time, projected_sonar_image(ping, time, 4e5, 1480, {0, 0}, {i % 2 == 1, {most - 50, most}, 2}));
     file.add(fan, time, fan_image(ping, time, {0, 0}, {most - 50, most}, 160));
-    file.add(points, time, point_cloud(at, std::vector<float>{101, 88.5F}, {0, 0, 0}, time));
-    file.add(tf, time, head_transforms(ping.world_from_head, {1, 2, 3}, time));
+    file.add(points, time, point_cloud(decode::soundings_at(at, {101, 88.5F}), {0, 0, 0}, time));
+    file.add(tf, time, head_transform(ping.world_from_head, {1, 2, 3}, time));
+    file.add(fix, time, nav_sat_fix({0.9, 0.1, -3}, time));
   }
   file.finish();
   return path;
@@ -93,10 +95,10 @@ TEST_F(McapNpm, read_every_number_of_every_message) {
   EXPECT_EQ(read["profile"], "ros2");
   const decode::McapContent own = decode::read_mcap(file_bytes(path));
   EXPECT_GT(own.chunks, 1U);
-  ASSERT_EQ(read["messages"].size(), 240U);
+  ASSERT_EQ(read["messages"].size(), 300U);
   std::map<std::pair<std::string, std::string>, const decode::RosMessage*> expected;
   for (const decode::McapMessage& m : own.messages) expected[{m.topic, std::to_string(m.time)}] = &m.content;
-  ASSERT_EQ(expected.size(), 240U);
+  ASSERT_EQ(expected.size(), 300U);
   for (const json& message : read["messages"]) {
     const decode::RosMessage& mine = *expected.at({message["topic"], message["time"]});
     decode::RosMessage theirs;

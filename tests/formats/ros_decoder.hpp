@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/file_cursor.hpp"
+#include "returns/bottom_detection.hpp"
 
 namespace insonify::decode {
 
@@ -31,6 +32,7 @@ struct RosMessage {
 struct RosField {
   std::string type, name;
   bool many;
+  std::size_t fixed;  ///< of an array of so many; else 0
 };
 using RosTypes = std::map<std::string, std::vector<RosField>>;
 
@@ -51,6 +53,10 @@ inline RosTypes ros_types(const std::string& name, const std::string& text) {
     std::istringstream words(line);
     RosField field{};
     if (!(words >> field.type >> field.name) || field.name.find('=') != std::string::npos) continue;
+    if (const std::size_t at = field.type.find('['); at != std::string::npos && !field.type.ends_with("[]")) {
+      field.fixed = std::stoul(field.type.substr(at + 1));
+      field.type.resize(at);
+    }
     field.many = field.type.ends_with("[]");
     if (field.many) field.type.resize(field.type.size() - 2);
     types[current].push_back(field);
@@ -73,6 +79,10 @@ class CdrReader {
   void compound(const std::string& type, const std::string& prefix) {
     for (const RosField& field : types_.at(type)) {
       const std::string name = prefix + field.name;
+      if (field.fixed > 0) {
+        for (std::size_t i = 0; i < field.fixed; ++i) value(field.type, name);
+        continue;
+      }
       if (!field.many) {
         value(field.type, name);
         continue;
@@ -93,15 +103,19 @@ class CdrReader {
     } else if (type == "float64" || type == "float32") {
       align(type == "float64" ? 8 : 4);
       message_.numbers[name].push_back(type == "float64" ? cursor_.float64() : static_cast<double>(cursor_.float32()));
-    } else if (type == "int32") {
-      align(4);
-      message_.numbers[name].push_back(static_cast<double>(cursor_.signed_little(4)));
+    } else if (type == "int32" || type == "int8") {
+      const int size = type == "int32" ? 4 : 1;
+      align(static_cast<std::size_t>(size));
+      message_.numbers[name].push_back(static_cast<double>(cursor_.signed_little(size)));
     } else {
       message_.numbers[name].push_back(static_cast<double>(number(type)));
     }
   }
   std::uint64_t number(const std::string& type) {
-    const int size = type == "uint32" ? 4 : type == "uint8" || type == "bool" ? 1 : throw std::runtime_error(type);
+    const int size = type == "uint32"                    ? 4
+                     : type == "uint16"                  ? 2
+                     : type == "uint8" || type == "bool" ? 1
+                                                         : throw std::runtime_error(type);
     align(static_cast<std::size_t>(size));
     return cursor_.unsigned_little(size);
   }
@@ -214,6 +228,21 @@ inline McapContent read_mcap(const std::string& bytes) {
   }
   if (counted != content.messages.size()) throw std::runtime_error("statistics count other messages");
   return content;
+}
+
+/// Soundings at places with levels, of beams from 0.
+inline BottomSoundings soundings_at(const std::vector<Eigen::Vector3d>& places, const std::vector<float>& level_db) {
+  BottomSoundings found;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    found.position.push_back(places[i]);
+    found.level_db.push_back(level_db[i]);
+    found.range.push_back(12.5 + static_cast<double>(i));
+    found.deviation.push_back(0.25F);
+    found.quality.push_back(1.5F);
+    found.method.push_back(BottomMethod::phase);
+    found.beam.push_back(static_cast<std::uint32_t>(i + 7));
+  }
+  return found;
 }
 
 }  // namespace insonify::decode

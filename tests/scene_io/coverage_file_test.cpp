@@ -33,7 +33,7 @@ TEST(CoverageFile, of_several_parts_is_that_of_their_sum) {
   EXPECT_EQ(file_bytes(own_path("all.ply")), file_bytes(own_path("sum.ply")));
   // Surfel 4992 is of a and b, 30 of all three.
   const std::string bytes = file_bytes(own_path("all.ply"));
-  EXPECT_THAT(bytes.substr(0, 300), HasSubstr("property uint scalar_pings"));
+  EXPECT_THAT(bytes.substr(0, 300), HasSubstr("property int scalar_pings"));
   const auto row = std::find_if(sum.begin(), sum.end(), [](const auto& s) { return s.id == 30; }) - sum.begin();
   std::uint32_t pings = 0;
   std::memcpy(&pings, bytes.data() + bytes.size() - 52 * (sum.size() - static_cast<std::size_t>(row)) + 44, 4);

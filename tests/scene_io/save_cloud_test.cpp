@@ -163,7 +163,7 @@ Soundings some_soundings() {
   return s;
 }
 
-/// Independent reader of the format of save_soundings: 3 doubles, 4 floats, 3 uints, a float, 2 uints per row.
+/// Independent reader of the format of save_soundings: 3 doubles, 4 floats, 3 ints, a float, 2 ints per row.
 TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare_knows) {
   const Soundings s = some_soundings();
   const std::string path = own_path("a.ply");
@@ -174,17 +174,16 @@ TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare
       "y\nproperty double z\n"
       "property float scalar_level_db\nproperty float scalar_range\nproperty float scalar_azimuth\nproperty "
       "float "
-      "scalar_elevation\nproperty uint scalar_ping\nproperty uint scalar_beam\nproperty uint "
+      "scalar_elevation\nproperty int scalar_ping\nproperty int scalar_beam\nproperty int "
       "scalar_bin\nproperty float "
-      "scalar_true_elevation\nproperty uint scalar_true_surfel\nproperty uint scalar_true_material\nend_header\n";
+      "scalar_true_elevation\nproperty int scalar_true_surfel\nproperty int scalar_true_material\nend_header\n";
   const std::size_t end = bytes.find("end_header\n") + 11;
   std::istringstream lines(bytes.substr(0, end));
   std::string header, comments;
   for (std::string line; std::getline(lines, line);) (line.starts_with("comment") ? comments : header) += line + "\n";
   ASSERT_EQ(header, expected_header);
-  for (const char* unit :
-       {"x m", "scalar_level_db dB re 1 uPa", "scalar_range m", "scalar_azimuth rad, positive to port",
-        "scalar_true_surfel id in the scene; 4294967295: none"})
+  for (const char* unit : {"x m", "scalar_level_db dB re 1 uPa", "scalar_range m",
+                           "scalar_azimuth rad, positive to port", "scalar_true_surfel id in the scene; -1: none"})
     EXPECT_THAT(comments, HasSubstr(std::string("comment unit ") + unit + "\n"));
   ASSERT_EQ(bytes.size(), end + 20 * 64);
   const char* at = bytes.data() + end;
@@ -204,6 +203,49 @@ TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare
     EXPECT_EQ(elevation, s.true_elevation[i]);
     EXPECT_EQ((std::pair(known[0], known[1])), (std::pair(s.true_surfel[i], s.true_material[i])));
   }
+}
+
+TEST(SaveSoundings, files_of_unsigned_columns_are_read_as_those_of_today) {
+  Soundings s = some_soundings();
+  s.true_surfel[3] = s.true_material[3] = Soundings::none;
+  s.true_surfel[4] = 3000000000;
+  const std::string today = own_path("today.ply");
+  save_soundings(today, s);
+  std::string old = file_bytes(today);
+  for (std::size_t at = 0; (at = old.find("property int ", at)) != old.npos;) old.replace(at, 12, "property uint");
+  for (const std::string& path : {today, own_file("old.ply", old)}) {
+    const Soundings loaded = load_soundings(path);
+    EXPECT_EQ(loaded.true_surfel, s.true_surfel);
+    EXPECT_EQ(loaded.true_material, s.true_material);
+    EXPECT_EQ(loaded.ping, s.ping);
+  }
+  // Both join, and returns without a surfel lie on no bed.
+  join_clouds(own_path("both.ply"), {own_path("old.ply"), today});
+  EXPECT_THAT(file_bytes(own_path("both.ply")), HasSubstr("property int scalar_true_surfel\n"));
+  EXPECT_EQ(load_soundings(own_path("both.ply")).true_surfel.at(23), Soundings::none);
+}
+
+// Types that Open3D's reader of PLY knows (t/io/file_format/FilePLY.cpp): it skips columns of others.
+TEST(SaveScene, columns_of_a_ply_are_of_types_that_every_reader_takes) {
+  const auto types_in = [](const std::string& path) {
+    std::set<std::string> types;
+    std::istringstream lines(file_bytes(path));
+    for (std::string line; std::getline(lines, line) && line != "end_header";)
+      if (line.starts_with("property ")) types.insert(line.substr(9, line.find(' ', 9) - 9));
+    return types;
+  };
+  SceneCloud scene = scene_at(Eigen::Vector3d::Zero());
+  const std::string path = own_path("a.ply");
+  save_scene(path, scene);
+  EXPECT_THAT(file_bytes(path),
+              testing::AllOf(HasSubstr("property int material\n"), HasSubstr("property double id\n")));
+  for (std::uint32_t& id : scene.id) id -= 3999999000u;
+  save_scene(path, scene);
+  EXPECT_THAT(file_bytes(path), HasSubstr("property int id\n"));
+  EXPECT_EQ(types_in(path), (std::set<std::string>{"float", "int"}));
+  EXPECT_EQ(load_scene(path).scene.id, scene.id);
+  save_soundings(path, some_soundings());
+  EXPECT_EQ(types_in(path), (std::set<std::string>{"double", "float", "int"}));
 }
 
 TEST(SaveSoundings, a_pcd_opens_in_pcl_with_all_fields) {

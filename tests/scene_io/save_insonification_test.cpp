@@ -79,8 +79,8 @@ TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
                                "property float nx\nproperty float ny\nproperty float nz\n"
                                "property float scalar_level_db\nproperty float scalar_scattering_db\n"
                                "property float scalar_cell_level_db\nproperty float scalar_grazing_deg\n"
-                               "property float scalar_range\nproperty uint scalar_hits\n"
-                               "property uint scalar_material\nproperty uint scalar_id\nend_header\n"));
+                               "property float scalar_range\nproperty int scalar_hits\n"
+                               "property int scalar_material\nproperty int scalar_id\nend_header\n"));
   const std::size_t start = bytes.find("end_header\n") + 11, row = 3 * 8 + 11 * 4;
   ASSERT_EQ(bytes.size(), start + 3 * row);
   double x = 0;

@@ -55,6 +55,12 @@ TEST(SurveyRun, is_a_folder_of_one_mission) {
             own_path("run") +
                 ": holds a survey of another mission, or of this one with other inputs (SHA-256 abc, not abd);"
                 " choose another folder");
+  other = small_run;
+  other.heads[0].pings_per_block = 8;
+  EXPECT_EQ(error_of([&] { open_survey_run(own_path("run"), other); }, ErrorKind::argument),
+            own_path("run") +
+                ": blocks of head fls hold 4 pings, not 8 as asked for; leave the number out to go on, or"
+                " choose another folder");
   fs::create_directory(own_path("mine"));
   own_file("mine/thesis.txt", "");
   EXPECT_THAT(error_of([] { open_survey_run(own_path("mine"), small_run); }, ErrorKind::file),

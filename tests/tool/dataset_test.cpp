@@ -68,7 +68,14 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
   for (const std::string form : {"polar", "fan"}) {
     const nlohmann::json c = coco(form);
     ASSERT_EQ(c["images"].size(), 4U);
-    EXPECT_EQ(c["categories"].size(), classes.size() - 1);
+    std::set<int> boxed;
+    for (const auto& a : c["annotations"]) boxed.insert(a["category_id"].get<int>());
+    for (const auto& category : c["categories"]) {
+      EXPECT_EQ(category["name"], classes.at(category["id"]));
+      EXPECT_NE(category["name"], "sand");  // no box has it
+    }
+    EXPECT_LE(boxed.size(), c["categories"].size());
+    EXPECT_EQ(c["annotations"].size(), manifest["boxes"][form].get<std::size_t>());
     std::map<int, std::string> name_of;
     std::size_t areas = 0;
     for (const auto& image : c["images"]) {
@@ -182,8 +189,9 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
     const nlohmann::json& image = image_of.at(a["image_id"]);
     const double w = image["width"], h = image["height"], x = a["bbox"][0], y = a["bbox"][1], bw = a["bbox"][2],
                  bh = a["bbox"][3];
-    expected[image["file_name"]].push_back(
-        {a["category_id"].get<double>() - 1, (x + bw / 2) / w, (y + bh / 2) / h, bw / w, bh / h});
+    double number = 0;  // among the categories, in their order
+    while (c["categories"][static_cast<std::size_t>(number)]["id"] != a["category_id"]) ++number;
+    expected[image["file_name"]].push_back({number, (x + bw / 2) / w, (y + bh / 2) / h, bw / w, bh / h});
   }
   ASSERT_FALSE(expected.empty());
   for (const auto& [name, boxes] : expected) {
@@ -195,8 +203,49 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
         EXPECT_NEAR(read_number, number, 1e-6);
       }
   }
-  EXPECT_THAT(read("set/fan/data.yaml"), HasSubstr("train: train.txt\nnames:\n  0: \"shadow\"\n"));
+  // Ultralytics demands train and val, and looks from the folder of the file unless there is a path.
+  EXPECT_THAT(
+      read("set/fan/data.yaml"),
+      testing::StartsWith("train: train.txt\nval: train.txt  # there is no image of val\nnames:\n  0: \"shadow\"\n"));
   EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000003.png\n"));
+}
+
+// Only classes that have boxes are named; shadow can be left to the masks, and outlines stand beside run lengths.
+TEST_F(DatasetRun, names_classes_with_boxes_and_draws_their_outlines) {
+  succeed("dataset survey -o set --stuff sand,shadow --polygons");
+  const auto manifest = nlohmann::json::parse(read("set/manifest.json"));
+  const auto names = manifest["boxed_classes"].get<std::vector<std::string>>();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "shadow") + std::count(names.begin(), names.end(), "sand"), 0);
+  std::string yaml = "names:\n";
+  for (std::size_t k = 0; k < names.size(); ++k) yaml += "  " + std::to_string(k) + ": \"" + names[k] + "\"\n";
+  EXPECT_THAT(read("set/fan/data.yaml"), testing::EndsWith(yaml));
+  EXPECT_GT((png("polar/masks/000_000003.png").value == 1).count(), 0);  // the masks have shadows nevertheless
+  for (const std::string form : {"polar", "fan"}) {
+    const nlohmann::json c = coco(form);
+    const auto outlined = nlohmann::json::parse(read("set/" + form + "/annotations/polygons_train.json"));
+    ASSERT_EQ(outlined["annotations"].size(), c["annotations"].size());
+    ASSERT_GT(c["annotations"].size(), 0U);
+    for (std::size_t k = 0; k < c["annotations"].size(); ++k) {
+      const auto &a = c["annotations"][k], &b = outlined["annotations"][k];
+      EXPECT_EQ(a["id"], b["id"]);
+      EXPECT_EQ(a["bbox"], b["bbox"]);
+      // All pixels lie within, and no part leaves the box.
+      double within = 0, right = 0, top = 1e9;
+      for (const auto& part : b["segmentation"]) {
+        const auto line = part.get<std::vector<int>>();
+        ASSERT_GE(line.size(), 8U);
+        for (std::size_t i = 0; i < line.size(); i += 2) {
+          const std::size_t next = (i + 2) % line.size();
+          within += 0.5 * (line[i] * line[next + 1] - line[next] * line[i + 1]);
+          right = std::max<double>(right, line[i]), top = std::min<double>(top, line[i + 1]);
+        }
+      }
+      EXPECT_GE(within, a["area"].get<double>());
+      EXPECT_EQ(right, a["bbox"][0].get<double>() + a["bbox"][2].get<double>());
+      EXPECT_EQ(top, a["bbox"][1].get<double>());
+    }
+  }
+  expect_refused("dataset survey -o none --stuff gold", 2, {"--stuff = gold", "shadow"});
 }
 
 TEST_F(DatasetRun, meta_says_pose_seed_mapping_and_what_was_randomised) {
@@ -256,7 +305,55 @@ TEST_F(DatasetRun, splits_by_scene) {
   }
   EXPECT_EQ(splits_of.size(), 2U);
   EXPECT_EQ(splits_of["plane.ply"].size(), 1U);
+  // Each share above 0 has a scene, if there are enough.
+  EXPECT_THAT(succeed("dataset plane harbour -o uneven --split 75:25:0"), HasSubstr("(1 train, 1 val, 0 test)"));
+  for (const std::string form : {"polar", "fan"}) {
+    EXPECT_THAT(read("set/" + form + "/data.yaml"), testing::StartsWith("train: train.txt\nval: val.txt\nnames:\n"));
+    for (const std::string split : {"train", "val"}) {
+      std::istringstream names(read("set/" + form + "/" + split + ".txt"));
+      for (std::string name; std::getline(names, name);)
+        EXPECT_TRUE(file_exists(path("set/" + form + "/" + name))) << name;
+    }
+  }
   EXPECT_NE(splits_of["plane.ply"], splits_of["harbour.ply"]);
+}
+
+// A scene has one part; legs, stretches of track and pings divide it, and what they share is said.
+TEST_F(DatasetRun, splits_by_legs_regions_and_pings_and_says_what_they_share) {
+  const auto split_of = [&](const std::string& options) {
+    succeed("dataset survey -o set --force " + options);
+    std::string parts;
+    std::istringstream lines(read("set/meta.jsonl"));
+    for (std::string line; std::getline(lines, line);)
+      parts += nlohmann::json::parse(line)["split"].get<std::string>().front();
+    return parts;
+  };
+  ToolResult one = run("dataset survey -o set --split 50:50:0");
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_THAT(one.err, testing::AllOf(HasSubstr("no image is in val: --split 50:50:0 needs more scenes"),
+                                      HasSubstr("--split-by leg, region or ping")));
+  EXPECT_THAT(one.out, HasSubstr("4 images (4 train, 0 val, 0 test)"));
+
+  EXPECT_EQ(split_of("--split-by region --split 50:25:25"), "ttvt");  // train, train, val, test
+  EXPECT_THAT(read("set/README.md"), HasSubstr("| val | 1 | 1 |"));
+  EXPECT_THAT(read("set/polar/val.txt"), HasSubstr("000_000002.png"));
+  EXPECT_THAT(read("set/polar/test.txt"), HasSubstr("000_000003.png"));
+  const std::string drawn = split_of("--split-by ping --split 50:50:0");
+  EXPECT_EQ(std::count(drawn.begin(), drawn.end(), 't'), 2);
+  EXPECT_EQ(split_of("--split-by ping --split 50:50:0"), drawn);
+
+  // Legs of a mission: from 2 s on the second one.
+  write("legs.toml",
+        replaced(mission(), "[randomise]", "[[leg]]\nname = \"out\"\nto_s = 2\n[[leg]]\nname = \"on\"\n[randomise]"));
+  succeed("survey legs.toml -o legs -q");
+  const ToolResult by_leg = run("dataset legs -o of_legs --split-by leg --split 50:50:0");
+  EXPECT_EQ(by_leg.exit_code, 0);
+  EXPECT_THAT(by_leg.err, HasSubstr("2 of 2 images of val were taken within their range of an image of train"));
+  EXPECT_THAT(read("of_legs/fan/train.txt"), testing::AllOf(HasSubstr("000_000000.png"), HasSubstr("000_000001.png")));
+  EXPECT_THAT(read("of_legs/fan/val.txt"), testing::AllOf(HasSubstr("000_000002.png"), HasSubstr("000_000003.png")));
+  const auto said = nlohmann::json::parse(succeed("dataset legs -o of_legs --split-by leg --json --force -q"));
+  EXPECT_EQ(said["splits"]["val"]["near_train"], 2);
+  expect_refused("dataset survey -o none --split-by beam", 2, {"--split-by", "beam"});
 }
 
 TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
@@ -286,6 +383,14 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
   const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
   ASSERT_EQ(classes.size(), 4U);
   EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
+  // Prepared, the scene has the same objects.
+  succeed("prepare balls.csv -o balls.ply -q");
+  succeed(
+      "ping balls.ply --sonar p900-45 --set sonar.beams=64 --pose=0,0,0,0,8,0 --range 3:9 --no-picture -q --keep "
+      "contributors -o prepared");
+  succeed("dataset prepared -o prepared_set --least-pixels 30");
+  const nlohmann::json again = nlohmann::json::parse(read("prepared_set/polar/annotations/instances_train.json"));
+  EXPECT_EQ(again["annotations"], all["annotations"]);
   // So they are in the images of the run itself, where surfels of a ball are of its instance.
   const std::vector<std::uint32_t> material = raw_labels(path("balls/contributors.h5"), "/material_image"),
                                    object = raw_labels(path("balls/contributors.h5"), "/instance_image");

@@ -121,7 +121,7 @@ TEST_F(ExportProducts, las_and_geotiff_have_it_at_its_place_in_utm) {
   // Each sounding of the LAS file lies in a cell of the map whose mean height is near its own; the other cells are empty.
   const decode::GeotiffContent map = decode::read_geotiff(read_bytes("ball.tif"));
   EXPECT_EQ(map.epsg, 32632);
-  ASSERT_EQ(map.bands.size(), 3U);
+  ASSERT_EQ(map.bands.size(), 6U);
   float counted = 0;
   for (const float count : map.bands[2]) counted += count;
   const std::vector<decode::LasRow> rows = decode::read_las(read_bytes("ball.las"));
@@ -208,7 +208,7 @@ TEST_F(ExportProducts, png_shows_it_to_port_at_its_range) {
 TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
   succeed("export out --to mcap --start-utc 2026-05-01T08:30:00Z -o ball.mcap -q");
   const decode::McapContent read = decode::read_mcap(read_bytes("ball.mcap"));
-  ASSERT_EQ(read.messages.size(), 4U);
+  ASSERT_EQ(read.messages.size(), 5U);  // image, fan, points, and both transforms
   for (const decode::McapMessage& message : read.messages) {
     EXPECT_EQ(message.time, 1777624200000000000U);
     if (message.topic == "/sonar/image") {
@@ -222,10 +222,34 @@ TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
       EXPECT_LT(range, most);
     } else if (message.topic == "/tf") {
       EXPECT_NEAR(message.content.one("transforms[0].transform.translation.z"), pose.translation().z(), 1e-9);
+    } else if (message.topic == "/tf_static") {
+      EXPECT_EQ(message.content.texts.at("transforms[0].child_frame_id"), "head_sonar");
     } else if (message.topic == "/sonar/points") {
       EXPECT_GE(message.content.one("width"), 1);
     }
   }
+  EXPECT_EQ(read.metadata.at("/sonar/image").at("law"), "level = black_db + value / 255 (white_db - black_db)");
+  EXPECT_THAT(read.metadata.at("/tf_static").at("offered_qos_profiles"), HasSubstr("durability: 1"));
+  // Levels by that law are within half a step of those of the cube.
+  const Cube cube = read_cube(path("out/cube.h5"));
+  const Grid<float> level = range_compensated_level_db(cube.pings[0], cube.absorption_db_per_m);
+  const double black = std::stod(read.metadata.at("/sonar/image").at("black_db")),
+               white = std::stod(read.metadata.at("/sonar/image").at("white_db")), half = (white - black) / 255 / 2;
+  double off = 0;
+  int compared = 0;
+  for (const decode::McapMessage& message : read.messages)
+    if (message.topic == "/sonar/image") {
+      const std::vector<double>& data = message.content.numbers.at("image.data");
+      for (Eigen::Index n = 0; n < level.cols(); ++n)
+        for (Eigen::Index b = 0; b < level.rows(); ++b)
+          if (const double value = data[static_cast<std::size_t>(n * level.rows() + b)]; value > 0 && value < 255) {
+            const double difference = black + value / 255 * (white - black) - static_cast<double>(level(b, n));
+            EXPECT_LE(std::abs(difference), 1.001 * half);
+            off += difference, ++compared;
+          }
+    }
+  ASSERT_GT(compared, 1000);
+  EXPECT_LT(std::abs(off / compared), 0.1 * half);  // without a bias
 }
 
 TEST_F(ExportProducts, soundings_can_be_looked_at) {

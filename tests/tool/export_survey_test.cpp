@@ -28,6 +28,11 @@ sonar = "r2sonic-2024"
 set = ["sonar.beams=33", "sonar.field_of_view_deg=90"]
 range = "2:8"
 every_m = 0.5
+[[leg]]
+name = "first"
+to_s = 1
+[[leg]]
+name = "second"
 [ping]
 noise = true
 split = true
@@ -68,7 +73,20 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
 
   const std::vector<decode::LasRow> las = decode::read_las(read("product.las"));
   EXPECT_EQ(las.size(), soundings);
-  for (const decode::LasRow& row : las) EXPECT_NEAR(row.place[2], -bed_depth, 0.1);
+  EXPECT_EQ(decode::Cursor(read("product.las"), 90).unsigned_little(2), 121U);  // 1 May
+  EXPECT_EQ(decode::Cursor(read("product.las"), 92).unsigned_little(2), 2026U);
+  for (const decode::LasRow& row : las) {
+    EXPECT_NEAR(row.place[2], -bed_depth, 0.1);
+    EXPECT_EQ(row.source, row.ping < 2 ? 1U : 2U);
+    EXPECT_EQ(row.returns, 1U);
+    const Eigen::Vector3d world =
+        world_from_geo(anchor, geo_place_of(UtmPlace{row.place[0], row.place[1]}, {32, true}));
+    EXPECT_NEAR(row.scan_angle_deg, degrees(std::atan2(-world.y(), bed_depth)), 1);  // positive to starboard
+  }
+  succeed("export run -q --to las --las-version 1.2 --per-beam 3 -o old.las");
+  const std::vector<decode::LasRow> old = decode::read_las(read("old.las"));
+  EXPECT_GE(old.size(), las.size());
+  for (const decode::LasRow& row : old) EXPECT_LE(row.return_number, row.returns);
   const std::string csv = read("product.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), soundings + 1);
   EXPECT_THAT(csv, HasSubstr("latitude_deg"));
@@ -81,7 +99,7 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
     }
   }
   EXPECT_EQ(counted, static_cast<double>(soundings));
-  EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 4U);
+  EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 5U + 1);  // with a fix of each ping
   EXPECT_EQ(nlohmann::json::parse(read("product.png/manifest.json"))["pings"].size(), 4U);
   EXPECT_TRUE(std::filesystem::exists(path("product.png/fan_000003.png")));
   EXPECT_TRUE(std::filesystem::exists(path("vtk/fan_000003.vts")));

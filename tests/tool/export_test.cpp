@@ -3,6 +3,7 @@
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -51,6 +52,18 @@ TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   grid->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
   EXPECT_EQ(static_cast<float>(range[1]), level.maxCoeff());
   EXPECT_THAT(read("vtk/fan.pvd"), HasSubstr("file=\"fan_000000.vts\""));
+  for (vtkDataSet* data : {static_cast<vtkDataSet*>(image->GetOutput()), static_cast<vtkDataSet*>(grid->GetOutput())}) {
+    auto* units = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("units"));
+    ASSERT_NE(units, nullptr);
+    std::string all;
+    for (vtkIdType i = 0; i < units->GetNumberOfValues(); ++i) all += units->GetValue(i) + "\n";
+    for (const char* unit : {"level_db: dB re 1 uPa\n", "range_compensated_level_db: dB re 1 uPa at 1 m\n",
+                             "pressure_re: Pa, amplitude\n", "pressure_im: Pa, amplitude\n"})
+      EXPECT_THAT(all, HasSubstr(unit));
+    EXPECT_STREQ(data->GetCellData()->GetArray("level_db")->GetInformation()->Get(vtkDataArray::UNITS_LABEL()),
+                 "dB re 1 uPa");
+  }
+  EXPECT_THAT(read("vtk/fan_000000.vts").substr(0, 400), HasSubstr("compressor=\"vtkZLibDataCompressor\""));
 }
 
 // What ParaView shows of the returns: places in double and every column under its name, with its unit.
@@ -86,6 +99,62 @@ TEST_F(Export, gives_returns_with_names_and_units) {
     }
   };
   each_column([&](const SoundingColumn& about, const auto& column) { expect_column(about.name, column); }, returns);
+}
+
+// Of a survey of several heads: the returns of the head that is named, with the time and the head of each.
+TEST_F(Export, gives_the_returns_of_one_head) {
+  write("two.toml", R"(schema = 1
+[survey]
+scene = "harbour.ply"
+[trajectory]
+waypoints_m = [[0, 0, -3], [2, 0, -3]]
+speed_m_s = 1
+[[head]]
+name = "left"
+sonar = "p900-45"
+range = "2:10"
+set = ["sonar.beams=16"]
+angles_deg = [20, 20, 0]
+rate_hz = 1
+[[head]]
+name = "right"
+sonar = "p900-45"
+range = "2:10"
+set = ["sonar.beams=16"]
+angles_deg = [-20, 20, 0]
+rate_hz = 2
+[ping]
+noise = true
+)");
+  succeed("survey two.toml -q -o run");
+  succeed("merge -q run");
+  const SurveyReturns all = load_survey_returns({path("run/returns.ply")});
+  ASSERT_GT(all.soundings.size(), 50U);
+  for (const unsigned head : {0U, 1U}) {
+    const std::string name = head == 0 ? "left" : "right";
+    succeed("export run --head " + name + " -q -o " + name);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path(name + "/returns.vtp").c_str());
+    reader->Update();
+    vtkPolyData* data = reader->GetOutput();
+    std::vector<std::size_t> due;
+    for (std::size_t i = 0; i < all.head.size(); ++i)
+      if (all.head[i] == head) due.push_back(i);
+    ASSERT_FALSE(due.empty());
+    ASSERT_EQ(data->GetNumberOfPoints(), static_cast<vtkIdType>(due.size()));
+    for (const char* column : {"time", "head", "ping", "true_surfel"})
+      ASSERT_NE(data->GetPointData()->GetArray(column), nullptr) << column;
+    std::vector<double> times;
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+      EXPECT_EQ(data->GetPointData()->GetArray("head")->GetTuple1(i), head);
+      times.push_back(data->GetPointData()->GetArray("time")->GetTuple1(i));
+      EXPECT_EQ(times.back(), data->GetPointData()->GetArray("ping")->GetTuple1(i) / (1 + head));
+    }
+    std::vector<double> expected;
+    for (const std::size_t i : due) expected.push_back(all.time[i]);
+    std::sort(times.begin(), times.end()), std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(times, expected);
+  }
 }
 
 TEST_F(Export, paths_start_and_end_at_the_head_and_bounce_where_asked) {

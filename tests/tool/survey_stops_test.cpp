@@ -71,6 +71,15 @@ TEST_F(SurveyStops, on_a_full_disk_it_ends_and_goes_on_when_there_is_space) {
   EXPECT_EQ(merged("run"), whole);
 }
 
+// As many pings a block as the folder has: the same survey, however it was begun.
+TEST_F(SurveyStops, it_goes_on_in_blocks_of_the_size_it_was_begun_with) {
+  survey("run", "--shard 0/2");
+  succeed("survey m.toml -q -o run");
+  EXPECT_EQ(merged("run"), expected());
+  expect_refused("survey m.toml -o run --pings-per-block 8", 2,
+                 {"run: blocks of head fls hold 3 pings, not 8 as asked for", "leave the number out"});
+}
+
 TEST_F(SurveyStops, names_missing_and_changed_blocks) {
   survey("run", "--shard 0/2");
   expect_refused("merge run", 3, {"run: 5 of 10 blocks are not done: fls/blocks/000001 (pings 3 to 5)", "again"});

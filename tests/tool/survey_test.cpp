@@ -84,8 +84,7 @@ TEST_F(Survey, returns_know_time_head_ping_and_beam) {
   merged("run");
   const std::string ply = read("run/returns.ply");
   const std::string header = ply.substr(0, ply.find("end_header"));
-  for (const char* column :
-       {"double x", "uint scalar_ping", "uint scalar_beam", "double scalar_time", "uint scalar_head"})
+  for (const char* column : {"double x", "int scalar_ping", "int scalar_beam", "double scalar_time", "int scalar_head"})
     EXPECT_THAT(header, HasSubstr(std::string("property ") + column + "\n"));
   std::size_t rows = 0;
   std::istringstream(header.substr(header.find("vertex ") + 7)) >> rows;
@@ -103,6 +102,10 @@ TEST_F(Survey, a_merged_cube_is_read_by_h5py) {
 with h5py.File("run/fls/cube.h5") as f:
     p = f["pressure"]
     print(p.dtype, *p.shape, p.is_virtual, f["time"][5], repr(float(abs(p[5, 3, 4].real))))
+    assert [d.label for d in p.dims] == ["ping", "beam", "bin"]
+    assert p.dims[2][0] == f["range"] and p.dims[1][0] == f["azimuth"] and p.dims[0][0] == f["ping"]
+    assert f.attrs["head"] == "fls" and "sqrt" in p.attrs["convention"]
+    assert "port" in f["azimuth"].attrs["long_name"] and f["pose"].attrs["units"] == "1, 1, 1, m"
 )");
   const std::string line = "cd " + folder_.string() + " && /usr/bin/python3 read.py >read.txt 2>&1";
   EXPECT_EQ(std::system(line.c_str()), 0) << read("read.txt");

@@ -52,6 +52,16 @@ TEST_F(ShowTrack, draws_the_way_to_the_scale_of_the_levels) {
   EXPECT_LT(colour_difference(picture.at(middle + length / 4, way.low - 0.7 * length), {255, 255, 255}), 20);
 }
 
+TEST_F(ShowTrack, is_the_same_in_utm) {
+  show_track(map, options, path);
+  const int near = near_colour(read_png(path), {26, 191, 242}).count;
+  map.x += 5e5, map.y += 5.4e6;
+  for (TrackMap::Way& way : map.ways)
+    for (Eigen::Vector2d& place : way.places) place += Eigen::Vector2d(5e5, 5.4e6);
+  show_track(map, options, path);
+  EXPECT_NEAR(near_colour(read_png(path), {26, 191, 242}).count, near, 0.1 * near);
+}
+
 TEST_F(ShowTrack, draws_ways_without_levels_and_refuses_nothing_at_all) {
   map.level_db.resize(0, 0);
   show_track(map, options, path);

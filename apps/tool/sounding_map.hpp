@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/geotiff_file.hpp"
+
+namespace insonify::tool {
+
+/// Number of the cell that holds a coordinate [m]: cell k reaches from k cell, which belongs to it, to (k + 1) cell, which
+/// does not, as the cells of ImageMosaic. A coordinate up to a micrometre below an edge, the error of a projection and of
+/// the division, stands on it.
+std::int64_t cell_of(double coordinate, double cell);
+
+/// A band of such a map.
+struct BandMeaning {
+  const char *name, *unit;
+};
+/// The bands in the order of the file.
+inline constexpr BandMeaning sounding_bands[] = {{"height", "m"},   {"level", "dB re 1 uPa at 1 m"},
+                                                 {"soundings", ""}, {"deviation", "m"},
+                                                 {"lowest", "m"},   {"highest", "m"}};
+
+/// Soundings in cells of a grid.
+class SoundingMap {
+ public:
+  /// `cell` is the size of cells [m], > 0.
+  explicit SoundingMap(double cell) : cell_(cell) {}
+
+  /// Adds a sounding at easting, northing and height [m], of an intensity [Pa^2 at 1 m].
+  void add(const Eigen::Vector3d& place, double intensity);
+  bool empty() const { return cells_.empty(); }
+
+  /// The bands of a raster: mean height, level, number of soundings, standard deviation, least and largest height, and where it lies, without its zone. Throws Error(argument) for more than 2^26 cells.
+  std::vector<GeoBand> bands() const;
+  GeoGrid grid() const;
+
+ private:
+  struct Cell {
+    double count = 0, intensity = 0;
+    double mean = 0, squares = 0;  ///< of heights; squares: of their differences from the mean, summed
+    double least = 0, most = 0;
+  };
+  struct Extent {
+    std::int64_t west, south, columns, rows;
+  };
+  Extent extent() const;
+
+  double cell_;
+  std::map<std::pair<std::int64_t, std::int64_t>, Cell> cells_;  ///< by row and column
+};
+
+}  // namespace insonify::tool

@@ -1,0 +1,139 @@
+#include "scene_io/scene_columns.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "scene_io/scene_columns_internal.hpp"
+
+namespace insonify {
+namespace {
+
+NumberType type_of(const SceneColumn& column) {
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(NumberType::float64); ++k)
+    if (const auto type = static_cast<NumberType>(k); column.type == name_of(type)) return type;
+  fail(ErrorKind::argument, "save_scene: column '", column.name, "' has type '", column.type,
+       "', must be one of int8 to float64");
+}
+
+/// A type that readers of PLY (and, of 64 bits, of PCD) take and that holds all numbers of the column.
+NumberType written_type(const SceneColumn& column, NumberType type, CloudFormat format) {
+  if (type == NumberType::int64 || type == NumberType::uint64) return NumberType::float64;
+  if (format == CloudFormat::pcd || type == NumberType::uint8 || type >= NumberType::float32) return type;
+  if (type != NumberType::uint32) return NumberType::int32;
+  for (std::size_t at = 0; at < column.bytes.size(); at += 4)
+    if (read_as<std::uint32_t>(column.bytes.data() + at) > 2147483647) return NumberType::float64;
+  return NumberType::int32;
+}
+
+/// The numbers of a column in another type.
+std::vector<char> converted(const SceneColumn& column, NumberType from, NumberType to) {
+  if (from == to) return column.bytes;
+  const std::size_t rows = column.bytes.size() / size_of(from);
+  std::vector<char> bytes(rows * size_of(to));
+  char* out = bytes.data();
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double number = read_number(column.bytes.data() + i * size_of(from), from);
+    if (to == NumberType::float64)
+      put(out, number);
+    else
+      put(out, static_cast<std::int32_t>(number));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string plain_name(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  name = lower_case(std::move(name));
+  return name.rfind("scalar_", 0) == 0 ? name.substr(7) : name;
+}
+
+SceneColumn copy_of(const RowTable& table, const RowTable::Column& column) {
+  const bool as_it_is = column.scale == 1 && column.shift == 0 && column.mask == 0xff;
+  SceneColumn copy{column.name, name_of(as_it_is ? column.type : NumberType::float64), {}};
+  const std::size_t size = as_it_is ? size_of(column.type) : sizeof(double);
+  copy.bytes.resize(table.rows * size);
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const char* row = table.bytes + i * table.stride;
+    const double value = as_it_is ? 0 : column.value(row);
+    std::memcpy(copy.bytes.data() + i * size, as_it_is ? row + column.offset : reinterpret_cast<const char*>(&value),
+                size);
+  }
+  return copy;
+}
+
+SceneColumns take_columns(RawCloud& raw, const LoadOptions& options) {
+  SceneColumns columns;
+  columns.others = std::move(raw.columns);
+  const auto has = [&](const std::string& name) {
+    return std::any_of(columns.others.begin(), columns.others.end(),
+                       [&](const SceneColumn& column) { return plain_name(column.name) == plain_name(name); });
+  };
+  if (!raw.label_field.empty() && !options.material && options.material_field.intervals.empty()) {
+    columns.material = raw.label_field;
+    std::erase_if(columns.others, [&](const SceneColumn& column) { return column.name == columns.material; });
+  } else if (has("material")) {
+    columns.material = "material_index";
+  }
+  return columns;
+}
+
+void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows) {
+  const std::size_t size = size_named(column.type);
+  std::vector<char> bytes(rows.size() * size);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    std::memcpy(bytes.data() + i * size, column.bytes.data() + rows[i] * size, size);
+  column.bytes = std::move(bytes);
+}
+
+SceneColumns columns_of(const SceneColumns& columns, std::span<const std::uint32_t> ids,
+                        std::span<const std::uint32_t> kept) {
+  std::unordered_map<std::uint32_t, std::size_t> row_of;
+  for (std::size_t i = 0; i < ids.size(); ++i) row_of[ids[i]] = i;
+  SceneColumns part{columns.material, {}};
+  for (const SceneColumn& column : columns.others) {
+    SceneColumn& of_kept = part.others.emplace_back(SceneColumn{column.name, column.type, {}});
+    const auto size = static_cast<std::ptrdiff_t>(size_of(type_of(column)));
+    for (const std::uint32_t id : kept) {
+      const auto from = column.bytes.begin() + static_cast<std::ptrdiff_t>(row_of.at(id)) * size;
+      of_kept.bytes.insert(of_kept.bytes.end(), from, from + size);
+    }
+  }
+  return part;
+}
+
+void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(rows.columns.begin(), rows.columns.end(),
+                       [&](const PackedRows::Column& c) { return plain_name(c.name) == plain_name(name); });
+  };
+  struct Written {
+    std::vector<char> bytes;
+    std::size_t size;
+  };
+  const auto written = std::make_shared<std::vector<Written>>();
+  const std::size_t stride = rows.stride();
+  for (const SceneColumn& column : columns.others) {
+    const NumberType type = type_of(column), to = written_type(column, type, format);
+    if (column.bytes.size() != rows.rows * size_of(type))
+      fail(ErrorKind::argument, "save_scene: column '", column.name, "' has ", column.bytes.size(),
+           " bytes, must have a number of ", column.type, " for each of the ", rows.rows, " surfels");
+    rows.columns.push_back({taken(column.name) ? column.name + "_in_file" : column.name, to});
+    written->push_back({converted(column, type, to), size_of(to)});
+  }
+  if (written->empty()) return;
+  rows.write_row = [written, stride, write_row = rows.write_row](std::size_t i, char* out) {
+    write_row(i, out);
+    out += stride;
+    for (const Written& column : *written) {
+      std::memcpy(out, column.bytes.data() + i * column.size, column.size);
+      out += column.size;
+    }
+  };
+}
+
+}  // namespace insonify

@@ -1,0 +1,79 @@
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <vtkCellData.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkXMLImageDataWriter.h>
+
+#include "core/error.hpp"
+#include "core/pending_file.hpp"
+#include "view/off_screen_internal.hpp"
+#include "view/save_vtk.hpp"
+#include "view/xml_file_internal.hpp"
+
+namespace insonify {
+namespace {
+
+void require_map(const HorizontalMap& map, const char* who) {
+  if (map.fields.empty()) fail(ErrorKind::argument, who, ": no field to write");
+  const Grid<float>& first = map.fields.front().values;
+  for (const SampleField& field : map.fields)
+    if (field.values.size() == 0 || field.values.rows() != first.rows() || field.values.cols() != first.cols())
+      fail(ErrorKind::argument, who, ": ", field.name, " is ", field.values.rows(), " x ", field.values.cols(),
+           ", must have cells, as many as ", map.fields.front().name);
+}
+
+}  // namespace
+
+void save_map_image(const std::string& path, const HorizontalMap& map) {
+  require_map(map, "save_map_image");
+  const Grid<float>& first = map.fields.front().values;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(first.rows()) + 1, static_cast<int>(first.cols()) + 1, 1);
+  image->SetOrigin(map.x, map.y, 0);
+  image->SetSpacing(map.cell, map.cell, map.cell);
+  // Cells are ordered with columns varying fastest.
+  for (const SampleField& field : map.fields) {
+    const Grid<float> values = field.values.transpose();
+    image->GetCellData()->AddArray(
+        cell_array(field.name, values.data(), static_cast<std::size_t>(values.size()), field.unit));
+  }
+  list_units(image, "Points: m", map.fields);
+  image->GetCellData()->SetActiveScalars(map.fields.front().name.c_str());
+  vtkNew<vtkXMLImageDataWriter> writer;
+  write_xml(*writer, image, path, "save_map_image");
+}
+
+void save_map_picture(const std::string& stem, const HorizontalMap& map, double window) {
+  require_map(map, "save_map_picture");
+  const Grid<float>& values = map.fields.front().values;
+  const float highest = values.isFinite().select(values, -std::numeric_limits<float>::infinity()).maxCoeff();
+  if (!std::isfinite(highest)) fail(ErrorKind::content, "save_map_picture: ", stem, ": no cell has a value");
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(values.rows()), static_cast<int>(values.cols()), 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (Eigen::Index row = 0; row < values.cols(); ++row)
+    for (Eigen::Index column = 0; column < values.rows(); ++column) {
+      const double below = (highest - values(column, row)) / window;
+      *pixel++ = std::isfinite(below) ? static_cast<unsigned char>(std::lround(255 - 254 * std::min(below, 1.0))) : 0;
+    }
+  const VtkMessages messages;
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  write_png(writer, stem + ".png", messages, "save_map_picture");
+
+  // The world file holds the size of a pixel and the middle of the upper left one.
+  std::ostringstream world;
+  world.precision(17);
+  world << map.cell << "\n0\n0\n"
+        << -map.cell << "\n"
+        << map.x + map.cell / 2 << "\n"
+        << map.y + (static_cast<double>(values.cols()) - 0.5) * map.cell << "\n";
+  write_file(stem + ".pgw", world.str());
+}
+
+}  // namespace insonify

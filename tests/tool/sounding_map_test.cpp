@@ -1,0 +1,60 @@
+#include "tool/sounding_map.hpp"
+
+#include "support/test.hpp"
+
+using tool::cell_of, tool::SoundingMap;
+
+// The cells of a grid are half open: an edge belongs to the cell that begins there, whatever its coordinate is rounded to.
+TEST(SoundingMap, gives_a_sounding_on_an_edge_to_the_cell_that_begins_there) {
+  for (const double cell : {0.1, 0.25, 0.3, 0.5, 1.0})
+    for (const double zero : {-100000.0, 0.0, 54000.0, 5654000.0})
+      for (int k = 0; k < 300; ++k) {
+        const double edge = std::round((zero + k) * cell * 1e6) / 1e6;  // as written in decimal
+        const auto number = static_cast<std::int64_t>(zero) + k;
+        EXPECT_EQ(cell_of(edge, cell), number) << edge << " by " << cell;
+        EXPECT_EQ(cell_of(edge - 2e-6, cell), number - 1) << edge << " by " << cell;
+        EXPECT_EQ(cell_of(edge + cell - 2e-6, cell), number) << edge << " by " << cell;
+      }
+  // Four soundings on corners of cells: one in each.
+  SoundingMap map(0.1);
+  for (const double x : {565400.1, 565400.2})
+    for (const double y : {5995100.3, 5995100.4}) map.add({x, y, -10 * x - y}, 1);
+  const std::vector<GeoBand> bands = map.bands();
+  ASSERT_EQ(bands[2].values.rows(), 2);
+  ASSERT_EQ(bands[2].values.cols(), 2);
+  EXPECT_TRUE((bands[2].values == 1).all());
+  EXPECT_TRUE(bands[3].values.isNaN().all());  // of one sounding there is no deviation
+  EXPECT_NEAR(map.grid().west, 565400.1, 1e-9);
+  EXPECT_NEAR(map.grid().south, 5995100.3, 1e-9);
+}
+
+TEST(SoundingMap, has_bands_of_height_level_number_deviation_and_extremes) {
+  SoundingMap map(1);
+  for (const double z : {-4000.5, -4000.25, -4000.0}) map.add({0.5, 0.5, z}, 100);
+  const std::vector<GeoBand> bands = map.bands();
+  ASSERT_EQ(bands.size(), 6U);
+  const double expected[] = {-4000.25, 20, 3, 0.25, -4000.5, -4000};
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(static_cast<double>(bands[k].values(0, 0)), expected[k], 1e-4) << bands[k].name;
+  // The page has a row for each, with its unit.
+  const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
+  for (const tool::BandMeaning& band : tool::sounding_bands)
+    EXPECT_THAT(page, HasSubstr(std::string("| `") + band.name + "` | " + band.unit + (*band.unit ? " |" : "|")));
+}
+
+// As GDAL reads it, where its tools are installed.
+TEST(SoundingMap, is_opened_by_gdal) {
+  if (std::system("gdalinfo --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gdal-bin is not installed";
+  SoundingMap map(0.5);
+  for (int i = 0; i < 12; ++i) map.add({565400 + 0.3 * i, 5995100 + 0.2 * i, -10 - 0.125 * i}, 100);
+  GeoGrid grid = map.grid();
+  grid.zone = {32, true};
+  const std::string path = own_path("map.tif"), out = own_path("info.txt");
+  write_geotiff(path, map.bands(), grid);
+  ASSERT_EQ(std::system(("gdalinfo " + path + " >" + out + " 2>&1").c_str()), 0);
+  const std::string info = file_bytes(out);
+  for (const char* part : {"ID[\"EPSG\",32632]", "Origin = (565400.0", "Pixel Size = (0.5", "Description = deviation",
+                           "Unit Type: m", "Unit Type: dB re 1 uPa at 1 m", "NoData Value=nan"})
+    EXPECT_THAT(info, HasSubstr(part));
+  EXPECT_THAT(info, testing::Not(HasSubstr("Warning")));
+}
