@@ -51,6 +51,9 @@ class ArraySender {
   /// `memory` holds at most `most` bytes, which may grow meanwhile.
   ArraySender(const SharedMemory& memory, const std::size_t& most) : memory_(memory), most_(most) {}
   ~ArraySender();
+  /// Bytes that were sent.
+  std::size_t used() const { return used_; }
+
   /// A place for bytes, at a multiple of 16. Throws std::bad_alloc.
   char* take(std::size_t bytes);
 
