@@ -24,6 +24,9 @@ constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointe
 /// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes none.
 class SharedMemory {
  public:
+  /// Its first bytes, which no array takes: one number of the sender's, the others of who starts the child.
+  static constexpr std::size_t head = 128, of_sender = 16;
+
   /// As large as it can be, half of what the user's limits leave. Throws std::bad_alloc.
   SharedMemory();
   ~SharedMemory();
