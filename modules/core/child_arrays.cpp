@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t page = 4096, alignment = 16;
 constexpr std::size_t aligned(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
-constexpr std::size_t head = alignment;  // holds how many bytes were used
+constexpr std::size_t head = SharedMemory::head;
 
 }  // namespace
 

@@ -21,6 +21,9 @@ constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointe
 /// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes none.
 class SharedMemory {
  public:
+  /// Its first bytes, which no array takes: one number of the sender's, the others of who starts the child.
+  static constexpr std::size_t head = 128, of_sender = 16;
+
   /// As large as it can be: `most` bytes, or half of what the user's limits leave. Throws std::bad_alloc.
   explicit SharedMemory(std::size_t most = std::size_t{1} << 38);
   ~SharedMemory();
@@ -48,6 +51,9 @@ class ArraySender {
   /// `memory` holds at most `most` bytes, which may grow meanwhile.
   ArraySender(const SharedMemory& memory, const std::size_t& most) : memory_(memory), most_(most) {}
   ~ArraySender();
+  /// Bytes that were sent.
+  std::size_t used() const { return used_; }
+
   /// A place for bytes, at a multiple of 16. Throws std::bad_alloc.
   char* take(std::size_t bytes);
 

@@ -97,6 +97,8 @@ void confine(int said) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   set_limit(RLIMIT_CORE, 0);
+  constexpr rlim_t bytes_said = 1 << 20;
+  set_limit(RLIMIT_FSIZE, std::min(bytes_said, limit_of(RLIMIT_FSIZE)));
   dup2(said, STDOUT_FILENO);
   dup2(said, STDERR_FILENO);
 }
@@ -178,8 +180,11 @@ ArrayReceiver read_in_child(const std::string& path, const ChildLimits& limits,
   }
   return {path, memory};
 #endif
-  Allowed allowed{address_space() + limits.memory, limits.memory, limits.seconds, limit_of(RLIMIT_AS),
-                  limit_of(RLIMIT_CPU)};
+  // Where the child may raise it, and this process reads how far.
+  static_assert(sizeof(Allowed) <= SharedMemory::head - SharedMemory::of_sender &&
+                std::is_trivially_destructible_v<Allowed>);
+  Allowed& allowed = *new (memory->start() + SharedMemory::of_sender) Allowed{
+      address_space() + limits.memory, limits.memory, limits.seconds, limit_of(RLIMIT_AS), limit_of(RLIMIT_CPU)};
   const MemoryFile said("insonify-said");
   const pid_t child = said >= 0 ? fork() : -1;
   if (child == 0) {

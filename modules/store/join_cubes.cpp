@@ -168,7 +168,7 @@ void refer_to_parts(const Place& place, const JoinedCube& joined, const std::str
 
 /// Copies an image of all parts, a few pings at a time.
 void copy_images(const Place& place, const JoinedCube& joined, const std::string& image, hid_t type, hid_t dataset) {
-  constexpr hsize_t bytes_at_once = 16 << 20;
+  constexpr hsize_t bytes_at_once = 4 << 20;
   const hsize_t bytes = joined.extent[1] * joined.extent[2] * H5Tget_size(type);
   const hsize_t at_once = std::max<hsize_t>(1, bytes_at_once / std::max<hsize_t>(1, bytes));
   hsize_t row = 0;

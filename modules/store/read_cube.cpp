@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <sstream>
+#include <optional>
 
 #include "core/child_process.hpp"
 #include "core/error.hpp"
@@ -130,12 +130,6 @@ Cube read_attributes(const Place& place, hid_t file) {
   return cube;
 }
 
-/// Pings of so few bytes that memory stays small, and starting a process for them costs little.
-std::size_t pings_at_once(const Extent& extent) {
-  constexpr std::size_t bytes = 16 << 20, bytes_of_sample = 8;
-  return std::max<std::size_t>(1, bytes / (bytes_of_sample * std::max<std::size_t>(1, extent[1] * extent[2])));
-}
-
 }  // namespace
 
 Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
@@ -188,23 +182,36 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
     to(read_attributes(place, file));
     to(read_table(place, file));
   })(cube, table);
+  // As many pings by one child as keep memory small, of which what is not copied from the file takes the most.
+  constexpr std::size_t bytes_at_once = 2 << 20;
   const std::size_t pings = table.track.size();
-  std::size_t at_once = pings_at_once(table.extent);
-  for (std::size_t begin = 0; begin < pings;) {
-    const PingRange range{begin, std::min(begin + at_once, pings)};
-    std::vector<Ping> some = pings_of(table, range);
+  bool one_by_one = false;
+  const auto read_some = [&](std::size_t first) {
+    return read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+      std::size_t p = first;
+      do {
+        to(true);
+        send_all_images(place, file, table.extent, {p, p + 1}, to);
+      } while (++p < pings && !one_by_one && to.used() < bytes_at_once);
+      to(false);
+    });
+  };
+  for (std::size_t p = 0; p < pings;) {
+    std::optional<ArrayReceiver> sent;
     try {
-      ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
-        send_all_images(place, file, table.extent, range, to);
-      });
-      receive_all_images(sent, path, some);
+      sent = read_some(p);
     } catch (const Error&) {
-      if (at_once == 1) throw;
-      at_once = 1;  // up to the ping that is damaged
+      if (one_by_one) throw;
+      one_by_one = true;  // up to the ping that is damaged
       continue;
     }
-    for (const Ping& ping : some) use(cube, ping);
-    begin = range.end;
+    bool another = false;
+    for ((*sent)(another); another; (*sent)(another)) {
+      std::vector<Ping> ping = pings_of(table, {p, p + 1});
+      receive_all_images(*sent, path, ping);
+      use(cube, ping.front());
+      ++p;
+    }
   }
 }
 

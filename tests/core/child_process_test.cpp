@@ -113,6 +113,16 @@ TEST(ChildProcess, holds_to_its_memory) {
                [] { try_in_child("a.vtk", {.memory = 100 << 20}, [] { std::string(std::size_t{1} << 30, 'x'); }); });
 }
 
+TEST(ChildProcess, says_what_it_was_allowed) {
+  if (sanitized) GTEST_SKIP() << "shadow memory is beyond any limit";
+  expect_error(ErrorKind::content, {"more than 130 MiB"}, [] {
+    try_in_child("a.vtk", {.memory = 100 << 20}, [] {
+      expect_from_file("a.vtk", 0, {10 << 20, "points", 1});
+      std::string(std::size_t{1} << 30, 'x');
+    });
+  });
+}
+
 TEST(ChildProcess, is_short_of_memory_with_its_parent) {
   if (sanitized) GTEST_SKIP() << "shadow memory is beyond any limit";
   rlimit before{};
