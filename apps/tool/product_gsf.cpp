@@ -38,7 +38,7 @@ GsfBeam placed_beam(const PlacedRun& run, const Anchor& here, const BottomSoundi
   return beam;
 }
 
-GsfPing gsf_ping(const PlacedRun& run, const Cube& cube, const Ping& ping, const BottomSoundings& found) {
+GsfPing gsf_ping(const PlacedRun& run, const Ping& ping, const BottomSoundings& found) {
   const Eigen::Vector3d head = ping.world_from_head.translation();
   const VesselAxes axes(ping.world_from_head);
   GsfPing out;
@@ -47,7 +47,7 @@ GsfPing gsf_ping(const PlacedRun& run, const Cube& cube, const Ping& ping, const
   out.heading = out.course = heading_of(run.reference(), head, axes.ahead);
   out.roll = axes.roll;
   out.number = static_cast<std::uint16_t>(ping.number);
-  out.surface_sound_speed = cube.sound_speed;
+  out.surface_sound_speed = ping.sound_speed;
   out.range = ping.gate.max_range;
   out.beam_width_along = ping.fan.elevation_width, out.beam_width_across = ping.fan.beam_width;
   const Anchor here{degrees(out.place.latitude), degrees(out.place.longitude), degrees(out.heading)};
@@ -62,7 +62,7 @@ GsfPing gsf_ping(const PlacedRun& run, const Cube& cube, const Ping& ping, const
     const double across = axis.dot(axes.starboard);
     if (next == found.size() || found.beam[next] != b) beams.emplace_back(across, beam);
     for (; next < found.size() && found.beam[next] == b; ++next)  // each a beam of its own
-      beams.emplace_back(across, placed_beam(run, here, found, next, cube.sound_speed, beam));
+      beams.emplace_back(across, placed_beam(run, here, found, next, ping.sound_speed, beam));
   }
   std::stable_sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [across, beam] : beams) out.beams.push_back(beam);
@@ -74,10 +74,10 @@ GsfPing gsf_ping(const PlacedRun& run, const Cube& cube, const Ping& ping, const
 std::size_t gsf_product(const PlacedRun& run) {
   std::unique_ptr<GsfFile> file;
   GsfPing last;
-  const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
-    GsfPing swath = gsf_ping(run, cube, ping, found);
+  const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
+    GsfPing swath = gsf_ping(run, ping, found);
     if (!file) {
-      const SoundSpeedProfile uniform{{0}, {cube.sound_speed}};
+      const SoundSpeedProfile uniform{{0}, {ping.sound_speed}};
       file = std::make_unique<GsfFile>(run.options.output, run.pings.environment.profile.value_or(uniform), swath.place,
                                        swath.time,
                                        std::vector<std::string>{"REFERENCE TIME=1970/001 00:00:00", "GEOID=WGS-84",

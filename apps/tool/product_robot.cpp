@@ -21,8 +21,8 @@ struct RobotLog {
   Eigen::Vector3d origin;
   std::uint16_t image, fan, points, transforms;
 
-  RobotLog(const ProductOptions& o, const Cube& cube, const Ping& ping)
-      : file(o.output), grey(cube, ping), origin(ping.world_from_head.translation()) {
+  RobotLog(const ProductOptions& o, const Ping& ping)
+      : file(o.output), grey(ping), origin(ping.world_from_head.translation()) {
     // Single precision holds world coordinates to a millimetre up to some kilometres.
     origin = origin.norm() > 1e4 ? Eigen::Vector3d(origin.array().round()) : Eigen::Vector3d(0, 0, 0);
     scale = {o.linear, grey.window, std::max(1e-12, 4 * static_cast<double>(ping.pressure.abs().maxCoeff()))};
@@ -47,13 +47,14 @@ struct RobotLog {
 std::size_t mcap_product(const PlacedRun& run) {
   std::unique_ptr<RobotLog> log;
   const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
-    if (!log) log = std::make_unique<RobotLog>(run.options, cube, ping);
+    if (!log) log = std::make_unique<RobotLog>(run.options, ping);
     const auto time = static_cast<std::uint64_t>(std::llround((run.start + ping.time) * 1e9));
     log->file.add(log->transforms, time, head_transforms(ping.world_from_head, log->origin, time));
-    log->file.add(
-        log->image, time,
-        projected_sonar_image(ping, time, cube.centre_frequency, cube.sound_speed, log->grey.tvg, log->scale));
-    log->file.add(log->fan, time, fan_image(ping, time, log->grey.tvg, log->scale.window, fan_rows_of_pixels));
+    log->file.add(log->image, time,
+                  projected_sonar_image(ping, time, cube.centre_frequency, ping.sound_speed, GreyScale::tvg_of(ping),
+                                        log->scale));
+    log->file.add(log->fan, time,
+                  fan_image(ping, time, GreyScale::tvg_of(ping), log->scale.window, fan_rows_of_pixels));
     log->file.add(log->points, time, point_cloud(found.position, found.level_db, log->origin, time));
   });
   log->file.finish();

@@ -27,8 +27,8 @@ RunPings find_run_pings(const std::string& run, const std::string& head);
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
 
-/// Options to find the bottom in pings of a cube.
-BottomOptions bottom_options(const Cube& cube, const Environment& environment, int per_beam);
+/// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile.
+BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam);
 
 /// Seconds since 1970 of a time as 2026-05-01T08:30:00Z; 0 for "". Throws Error(argument) for another text.
 double seconds_of_utc(const std::string& text);

@@ -35,6 +35,9 @@ constexpr DatasetName elevation_name{"/elevation", "rad"};
 constexpr DatasetName pose_name{"/pose", "m"};
 constexpr DatasetName time_name{"/time", "s"};
 constexpr DatasetName ping_name{"/ping", ""};
+/// Of pings whose water differs: what the root attributes of these names say of all others.
+constexpr DatasetName sound_speed_name{"/sound_speed", "m/s"};
+constexpr DatasetName absorption_name{"/absorption_db_per_m", "dB/m"};
 /// Of a scanning head alone: time and pose of every beam, and the head's own turn.
 constexpr DatasetName beam_time_name{"/beam_time", "s"};
 constexpr DatasetName beam_pose_name{"/beam_pose", "m"};
