@@ -6,6 +6,8 @@
 
 #include "acoustics/sound_speed_profile.hpp"
 #include "acoustics/water.hpp"
+#include "formats/gsf_decoder.hpp"
+#include "formats/ros_decoder.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
@@ -106,6 +108,30 @@ TEST_F(Dive, pings_keep_the_water_of_their_own_depth_in_blocks_and_in_the_merged
   for (std::size_t p = 0; p < 5; ++p) {
     EXPECT_EQ(all[p], 32U);
     EXPECT_GE(close[p], 30U);
+  }
+}
+
+TEST_F(Dive, files_of_other_programs_have_the_water_of_each_ping) {
+  write("short.toml", replaced(read("dive.toml"), "every_m = 4.8", "every_m = 15"));
+  succeed("survey short.toml -q -o run");
+  succeed("merge -q run");
+  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  ASSERT_EQ(cube.pings.size(), 2U);
+  succeed("export run --to gsf --anchor -33.5,-71.6,0 -q -o dive.gsf");
+  const decode::GsfContent gsf = decode::read_gsf(read("dive.gsf"));
+  succeed("export run --to mcap -q -o dive.mcap");
+  std::vector<double> speeds;
+  for (const auto& message : decode::read_mcap(read("dive.mcap")).messages)
+    if (message.topic == "/sonar/image") speeds.push_back(message.content.one("ping_info.sound_speed"));
+  ASSERT_EQ(gsf.swaths.size(), 2U);
+  ASSERT_EQ(speeds.size(), 2U);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_NEAR(gsf.swaths[p].surface_speed, cube.pings[p].sound_speed, 0.051);
+    EXPECT_NEAR(speeds[p], cube.pings[p].sound_speed, 1e-3);
+    const auto& times = gsf.swaths[p].arrays.at(4);
+    EXPECT_NEAR(*std::min_element(times.begin(), times.end()) / (2 * time_down(depth_of(cube.pings[p]), -bed_height)),
+                1, 1e-3)
+        << "straight down";
   }
 }
 
