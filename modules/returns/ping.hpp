@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/water.hpp"
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "returns/pixel_labels.hpp"
@@ -45,6 +46,9 @@ struct Ping {
   double sound_speed = 0;           ///< of the water at the head [m/s], by which delays are ranges; 0: not known
   double absorption_db_per_m = 0;   ///< of the water at the head, at the centre frequency
 };
+
+/// Notes the water that a ping was made in.
+void note_water(const Medium& at_head, Ping& ping);
 
 /// Returns the pressure in single precision, as a ping stores it. Throws Error(content) naming `who` if a sample
 /// exceeds 3.4e38 Pa or is not a number.

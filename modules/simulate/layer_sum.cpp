@@ -89,8 +89,7 @@ void LayerSum::finish(SimulatedPing& result) {
                  ping_.head.fan,     ping_.head.gate,    stored_pressure(sum_, "simulate_ping"),
                  std::move(layers_)};
   result.ping.expected_level = incoherent_;
-  result.ping.sound_speed = ping_.sent.medium.sound_speed;
-  result.ping.absorption_db_per_m = ping_.sent.medium.absorption.a0 / nepers_per_db;
+  note_water(ping_.sent.medium, result.ping);
   if (split_) result.ping.split_phase = phase_between(port_, starboard_);
   result.layers = std::move(report_);
   result.elements = std::move(elements_);
