@@ -58,9 +58,9 @@ ordered_json randomised_json(const RandomisedPing& by) {
 
 }  // namespace
 
-Grid<float> dataset_levels(const Cube& cube, const Ping& ping, const DatasetOptions& o) {
+Grid<float> dataset_levels(const Ping& ping, const DatasetOptions& o) {
   Grid<float> level = shown_level_db(ping);
-  return o.raw ? level : apply_tvg(std::move(level), ping.gate, Tvg{o.tvg, cube.absorption_db_per_m});
+  return o.raw ? level : apply_tvg(std::move(level), ping.gate, Tvg{o.tvg, ping.absorption_db_per_m});
 }
 
 DatasetWriter::DatasetWriter(const RunDirectory& directory, const DatasetOptions& options,
@@ -83,7 +83,7 @@ const FanRaster& DatasetWriter::raster_of(const Ping& ping) {
 }
 
 void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image) {
-  const Grid<float> level = dataset_levels(cube, ping, options_);
+  const Grid<float> level = dataset_levels(ping, options_);
   std::set<std::uint8_t> stuff;
   for (std::size_t k = 1; k < classes_.size(); ++k)
     if (std::find(options_.stuff.begin(), options_.stuff.end(), classes_[k]) != options_.stuff.end())
@@ -151,8 +151,8 @@ void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, cons
                        {"centre_frequency_hz", cube.centre_frequency},
                        {"bandwidth_hz", cube.bandwidth},
                        {"source_level_db", cube.source_level_db},
-                       {"sound_speed", cube.sound_speed},
-                       {"absorption_db_per_m", cube.absorption_db_per_m},
+                       {"sound_speed", ping.sound_speed},
+                       {"absorption_db_per_m", ping.absorption_db_per_m},
                        {"seed", cube.seed},
                        {"min_range_m", ping.gate.min_range},
                        {"bin_size_m", ping.gate.bin_size},

@@ -90,6 +90,6 @@ class DatasetWriter {
 };
 
 /// Levels of a ping as the images show them: with the options' TVG.
-Grid<float> dataset_levels(const Cube& cube, const Ping& ping, const DatasetOptions& options);
+Grid<float> dataset_levels(const Ping& ping, const DatasetOptions& options);
 
 }  // namespace insonify::tool

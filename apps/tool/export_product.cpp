@@ -52,9 +52,9 @@ Eigen::Vector3d UtmWorld::place(const Eigen::Vector3d& world) const {
   return {utm.easting, utm.northing, world.z()};
 }
 
-GreyScale::GreyScale(const Cube& cube, const Ping& first) : tvg{40, cube.absorption_db_per_m} {
+GreyScale::GreyScale(const Ping& first) {
   const double most =
-      std::ceil(static_cast<double>(range_compensated_level_db(first, cube.absorption_db_per_m).maxCoeff())) + 10;
+      std::ceil(static_cast<double>(range_compensated_level_db(first, first.absorption_db_per_m).maxCoeff())) + 10;
   window = {most - shown_span_db, most};
 }
 
@@ -63,7 +63,7 @@ std::size_t each_swath(const PlacedRun& run,
   std::size_t pings = 0, soundings = 0;
   each_ping(run.pings, [&](const Cube& cube, const Ping& ping) {
     const BottomSoundings found =
-        detect_bottom(ping, bottom_options(cube, run.pings.environment, run.options.per_beam));
+        detect_bottom(ping, bottom_options(cube, ping, run.pings.environment, run.options.per_beam));
     ++pings;
     soundings += found.size();
     use(cube, ping, found);

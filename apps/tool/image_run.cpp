@@ -90,7 +90,7 @@ PictureOptions picture_options(const ImageOptions& o) {
 
 LevelImage levels_of(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
   return level_image(run.cube.pings[ping],
-                     o.raw ? std::nullopt : std::optional(Tvg{o.tvg, run.cube.absorption_db_per_m}));
+                     o.raw ? std::nullopt : std::optional(Tvg{o.tvg, run.cube.pings[ping].absorption_db_per_m}));
 }
 
 std::vector<Fact> facts_of(const Cube& cube, std::size_t number) {
@@ -105,8 +105,8 @@ std::vector<Fact> facts_of(const Cube& cube, std::size_t number) {
           {"Beams", fan_text(ping.fan)},
           {"Range", fmt::format("{:g} to {:g} m", ping.gate.min_range, ping.gate.max_range)},
           {"Bins", fmt::format("{} of {:.3g} mm", ping.gate.bins(), 1000 * ping.gate.bin_size)},
-          {"Sound speed", fmt::format("{:.1f} m/s", cube.sound_speed)},
-          {"Absorption", fmt::format("{:.3g} dB/km", 1000 * cube.absorption_db_per_m)},
+          {"Sound speed", fmt::format("{:.1f} m/s", ping.sound_speed)},
+          {"Absorption", fmt::format("{:.3g} dB/km", 1000 * ping.absorption_db_per_m)},
           {"Loudest sample", loudest > silence_db ? fmt::format("{:.1f} dB re 1 µPa", loudest) : "silence"},
           {"Tolerance", fmt::format("{:g}", cube.tolerance)},
           {"Seed", fmt::format("{}", cube.seed)}};

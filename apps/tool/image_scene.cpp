@@ -72,7 +72,7 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   if (!fs::exists(returns)) {
     progress.note(returns.string() + " is missing, so no returns are drawn");
   } else if (!covered) {
-    const auto tvg = o.raw ? std::nullopt : std::optional(Tvg{o.tvg, cube.absorption_db_per_m});
+    const auto tvg = o.raw ? std::nullopt : std::optional(Tvg{o.tvg, ping.absorption_db_per_m});
     drawing.look.soundings = of_ping(load_soundings(returns.string()), ping.number, tvg);
     drawing.look.level_unit = level_image(ping, tvg).unit;
   }

@@ -85,7 +85,7 @@ std::vector<SpectrumLine> spectrum_lines(const ImageRun& run, const ImageOptions
     beams.resize(ping.fan.beams());
     std::iota(beams.begin(), beams.end(), 0);
   }
-  const double step_time = 2 * ping.gate.bin_size / run.cube.sound_speed;
+  const double step_time = 2 * ping.gate.bin_size / ping.sound_speed;
   const BeamSpectrum received = beam_spectrum(ping.pressure, beams, step_time, {run.cube.centre_frequency, 0});
   const double power = std::accumulate(received.density.begin(), received.density.end(), 0.0) *
                        (received.frequency[1] - received.frequency[0]);
@@ -114,7 +114,8 @@ Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number)
   const double steering = fan.azimuth[panels.beam];
   if (!run.head || std::abs(steering) > pi / 2) return panels;
   const LineArray& array = run.head->array;
-  const BeamPatternCurve curve = beam_pattern_curve(array, run.cube.sound_speed / run.cube.centre_frequency, steering);
+  const BeamPatternCurve curve =
+      beam_pattern_curve(array, run.cube.pings[number].sound_speed / run.cube.centre_frequency, steering);
   panels.azimuth = curve.azimuth;
   panels.pattern_db = curve.level_db;
   panels.pattern_title = fmt::format("Pattern of {}, {} elements", beam_text({{}, panels.beam}, fan), array.elements());
@@ -124,7 +125,7 @@ Panels panels_of(const ImageRun& run, const ImageOptions& o, std::size_t number)
 void draw_soundings(const ViewJob& job) {
   const Environment environment = find_run_pings(job.run.path, "").environment;
   const Ping& ping = job.run.cube.pings[job.ping];
-  show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, environment, 1)), job.picture, job.path);
+  show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, ping, environment, 1)), job.picture, job.path);
 }
 
 /// The sweep of the ping.

@@ -16,9 +16,10 @@ namespace {
 
 /// States the effect of refraction, and whether it was left out.
 std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
+  const auto beyond_rounding = [](double x) { return x < 1e-9 ? 0 : x; };
   const std::string bound =
-      fmt::format("straight rays would be off by at most {:.2g} m in range and {:.2g} deg in angle", r.bound.range,
-                  degrees(r.bound.elevation));
+      fmt::format("straight rays to what is in view are off by up to {:.2g} m in range and {:.2g} deg in angle",
+                  beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)));
   if (!r.bent) return fmt::format("refraction left out: {} (bin {:.3g} m)", bound, gate.bin_size);
   return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
 }

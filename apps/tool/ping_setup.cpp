@@ -96,34 +96,41 @@ std::uint16_t material_index(const std::vector<Material>& materials, const std::
   return static_cast<std::uint16_t>(at - names.begin());
 }
 
+/// The setup of a ping at the pose of the options, or of one that has another.
+PingSetup set_up(const PingOptions& o, bool at_pose) {
+  const Track track = track_of(o);
+  const bool mounted = !o.mount.empty();
+  const Pose mount = mounted ? parse_pose(o.mount, "z-up", "--mount") : Pose::Identity();
+  PingSetup setup;
+  setup.pose = mounted ? track.pose * mount : track.pose;
+  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(setup.pose.translation().z()) : std::nullopt);
+  setup.simulation = simulation_options(o.common, o);
+  Motion& motion = setup.simulation.effects.motion;
+  if (!o.trajectory.empty()) {
+    motion = track.motion;
+    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
+  }
+  // A head away from the vehicle's centre moves as the vehicle turns.
+  if (mounted) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
+  setup.simulation.time = o.time;
+  setup.simulation.ping = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
+  for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
+  for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
+  require_boundaries(o, setup.head.environment);
+  require_depths_known(setup.head.environment, "environment");
+  require_valid(setup.simulation, "simulate_ping");
+  return setup;
+}
+
 }  // namespace
 
 bool keeps(const PingOptions& options, const std::string& what) {
   return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();
 }
 
-PingSetup set_up_ping(const PingOptions& o) {
-  const Track track = track_of(o);
-  PingSetup setup{track.pose, set_up_head(o.common, o.run), simulation_options(o.common, o)};
-  Motion& motion = setup.simulation.effects.motion;
-  if (!o.trajectory.empty()) {
-    motion = track.motion;
-    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
-  }
-  if (!o.mount.empty()) {
-    // A head away from the vehicle's centre moves as the vehicle turns.
-    const Pose mount = parse_pose(o.mount, "z-up", "--mount");
-    motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
-    setup.pose = track.pose * mount;
-  }
-  setup.simulation.time = o.time;
-  setup.simulation.ping = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
-  for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
-  for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
-  require_boundaries(o, setup.head.environment);
-  require_valid(setup.simulation, "simulate_ping");
-  return setup;
-}
+PingSetup set_up_ping(const PingOptions& o) { return set_up(o, true); }
+
+PingSetup set_up_any_ping(const PingOptions& o) { return set_up(o, false); }
 
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {
   std::vector<Eigen::Vector3d> places;
@@ -148,7 +155,7 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
 }
 
-HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::optional<double> head_height) {
   HeadSetup setup;
   const SonarFile file = find_sonar(run.sonar);
   setup.spec = file.spec;
@@ -166,10 +173,12 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run) {
   }
   if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
   require_valid(setup.environment, "environment");
-  setup.notes = validity_notes(setup.environment.water, setup.spec.centre_frequency,
-                               setup.environment.sound_speed_formula, setup.environment.absorption_formula);
+  const Environment there =
+      head_height ? environment_at(setup.environment, *head_height, "environment") : setup.environment;
+  setup.notes =
+      validity_notes(there.water, setup.spec.centre_frequency, there.sound_speed_formula, there.absorption_formula);
   setup.medium = medium_of(setup.environment, setup.spec.centre_frequency);
-  setup.head = make_head(setup.spec, setup.medium.sound_speed);
+  setup.head = make_head(setup.spec, slowest_sound(setup.environment));
   return setup;
 }
 
@@ -217,8 +226,12 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
   if (!std::filesystem::exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
   RunOptions options;
   options.sonar = options.environment = settings.string();
-  const HeadSetup setup = set_up_head({}, options);
-  return resolve_ping(scene, setup.head, Pose::Identity(), setup.environment, {.threads = threads}).view;
+  HeadSetup setup = set_up_head({}, options);
+  Pose somewhere = Pose::Identity();
+  Environment& e = setup.environment;
+  if (e.profile && !e.surface) e.profile = SoundSpeedProfile{{0}, {setup.medium.sound_speed}};  // of older versions
+  if (e.surface) somewhere.translation().z() = e.surface->height - (e.water.depth > 0 ? e.water.depth : 1);
+  return resolve_ping(scene, setup.head, somewhere, e, {.threads = threads}).view;
 }
 
 void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {

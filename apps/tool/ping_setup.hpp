@@ -15,17 +15,20 @@
 
 namespace insonify::tool {
 
-/// Sonar and environment of a run: presets or files, then --set, then --range.
+/// Sonar and environment of a run: presets or files, then --set, then --range. The head does not depend on where it
+/// pings: its bins are fine enough for the slowest sound of the water. Throws Error(argument) for what
+/// environment_at refuses of a head at `head_height` [m], if that is given.
 struct HeadSetup {
   SonarSpec spec;
   SonarHead head;
   Environment environment;
-  Medium medium;
+  Medium medium;                      ///< of the water as given; SimulatedPing::medium is that at the head's depth
   Pose mount = Pose::Identity();      ///< on a vehicle, as the sonar's file says
   std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
-HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run);
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,
+                      std::optional<double> head_height = std::nullopt);
 
 /// Options of loading a scene. Materials come from --materials, else, with --material, from the table that is part of
 /// insonify.
@@ -44,7 +47,7 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
 
 /// Everything that a ping needs except the scene.
 struct PingSetup {
-  Pose pose;  ///< of the head
+  Pose pose = Pose::Identity();  ///< of the head
   HeadSetup head;
   SimulationOptions simulation;
 };
@@ -52,6 +55,8 @@ struct PingSetup {
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
 PingSetup set_up_ping(const PingOptions& options);
+/// The same, but for the depth of the head: of pings that have other poses than the options'.
+PingSetup set_up_any_ping(const PingOptions& options);
 
 /// Whether --keep names `what`.
 bool keeps(const PingOptions& options, const std::string& what);

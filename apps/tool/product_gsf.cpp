@@ -72,7 +72,7 @@ GsfBeam placed_beam(const PlacedRun& run, const Anchor& here, const BottomSoundi
 }
 
 /// The beams of a ping from port to starboard, those of several soundings one after the other.
-std::vector<GsfBeam> beams_of(const PlacedRun& run, const Cube& cube, const Ping& ping, const BottomSoundings& found,
+std::vector<GsfBeam> beams_of(const PlacedRun& run, const Ping& ping, const BottomSoundings& found,
                               const ShipAxes& ship, const Anchor& here) {
   std::vector<std::pair<double, GsfBeam>> beams;
   std::size_t next = 0;  // soundings are by beams
@@ -85,7 +85,7 @@ std::vector<GsfBeam> beams_of(const PlacedRun& run, const Cube& cube, const Ping
     beam.azimuth = std::atan2(axis.dot(ship.ahead), across);
     if (next == found.size() || found.beam[next] != b) beams.emplace_back(across, beam);
     for (; next < found.size() && found.beam[next] == b; ++next)  // each a beam of its own
-      beams.emplace_back(across, placed_beam(run, here, found, next, cube.sound_speed, beam));
+      beams.emplace_back(across, placed_beam(run, here, found, next, ping.sound_speed, beam));
   }
   std::stable_sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<GsfBeam> sorted;
@@ -96,11 +96,11 @@ std::vector<GsfBeam> beams_of(const PlacedRun& run, const Cube& cube, const Ping
 /// What GSF says of the sonar itself.
 void add_sonar(const Cube& cube, const Ping& ping, GsfPing& out) {
   out.number = static_cast<std::uint32_t>(ping.number);
-  out.surface_sound_speed = cube.sound_speed;
+  out.surface_sound_speed = ping.sound_speed;
   out.range = ping.gate.max_range;
-  out.sample_rate = cube.sound_speed / (2 * ping.gate.bin_size);
+  out.sample_rate = ping.sound_speed / (2 * ping.gate.bin_size);
   out.centre_frequency = cube.centre_frequency, out.bandwidth = cube.bandwidth;
-  out.source_level_db = cube.source_level_db, out.absorption_db_per_m = cube.absorption_db_per_m;
+  out.source_level_db = cube.source_level_db, out.absorption_db_per_m = ping.absorption_db_per_m;
   out.beam_width_along = ping.fan.elevation_width, out.beam_width_across = ping.fan.beam_width;
 }
 
@@ -131,7 +131,7 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
   add_sonar(cube, ping, out);
   add_motion(run, way, ping, out);
   const Anchor here{degrees(out.place.latitude), degrees(out.place.longitude), degrees(out.heading)};
-  out.beams = beams_of(run, cube, ping, found, ship, here);
+  out.beams = beams_of(run, ping, found, ship, here);
   return out;
 }
 

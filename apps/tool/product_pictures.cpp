@@ -17,9 +17,9 @@ std::size_t png_product(const PlacedRun& run, RunDirectory& directory) {
   constexpr int rows_of_pixels = 720;
   std::unique_ptr<GreyScale> scale;
   nlohmann::ordered_json manifest{{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", run.options.run}};
-  each_ping(run.pings, [&](const Cube& cube, const Ping& ping) {
+  each_ping(run.pings, [&](const Cube&, const Ping& ping) {
     if (!scale) {
-      scale = std::make_unique<GreyScale>(cube, ping);
+      scale = std::make_unique<GreyScale>(ping);
       manifest["black_db"] = scale->window.min_db;
       manifest["white_db"] = scale->window.max_db;
       manifest["levels"] = "dB re 1 uPa at 1 m";
@@ -27,9 +27,9 @@ std::size_t png_product(const PlacedRun& run, RunDirectory& directory) {
       manifest["bin_m"] = ping.gate.bin_size;
     }
     const std::string number = fmt::format("{:06}.png", manifest["pings"].size());
-    const GreyFan fan = grey_fan(ping, scale->tvg, scale->window, rows_of_pixels);
+    const GreyFan fan = grey_fan(ping, GreyScale::tvg_of(ping), scale->window, rows_of_pixels);
     save_grey(fan.grey, directory.file("fan_" + number));
-    show_grey(quantise_16(apply_tvg(shown_level_db(ping), ping.gate, scale->tvg), scale->window), ping.fan,
+    show_grey(quantise_16(apply_tvg(shown_level_db(ping), ping.gate, GreyScale::tvg_of(ping)), scale->window), ping.fan,
               directory.file("samples_" + number));
     manifest["metres_per_pixel"] = fan.pixel;
     nlohmann::ordered_json pose;

@@ -30,8 +30,8 @@ struct RobotLog {
   std::uint16_t image, fan, points, transforms, fixed_transforms;
   std::optional<std::uint16_t> fix{};  ///< of a run with a place on the globe
 
-  RobotLog(const ProductOptions& o, const Cube& cube, const Ping& ping, bool placed)
-      : file(o.output), grey(cube, ping), origin(ping.world_from_head.translation()) {
+  RobotLog(const ProductOptions& o, const Ping& ping, bool placed)
+      : file(o.output), grey(ping), origin(ping.world_from_head.translation()) {
     // Single precision holds world coordinates to a millimetre up to some kilometres.
     origin = origin.norm() > 1e4 ? Eigen::Vector3d(origin.array().round()) : Eigen::Vector3d(0, 0, 0);
     scale = {o.linear, grey.window, std::max(1e-12, 4 * static_cast<double>(ping.pressure.abs().maxCoeff()))};
@@ -63,17 +63,18 @@ std::size_t mcap_product(const PlacedRun& run) {
   const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
     const auto time = static_cast<std::uint64_t>(std::llround((run.start + ping.time) * 1e9));
     if (!log) {
-      log = std::make_unique<RobotLog>(run.options, cube, ping, run.place.has_value());
+      log = std::make_unique<RobotLog>(run.options, ping, run.place.has_value());
       log->file.add(log->fixed_transforms, time, sonar_transform(time));
     }
     log->file.add(log->transforms, time, head_transform(ping.world_from_head, log->origin, time));
     if (log->fix)
       log->file.add(*log->fix, time,
                     nav_sat_fix(geo_from_world(run.reference(), ping.world_from_head.translation()), time));
-    log->file.add(
-        log->image, time,
-        projected_sonar_image(ping, time, cube.centre_frequency, cube.sound_speed, log->grey.tvg, log->scale));
-    log->file.add(log->fan, time, fan_image(ping, time, log->grey.tvg, log->scale.window, fan_rows_of_pixels));
+    log->file.add(log->image, time,
+                  projected_sonar_image(ping, time, cube.centre_frequency, ping.sound_speed, GreyScale::tvg_of(ping),
+                                        log->scale));
+    log->file.add(log->fan, time,
+                  fan_image(ping, time, GreyScale::tvg_of(ping), log->scale.window, fan_rows_of_pixels));
     log->file.add(log->points, time, point_cloud(found, log->origin, time));
   });
   log->file.finish();

@@ -34,11 +34,11 @@ struct UtmWorld {
 std::size_t each_swath(const PlacedRun& run,
                        const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use);
 
-/// How range-compensated levels become grey values, from the first ping.
+/// How range-compensated levels become grey values: one window for all pings, from the first, and the gain of each.
 struct GreyScale {
-  Tvg tvg;
   GreyWindow window;
-  GreyScale(const Cube& cube, const Ping& first);
+  explicit GreyScale(const Ping& first);
+  static Tvg tvg_of(const Ping& ping) { return {40, ping.absorption_db_per_m}; }
 };
 
 // Writers of the products: each returns how many soundings there were.

@@ -29,7 +29,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json sonar_json(const HeadSetup& setup) {
+ordered_json sonar_json(const HeadSetup& setup, double sound_speed) {
   ordered_json doubtful = ordered_json::array();
   for (const SonarNumber& n : setup.doubtful)
     doubtful.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
@@ -43,8 +43,8 @@ ordered_json sonar_json(const HeadSetup& setup) {
           {"bin_size_m", head.gate.bin_size},
           {"centre_frequency_hz", head.pulse.centre_frequency},
           {"bandwidth_hz", head.pulse.bandwidth},
-          {"range_resolution_fwhm_m", range_resolution(head.pulse, setup.medium.sound_speed)},
-          {"range_resolution_nominal_m", nominal_range_resolution(head.pulse, setup.medium.sound_speed)},
+          {"range_resolution_fwhm_m", range_resolution(head.pulse, sound_speed)},
+          {"range_resolution_nominal_m", nominal_range_resolution(head.pulse, sound_speed)},
           {"source_level_db", head.pulse.source_level_db},
           {"not_sourced", doubtful}};
 }
@@ -65,6 +65,8 @@ Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOpti
   options.synthesis.tolerance = run.tolerance;
   Cube cube = make_cube(setup.head, setup.medium, options);
   cube.pings = std::move(pings);
+  const Ping& first = cube.pings.front();
+  cube.sound_speed = first.sound_speed, cube.absorption_db_per_m = first.absorption_db_per_m;
   cube.keep_bits = run.keep_bits;
   return cube;
 }
@@ -88,11 +90,10 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
     progress.note("no fan.png: " + reason);
     manifest["notes"].push_back("no fan.png: " + reason);
   };
-  const double absorption = setup.medium.absorption.a0 / nepers_per_db;
   if (!run.no_picture) try {
       PictureOptions options;
       options.title = picture_title(setup.head.name, ping);
-      show_fan(level_image(ping, Tvg{40, absorption}), options, directory.file("fan.png"));
+      show_fan(level_image(ping, Tvg{40, ping.absorption_db_per_m}), options, directory.file("fan.png"));
     } catch (const Error& error) {
       no_picture(error.what());
     } catch (const std::bad_alloc&) {
@@ -101,14 +102,15 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
 
   manifest[digests_key]["cube.h5"] = digest.get();
   if (ping.expected_level) manifest["pressure"] = expected_level_text;
-  manifest["sonar"] = sonar_json(setup);
+  manifest["sonar"] = sonar_json(setup, cube.sound_speed);
   const Water& water = setup.environment.water;
+  const double z = ping.world_from_head.translation().z();
   manifest["water"] = {{"temperature_c", water.temperature_c},
                        {"salinity_psu", water.salinity_psu},
-                       {"depth_m", water.depth},
+                       {"depth_m", head_depth(setup.environment, z)},
                        {"ph", water.ph},
-                       {"sound_speed", setup.medium.sound_speed},
-                       {"absorption_db_per_m", absorption}};
+                       {"sound_speed", ping.sound_speed},
+                       {"absorption_db_per_m", ping.absorption_db_per_m}};
   manifest["peak_memory_mib"] = peak_memory_mib();
 }
 

@@ -28,7 +28,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
 /// The text of a run.toml, with `settings` as from settings_as_toml.
 std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings);
 
-/// A cube of pings of one head.
+/// A cube of simulated pings of one head, at least one; its water is that of the first.
 Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup);
 
 /// Levels of a ping as they are drawn; without `tvg`, as they were received.

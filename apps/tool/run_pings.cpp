@@ -133,15 +133,15 @@ void each_ping(const RunPings& run, const std::function<void(const Cube&, const 
   for (const std::string& path : run.cubes) read_cube_pings(path, use);
 }
 
-BottomOptions bottom_options(const Cube& cube, const Environment& environment, int per_beam) {
+BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam) {
   BottomOptions options;
-  options.sound_speed = cube.sound_speed;
+  options.sound_speed = ping.sound_speed;
   options.centre_frequency = cube.centre_frequency;
-  options.range_resolution = range_resolution({cube.centre_frequency, cube.bandwidth, 0}, cube.sound_speed);
-  options.absorption_db_per_m = cube.absorption_db_per_m;
+  options.range_resolution = range_resolution({cube.centre_frequency, cube.bandwidth, 0}, ping.sound_speed);
+  options.absorption_db_per_m = ping.absorption_db_per_m;
   options.per_beam = per_beam;
   options.profile = environment.profile;
-  options.head_depth = environment.water.depth;
+  options.head_depth = insonify::head_depth(environment, ping.world_from_head.translation().z());
   return options;
 }
 

@@ -50,8 +50,8 @@ std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);
 /// the order of time. Absent for a single ping.
 std::optional<Trajectory> way_of(const RunPings& run);
 
-/// Options to find the bottom in pings of a cube.
-BottomOptions bottom_options(const Cube& cube, const Environment& environment, int per_beam);
+/// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile.
+BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam);
 
 /// Seconds since 1970 of a time as 2026-05-01T08:30:00Z; 0 for "". Throws Error(argument) for another text.
 double seconds_of_utc(const std::string& text);

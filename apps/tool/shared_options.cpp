@@ -36,7 +36,8 @@ void add_sonar(OptionList list, CommonOptions& common, RunOptions& o) {
   add_settings(list, synthesis_settings(o));
   list.add("--environment", &o.environment,
            "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run");
-  list.add("--profile", &o.profile, "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays");
+  list.add("--profile", &o.profile,
+           "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays; needs surface.height_m");
   list.add("--set", &common.settings, "SECTION.KEY=VALUE of sonar or environment, e.g. water.temperature_c=4",
            {.one_each = true});
 }

@@ -69,10 +69,12 @@ void save_mosaic(const std::string& folder, const std::vector<HeadCubes>& heads,
       Cube cube = read_cube(path);
       const SonarHead own = make_head(sonar, cube.sound_speed);
       const EchoOptions patterns = with_patterns({}, own);
-      const MosaicSource source{
-          cube.source_level_db,     cube.absorption_db_per_m, range_resolution(own.pulse, cube.sound_speed),
-          patterns.elevation_shape, patterns.elevation_width, patterns.elevation_centre};
-      for (Ping& ping : cube.pings) strips.add(std::move(ping), source);
+      for (Ping& ping : cube.pings) {
+        const MosaicSource source{
+            cube.source_level_db,     ping.absorption_db_per_m, range_resolution(own.pulse, ping.sound_speed),
+            patterns.elevation_shape, patterns.elevation_width, patterns.elevation_centre};
+        strips.add(std::move(ping), source);
+      }
     }
     strips.finish();
   }

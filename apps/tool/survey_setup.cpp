@@ -27,7 +27,7 @@ SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, s
   options.run.environment = file.environment;
   options.run.profile = file.profile;
   options.pose = "0,0,0,0,0,0";  // every ping has its own
-  SurveyHead head{options, set_up_ping(options)};
+  SurveyHead head{options, set_up_any_ping(options)};
   OutputSettings& outputs = head.setup.simulation.outputs;
   outputs.scatterers |= file.coverage;
   outputs.take_contributors = [](const Contributors&, std::size_t) {};  // the labels that follow from them are kept
@@ -55,7 +55,13 @@ void require_in_water(const SurveySetup& s) {
     const Environment& environment = s.heads[ping.head].setup.head.environment;
     const double z = place_of(s.file.mission, ping).world_from_head.translation().z();
     if (environment.surface && z >= environment.surface->height)
-      refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", environment.surface->height, " m");
+      refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", environment.surface->height,
+                  " m; lower the trajectory, or give surface.height_m in the frame of the scene");
+    try {
+      environment_at(environment, z, "environment");
+    } catch (const Error& error) {
+      refuse_ping(s, ping, error.what());
+    }
     if (environment.bottom && z <= environment.bottom->height)
       refuse_ping(s, ping, "is at z = ", z, " m, below the bottom at ", environment.bottom->height, " m");
   }
@@ -110,7 +116,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
     s.heads.push_back(set_up_survey_head(o, s.file, h));
     const HeadSetup& head = s.heads.back().setup.head;
-    mission.heads[h].listening_time = 2 * head.head.gate.max_range / head.medium.sound_speed;
+    mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
     per_block.push_back(block_size(o, begun, mission.heads[h].name, pressure_bytes(head.head), s.file.coverage));
   }
   try {

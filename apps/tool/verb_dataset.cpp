@@ -89,14 +89,14 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
     DatasetSource first = source;
     first.cubes.resize(1);
     bool begun = false;
-    for_each_labelled_ping(first, [&](const Cube& cube, const Ping& ping, std::size_t) {
+    for_each_labelled_ping(first, [&](const Cube&, const Ping& ping, std::size_t) {
       if (begun) return;
       begun = true;
       for (const std::string& name : ping.labels.names)
         if (std::find(plan.classes.begin(), plan.classes.end(), name) == plan.classes.end())
           plan.classes.push_back(name);
       if (plan.window.max_db > plan.window.min_db) return;
-      const Grid<float> level = dataset_levels(cube, row_of(ping, chosen_rows(ping, o).front()), o);
+      const Grid<float> level = dataset_levels(row_of(ping, chosen_rows(ping, o).front()), o);
       std::vector<float> sorted(level.data(), level.data() + level.size());
       const auto top = sorted.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sorted.size() - 1));
       std::nth_element(sorted.begin(), top, sorted.end());

@@ -50,12 +50,13 @@ void add_options(OptionList list, ExportOptions& o) {
 }
 
 /// All fields that a cube holds per sample of a ping.
-std::vector<SampleField> fields_of(const Ping& ping, double absorption_db_per_m) {
+std::vector<SampleField> fields_of(const Ping& ping) {
   constexpr const char* level_unit = "dB re 1 uPa";
   const Grid<float> level = level_db(ping);
   std::vector<SampleField> fields = {
       {"level_db", level, level_unit},
-      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, absorption_db_per_m}), "dB re 1 uPa at 1 m"},
+      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, ping.absorption_db_per_m}),
+       "dB re 1 uPa at 1 m"},
       {"pressure_re", ping.pressure.real(), "Pa, amplitude"},
       {"pressure_im", ping.pressure.imag(), "Pa, amplitude"}};
   for (const Layer& layer : ping.layers)
@@ -90,9 +91,9 @@ void export_run(const ExportOptions& options) {
 
   progress.step("writing " + o.output);
   std::vector<SeriesEntry> fans, images;
-  each_ping(run, [&](const Cube& cube, const Ping& ping) {
+  each_ping(run, [&](const Cube&, const Ping& ping) {
     const std::size_t k = images.size();
-    const std::vector<SampleField> fields = fields_of(ping, cube.absorption_db_per_m);
+    const std::vector<SampleField> fields = fields_of(ping);
     const auto files = save_fan_grid(directory.file(fmt::format("fan_{:06}.vts", k)), ping.fan, ping.gate, fields,
                                      ping.world_from_head);
     for (std::size_t part = 0; part < files.size(); ++part)

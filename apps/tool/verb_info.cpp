@@ -79,6 +79,13 @@ ordered_json cube_json(const std::string& path, const Cube& cube) {
   const Ping& first = cube.pings.front();
   ordered_json layers = ordered_json::array();
   for (const Layer& layer : first.layers) layers.push_back(layer.name);
+  // The water of a dive is not one number.
+  const auto water = [&](double Ping::*number) -> ordered_json {
+    const auto [least, most] = std::minmax_element(
+        cube.pings.begin(), cube.pings.end(), [number](const Ping& a, const Ping& b) { return a.*number < b.*number; });
+    if ((*least).*number == (*most).*number) return first.*number;
+    return {(*least).*number, (*most).*number};
+  };
   return {{"path", path},
           {"format", "insonify ping cube"},
           {"sonar", cube.sonar},
@@ -92,8 +99,8 @@ ordered_json cube_json(const std::string& path, const Cube& cube) {
           {"centre_frequency_hz", cube.centre_frequency},
           {"bandwidth_hz", cube.bandwidth},
           {"source_level_db", cube.source_level_db},
-          {"sound_speed", cube.sound_speed},
-          {"absorption_db_per_m", cube.absorption_db_per_m},
+          {"sound_speed", water(&Ping::sound_speed)},
+          {"absorption_db_per_m", water(&Ping::absorption_db_per_m)},
           {"seed", cube.seed},
           {"peak_level_db", level_db(first).maxCoeff()},
           {"insonify_version", cube.insonify_version}};

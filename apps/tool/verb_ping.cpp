@@ -133,7 +133,7 @@ Verb ping_verb() {
        "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --multipath --set surface.height_m=0 --layers "
        "-o sea",
        "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --noise --set wind.speed_m_s=8 "
-       "--profile ctd.csv -o gale",
+       "--profile ctd.csv --set surface.height_m=0 -o gale",
        "insonify ping --run out/run.toml -o again"},
       add_ping_verb_options, ping);
 }

@@ -61,6 +61,7 @@ void synthesize(const SynthesizeOptions& o) {
   const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = method == SynthesisMethod::incoherent;
+  note_water(setup.medium, ping);
   const double seconds = watch.lap();
 
   progress.step("writing " + o.run.output);

@@ -61,7 +61,7 @@ PingReel reel_of(const std::vector<CubeOfPings>& cubes) {
   for (const CubeOfPings& cube : cubes) {
     list->begin.push_back(places.size());
     for (const TrackPoint& point : read_track(cube.cube)) {
-      places.push_back({point.number, point.time, point.world_from_head, point.scan});
+      places.push_back({point.number, point.time, point.world_from_head, point.scan, point.absorption_db_per_m});
       list->number.push_back(point.number);
     }
   }

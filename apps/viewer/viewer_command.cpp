@@ -73,11 +73,10 @@ std::string finished_cube(const std::string& target) {
   return cube.string();
 }
 
-// Takes title and absorption from the first ping, and the pings as they are shown.
+// Takes the title from the first ping, and the pings as they are shown.
 void open_cubes(const std::vector<CubeOfPings>& cubes, LoadedView& view) {
   const Cube first = read_cube(cubes.front().cube, 0, 1);
   view.data.title = first.sonar;
-  view.data.absorption_db_per_m = first.absorption_db_per_m;
   view.data.pings = reel_of(cubes);
 }
 
@@ -143,7 +142,8 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
 
 // The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
 PixelPlace loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
-  const Grid<float> level = range_compensated_level_db(*data.pings.ping(ping_index), data.absorption_db_per_m);
+  const auto ping = data.pings.ping(ping_index);
+  const Grid<float> level = range_compensated_level_db(*ping, ping->absorption_db_per_m);
   Eigen::Index bin = 0;
   level.row(static_cast<Eigen::Index>(beam)).maxCoeff(&bin);
   return {beam, static_cast<std::size_t>(bin)};

@@ -1,5 +1,6 @@
 #include "acoustics/environment.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "acoustics/noise.hpp"
@@ -31,6 +32,14 @@ void require_valid(const FlatBottom& b, const char* who) {
   require(mu >= 0 && mu <= 1 / pi, who, "bottom.lambert_mu", mu, "1/sr", "within 0 and 1/pi");
 }
 
+constexpr double depth_step = 1e-6;       // [m]
+constexpr double depths_agree_to = 0.01;  // [m]
+
+bool varies(const SoundSpeedProfile& profile) {
+  const auto [slowest, fastest] = std::minmax_element(profile.sound_speed.begin(), profile.sound_speed.end());
+  return *slowest != *fastest;
+}
+
 }  // namespace
 
 void require_valid(const Environment& e, const char* who) {
@@ -46,6 +55,42 @@ void require_valid(const Environment& e, const char* who) {
   require(volume <= 0 && std::isfinite(volume), who, "volume.scattering_db", volume, "dB", "finite and at most 0");
   require(wind >= 0 && wind <= 100, who, "wind_speed", wind, "m/s", "within 0 and 100");
   require(std::abs(self) <= 400, who, "self_noise_db", self, "dB re 1 uPa^2/Hz", "within -400 and 400");
+}
+
+double head_depth(const Environment& e, double head_height) {
+  if (!e.surface) return e.water.depth;
+  return depth_step * std::round((e.surface->height - head_height) / depth_step);
+}
+
+void require_depths_known(const Environment& e, const char* who) {
+  if (e.profile && !e.surface && varies(*e.profile))
+    fail(ErrorKind::argument, who, ": the sound-speed profile counts depth from the surface of the water, must come ",
+         "with its height in the world: give surface.height_m, e.g. --set surface.height_m=0");
+}
+
+Environment environment_at(const Environment& e, double head_height, const char* who) {
+  require_valid(e, who);
+  require_depths_known(e, who);
+  Environment there = e;
+  there.water.depth = head_depth(e, head_height);
+  if (!e.surface) return there;
+  if (!(there.water.depth > 0))
+    fail(ErrorKind::argument, who, ": the head is at height z = ", head_height,
+         " m, must be below the surface of the water, surface.height = ", e.surface->height,
+         " m; lower the head, or give the surface the height it has in the frame of the scene (surface.height_m)");
+  if (e.water.depth > 0 && std::abs(e.water.depth - there.water.depth) > depths_agree_to)
+    fail(ErrorKind::argument, who, ": water.depth = ", e.water.depth, " m, but the head at z = ", head_height, " m is ",
+         there.water.depth, " m below surface.height = ", e.surface->height,
+         " m, must agree to 0.01 m; leave water.depth_m out: with a surface depth follows from where the head is");
+  return there;
+}
+
+double slowest_sound(const Environment& e) {
+  if (e.profile && (e.surface || !varies(*e.profile)))
+    return *std::min_element(e.profile->sound_speed.begin(), e.profile->sound_speed.end());
+  Water water = e.water;
+  if (e.surface) water.depth = 0;
+  return e.profile ? sound_speed_at(*e.profile, water.depth) : sound_speed(water, e.sound_speed_formula);
 }
 
 Medium medium_of(const Environment& e, double centre_frequency, int absorption_order) {

@@ -27,7 +27,7 @@ struct FlatBottom {
 
 /// Everything around head and scene. What is absent has no effect and costs nothing.
 struct Environment {
-  Water water;
+  Water water;  ///< its depth is that of the head; with a surface it follows from where the head is (environment_at)
   SoundSpeedFormula sound_speed_formula = SoundSpeedFormula::unesco;
   AbsorptionFormula absorption_formula = AbsorptionFormula::francois_garrison;
   std::optional<SoundSpeedProfile> profile{};  ///< absent: one sound speed everywhere, straight rays
@@ -41,6 +41,23 @@ struct Environment {
 
 /// Throws Error naming the value, its unit and its rule.
 void require_valid(const Environment& environment, const char* who);
+
+/// Depth [m] of a head at world height `head_height` [m]: below the surface if there is one, else water.depth. Rounded to
+/// a micrometre, so that rounding errors of a level way do not change the water from ping to ping.
+double head_depth(const Environment& environment, double head_height);
+
+/// Throws Error(argument), naming `who`, for a profile whose sound speed changes with depth if no surface says what depth
+/// is.
+void require_depths_known(const Environment& environment, const char* who);
+
+/// The environment with water.depth at a head of world height `head_height` [m] (head_depth). Throws Error(argument) with
+/// the remedy, naming `who`: for a head at or above the surface; for a water.depth other than 0 that is more than 1 cm off
+/// that depth; and as require_depths_known.
+Environment environment_at(const Environment& environment, double head_height, const char* who);
+
+/// Lowest sound speed [m/s] that a head can meet at any depth: of the profile; or of the water at the surface, where
+/// pressure is lowest; without a surface that of medium_of. Range bins fine enough for it are so at every depth.
+double slowest_sound(const Environment& environment);
 
 /// Medium at the head for a pulse about `centre_frequency` [Hz]; where a profile is given, its sound speed at the
 /// depth water.depth.

@@ -15,7 +15,8 @@ class WidebandSynthesizer;
 class KeptSynthesizers {
  public:
   /// most   synthesizers of each kind that are kept; beyond, the one not used for the longest time is dropped. One of true
-  ///        delays takes 10 to 100 MB, and for each thread that uses it at once as much as the blocks of a single ping
+  ///        delays takes 10 to 100 MB, and for each thread that uses it at once as much as the blocks of a single ping.
+  ///        Of one head and options, those of the last two media
   explicit KeptSynthesizers(std::size_t most = 8);
   ~KeptSynthesizers();
   KeptSynthesizers(KeptSynthesizers&&) noexcept;

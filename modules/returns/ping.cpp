@@ -16,6 +16,11 @@ namespace {
 constexpr std::size_t samples_at_once = 1 << 16;
 }  // namespace
 
+void note_water(const Medium& at_head, Ping& ping) {
+  ping.sound_speed = at_head.sound_speed;
+  ping.absorption_db_per_m = at_head.absorption.a0 / nepers_per_db;
+}
+
 ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
   ComplexGridF stored(pressure.rows(), pressure.cols());
   const auto* from = reinterpret_cast<const double*>(pressure.data());

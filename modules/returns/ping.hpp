@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/water.hpp"
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "returns/pixel_labels.hpp"
@@ -42,7 +43,12 @@ struct Ping {
       split_phase{};     ///< between the halves of the array [rad], beams x bins, positive towards port (E92); or empty
   PixelLabels labels{};  ///< surface of every pixel, if contributors were kept; or empty
   std::optional<ScanPlace> scan{};  ///< of a scanning head; its turn is part of world_from_head
+  double sound_speed = 0;           ///< of the water at the head [m/s], by which delays are ranges; 0: not known
+  double absorption_db_per_m = 0;   ///< of the water at the head, at the centre frequency
 };
+
+/// Notes the water that a ping was made in.
+void note_water(const Medium& at_head, Ping& ping);
 
 /// Returns the pressure in single precision, as a ping stores it. Throws Error(content) naming `who` if a sample
 /// exceeds 3.4e38 Pa or is not a number.

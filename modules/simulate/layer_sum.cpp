@@ -89,6 +89,7 @@ void LayerSum::finish(SimulatedPing& result) {
                  ping_.head.fan,     ping_.head.gate,    stored_pressure(sum_, "simulate_ping"),
                  std::move(layers_)};
   result.ping.expected_level = incoherent_;
+  note_water(ping_.sent.medium, result.ping);
   if (split_) result.ping.split_phase = phase_between(port_, starboard_);
   result.layers = std::move(report_);
   result.elements = std::move(elements_);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -5,11 +7,38 @@
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/heard_energy_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
+#include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t chunk_parts = 2048;  // with their echoes they fit into the cache of a core
+constexpr std::size_t most_probed_rays = 1024;
+
+/// What bending does at most to those of the scatterers that are in view, of some 1000 of them.
+RefractionBound change_in_view(const ResolvedPing& ping, const Scatterers& all) {
+  const SectorBounds sector(insonified_sector(ping.head.fan, sampling_in_view(ping)));
+  const RangeGate& gate = ping.head.gate;
+  Scatterers straight;
+  const std::size_t step = all.size() / most_probed_rays + 1;
+  for (std::size_t i = 0; i < all.size(); i += step) {
+    if (all.range[i] < gate.min_range || all.range[i] > gate.max_range) continue;
+    if (!sector.holds(all.range[i] * unit_vector({all.azimuth[i], all.elevation[i]}))) continue;
+    straight.range.push_back(all.range[i]), straight.azimuth.push_back(all.azimuth[i]);
+    straight.elevation.push_back(all.elevation[i]), straight.projected_area.push_back(1);
+  }
+  Scatterers bent = straight;
+  bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
+             ping.options.threads);
+  RefractionBound most;
+  for (std::size_t i = 0; i < bent.size(); ++i) {
+    const Eigen::Vector3d from = unit_vector({straight.azimuth[i], straight.elevation[i]});
+    const double turned = (unit_vector({bent.azimuth[i], bent.elevation[i]}) - from).norm();
+    most.range = std::max(most.range, std::abs(bent.range[i] - straight.range[i]));
+    most.elevation = std::max(most.elevation, 2 * std::asin(std::min(1.0, 0.5 * turned)));
+  }
+  return most;
+}
 
 /// Bends the rays to the patches if the options, settled, say so. Without a profile nothing is done.
 RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
@@ -18,7 +47,7 @@ RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
   const SoundSpeedProfile& profile = *ping.environment.profile;
   const double head_depth = ping.environment.water.depth;
   const Pose& pose = ping.view.world_from_head;
-  report.bound = refraction_bound(profile, head_depth, pose, scatterers);
+  report.bound = change_in_view(ping, scatterers);
   report.bent = ping.options.effects.refraction == Choice::always;
   if (report.bent) report.silenced = bend_paths(profile, head_depth, pose, scatterers, ping.options.threads);
   return report;

@@ -109,9 +109,9 @@ DetectionOptions detection_of(const SimulationOptions& o, const LineArray& array
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
 
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
-                          const Environment& environment, const SimulationOptions& options, const char* who) {
+                          const Environment& surroundings, const SimulationOptions& options, const char* who) {
   require_valid(head, who);
-  require_valid(environment, who);
+  const Environment environment = environment_at(surroundings, world_from_head.translation().z(), who);
   require_valid(options, who);
   if (options.effects.multipath == Choice::always && !has_boundary(environment))
     fail(ErrorKind::argument, who, ": options.effects.multipath = always, but the environment has neither surface nor ",

@@ -10,7 +10,7 @@ namespace insonify {
 /// A ping and all that follows from its head, pose, environment and options, derived once for every stage.
 struct ResolvedPing {
   SonarHead head;
-  Environment environment;
+  Environment environment;  ///< its water is that at the head's own depth (environment_at)
   SimulationOptions options;
   Transmission sent;            ///< pulse, medium and the patterns that echoes are weighted by
   View view;                    ///< pose, fan, sampled ranges and sampling
@@ -32,8 +32,8 @@ bool has_boundary(const Environment& environment);
 /// The sampled ranges go beyond the head's gate as far as pulses reach into it (down to half the tolerance) and as
 /// parts of the largest surfel stand off its middle; never below 0.1 m, or the gate's own beginning if that is nearer.
 ///
-/// Throws Error for an invalid head, environment or option, and for multipath without a boundary; `who` names the
-/// caller.
+/// Throws Error for an invalid head, environment or option, for a head at or above the surface and what else
+/// environment_at refuses, and for multipath without a boundary; `who` names the caller.
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
                           const Environment& environment, const SimulationOptions& options = {},
                           const char* who = "resolve_ping");

@@ -23,7 +23,7 @@ enum Kind : std::uint8_t { in_view, other_range, off_azimuth, off_elevation, els
 class Sorter {
  public:
   explicit Sorter(const ResolvedPing& ping)
-      : sector_(insonified_sector(ping.head.fan, narrow(ping))),
+      : sector_(insonified_sector(ping.head.fan, sampling_in_view(ping))),
         all_(widest_sector(ping)),
         gate_(ping.view.gate),
         farthest_(2 * gate_.max_range - ping.head.gate.max_range) {}
@@ -48,12 +48,6 @@ class Sorter {
   }
 
  private:
-  static SamplingOptions narrow(const ResolvedPing& ping) {
-    SamplingOptions s = ping.view.sampling;
-    s.azimuth_margin = ping.options.sampling.azimuth_margin;
-    s.elevation_half_extent = sampled_half_extent(ping.head, ping.options.sampling.elevation_floor_db);
-    return s;
-  }
   static Sector widest_sector(const ResolvedPing& ping) { return insonified_sector(ping.head.fan, widest(ping)); }
 
   SectorBounds sector_, all_;
@@ -182,6 +176,13 @@ void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Sc
 }
 
 }  // namespace
+
+SamplingOptions sampling_in_view(const ResolvedPing& ping) {
+  SamplingOptions s = ping.view.sampling;
+  s.azimuth_margin = ping.options.sampling.azimuth_margin;
+  s.elevation_half_extent = sampled_half_extent(ping.head, ping.options.sampling.elevation_floor_db);
+  return s;
+}
 
 SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
   const Sorter sorter(ping);

@@ -26,6 +26,9 @@ struct SceneSample {
   double back_facing = 0;       ///< in view but turned away, estimated
 };
 
+/// Sampling of what counts as in view: main lobes with their margin, and elevations above the floor of the pattern.
+SamplingOptions sampling_in_view(const ResolvedPing& ping);
+
 /// Samples at most 4096 surfels of each kind of place, evenly strided. Kinds are sampled one by one: what a part of the
 /// scene gives does not depend on whether other parts were loaded. A prepared scene gives the same, but visits only the
 /// blocks within reach; nullptr: the scene is not prepared.

@@ -41,7 +41,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   LayerSum layers(ping, kept);
   layers.add("direct", direct);
   const bool bounces = effects.multipath == Choice::always;
-  if (bounces) parts.bounced = multipath_echoes(scene, patches, environment, ping.view, sent);
+  if (bounces) parts.bounced = multipath_echoes(scene, patches, ping.environment, ping.view, sent);
   if (bounces) layers.add("multipath", parts.bounced.echoes);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (effects.noise) layers.add_noise();

@@ -23,7 +23,7 @@ struct StageSeconds {
 
 /// What refraction does to this scene.
 struct RefractionReport {
-  RefractionBound bound;     ///< of leaving refraction out
+  RefractionBound bound;     ///< what straight rays are off by, at most of some 1000 scatterers in view
   bool bent = false;         ///< the scatterers stand where they seem to be
   std::size_t silenced = 0;  ///< scatterers in a shadow zone
 };

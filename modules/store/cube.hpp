@@ -18,8 +18,8 @@ struct Cube {
   static constexpr int all_bits = 24;  ///< of a float
 
   std::vector<Ping> pings;         ///< all with the same fan and gate
-  double sound_speed = 0;          ///< [m/s]
-  double absorption_db_per_m = 0;  ///< at the centre frequency
+  double sound_speed = 0;          ///< of the water at the head [m/s]; pings that differ have their own
+  double absorption_db_per_m = 0;  ///< the same, at the centre frequency
   double centre_frequency = 0;     ///< [Hz]
   double bandwidth = 0;            ///< [Hz]
   double source_level_db = 0;      ///< dB re 1 uPa at 1 m
@@ -45,6 +45,8 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// The attribute expected_level marks expected levels; head, start_utc and anchor_latitude_deg, anchor_longitude_deg and
 /// anchor_heading_deg say of a survey what the members do. Datasets have units, long_name and named dimensions, whose
 /// scales are /ping, /azimuth and /range; pressures say in `convention` how a level follows from them.
+/// Where the water differs from ping to ping, /sound_speed [m/s] and /absorption_db_per_m [dB/m] (pings) are the pings'
+/// own; a ping that does not know its water has that of the cube.
 /// Pings of a scanning head add /scan_angle [rad] and /sweep (pings), /beam_time [s] (pings x beams) and /beam_pose
 /// (pings x beams x 4 x 4).
 /// /unknown and labels are deflated. With fewer keep_bits than all, /pressure and /layers are rounded to so many significant
@@ -54,7 +56,8 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// Error(file) if it cannot write.
 void write_cube(const std::string& path, const Cube& cube);
 
-/// Reads what write_cube wrote, bit for bit; of its pings at most `count`, from the `first` on. Throws Error(file) if missing, Error(content) if it is not a cube, has
+/// Reads what write_cube wrote, bit for bit; of its pings at most `count`, from the `first` on. Each ping has the sound
+/// speed and absorption of its own water, or those of the cube. Throws Error(file) if missing, Error(content) if it is not a cube, has
 /// another schema or lacks a dataset or attribute, naming it.
 Cube read_cube(const std::string& path, std::size_t first = 0,
                std::size_t count = std::numeric_limits<std::size_t>::max());
@@ -73,6 +76,8 @@ struct TrackPoint {
   double time = 0;  ///< [s]
   Pose world_from_head = Pose::Identity();
   std::optional<ScanPlace> scan{};  ///< of a scanning head
+  double sound_speed = 0;           ///< as Ping::sound_speed
+  double absorption_db_per_m = 0;   ///< as Ping::absorption_db_per_m
 };
 
 /// The pings of a cube without their images; errors as read_cube.

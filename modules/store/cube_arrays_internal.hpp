@@ -13,14 +13,15 @@ void pass(Stream& stream, BeamFan& fan) {
 
 template <typename Stream>
 void pass(Stream& stream, TrackPoint& point) {
-  stream(point.number, point.time, point.world_from_head, point.scan);
+  stream(point.number, point.time, point.world_from_head, point.scan, point.sound_speed, point.absorption_db_per_m);
 }
 
 /// Every member but the pings.
 template <typename Stream>
 void pass(Stream& stream, Cube& cube) {
   stream(cube.sound_speed, cube.absorption_db_per_m, cube.centre_frequency, cube.bandwidth, cube.source_level_db,
-         cube.seed, cube.tolerance, cube.keep_bits, cube.sonar, cube.insonify_version);
+         cube.seed, cube.tolerance, cube.keep_bits, cube.sonar, cube.insonify_version, cube.head, cube.start_utc,
+         cube.anchor);
 }
 
 /// What is known of the pings of a cube without their images.

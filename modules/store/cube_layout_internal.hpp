@@ -48,6 +48,10 @@ constexpr DatasetName pose_name{"/pose", "1, 1, 1, m",
                                 "up) in the world, without unit, column 3 its place [m]"};
 constexpr DatasetName time_name{"/time", "s", "of transmission, from start_utc or the begin of the run"};
 constexpr DatasetName ping_name{"/ping", "", "number of the ping"};
+/// Of pings whose water differs: what the root attributes of these names say of all others.
+constexpr DatasetName sound_speed_name{"/sound_speed", "m/s", "of the water at the head of each ping"};
+constexpr DatasetName absorption_name{"/absorption_db_per_m", "dB/m",
+                                      "of the water at the head of each ping, one way, at the centre frequency"};
 /// Of a scanning head alone: time and pose of every beam, and the head's own turn.
 constexpr DatasetName beam_time_name{"/beam_time", "s", "of transmission, of every beam"};
 constexpr DatasetName beam_pose_name{"/beam_pose", "1, 1, 1, m", "of every beam, as pose"};

@@ -1,6 +1,7 @@
 #include "store/join_cubes.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <numeric>
@@ -21,7 +22,8 @@ namespace {
 struct Track {
   DatasetName name;
   bool whole_numbers;
-  Extent extent{};  ///< of all parts; empty: the first part has none
+  bool as_attribute = false;  ///< a part without it has the root attribute of its name, one value for all its pings
+  Extent extent{};            ///< of all parts; empty: the first part has none
   std::vector<char> bytes{};
 
   hid_t type(bool in_file) const { return whole_numbers ? type_of<std::int64_t>(in_file) : type_of<double>(in_file); }
@@ -39,8 +41,14 @@ struct JoinedCube {
   Extent extent;  ///< of /pressure
   std::vector<Part> parts;
   std::vector<std::string> images;
-  std::vector<Track> tracks = {{time_name, false},       {pose_name, false}, {ping_name, true},
-                               {scan_angle_name, false}, {sweep_name, true}, {beam_time_name, false},
+  std::vector<Track> tracks = {{time_name, false},
+                               {pose_name, false},
+                               {ping_name, true},
+                               {sound_speed_name, false, true},
+                               {absorption_name, false, true},
+                               {scan_angle_name, false},
+                               {sweep_name, true},
+                               {beam_time_name, false},
                                {beam_pose_name, false}};
 };
 
@@ -61,13 +69,26 @@ Extent whole_extent(const Place& place, hid_t dataset, const char* name) {
   return extent;
 }
 
-void add_track(const Place& place, hid_t file, Track& track) {
-  if (H5Lexists(file, track.name.path, H5P_DEFAULT) <= 0) return;
+/// Reads the values of a part's track; the extent is empty if it has none.
+Extent read_values_of(const Place& place, hid_t file, Track& track, hsize_t pings) {
+  const std::size_t before = track.bytes.size();
+  if (H5Lexists(file, track.name.path, H5P_DEFAULT) <= 0) {
+    if (!track.as_attribute) return {};
+    const std::vector<double> same(pings, read_number(place, file, track.name.path + 1));
+    track.bytes.resize(before + 8 * same.size());
+    std::memcpy(track.bytes.data() + before, same.data(), 8 * same.size());
+    return {pings};
+  }
   const Handle dataset = open_dataset(place, file, track.name);
   const Extent extent = whole_extent(place, dataset, track.name.path);
-  const std::size_t before = track.bytes.size();
   track.bytes.resize(before + 8 * std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>()));
   read_values(place, dataset, {track.type(false)}, track.bytes.data() + before, track.name.path);
+  return extent;
+}
+
+void add_track(const Place& place, hid_t file, Track& track, hsize_t pings) {
+  const Extent extent = read_values_of(place, file, track, pings);
+  if (extent.empty()) return;
   if (track.extent.empty())
     track.extent = extent;
   else
@@ -93,7 +114,7 @@ void add_part(JoinedCube& joined, const std::string& path) {
     });
   }
   joined.parts.push_back({path, extent[0]});
-  for (Track& track : joined.tracks) add_track(place, file, track);
+  for (Track& track : joined.tracks) add_track(place, file, track, extent[0]);
 }
 
 /// From where attributes are copied, and to where.
@@ -134,9 +155,18 @@ void copy_axes(const Place& place, const Place& from, hid_t first, hid_t file) {
   }
 }
 
-void write_tracks(const Place& place, hid_t file, const JoinedCube& joined) {
+/// Whether all pings have the value of the root attribute, which says it then.
+bool is_attribute(const Place& from, hid_t first, const Track& track) {
+  if (!track.as_attribute) return false;
+  std::vector<double> values(track.bytes.size() / 8);
+  std::memcpy(values.data(), track.bytes.data(), track.bytes.size());
+  const double same = read_number(from, first, track.name.path + 1);
+  return std::all_of(values.begin(), values.end(), [same](double value) { return value == same; });
+}
+
+void write_tracks(const Place& place, hid_t file, const JoinedCube& joined, const Place& from, hid_t first) {
   for (const Track& track : joined.tracks) {
-    if (track.extent.empty()) continue;
+    if (track.extent.empty() || is_attribute(from, first, track)) continue;
     const Handle dataset = create_dataset(place, file, track.name, track.type(true), track.extent);
     place.checked(H5Dwrite(dataset, track.type(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, track.bytes.data()),
                   track.name.path);
@@ -230,7 +260,7 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
   const Handle first = open_file(from);
   const auto write = [&](const Place& place, hid_t file) {
     copy_axes(place, from, first, file);
-    write_tracks(place, file, joined);
+    write_tracks(place, file, joined, from, first);
     const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
     if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
       create_ordered_group(place, file, layers_group);

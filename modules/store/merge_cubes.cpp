@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-// Refuses cubes of different sonars, fans, gates, pulses or sound speeds.
+// Refuses cubes of different sonars, fans, gates or pulses. Their water may differ: each ping has its own.
 void require_alike(const NamedCube& one, const NamedCube& first) {
   const auto refuse = [&](const auto&... difference) {
     fail(ErrorKind::content, one.name, ": ", difference..., " in ", first.name,
@@ -30,8 +30,6 @@ void require_alike(const NamedCube& one, const NamedCube& first) {
   if (a.centre_frequency != b.centre_frequency || a.bandwidth != b.bandwidth)
     refuse("has a pulse of ", a.centre_frequency, " Hz and ", a.bandwidth, " Hz wide, not ", b.centre_frequency,
            " and ", b.bandwidth, " Hz as");
-  if (a.sound_speed != b.sound_speed)
-    refuse("has a sound speed of ", a.sound_speed, " m/s, not ", b.sound_speed, " m/s as");
 }
 
 std::vector<std::string> layer_names(const Ping& ping) {
@@ -80,7 +78,11 @@ MergedCube merge_cubes(std::vector<NamedCube> cubes) {
   };
   std::vector<Traced> traced;
   for (std::size_t c = 0; c < cubes.size(); ++c)
-    for (Ping& ping : cubes[c].cube.pings) traced.push_back({std::move(ping), {c, ping.number}});
+    for (Ping& ping : cubes[c].cube.pings) {
+      if (!(ping.sound_speed > 0))  // it is in the water of its cube
+        ping.sound_speed = cubes[c].cube.sound_speed, ping.absorption_db_per_m = cubes[c].cube.absorption_db_per_m;
+      traced.push_back({std::move(ping), {c, ping.number}});
+    }
   std::stable_sort(traced.begin(), traced.end(),
                    [](const Traced& a, const Traced& b) { return a.ping.time < b.ping.time; });
   MergedCube merged;

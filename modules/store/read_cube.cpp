@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/child_process.hpp"
@@ -60,10 +61,23 @@ void read_axes(const Place& place, hid_t file, CubeTable& table) {
   read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
 }
 
+// A number of the water at every ping: the pings' own, or that of all.
+std::vector<double> water_of(const Place& place, hid_t file, const DatasetName& name, hsize_t pings) {
+  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
+    return std::vector<double>(pings, read_number(place, file, name.path + 1));
+  const auto values = read_all<double>(place, file, name, {pings}, H5T_NATIVE_DOUBLE);
+  for (const double value : values)
+    if (!(value >= 0 && std::isfinite(value)))
+      fail(place.kind, place.path, ": ", name.path, " = ", value, " ", name.unit, ", must be finite and >= 0");
+  return values;
+}
+
 std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
   const auto pose = read_all<double>(place, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
   const auto time = read_all<double>(place, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
   const auto number = read_all<std::int64_t>(place, file, ping_name, {pings}, H5T_NATIVE_INT64);
+  const auto speed = water_of(place, file, sound_speed_name, pings);
+  const auto absorption = water_of(place, file, absorption_name, pings);
   const bool scans = H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) > 0;
   std::vector<double> angle;
   std::vector<std::int64_t> sweep;
@@ -75,6 +89,8 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
   for (std::size_t p = 0; p < track.size(); ++p) {
     track[p].number = number[p];
     track[p].time = time[p];
+    track[p].sound_speed = speed[p];
+    track[p].absorption_db_per_m = absorption[p];
     if (scans) track[p].scan = ScanPlace{sweep[p], angle[p]};
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
@@ -103,6 +119,7 @@ std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
     ping.fan = table.fan, ping.gate = table.gate, ping.expected_level = table.expected_level;
     ping.time = point.time, ping.number = point.number, ping.world_from_head = point.world_from_head;
     ping.scan = point.scan;
+    ping.sound_speed = point.sound_speed, ping.absorption_db_per_m = point.absorption_db_per_m;
   }
   return pings;
 }

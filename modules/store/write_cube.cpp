@@ -198,6 +198,21 @@ void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings)
   write_numbers(place, file, ping_name, {pings.size()}, number.data());
 }
 
+// The water at the head of every ping, if any has another than the cube says.
+void write_water(const Place& place, hid_t file, const Cube& cube) {
+  std::vector<double> speed, absorption;
+  bool differ = false;
+  for (const Ping& ping : cube.pings) {
+    const bool known = ping.sound_speed > 0;
+    speed.push_back(known ? ping.sound_speed : cube.sound_speed);
+    absorption.push_back(known ? ping.absorption_db_per_m : cube.absorption_db_per_m);
+    differ |= speed.back() != cube.sound_speed || absorption.back() != cube.absorption_db_per_m;
+  }
+  if (!differ) return;
+  write_numbers(place, file, sound_speed_name, {speed.size()}, speed.data());
+  write_numbers(place, file, absorption_name, {absorption.size()}, absorption.data());
+}
+
 // Of a scanning head: its own turn, and time and pose of every beam.
 void write_scan(const Place& place, hid_t file, const std::vector<Ping>& pings) {
   if (!pings.front().scan) return;
@@ -254,6 +269,7 @@ void write_cube(const std::string& path, const Cube& cube) {
     write_root_attributes(place, file, cube);
     write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
     write_track(place, file, cube.pings);
+    write_water(place, file, cube);
     write_scan(place, file, cube.pings);
     write_pressures(place, file, pressure_name, cube,
                     [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });

@@ -9,7 +9,8 @@ namespace {
 
 std::vector<ReelPlace> places_of(const std::vector<Ping>& pings) {
   std::vector<ReelPlace> places;
-  for (const Ping& ping : pings) places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan});
+  for (const Ping& ping : pings)
+    places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan, ping.absorption_db_per_m});
   return places;
 }
 

@@ -17,6 +17,7 @@ struct ReelPlace {
   double time = 0;  ///< [s]
   Pose world_from_head = Pose::Identity();
   std::optional<ScanPlace> scan{};  ///< of a scanning head
+  double absorption_db_per_m = 0;   ///< as Ping::absorption_db_per_m
 };
 
 /// Reads pings by their index in a reel.

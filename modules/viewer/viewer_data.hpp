@@ -21,7 +21,6 @@ inline constexpr const char* viewer_caller = "show_viewer";
 struct ViewerData {
   std::string title;
   PingReel pings;                           ///< all with the same fan and gate
-  double absorption_db_per_m = 0;           ///< for range compensation
   std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
   Soundings returns;                        ///< of all pings; unused if `pings` has returns of its own

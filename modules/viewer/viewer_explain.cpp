@@ -171,7 +171,7 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
   const auto row = static_cast<Eigen::Index>(place.beam), column = static_cast<Eigen::Index>(place.bin);
   facts.level_db = pressure_level_db(static_cast<double>(std::abs(ping.pressure(row, column))));  // (E6)
   facts.compensated_level_db =
-      facts.level_db + 40 * std::log10(facts.range) + 2 * data.absorption_db_per_m * facts.range;  // (E20)
+      facts.level_db + 40 * std::log10(facts.range) + 2 * ping.absorption_db_per_m * facts.range;  // (E20)
   if (!data.contributors.empty() && !data.contributors[ping_index].empty()) {
     facts.contributions_known = true;
     facts.contributions = contributions_of(data.contributors[ping_index], place, data);

@@ -104,7 +104,7 @@ LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
                    looks_down(ping.world_from_head, ping.scan)};
   if (ping.scan)
     for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping.scan->angle, 2 * pi);
-  if (tvg) image.level_db = apply_tvg(std::move(image.level_db), ping.gate, {40, data.absorption_db_per_m});
+  if (tvg) image.level_db = apply_tvg(std::move(image.level_db), ping.gate, {40, ping.absorption_db_per_m});
   return image;
 }
 

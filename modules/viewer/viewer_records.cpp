@@ -18,7 +18,12 @@ Grid<float> levels_of_page(const ViewerData& data, const BeamPage& page, bool tv
     return static_cast<float>(std::max(silence_db, pressure_level_db(static_cast<double>(std::abs(pressure)))));
   });
   if (!tvg) return level_db;
-  return apply_tvg(std::move(level_db), data.pings.gate(), {40, data.absorption_db_per_m});
+  for (Eigen::Index row = 0; row < level_db.rows(); ++row) {
+    const std::size_t ping = page.first + static_cast<std::size_t>(row);
+    level_db.row(row) =
+        apply_tvg(level_db.row(row), data.pings.gate(), {40, data.pings.place(ping).absorption_db_per_m});
+  }
+  return level_db;
 }
 
 // The pings of the sweep that `ping` is of.

@@ -31,7 +31,7 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all.ping[i] != wanted) continue;
     const double range = all.range[i];
-    const double gain = 40 * std::log10(range) + 2 * data.absorption_db_per_m * range;
+    const double gain = 40 * std::log10(range) + 2 * data.pings.place(ping).absorption_db_per_m * range;
     append_row(own, all, i);
     own.level_db.back() = static_cast<float>(static_cast<double>(all.level_db[i]) + gain);
   }

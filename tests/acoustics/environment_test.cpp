@@ -77,6 +77,16 @@ TEST(Environment, medium_has_the_profiles_sound_speed_at_the_heads_depth) {
   EXPECT_EQ(medium_of(e, 900e3).absorption.a0, absorption);
 }
 
+TEST(Environment, slowest_sound_is_that_of_any_depth_a_head_may_have) {
+  Environment e;
+  e.water.depth = 5;
+  EXPECT_EQ(slowest_sound(e), sound_speed(e.water));
+  e.surface = SeaSurface{};
+  EXPECT_EQ(slowest_sound(e), sound_speed(Water{}));
+  e.profile = SoundSpeedProfile{{0, 10, 30}, {1500, 1480, 1490}};
+  EXPECT_EQ(slowest_sound(e), 1480);
+}
+
 TEST(Environment, noise_is_the_power_sum_of_what_there_is) {
   const Pulse pulse{100e3, 1e3, 220};
   Environment e;

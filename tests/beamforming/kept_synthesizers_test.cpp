@@ -78,3 +78,19 @@ TEST(KeptSynthesizers, are_no_more_than_asked_for) {
   EXPECT_FALSE(a.expired());
   EXPECT_TRUE(b.expired()) << "the one not used for the longest time goes";
 }
+
+// A head that dives has another medium in every ping, and does not come back to earlier ones.
+TEST(KeptSynthesizers, of_one_head_are_those_of_the_last_two_media) {
+  KeptSynthesizers kept;
+  const auto made_in = [&](double sound_speed) {
+    return kept.narrow_band(kept_head(), {sound_speed, {0.02, 0, 0}}, {1e-3, 1});
+  };
+  const std::weak_ptr<const PingSynthesizer> a = made_in(1490), b = made_in(1491), c = made_in(1492);
+  EXPECT_TRUE(a.expired());
+  EXPECT_FALSE(b.expired() || c.expired());
+}
+
+TEST(KeptSynthesizers, that_cannot_be_made_are_refused_every_time) {
+  KeptSynthesizers kept;
+  for (int k = 0; k < 2; ++k) EXPECT_THROW(kept.narrow_band(kept_head(), {-1, {}}, {1e-3, 1}), Error) << k;
+}

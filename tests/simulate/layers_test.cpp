@@ -128,6 +128,7 @@ TEST(Layers, are_what_each_is_without_the_others) {
   }
   Case direct_alone;
   direct_alone.environment = {};
+  direct_alone.environment.water.depth = full_environment().surface->height;
   direct_alone.options.effects.multipath = Choice::never;
   direct_alone.options.effects.noise = false;
   EXPECT_TRUE(same(layers_of(direct_alone.ping()).at("direct"), reference().at("direct")));
@@ -213,7 +214,7 @@ TEST(SimulatePing, of_a_head_with_no_velocity_is_that_of_a_head_at_rest_bit_for_
 
 TEST(SimulatePing, in_a_profile_of_one_sound_speed_is_that_without_a_profile_bit_for_bit) {
   Case layered;
-  const double c = sound_speed(layered.environment.water);
+  const double c = reference_ping().ping.sound_speed;
   layered.environment.profile = SoundSpeedProfile{{0, 1.5, 10, 4000}, {c, c, c, c}};
   const SimulatedPing p = layered.ping();
   EXPECT_FALSE(p.refraction.bent);

@@ -59,6 +59,12 @@ Situation situation(std::uint64_t number) {
   return s;
 }
 
+/// Gives the water a surface, from which the depth of the head follows.
+void put_under(const SeaSurface& surface, Situation& s) {
+  s.environment.surface = surface;
+  s.environment.water.depth = 0;
+}
+
 ComplexGrid image(const Situation& s) {
   return simulate_ping(s.scene, s.head, s.pose, s.environment, s.options).ping.pressure.cast<std::complex<double>>();
 }
@@ -85,7 +91,7 @@ TEST(PlanPing, effect_of_every_stage_left_out_stays_below_its_bound) {
   double outer_elevations = 0;
   for (std::uint64_t number = 1; number <= 6; ++number) {
     Situation s = situation(number);
-    s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
+    put_under(SeaSurface{.height = 5, .rms_height = 0.0002}, s);
     s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
     const PingPlan plan = plan_of(s);
     outer_elevations += stage(plan, "outer-elevations").bound_relative;
@@ -168,7 +174,7 @@ TEST(PlanPing, what_has_no_cause_costs_nothing_and_cannot_be_forced_in) {
 
 TEST(PlanPing, what_the_environment_calls_for_is_in) {
   Situation s = situation(1);
-  s.environment.surface = SeaSurface{.height = 5, .scattering_strength_db = -30.0};
+  put_under(SeaSurface{.height = 5, .scattering_strength_db = -30.0}, s);
   s.environment.bottom = FlatBottom{.height = -1, .lambert_mu = 0.002};
   s.environment.volume_scattering_db = -70;
   s.options.effects.multipath = Choice::always;
@@ -223,7 +229,7 @@ TEST(PlanPing, true_delays_keep_the_tolerance) {
 // Each of seven stages has a seventh of the budget's square, and is in if its bound is larger.
 TEST(PlanPing, budget_decides_what_is_left_open) {
   Situation s = situation(2);
-  s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
+  put_under(SeaSurface{.height = 5, .rms_height = 0.0002}, s);
   s.environment.profile = SoundSpeedProfile{{0, 20}, {1490, 1490.5}};
   s.options.effects = {};
   s.options.sampling = {.scatterers_per_cell = 3};
@@ -269,7 +275,7 @@ TEST(PlanPing, leaves_true_delays_of_a_planar_array_to_its_user) {
 
 TEST(PlanPing, is_what_a_ping_does) {
   Situation s = situation(5);
-  s.environment.surface = SeaSurface{.height = 5, .rms_height = 0.0002};
+  put_under(SeaSurface{.height = 5, .rms_height = 0.0002}, s);
   s.options.effects = {};
   s.options.sampling = {.scatterers_per_cell = 1};
   s.options.synthesis = {};

@@ -188,6 +188,38 @@ TEST(Cube, has_bin_centres_as_range_and_poses_row_by_row) {
   EXPECT_EQ(pose[1], cube.pings[0].world_from_head.matrix()(0, 1));
 }
 
+TEST(Cube, keeps_the_water_of_pings_that_differ_from_it) {
+  Cube cube = random_cube();
+  const std::string plain = file_bytes(write(cube));
+  for (const Ping& ping : read_cube(own_path("cube.h5")).pings) {
+    EXPECT_EQ(ping.sound_speed, cube.sound_speed);
+    EXPECT_EQ(ping.absorption_db_per_m, cube.absorption_db_per_m);
+  }
+  cube.pings[2].sound_speed = cube.sound_speed, cube.pings[2].absorption_db_per_m = cube.absorption_db_per_m;
+  EXPECT_EQ(file_bytes(write(cube)), plain) << "what all have is said once";
+  cube.pings[1].sound_speed = 1471.25, cube.pings[1].absorption_db_per_m = 0.28;
+  const std::string path = write(cube);
+  const Cube back = read_cube(path);
+  EXPECT_EQ(back.pings[0].sound_speed, 1489.8);
+  EXPECT_EQ(back.pings[1].sound_speed, 1471.25);
+  EXPECT_EQ(back.pings[1].absorption_db_per_m, 0.28);
+  EXPECT_EQ(back.pings[2].absorption_db_per_m, cube.absorption_db_per_m);
+  EXPECT_EQ(read_cube(path, 1, 1).pings[0].sound_speed, 1471.25);
+  EXPECT_EQ(read_track(path)[1].sound_speed, 1471.25);
+  EXPECT_EQ(read_track(path)[1].absorption_db_per_m, 0.28);
+  {
+    const RawFile file(path);
+    EXPECT_EQ(raw_extent(file, "/sound_speed"), (std::vector<hsize_t>{3}));
+    EXPECT_EQ(raw_text(file, "/sound_speed", "units"), "m/s");
+    EXPECT_EQ(raw_text(file, "/absorption_db_per_m", "units"), "dB/m");
+    const hid_t dataset = H5Dopen2(file, "/sound_speed", H5P_DEFAULT);
+    const double damaged[] = {1500, -1, 1500};
+    EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, damaged), 0);
+    H5Dclose(dataset);
+  }
+  EXPECT_EQ(error_of_cube(path), "content: cube.h5: /sound_speed = -1 m/s, must be finite and >= 0");
+}
+
 TEST(Cube, names_the_dataset_that_is_missing) {
   for (const char* name : {"/pressure", "/range", "/azimuth", "/elevation", "/pose", "/time", "/ping"}) {
     const std::string path = write(random_cube());

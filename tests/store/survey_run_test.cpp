@@ -108,6 +108,30 @@ TEST(JoinCubes, refers_to_the_parts_or_copies_them) {
   }
 }
 
+// The first part has one water, which its attributes say; the second has another in each ping.
+TEST(JoinCubes, keeps_the_water_of_each_ping) {
+  const auto in_water = [](Cube cube, std::size_t from) {
+    for (std::size_t p = 0; p < cube.pings.size(); ++p) {
+      const double deeper = static_cast<double>(std::max(from + p, std::size_t{1}) - 1);
+      cube.pings[p].sound_speed = 1500 - deeper, cube.pings[p].absorption_db_per_m = 0.1 + 0.01 * deeper;
+    }
+    cube.sound_speed = cube.pings[0].sound_speed, cube.absorption_db_per_m = cube.pings[0].absorption_db_per_m;
+    return cube;
+  };
+  write_cube(own_path("0.h5"), in_water(cube_of(0, 2, {}, false), 0));
+  write_cube(own_path("1.h5"), in_water(cube_of(2, 3, {}, false), 2));
+  write_cube(own_path("once.h5"), in_water(cube_of(0, 5, {}, false), 0));
+  for (const bool copy : {false, true}) {
+    join_cubes(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")}, copy);
+    const Cube all = read_cube(own_path("all.h5"));
+    EXPECT_EQ(all.pings[1].sound_speed, 1500);
+    EXPECT_EQ(all.pings[4].sound_speed, 1497);
+    EXPECT_EQ(all.pings[4].absorption_db_per_m, 0.1 + 0.01 * 3);
+    write_cube(own_path("again.h5"), all);
+    EXPECT_EQ(file_bytes(own_path("again.h5")), file_bytes(own_path("once.h5")));
+  }
+}
+
 TEST(JoinCubes, may_be_moved_with_its_parts_but_not_without) {
   fs::create_directories(own_path("run/parts"));
   write_cube(own_path("run/parts/0.h5"), cube_of(0, 2, {}, false));

@@ -49,8 +49,8 @@ TEST_F(EnvironmentRun, multipath_adds_energy_behind_the_direct_echo_only) {
   have("ball.ply", "make-scene sphere --points 3000 --radius 0.1");
   const std::string look =
       "ping ball.ply --pose=0,0,0,0,0,0 --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture -q "
-      "--set sonar.elevation_width_deg=90 ";
-  succeed(look + "-o direct");
+      "--set sonar.elevation_width_deg=90 --set sonar.bin_size_m=0.0109 ";
+  succeed(look + "--set water.depth_m=2 -o direct");
   succeed(look + "--multipath --set surface.height_m=2 --layers -o sea");
   const Ping direct = ping("direct"), sea = ping("sea");
   ASSERT_EQ(layer_names(sea), (std::vector<std::string>{"direct", "multipath"}));
@@ -159,12 +159,13 @@ TEST_F(EnvironmentRun, trajectory_is_the_pose_and_motion_between_its_entries) {
 
 TEST_F(EnvironmentRun, profile_bends_rays_only_where_it_matters) {
   // The very speed of the plain water, at every depth.
-  over_harbour("plain", "");
+  const std::string bins = " --set sonar.bin_size_m=0.0109";  // short enough for the slowest sound
+  over_harbour("plain", bins);
   const double c = read_cube(path("plain/cube.h5")).sound_speed;
   char line[200];
   std::snprintf(line, sizeof line, "depth_m,sound_speed\n0,%.17g\n20,%.17g\n", c, c);
   write("even.csv", line);
-  over_harbour("even", " --profile even.csv");
+  over_harbour("even", bins + " --profile even.csv");
   EXPECT_LT(difference("even", "plain"), 1e-6);
   EXPECT_THAT(read("even/manifest.json"), HasSubstr("refraction left out"));
 
@@ -172,7 +173,7 @@ TEST_F(EnvironmentRun, profile_bends_rays_only_where_it_matters) {
   std::snprintf(line, sizeof line, "depth_m,sound_speed\n0,%.17g\n3,%.17g\n4,%.17g\n20,%.17g\n", c + 20, c, c - 20,
                 c - 20);
   write("thermocline.csv", line);
-  over_harbour("bent", " --profile thermocline.csv --set water.depth_m=3");
+  over_harbour("bent", bins + " --profile thermocline.csv --set surface.height_m=0 --without multipath");
   EXPECT_THAT(read("bent/manifest.json"), HasSubstr("rays bent by the sound-speed profile"));
   EXPECT_GT(difference("bent", "plain"), 0.1);
 }

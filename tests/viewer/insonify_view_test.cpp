@@ -25,7 +25,7 @@ class InsonifyView : public ToolTest {
   Cube cube() const {
     Cube cube;
     cube.pings = made_.pings;
-    cube.absorption_db_per_m = made_.data.absorption_db_per_m;
+    cube.absorption_db_per_m = made_.pings.front().absorption_db_per_m;
     cube.sound_speed = 1500;
     cube.centre_frequency = 9e5, cube.bandwidth = 3e4;
     cube.source_level_db = 200;

@@ -27,11 +27,11 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   TargetData made;
   ViewerData& data = made.data;
   data.title = "three targets";
-  data.absorption_db_per_m = 0.25;
   Ping ping;
   ping.world_from_head = pose_from_yaw_pitch_roll({10, 20, -3}, radians(30), 0, 0);
   ping.fan = make_fan(beams, radians(82), radians(2), radians(20));  // 2 degrees apart, beam 20 ahead
   ping.gate = {2, 14, 0.1};
+  ping.sound_speed = 1500, ping.absorption_db_per_m = 0.25;
   ping.pressure = ComplexGridF::Constant(beams, bins, soft);
   for (std::size_t i = 0; i < pings; ++i) {
     made.pings.push_back(ping);

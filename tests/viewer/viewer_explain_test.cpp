@@ -20,6 +20,17 @@ TEST(ExplainPixel, says_range_bearing_and_levels) {
   EXPECT_THAT(text, HasSubstr("137.0 dB re 1 µPa"));
 }
 
+TEST(ExplainPixel, gives_back_the_absorption_of_the_water_of_its_ping) {
+  auto made = three_targets(2);
+  made.pings[1].absorption_db_per_m = 0.5;
+  made.data.pings = PingReel(made.pings);
+  const auto gain = [&](std::size_t ping) {
+    const PixelFacts facts = find_pixel_facts(made.data, ping, made.starboard.place);
+    return facts.compensated_level_db - facts.level_db;
+  };
+  EXPECT_NEAR(gain(1) - gain(0), 2 * (0.5 - 0.25) * 6.05, 1e-9);
+}
+
 TEST(ExplainPixel, port_is_negative_and_starboard_positive) {
   const auto made = three_targets();
   EXPECT_GT(made.port.azimuth, 0);

@@ -79,8 +79,10 @@ Environment with_surface(double height, double depth) {
   return e;
 }
 
+/// Under a sea so rough that it reflects nothing.
 Environment with_profile() {
-  Environment e = water_of(12, 5);
+  Environment e = with_surface(8, 5);
+  e.surface->rms_height = 1;
   e.profile = SoundSpeedProfile{{0, 5, 20}, {1497, 1496.9, 1494}};
   return e;
 }

@@ -1,0 +1,191 @@
+// A vehicle that dives through a thermocline: every ping has the water of its own depth, and so has all that is made of it.
+#include <numeric>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "acoustics/sound_speed_profile.hpp"
+#include "acoustics/water.hpp"
+#include "formats/gsf_decoder.hpp"
+#include "formats/ros_decoder.hpp"
+#include "store/cube.hpp"
+#include "support/test.hpp"
+#include "tool/tool_runner.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+const SoundSpeedProfile thermocline{{0, 4, 6, 40}, {1520, 1518, 1450, 1446}};
+constexpr double bed_height = -25;
+
+/// Travel time straight down [s], by the middle rule over depth.
+double time_down(double from, double to) {
+  constexpr int steps = 100000;
+  double sum = 0;
+  for (int k = 0; k < steps; ++k) sum += 1 / sound_speed_at(thermocline, from + (k + 0.5) / steps * (to - from));
+  return sum * (to - from) / steps;
+}
+
+/// Rows of a CSV by the names of its header.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
+  std::istringstream lines(text);
+  const auto cells_of = [](const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream from(line);
+    for (std::string cell; std::getline(from, cell, ',');) cells.push_back(cell);
+    return cells;
+  };
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> names = cells_of(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i == 0) rows.emplace_back();
+      rows.back()[names.at(i)] = cells[i];
+    }
+  }
+  return rows;
+}
+
+class Dive : public ToolTest {
+ protected:
+  void SetUp() override {
+    write("bed.obj", "v -4 -40 -25\nv 4 -40 -25\nv 4 40 -25\nv -4 40 -25\nf 1 2 3\nf 1 3 4\n");
+    write("sea.toml",
+          "[water]\nlatitude_deg = -33\n[surface]\nheight_m = 0\n[profile]\ndepth_m = [0, 4, 6, 40]\n"
+          "sound_speed = [1520, 1518, 1450, 1446]\n");
+    write("dive.toml", mission("[[-2, 0, -1], [2, 0, -20]]"));
+  }
+  /// So slow that no way is made while sound is under way.
+  std::string mission(const std::string& waypoints) const {
+    return "schema = 1\n[survey]\nscene = \"bed.obj\"\nenvironment = \"sea.toml\"\n[trajectory]\nwaypoints_m = " +
+           waypoints +
+           "\nspeed_m_s = 0.05\n[[head]]\nsonar = \"em2040\"\nrange = \"3:36\"\n"
+           "set = [\"sonar.field_of_view_deg=90\", \"sonar.beams=32\"]\nevery_m = 4.8\n[ping]\nsplit = true\n"
+           "without = [\"multipath\"]\n";
+  }
+  json info(const std::string& run) const { return json::parse(succeed("info " + run + " --json")); }
+  static double depth_of(const Ping& ping) { return -ping.world_from_head.translation().z(); }
+};
+
+}  // namespace
+
+TEST_F(Dive, pings_keep_the_water_of_their_own_depth_in_blocks_and_in_the_merged_cube) {
+  succeed("survey dive.toml -q -o run --pings-per-block 2");
+  succeed("merge -q run");
+  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  ASSERT_EQ(cube.pings.size(), 5U);
+  for (const Ping& ping : cube.pings) {
+    EXPECT_NEAR(ping.sound_speed, sound_speed_at(thermocline, depth_of(ping)), 1e-4);
+    const Water water{.depth = depth_of(ping), .latitude_deg = -33};
+    EXPECT_NEAR(ping.absorption_db_per_m / absorption_db_per_m(water, cube.centre_frequency), 1, 1e-9);
+  }
+  EXPECT_EQ(cube.sound_speed, cube.pings.front().sound_speed);
+  EXPECT_GT(cube.pings.front().sound_speed - cube.pings.back().sound_speed, 60);
+  const auto track = read_track(path("run/em2040/cube.h5"));
+  for (std::size_t p = 0; p < track.size(); ++p) EXPECT_EQ(track[p].sound_speed, cube.pings[p].sound_speed);
+
+  const json about = info("run/em2040")["sound_speed"];
+  ASSERT_EQ(about.size(), 2U) << "the slowest and the fastest";
+  EXPECT_EQ(about[1], cube.pings.front().sound_speed);
+
+  // Soundings lie on the bed, and those straight down took as long as sound does.
+  succeed("export run --to csv -q -o soundings.csv");
+  std::vector<std::size_t> close(5), all(5);
+  for (const auto& row : rows_of(read("soundings.csv"))) {
+    const auto p = static_cast<std::size_t>(std::stoi(row.at("ping")));
+    const double off = std::abs(std::stod(row.at("z_m")) - bed_height), across = std::stod(row.at("y_m"));
+    ++all.at(p), close.at(p) += off < 0.02;
+    EXPECT_LT(off, 0.04);
+    const double depth = depth_of(cube.pings[p]), down = time_down(depth, -bed_height);
+    if (std::abs(across) < 0.02 * (-bed_height - depth)) {
+      EXPECT_NEAR(std::stod(row.at("range_m")) / cube.pings[p].sound_speed / down, 1, 6e-4) << p;
+    }
+  }
+  for (std::size_t p = 0; p < 5; ++p) {
+    EXPECT_EQ(all[p], 32U);
+    EXPECT_GE(close[p], 30U);
+  }
+}
+
+TEST_F(Dive, files_of_other_programs_have_the_water_of_each_ping) {
+  write("short.toml", replaced(read("dive.toml"), "every_m = 4.8", "every_m = 15"));
+  succeed("survey short.toml -q -o run");
+  succeed("merge -q run");
+  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  ASSERT_EQ(cube.pings.size(), 2U);
+  succeed("export run --to gsf --anchor -33.5,-71.6,0 -q -o dive.gsf");
+  const decode::GsfContent gsf = decode::read_gsf(read("dive.gsf"));
+  succeed("export run --to mcap -q -o dive.mcap");
+  std::vector<double> speeds;
+  for (const auto& message : decode::read_mcap(read("dive.mcap")).messages)
+    if (message.topic == "/sonar/image") speeds.push_back(message.content.one("ping_info.sound_speed"));
+  ASSERT_EQ(gsf.swaths.size(), 2U);
+  ASSERT_EQ(speeds.size(), 2U);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_NEAR(gsf.swaths[p].of_sensor.at("surface_velocity"), cube.pings[p].sound_speed, 0.051);
+    EXPECT_NEAR(speeds[p], cube.pings[p].sound_speed, 1e-3);
+    const auto& times = gsf.swaths[p].arrays.at(4);
+    EXPECT_NEAR(*std::min_element(times.begin(), times.end()) / (2 * time_down(depth_of(cube.pings[p]), -bed_height)),
+                1, 1e-3)
+        << "straight down";
+  }
+}
+
+TEST_F(Dive, level_ways_have_one_water_and_no_numbers_of_their_own) {
+  write("level.toml", mission("[[-2, 0, -10], [2, 0, -10]]"));
+  succeed("survey level.toml -q -o run");
+  const std::string block = "run/em2040/blocks/000000.h5";
+  ASSERT_TRUE(std::filesystem::exists(path(block))) << "of the only block";
+  const Cube cube = read_cube(path(block));
+  EXPECT_NEAR(cube.sound_speed, sound_speed_at(thermocline, 10), 1e-4);
+  const std::string bytes = read(block), name = "absorption_db_per_m";
+  EXPECT_EQ(bytes.find(name, bytes.find(name) + 1), std::string::npos) << "an attribute alone, no dataset";
+  for (const Ping& ping : cube.pings) EXPECT_EQ(ping.sound_speed, cube.sound_speed);
+}
+
+TEST_F(Dive, a_ping_says_which_water_it_was_in_and_can_be_made_again) {
+  const std::string ping = "ping bed.obj --sonar em2040 --environment sea.toml --range 3:25 --set sonar.beams=16 ";
+  succeed(ping + "--pose=0,0,-8,0,90,0 -q -o out");
+  const json manifest = json::parse(read("out/manifest.json"));
+  EXPECT_EQ(manifest["water"]["depth_m"], 8.0);
+  EXPECT_NEAR(manifest["water"]["sound_speed"].get<double>(), sound_speed_at(thermocline, 8), 1e-4);
+  EXPECT_EQ(info("out")["sound_speed"], manifest["water"]["sound_speed"]);
+  succeed("ping --run out/run.toml -q -o again");
+  EXPECT_EQ(read("again/cube.h5"), read("out/cube.h5"));
+  // Of two depths one cube is made: the head is the same.
+  succeed(ping + "--pose=0,0,-2,0,90,0 --time 1 -q -o high");
+  succeed("merge -q out high -o both");
+  const Cube both = read_cube(path("both/cube.h5"));
+  ASSERT_EQ(both.pings.size(), 2U);
+  EXPECT_NEAR(both.pings[0].sound_speed, sound_speed_at(thermocline, 8), 1e-4);
+  EXPECT_NEAR(both.pings[1].sound_speed, sound_speed_at(thermocline, 2), 1e-4);
+}
+
+TEST_F(Dive, refuses_heads_without_a_depth_before_any_work) {
+  const std::string ping = "ping bed.obj --sonar em2040 --no-picture -o out --pose=0,0,";
+  write("ctd.csv", "depth_m,sound_speed\n0,1520\n5,1440\n");
+  expect_refused(ping + "0.5,0,90,0 --environment sea.toml", 2,
+                 {"z = 0.5 m", "surface.height = 0 m", "lower the head"});
+  expect_refused(ping + "-8,0,90,0 --environment sea.toml --set water.depth_m=3", 2,
+                 {"water.depth = 3 m", "8 m below", "leave water.depth_m out"});
+  expect_refused(ping + "374,0,90,0 --profile ctd.csv", 2, {"profile", "give surface.height_m"});
+  expect_refused(ping + "374,0,90,0 --profile ctd.csv --set water.depth_m=3", 2, {"profile", "give surface.height_m"});
+  write("flying.toml", mission("[[-2, 0, -1], [2, 0, 9]]"));
+  expect_refused("survey flying.toml -o out", 3, {"flying.toml: head 'em2040', ping", "above the sea surface"});
+  write("sea.toml", "[surface]\nheight_m = 0\n[water]\ndepth_m = 1\n");
+  expect_refused("survey dive.toml -o out", 3, {"dive.toml: head 'em2040', ping 1", "leave water.depth_m out"});
+}
+
+// Runs of versions that took the depth of a profile from water.depth_m alone can still be looked at.
+TEST_F(Dive, runs_of_a_profile_without_a_surface_can_be_read) {
+  succeed(
+      "ping bed.obj --sonar em2040 --set water.depth_m=8 --range 3:25 --set sonar.beams=16 --pose=0,0,-8,0,90,0 -q -o "
+      "out");
+  write("out/run.toml", read("out/run.toml") + "\n[profile]\ndepth_m = [0, 40]\nsound_speed = [1520, 1446]\n");
+  succeed("export out --to csv -q -o soundings.csv");
+  succeed("image out --view scene --colour visibility -q -o scene.png");
+}
