@@ -18,7 +18,7 @@ if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
     [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer"
     [parallel]="shards of a survey" [slurm-wlm]="shards of a survey as a job array" [munge]="Slurm's keys"
-    [python3-h5py]="cubes as Python reads them")
+    [python3-h5py]="cubes as Python reads them" [gdal-bin]="grids as GDAL reads them" [pcl-tools]="clouds as PCL reads them")
 fi
 if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
 if [[ "${1:-}" == --packages ]]; then

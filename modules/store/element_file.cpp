@@ -29,6 +29,7 @@ void write_element_file(const std::string& path, const ElementSeries& series, co
     write_attribute(place, file, "steering", std::string("exp(+2 pi i f y u / c)"));
     const Extent extent = {static_cast<hsize_t>(pressure.rows()), static_cast<hsize_t>(pressure.cols())};
     const Handle dataset = create_dataset(place, file, pressure_name, complex_type(place, H5T_IEEE_F32LE), extent);
+    write_attribute(place, dataset, convention_attribute, std::string(pressure_convention));
     place.checked(
         H5Dwrite(dataset, complex_type(place, H5T_NATIVE_FLOAT), H5S_ALL, H5S_ALL, H5P_DEFAULT, pressure.data()),
         pressure_name.path);

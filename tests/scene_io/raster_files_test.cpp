@@ -211,7 +211,8 @@ TEST(RasterFiles, of_insonify_are_read_by_gdal) {
   EXPECT_STREQ(OSRGetName(GDALGetSpatialRef(file)), "WGS 84 / UTM zone 32N");
   ASSERT_EQ(GDALGetRasterCount(file), 2);
   const GDALRasterBandH band = GDALGetRasterBand(file, 1);
-  EXPECT_STREQ(GDALGetDescription(band), "height [m]");
+  EXPECT_STREQ(GDALGetDescription(band), "height");
+  EXPECT_STREQ(GDALGetRasterUnitType(band), "m");
   int has_none = 0;
   EXPECT_TRUE(std::isnan(GDALGetRasterNoDataValue(band, &has_none)));
   EXPECT_TRUE(has_none);

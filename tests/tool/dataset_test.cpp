@@ -4,6 +4,7 @@
 
 #include "core/sha256.hpp"
 #include "support/test.hpp"
+#include "tool/dataset_split.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/grey_file.hpp"
 
@@ -353,6 +354,9 @@ TEST_F(DatasetRun, splits_by_legs_regions_and_pings_and_says_what_they_share) {
   EXPECT_THAT(read("of_legs/fan/val.txt"), testing::AllOf(HasSubstr("000_000002.png"), HasSubstr("000_000003.png")));
   const auto said = nlohmann::json::parse(succeed("dataset legs -o of_legs --split-by leg --json --force -q"));
   EXPECT_EQ(said["splits"]["val"]["near_train"], 2);
+  for (const tool::SplitUnit& unit : tool::split_units())
+    EXPECT_THAT(file_bytes(INSONIFY_FORMATS_PAGE),
+                HasSubstr(std::string("| `") + unit.name + "` | " + unit.means + " |"));
   expect_refused("dataset survey -o none --split-by beam", 2, {"--split-by", "beam"});
 }
 

@@ -152,6 +152,20 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
   std::getline(lines, line);
   EXPECT_EQ(line,
             "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,latitude_deg,longitude_deg");
+  // The page has a row for each column, and for each extra one of LAS.
+  const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
+  const auto expect_in_table = [&](const char* table, const std::string& column) {
+    const std::size_t begin = page.find(table);
+    ASSERT_NE(begin, page.npos) << table;
+    EXPECT_THAT(page.substr(begin, page.find("\n\n", begin) - begin), HasSubstr("`" + column + "`"));
+  };
+  std::istringstream columns(line);
+  for (std::string column; std::getline(columns, column, ',');) expect_in_table("| column of `csv`", column);
+  const std::string las_file = read_bytes("ball.las");
+  for (const char* column : {"level_db", "deviation", "ping", "beam"}) {
+    expect_in_table("| column of `las`", column);
+    EXPECT_THAT(las_file, HasSubstr(std::string(column) + std::string(1, '\0')));
+  }
   std::size_t i = 0;
   for (; std::getline(lines, line); ++i) {
     std::vector<std::string> words;
