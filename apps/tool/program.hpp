@@ -3,6 +3,7 @@
 #include <exception>
 #include <functional>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -43,6 +44,9 @@ inline int run_program(const std::function<int()>& run, const char* less) {
     std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
     return exit_codes[static_cast<int>(error.kind())];
   } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "insonify: out of memory; %s\n", less);
+    return no_memory;
+  } catch (const std::length_error&) {  // an array beyond all memory
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
     return no_memory;
   } catch (const std::system_error& error) {

@@ -30,7 +30,7 @@ void require_own_name(const std::vector<Item>& items, std::size_t i, const char*
 
 void require_at_least_0(double value, const std::string& item, const char* name, const char* unit) {
   if (!(value >= 0 && std::isfinite(value)))
-    fail(ErrorKind::argument, item, ": ", name, " = ", value, " ", unit, ", must be finite and > 0");
+    fail(ErrorKind::argument, item, ": ", name, " = ", value, " ", unit, ", must be finite and >= 0");
 }
 
 void require_valid(const HeadScan& scan, const std::string& head) {
@@ -41,6 +41,10 @@ void require_valid(const HeadScan& scan, const std::string& head) {
   if (!(scan.step > 0 && scan.step <= span * (1 + 1e-9)))
     fail(ErrorKind::argument, head, ": scan.step = ", degrees(scan.step),
          " degrees, must be > 0 and at most the span of ", degrees(span));
+  constexpr double most_directions = 1e6;
+  if (!(span / scan.step <= most_directions))
+    fail(ErrorKind::argument, head, ": scan.step = ", degrees(scan.step), " degrees makes ", span / scan.step,
+         " directions, must be at most ", most_directions, "; take a larger step");
 }
 
 }  // namespace

@@ -31,11 +31,55 @@ std::vector<double> times_by_distance(const Trajectory& t, double from, double t
   return times;
 }
 
-std::vector<double> times_on_leg(const Mission& mission, const MissionHead& head, const MissionLeg& leg) {
+/// How often a head pings on a leg; both are 0 where it has times of its own.
+struct PingSpacing {
+  double interval = 0, distance = 0;  // [s], [m]
+};
+
+PingSpacing spacing_on(const MissionHead& head, const MissionLeg& leg) {
   const bool own = leg.interval > 0 || leg.distance > 0;
-  const double distance = own ? leg.distance : head.distance;
-  double interval = own ? leg.interval : head.interval;
-  if (interval + distance == 0 && head.times.empty()) interval = head.listening_time;
+  PingSpacing spacing{own ? leg.interval : head.interval, own ? leg.distance : head.distance};
+  if (spacing.interval + spacing.distance == 0 && head.times.empty()) spacing.interval = head.listening_time;
+  return spacing;
+}
+
+bool pings_on(const MissionHead& head, const MissionLeg& leg) {
+  return leg.active &&
+         (leg.heads.empty() || std::find(leg.heads.begin(), leg.heads.end(), head.name) != leg.heads.end());
+}
+
+double length_between(const Trajectory& t, double from, double to) {
+  double length = 0;
+  for (std::size_t i = 1; i < t.time.size(); ++i)
+    if (t.time[i] > from && t.time[i - 1] < to)
+      length += (t.pose[i].translation() - t.pose[i - 1].translation()).norm();
+  return length;
+}
+
+/// Refuses a mission before a list of its pings takes the memory of the machine.
+void require_countable(const Mission& mission, const std::vector<MissionLeg>& legs) {
+  constexpr double most = 1e8;
+  double pings = 0;
+  for (const MissionHead& head : mission.heads) {
+    double of_head = 0;
+    for (const MissionLeg& leg : legs) {
+      if (!pings_on(head, leg)) continue;
+      const auto [interval, distance] = spacing_on(head, leg);
+      const double length = distance > 0 ? length_between(mission.trajectory, leg.from, leg.to) : 0;
+      of_head += distance > 0   ? length / distance
+                 : interval > 0 ? (leg.to - leg.from) / interval
+                                : static_cast<double>(head.times.size());
+    }
+    pings += of_head;
+    if (!(pings <= most))
+      fail(ErrorKind::argument, "survey_pings: head '", head.name, "' asks for ", of_head,
+           " pings, all heads must ask ", "for at most ", most,
+           "; let it ping less often (rate_hz, every_m), faster over ground (speed_m_s), or divide ", "the mission");
+  }
+}
+
+std::vector<double> times_on_leg(const Mission& mission, const MissionHead& head, const MissionLeg& leg) {
+  const auto [interval, distance] = spacing_on(head, leg);
   if (distance > 0) return times_by_distance(mission.trajectory, leg.from, leg.to, distance);
   std::vector<double> times;
   if (interval > 0) {
@@ -73,9 +117,7 @@ struct Sweep {
 void add_pings(const Mission& mission, std::size_t h, const MissionLeg& leg, std::vector<SurveyPing>& pings,
                std::size_t first) {
   const MissionHead& head = mission.heads[h];
-  if (!leg.active ||
-      (!leg.heads.empty() && std::find(leg.heads.begin(), leg.heads.end(), head.name) == leg.heads.end()))
-    return;
+  if (!pings_on(head, leg)) return;
   const std::vector<double> times = times_on_leg(mission, head, leg);
   const std::int64_t sweep = pings.size() > first ? pings.back().sweep + 1 : 0;
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -119,6 +161,7 @@ std::vector<SurveyPing> survey_pings(const Mission& mission) {
   require_valid(mission, "survey_pings");
   const Trajectory& t = mission.trajectory;
   const std::vector<MissionLeg> whole{{"all", t.time.front(), t.time.back()}};
+  require_countable(mission, mission.legs.empty() ? whole : mission.legs);
   std::vector<SurveyPing> pings;
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
     const std::size_t first = pings.size();

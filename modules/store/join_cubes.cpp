@@ -265,7 +265,7 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
     if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
       create_ordered_group(place, file, layers_group);
     for (const std::string& image : joined.images) write_image(place, joined, image, from, first, file, join);
-    name_dimensions(place, file);
+    if (!join.tried) name_dimensions(place, file);  // which looks whether the numbers are there
   };
   if (!join.tried) return write_hdf5(path, write);
   const Place nowhere{path, ErrorKind::file};

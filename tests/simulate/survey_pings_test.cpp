@@ -148,6 +148,29 @@ TEST(SurveyPings, refuse_what_no_vehicle_can_do) {
   EXPECT_THAT(refusal([](Mission& m) { m.legs = {{"a", 0, 1, false}}; }), HasSubstr("no head pings on any leg"));
 }
 
+// Counted before a list of them is made, which would take gigabytes and minutes.
+TEST(SurveyPings, refuse_more_than_a_hundred_million) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THAT(refusal([](Mission& m) { m.heads[0].interval = 1e-8, m.heads[0].listening_time = 0; }),
+              AllOf(HasSubstr("head 'fls' asks for 1000000000 pings, all heads must ask for at most 100000000"),
+                    HasSubstr("rate_hz, every_m")));
+  EXPECT_THAT(refusal([](Mission& m) { m.heads[0].interval = 0, m.heads[0].distance = 1e-300; }),
+              HasSubstr("asks for 2e+301 pings"));
+  EXPECT_THAT(refusal([](Mission& m) {
+                m.heads[0].interval = 0, m.heads[0].times = {0}, m.legs = {{"a", 0, 10, true, {}, 1e-9}};
+              }),
+              HasSubstr("asks for 1e+10 pings"));
+  EXPECT_THAT(refusal([](Mission& m) {
+                m.heads[0].scan = HeadScan{0, 1, 1e-300, ScanMode::sector};
+              }),
+              AllOf(HasSubstr("directions, must be at most 1000000"), HasSubstr("take a larger step")));
+  EXPECT_THAT(refusal([](Mission& m) {
+                m.heads[0].interval = 0, m.heads[0].listening_time = 1e-12, m.heads[0].scan = HeadScan{0, 1, 0.1};
+              }),
+              HasSubstr("asks for 1e+13 pings"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
 TEST(WaypointTrajectory, keeps_its_speed_and_blends_its_corners) {
   const Trajectory t = waypoint_trajectory(
       {.points = {{0, 0, -3}, {20, 0, -3}, {20, 20, -3}, {20, 20, -8}}, .speed = 2, .turn_radius = 4, .start_time = 5});
