@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/memory_limit.hpp"
-#include "core/memory_limit.hpp"
 
 namespace insonify {
 namespace {
