@@ -229,8 +229,10 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
   HeadSetup setup = set_up_head({}, options);
   Pose somewhere = Pose::Identity();
   Environment& e = setup.environment;
-  if (e.profile && !e.surface) e.profile = SoundSpeedProfile{{0}, {setup.medium.sound_speed}};  // of older versions
-  if (e.surface) somewhere.translation().z() = e.surface->height - (e.water.depth > 0 ? e.water.depth : 1);
+  if (e.profile && !surface_height(e))
+    e.profile = SoundSpeedProfile{{0}, {setup.medium.sound_speed}};  // of older versions
+  if (const auto surface = surface_height(e))
+    somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
   return resolve_ping(scene, setup.head, somewhere, e, {.threads = threads}).view;
 }
 

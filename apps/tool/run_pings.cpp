@@ -106,8 +106,7 @@ RunPings find_run_pings(const std::string& run, const std::string& head) {
 }
 
 std::optional<double> water_level(const RunPings& run) {
-  if (run.water.level || !run.environment.surface) return run.water.level;
-  return run.environment.surface->height;
+  return run.water.level ? run.water.level : surface_height(run.environment);
 }
 
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/sha256.hpp"
 #include "store/environment_file.hpp"
@@ -21,6 +23,7 @@ SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, s
   options.common = o.common;
   options.common.seed = file.seed;
   options.common.settings = file.sonars[h].settings;
+  if (file.water.level) options.common.settings.push_back(fmt::format("water.level_m={}", *file.water.level));
   options.scene.path = file.scene;
   options.run.sonar = file.sonars[h].sonar;
   options.run.range = file.sonars[h].range;
@@ -54,8 +57,8 @@ void require_in_water(const SurveySetup& s) {
   for (const SurveyPing& ping : s.pings) {
     const Environment& environment = s.heads[ping.head].setup.head.environment;
     const double z = place_of(s.file.mission, ping).world_from_head.translation().z();
-    if (environment.surface && z >= environment.surface->height)
-      refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", environment.surface->height,
+    if (const auto surface = surface_height(environment); surface && z >= *surface)
+      refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", *surface,
                   " m; lower the trajectory, or give surface.height_m in the frame of the scene");
     try {
       environment_at(environment, z, "environment");
@@ -64,18 +67,6 @@ void require_in_water(const SurveySetup& s) {
     }
     if (environment.bottom && z <= environment.bottom->height)
       refuse_ping(s, ping, "is at z = ", z, " m, below the bottom at ", environment.bottom->height, " m");
-  }
-}
-
-/// The water level of soundings is that of the sea surface that pings meet.
-void require_one_water_level(const SurveySetup& s) {
-  const std::optional<double>& level = s.file.water.level;
-  for (const SurveyHead& head : s.heads) {
-    const std::optional<SeaSurface>& surface = head.setup.head.environment.surface;
-    if (level && surface && std::abs(*level - surface->height) > 0.01)
-      fail(ErrorKind::content, s.file.path, ": [water] level_m = ", *level,
-           " m, must be that of surface.height_m = ", surface->height,
-           " m of the environment to 0.01 m; leave one of them out");
   }
 }
 
@@ -125,7 +116,6 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
     fail(ErrorKind::content, s.file.path, ": ", error.what());
   }
   require_in_water(s);
-  require_one_water_level(s);
   for (const SurveyHead& head : s.heads)
     if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
       fail(ErrorKind::content, s.file.path,

@@ -50,6 +50,10 @@ void require_valid(const Environment& e, const char* who) {
   if (e.surface && e.bottom && !(e.bottom->height < e.surface->height))
     fail(ErrorKind::argument, who, ": bottom.height = ", e.bottom->height,
          " m, must be below surface.height = ", e.surface->height, " m");
+  require(std::isfinite(e.water_level.value_or(0)), who, "water.level", e.water_level.value_or(0), "m", "finite");
+  if (e.surface && e.water_level && !(std::abs(*e.water_level - e.surface->height) <= depths_agree_to))
+    fail(ErrorKind::argument, who, ": water.level_m = ", *e.water_level,
+         " m, must be that of surface.height_m = ", e.surface->height, " m to 0.01 m; leave one of them out");
   const double volume = e.volume_scattering_db.value_or(-70), self = e.self_noise_db.value_or(0);
   const double wind = e.wind_speed.value_or(0);
   require(volume <= 0 && std::isfinite(volume), who, "volume.scattering_db", volume, "dB", "finite and at most 0");
@@ -57,15 +61,20 @@ void require_valid(const Environment& e, const char* who) {
   require(std::abs(self) <= 400, who, "self_noise_db", self, "dB re 1 uPa^2/Hz", "within -400 and 400");
 }
 
+std::optional<double> surface_height(const Environment& e) {
+  return e.surface ? std::optional(e.surface->height) : e.water_level;
+}
+
 double head_depth(const Environment& e, double head_height) {
-  if (!e.surface) return e.water.depth;
-  return depth_step * std::round((e.surface->height - head_height) / depth_step);
+  const auto surface = surface_height(e);
+  return surface ? depth_step * std::round((*surface - head_height) / depth_step) : e.water.depth;
 }
 
 void require_depths_known(const Environment& e, const char* who) {
-  if (e.profile && !e.surface && varies(*e.profile))
+  if (e.profile && !surface_height(e) && varies(*e.profile))
     fail(ErrorKind::argument, who, ": the sound-speed profile counts depth from the surface of the water, must come ",
-         "with its height in the world: give surface.height_m, e.g. --set surface.height_m=0");
+         "with its height in the world: give surface.height_m, e.g. --set surface.height_m=0, or water.level_m, which ",
+         "has no echoes of its own");
 }
 
 Environment environment_at(const Environment& e, double head_height, const char* who) {
@@ -73,23 +82,24 @@ Environment environment_at(const Environment& e, double head_height, const char*
   require_depths_known(e, who);
   Environment there = e;
   there.water.depth = head_depth(e, head_height);
-  if (!e.surface) return there;
+  const auto surface = surface_height(e);
+  if (!surface) return there;
   if (!(there.water.depth > 0))
     fail(ErrorKind::argument, who, ": the head is at height z = ", head_height,
-         " m, must be below the surface of the water, surface.height = ", e.surface->height,
+         " m, must be below the surface of the water, surface.height = ", *surface,
          " m; lower the head, or give the surface the height it has in the frame of the scene (surface.height_m)");
   if (e.water.depth > 0 && std::abs(e.water.depth - there.water.depth) > depths_agree_to)
     fail(ErrorKind::argument, who, ": water.depth = ", e.water.depth, " m, but the head at z = ", head_height, " m is ",
-         there.water.depth, " m below surface.height = ", e.surface->height,
+         there.water.depth, " m below surface.height = ", *surface,
          " m, must agree to 0.01 m; leave water.depth_m out: with a surface depth follows from where the head is");
   return there;
 }
 
 double slowest_sound(const Environment& e) {
-  if (e.profile && (e.surface || !varies(*e.profile)))
+  if (e.profile && (surface_height(e) || !varies(*e.profile)))
     return *std::min_element(e.profile->sound_speed.begin(), e.profile->sound_speed.end());
   Water water = e.water;
-  if (e.surface) water.depth = 0;
+  if (surface_height(e)) water.depth = 0;
   return e.profile ? sound_speed_at(*e.profile, water.depth) : sound_speed(water, e.sound_speed_formula);
 }
 

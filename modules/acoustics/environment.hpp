@@ -27,7 +27,10 @@ struct FlatBottom {
 
 /// Everything around head and scene. What is absent has no effect and costs nothing.
 struct Environment {
-  Water water;  ///< its depth is that of the head; with a surface it follows from where the head is (environment_at)
+  Water
+      water;  ///< its depth is that of the head; below a known surface it follows from where the head is (environment_at)
+  std::optional<double>
+      water_level{};  ///< world z of the surface, from which depth counts, where it has no other effect [m]
   SoundSpeedFormula sound_speed_formula = SoundSpeedFormula::unesco;
   AbsorptionFormula absorption_formula = AbsorptionFormula::francois_garrison;
   std::optional<SoundSpeedProfile> profile{};  ///< absent: one sound speed everywhere, straight rays
@@ -42,7 +45,10 @@ struct Environment {
 /// Throws Error naming the value, its unit and its rule.
 void require_valid(const Environment& environment, const char* who);
 
-/// Depth [m] of a head at world height `head_height` [m]: below the surface if there is one, else water.depth. Rounded to
+/// World z [m] of the surface of the water, from which depth counts: of the sea surface, else water_level; absent if unknown.
+std::optional<double> surface_height(const Environment& environment);
+
+/// Depth [m] of a head at world height `head_height` [m]: below the surface if it is known, else water.depth. Rounded to
 /// a micrometre, so that rounding errors of a level way do not change the water from ping to ping.
 double head_depth(const Environment& environment, double head_height);
 

@@ -65,6 +65,7 @@ const std::vector<EnvironmentNumber>& environment_numbers() {
       water_key("temperature_c", &Water::temperature_c),
       water_key("salinity_psu", &Water::salinity_psu),
       water_key("depth_m", &Water::depth),
+      plain_key("water", "level_m", &E::water_level),
       water_key("ph", &Water::ph),
       water_key("latitude_deg", &Water::latitude_deg),
       part_key("surface", "height_m", &E::surface, &SeaSurface::height),

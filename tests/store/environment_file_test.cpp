@@ -34,6 +34,8 @@ TEST(EnvironmentFile, everything_set_by_key_reads_back_from_its_toml) {
     const std::string value = name == "water.sound_speed_formula"  ? "leroy"
                               : name == "water.absorption_formula" ? "ainslie-mccolm"
                               : name == "bottom.height_m"          ? "-20"
+                              : name == "surface.height_m"         ? "1.5"
+                              : name == "water.level_m"            ? "1.5"
                               : name == "bottom.lambert_mu_db"     ? "-27"
                               : name == "surface.scattering_db"    ? "-30"
                               : name == "volume.scattering_db"     ? "-70"

@@ -111,6 +111,24 @@ TEST_F(Dive, pings_keep_the_water_of_their_own_depth_in_blocks_and_in_the_merged
   }
 }
 
+TEST_F(Dive, a_water_level_of_the_mission_is_the_surface_that_depth_counts_from) {
+  const std::string raised = replaced(read("dive.toml"), "every_m = 4.8", "every_m = 15");
+  write("surface.toml", replaced(read("sea.toml"), "height_m = 0", "height_m = 0.5"));
+  write("level.toml", replaced(read("sea.toml"), "[surface]\nheight_m = 0\n", ""));
+  write("a.toml", replaced(raised, "sea.toml", "surface.toml"));
+  write("b.toml", replaced(raised, "sea.toml", "level.toml") + "\n[water]\nlevel_m = 0.5\n");
+  for (const char* name : {"a", "b"}) {
+    succeed(std::string("survey ") + name + ".toml -q -o run-" + name);
+    succeed(std::string("merge -q run-") + name);
+  }
+  const Cube a = read_cube(path("run-a/em2040/cube.h5")), b = read_cube(path("run-b/em2040/cube.h5"));
+  ASSERT_EQ(a.pings.size(), b.pings.size());
+  for (std::size_t p = 0; p < a.pings.size(); ++p) {
+    EXPECT_EQ(a.pings[p].sound_speed, b.pings[p].sound_speed);
+    EXPECT_NEAR(b.pings[p].sound_speed, sound_speed_at(thermocline, 0.5 + depth_of(b.pings[p])), 1e-4);
+  }
+}
+
 TEST_F(Dive, files_of_other_programs_have_the_water_of_each_ping) {
   write("short.toml", replaced(read("dive.toml"), "every_m = 4.8", "every_m = 15"));
   succeed("survey short.toml -q -o run");

@@ -282,8 +282,8 @@ datum = "LAT"
   // Another level than that of the sea surface is refused.
   write("other.toml", "[surface]\nheight_m = 1\n");
   write("wrong.toml", replaced(read("dive.toml"), "[survey]", "[survey]\nenvironment = \"other.toml\""));
-  expect_refused("survey wrong.toml -o wrong", 3,
-                 {"[water] level_m = 0.75", "surface.height_m = 1", "leave one of them"});
+  expect_refused("survey wrong.toml -o wrong", 2,
+                 {"water.level_m = 0.75", "surface.height_m = 1", "leave one of them"});
 }
 
 // A head that scans turns, and its ship does not.
