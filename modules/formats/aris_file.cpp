@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/units.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
@@ -99,6 +100,7 @@ RangeGate aris_gate(const std::string& path, const std::string& head) {
 }  // namespace
 
 ArisFrame read_aris_frame(const std::string& path, std::size_t number) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) fail(ErrorKind::file, path, ": cannot be read");
   const auto size = static_cast<std::size_t>(file.tellg());

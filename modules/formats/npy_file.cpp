@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/pending_file.hpp"
 #include "core/text.hpp"
 #include "formats/packed_bytes_internal.hpp"
@@ -80,6 +81,7 @@ std::size_t npy_item_bytes(const std::string& type) {
 }  // namespace
 
 NpyArray read_npy(const std::string& path) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(ErrorKind::file, path, ": cannot be read");
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};

@@ -30,7 +30,7 @@ const std::vector<MissionKey<Anchor>> anchor_keys = {
 
 Anchor read_anchor(const MissionEntry& e) {
   Anchor anchor;
-  read_table(e.path, e.value, anchor_keys, anchor);
+  read_table(e, anchor_keys, anchor);
   if (!(std::abs(anchor.latitude_deg) <= 90))
     e.refuse(": latitude_deg = ", anchor.latitude_deg, ", must be within -90 and 90");
   if (!(std::abs(anchor.longitude_deg) <= 360))
@@ -91,7 +91,8 @@ const std::vector<MissionKey<Randomisation>> randomise_keys = {
     {"attitude_deg", [](const MissionEntry& e, Randomisation& r) { r.attitude = radians(e.not_negative()); }}};
 
 void read_randomise(const std::string& path, const TomlValue& document, Randomisation& spread) {
-  if (const TomlValue* table = document.find("randomise")) read_table(path, *table, randomise_keys, spread);
+  if (const TomlValue* table = document.find("randomise"))
+    read_table({path, "randomise", *table}, randomise_keys, spread);
 }
 
 /// [trajectory] as it stands in the file.
@@ -112,8 +113,7 @@ const std::vector<MissionKey<TrajectoryTable>> trajectory_keys = {
     {"time_offset_s", [](const MissionEntry& e, TrajectoryTable& t) { t.time_offset = e.number(); }},
     {"waypoints_m",
      [](const MissionEntry& e, TrajectoryTable& t) { t.of_waypoints().points = e.list(&MissionEntry::vector_of); }},
-    {"nav_noise",
-     [](const MissionEntry& e, TrajectoryTable& t) { read_table(e.path, e.value, noise_keys, t.noise.emplace()); }},
+    {"nav_noise", [](const MissionEntry& e, TrajectoryTable& t) { read_table(e, noise_keys, t.noise.emplace()); }},
     {"speed_m_s", [](const MissionEntry& e, TrajectoryTable& t) { t.of_waypoints().speed = e.positive(); }},
     {"turn_radius_m", [](const MissionEntry& e, TrajectoryTable& t) { t.of_waypoints().turn_radius = e.positive(); }}};
 
@@ -128,7 +128,7 @@ Pose from_ned(const Pose& pose) {
 
 void read_trajectory(const std::string& path, const TomlValue& table, MissionFile& m) {
   TrajectoryTable t;
-  read_table(path, table, trajectory_keys, t);
+  read_table({path, "trajectory", table}, trajectory_keys, t);
   if (t.file.empty() != t.waypoints.has_value())
     fail_in_file(path, table.line, "trajectory: must have file, or waypoints_m and speed_m_s");
   m.trajectory = t.file;
@@ -181,12 +181,12 @@ const std::vector<MissionKey<HeadTable>> head_keys = {
     {"times_s", [](const MissionEntry& e, HeadTable& h) { h.head.times = e.list(&MissionEntry::number_of); }},
     {"scan", [](const MissionEntry& e, HeadTable& h) {
        h.head.scan = HeadScan{0, 2 * pi, radians(1)};
-       read_table(e.path, e.value, scan_keys, h);
+       read_table(e, scan_keys, h);
      }}};
 
 void read_head(const std::string& path, const TomlValue& table, MissionFile& m) {
   HeadTable h;
-  read_table(path, table, head_keys, h);
+  read_table({path, "head", table}, head_keys, h);
   if (h.sonar.sonar.empty()) fail_in_file(path, table.line, "missing key 'sonar'");
   if (h.head.name.empty()) h.head.name = h.sonar.sonar;
   if (h.rate > 0 && h.dwell > 0)
@@ -213,7 +213,7 @@ void read_leg(const std::string& path, const TomlValue& table, MissionFile& m) {
   MissionLeg leg;
   leg.from = m.mission.legs.empty() ? m.mission.trajectory.time.front() : m.mission.legs.back().to;
   leg.to = m.mission.trajectory.time.back();
-  read_table(path, table, leg_keys, leg);
+  read_table({path, "leg", table}, leg_keys, leg);
   m.mission.legs.push_back(leg);
   at_line(path, table.line, [&] { require_valid_leg(m.mission, m.mission.legs.size() - 1, "mission"); });
 }
@@ -265,10 +265,10 @@ MissionFile load_mission(const std::string& path) {
   m.path = path;
   m.text = read_text_file(path);
   const TomlValue& survey = required_table(path, document, "survey");
-  read_table(path, survey, survey_keys, m);
+  read_table({path, "survey", survey}, survey_keys, m);
   if (m.scene.empty()) fail_in_file(path, survey.line, "missing key 'scene'");
   read_randomise(path, document, m.randomise);
-  if (const TomlValue* water = document.find("water")) read_table(path, *water, water_keys, m.water);
+  if (const TomlValue* water = document.find("water")) read_table({path, "water", *water}, water_keys, m.water);
   read_trajectory(path, required_table(path, document, "trajectory"), m);
   read_each(path, document, "head", [&](const TomlValue& table) { read_head(path, table, m); });
   if (m.mission.heads.empty()) fail_in_file(path, document.line, "missing table [[head]]");

@@ -89,14 +89,13 @@ template <typename Object>
 using MissionKey = std::pair<const char*, std::function<void(const MissionEntry&, Object&)>>;
 
 template <typename Object>
-void read_table(const std::string& path, const TomlValue& table, const std::vector<MissionKey<Object>>& keys,
-                Object& object) {
-  if (table.kind != TomlValue::Kind::table) fail_in_file(path, table.line, "must be a table");
+void read_table(const MissionEntry& table, const std::vector<MissionKey<Object>>& keys, Object& object) {
+  if (table.value.kind != TomlValue::Kind::table) table.refuse(" must be a table, with keys and values of its own");
   std::vector<std::string> known;
   for (const auto& [name, set] : keys) known.emplace_back(name);
-  require_known_keys(path, table, known);
+  require_known_keys(table.path, table.value, known);
   for (const auto& [name, set] : keys)
-    if (const TomlValue* value = table.find(name)) set({path, name, *value}, object);
+    if (const TomlValue* value = table.value.find(name)) set({table.path, name, *value}, object);
 }
 
 /// Adds file and line to what `body` refuses.

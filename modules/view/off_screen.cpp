@@ -67,17 +67,28 @@ constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
 std::string drawn_in_child(const char* who, std::size_t left, const std::function<std::string()>& draw) {
   constexpr unsigned most_seconds = 120;
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
+  ErrorKind refused = ErrorKind::runtime;
+  std::string refusal, png;
+  // What the drawing itself refuses is sent as a result: every other end of the child is a lack of memory, since the child
+  // may have more than is left.
+  const auto draw_or_refuse = [&](ArraySender& send) {
+    try {
+      const std::string drawn = draw();
+      send(refused, refusal, drawn);
+    } catch (const Error& error) {
+      send(error.kind(), std::string(error.what()), png);
+    }
+  };
   try {
-    // It may have more than is left, so that whatever ends it counts as a lack of memory.
-    std::string png;
-    read_in_child(who, {2 * left, most_seconds, most_bytes}, [&](ArraySender& send) { send(draw()); })(png);
-    return png;
+    read_in_child(who, {2 * left, most_seconds, most_bytes}, draw_or_refuse)(refused, refusal, png);
   } catch (const std::bad_alloc&) {
     too_little_memory(who, left);
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::content) too_little_memory(who, left);  // a library ended the child by itself
+    if (error.kind() == ErrorKind::content) too_little_memory(who, left);
     throw;
   }
+  if (!refusal.empty()) fail(refused, refusal);
+  return png;
 }
 
 void require_png_name(const std::string& path) {

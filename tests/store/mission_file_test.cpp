@@ -130,6 +130,8 @@ TEST(MissionFile, names_line_key_and_rule) {
   EXPECT_THAT(refusal("T08:30", " 8:30"),
               HasSubstr("m.toml:5: start_utc = '2026-05-01 8:30:00Z', must be a time of UTC"));
   EXPECT_EQ(refusal("= 54.1", "= 541"), "content: m.toml:6: anchor: latitude_deg = 541, must be within -90 and 90");
+  EXPECT_EQ(refusal("anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }", "anchor = [54.1, 7.9]"),
+            "content: m.toml:6: anchor must be a table, with keys and values of its own");
   EXPECT_EQ(refusal("speed_m_s = 2", "speed_m_s = 0"), "content: m.toml:9: speed_m_s = 0, must be finite and > 0");
   EXPECT_THAT(refusal("[20, 0, -3]", "[0, 0, -3]"),
               HasSubstr("m.toml:7: waypoint_trajectory: points[1] is at the place"));

@@ -22,7 +22,7 @@ std::string error_with_kind(const std::function<void()>& call) {
   try {
     call();
   } catch (const Error& error) {
-    const char* kinds[] = {"runtime", "argument", "content", "file"};
+    const char* kinds[] = {"runtime", "argument", "content", "file", "memory"};
     return std::string(kinds[static_cast<int>(error.kind())]) + ": " + error.what();
   }
   return "no error";

@@ -58,8 +58,10 @@ TEST_F(Hostile, full_disk_is_one_line_and_leaves_the_old_run) {
 TEST_F(Hostile, pipes_and_devices_are_no_input) {
   ASSERT_EQ(mkfifo(path("pipe.ply").c_str(), 0600), 0);
   ASSERT_EQ(mkfifo(path("pipe.toml").c_str(), 0600), 0);
-  for (const char* arguments :
-       {"info pipe.ply", "info /dev/zero", "prepare pipe.ply -o x.ply", "sonars pipe.toml", "survey pipe.toml -o run"})
+  ASSERT_EQ(mkfifo(path("pipe.npy").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(path("pipe.aris").c_str(), 0600), 0);
+  for (const char* arguments : {"info pipe.ply", "info /dev/zero", "prepare pipe.ply -o x.ply", "sonars pipe.toml",
+                                "survey pipe.toml -o run", "compare pipe.npy pipe.npy", "compare pipe.aris pipe.aris"})
     expect_refused(arguments, 4, {"is a pipe or a device, must be a regular file"});
 }
 
