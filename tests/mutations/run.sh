@@ -98,12 +98,12 @@ work=$(cd "$work" && pwd)
     cp --preserve=mode "$root/$file" "$work/tree/$file"
   done
 
-# Built once, without pictures; every test that is to fail must first pass.
+# Built once; every test that is to fail must first pass.
 launcher=()
 export CCACHE_BASEDIR=$work
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 log=$work/log
-cmake -S "$work/tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DINSONIFY_VIEW=OFF -DINSONIFY_SCENE_IO=ON \
+cmake -S "$work/tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DINSONIFY_VIEW=ON -DINSONIFY_SCENE_IO=ON \
   "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
 stale=0
 complain() { echo "$*" >&2; stale=$((stale + 1)); }
