@@ -150,6 +150,29 @@ TEST_F(Dive, files_of_other_programs_have_the_water_of_each_ping) {
   }
 }
 
+// Without a profile sound is straight, at the speed that the pressure at the head gives it: a profile for each ping.
+TEST_F(Dive, gsf_has_the_sound_speed_of_each_ping_where_there_is_no_profile) {
+  write("sea.toml", "[surface]\nheight_m = 0\n");
+  succeed("survey dive.toml -q -o run");
+  succeed("merge -q run");
+  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  succeed("export run --to gsf --anchor -33.5,-71.6,0 -q -o dive.gsf");
+  const decode::GsfContent gsf = decode::read_gsf(read("dive.gsf"));
+  ASSERT_EQ(gsf.swaths.size(), 5U);
+  EXPECT_EQ(std::count(gsf.records.begin(), gsf.records.end(), 3), 5);
+  EXPECT_GT(cube.pings.back().sound_speed - cube.pings.front().sound_speed, 0.3);
+  for (std::size_t p = 0; p < 5; ++p) {
+    const decode::GsfSwath& s = gsf.swaths[p];
+    ASSERT_EQ(s.profile.size(), 2U);
+    EXPECT_NEAR(s.profile[0].second, cube.pings[p].sound_speed, 0.0051);
+    EXPECT_EQ(s.profile[1].second, s.profile[0].second);
+    for (std::size_t b = 0; b < s.flags.size(); ++b) {
+      const double down = s.profile[0].second * s.arrays.at(4)[b] / 2 * std::cos(radians(s.arrays.at(5)[b]));
+      EXPECT_NEAR(depth_of(cube.pings[p]) + down, s.arrays.at(1)[b], 2e-3) << p << ": " << b;
+    }
+  }
+}
+
 TEST_F(Dive, level_ways_have_one_water_and_no_numbers_of_their_own) {
   write("level.toml", mission("[[-2, 0, -10], [2, 0, -10]]"));
   succeed("survey level.toml -q -o run");
