@@ -12,6 +12,7 @@ namespace insonify::tool {
 namespace {
 
 constexpr double deepest_profile = 12000;  // [m], below any sea floor
+constexpr double profile_step = 0.01;      // of sound speeds in a profile [m/s]
 
 /// Level axes of a ship, and its attitude.
 struct ShipAxes {
@@ -135,9 +136,10 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
   return out;
 }
 
-/// The profile that the rays ran through, from the surface to below any sea floor: beyond its ends it is constant.
-SoundSpeedProfile whole_profile(const RunPings& pings, const Cube& cube) {
-  SoundSpeedProfile profile = pings.environment.profile.value_or(SoundSpeedProfile{{0}, {cube.sound_speed}});
+/// The profile that the rays of a ping ran through, from the surface to below any sea floor: beyond its ends it is
+/// constant, without one in the environment it has the speed at the head.
+SoundSpeedProfile whole_profile(const RunPings& pings, const Ping& ping) {
+  SoundSpeedProfile profile = pings.environment.profile.value_or(SoundSpeedProfile{{0}, {ping.sound_speed}});
   if (profile.depth.front() > 0) {
     profile.depth.insert(profile.depth.begin(), 0);
     profile.sound_speed.insert(profile.sound_speed.begin(), profile.sound_speed.front());
@@ -159,10 +161,10 @@ std::string command_of(const ProductOptions& o) {
 }
 
 /// What the file says before its first ping.
-GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const GsfPing& first) {
+GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProfile& profile, const GsfPing& first) {
   GsfSurvey survey;
   survey.sensor = gsf_sensor_of(cube.sonar);
-  survey.profile = whole_profile(run.pings, cube);
+  survey.profile = profile;
   survey.place = first.place;
   survey.time = first.time;
   survey.processing.draft = first.head_depth;
@@ -182,12 +184,18 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const GsfPing& first
 std::size_t gsf_product(const PlacedRun& run) {
   const std::optional<Trajectory> way = way_of(run.pings);
   std::unique_ptr<GsfFile> file;
-  double before = 0;  // time of the last ping
+  double before = 0, speed = 0;  // time of the last ping, and at the surface in its profile
   const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
     GsfPing swath = gsf_ping(run, way, cube, ping, found);
     if (file) swath.period = std::max(0.0, swath.time - before);
     before = swath.time;
-    if (!file) file = std::make_unique<GsfFile>(run.options.output, survey_of(run, cube, swath));
+    const SoundSpeedProfile profile = whole_profile(run.pings, ping);
+    const bool other = std::abs(profile.sound_speed.front() - speed) > 0.5 * profile_step;
+    if (!file)
+      file = std::make_unique<GsfFile>(run.options.output, survey_of(run, cube, profile, swath));
+    else if (other)
+      file->add_profile(profile, swath.place, swath.time);
+    if (other) speed = profile.sound_speed.front();
     file->add(swath);
   });
   file->finish();

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/survey_run.hpp"
 #include "store/toml_tree_internal.hpp"
@@ -42,13 +43,50 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   pings.position_deviation = file.position_deviation;
 }
 
-/// The mounting that the run.toml of a ping records; the pose itself if it has none.
-Pose mounting_of_ping(const std::string& settings) {
+/// A text that the run.toml of a ping records under [ping]; empty if it has none.
+std::string ping_setting(const std::string& settings, const std::string& key) {
   const TomlValue document = load_toml(settings);
   const TomlValue* ping = document.find("ping");
-  const TomlValue* mount = ping ? ping->find("mount") : nullptr;
-  if (!mount || mount->kind != TomlValue::Kind::text || mount->text.empty()) return Pose::Identity();
-  return parse_pose(mount->text, "z-up", "mount");
+  const TomlValue* value = ping ? ping->find(key) : nullptr;
+  return value && value->kind == TomlValue::Kind::text ? value->text : "";
+}
+
+/// The mounting that the run.toml of a ping records; the pose itself if it has none.
+Pose mounting_of_ping(const std::string& settings) {
+  const std::string mount = ping_setting(settings, "mount");
+  return mount.empty() ? Pose::Identity() : parse_pose(mount, "z-up", "mount");
+}
+
+/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places.
+std::optional<Trajectory> named_way(const std::string& settings, const Pose& vehicle_from_head,
+                                    const Trajectory& places) {
+  constexpr double same_place = 1e-3;  // [m]
+  const std::string path = path_named_in(settings, ping_setting(settings, "trajectory"));
+  if (!fs::is_regular_file(path)) return {};
+  try {
+    const Trajectory way = load_trajectory(path);
+    for (std::size_t i = 0; i < places.time.size(); ++i)
+      if (!((pose_at(way, places.time[i]) * vehicle_from_head.translation() - places.pose[i].translation()).norm() <
+            same_place))
+        return {};
+    return way;
+  } catch (const Error&) {
+    return {};  // another file by now
+  }
+}
+
+/// The way of a single ping by its velocity, if its run.toml has one.
+std::optional<Trajectory> straight_way(const std::string& settings, const Trajectory& places) {
+  const std::string velocity = ping_setting(settings, "velocity");
+  if (velocity.empty() || places.time.size() != 1) return {};
+  const Eigen::Vector3d in_a_second = parse_vector("velocity", velocity, "vx,vy,vz in m/s");
+  Trajectory way;
+  for (const double second : {-1.0, 1.0}) {
+    way.time.push_back(places.time[0] + second);
+    way.pose.push_back(places.pose[0]);
+    way.pose.back().pretranslate(second * in_a_second);
+  }
+  return way;
 }
 
 RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
@@ -79,7 +117,7 @@ RunPings pings_of_directory(const std::string& run) {
   if (!fs::is_directory(run)) return pings;
   const fs::path folder = fs::canonical(run), survey = folder.parent_path();
   if (!is_survey_run(survey.string())) {
-    if (fs::exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings);
+    if (fs::exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings), pings.settings = settings;
     return pings;
   }
   try {
@@ -124,6 +162,11 @@ std::optional<Trajectory> way_of(const RunPings& run) {
       way.time.push_back(point.time);
       way.pose.push_back(point.world_from_head);
     }
+  if (!run.settings.empty()) {
+    const Pose vehicle_from_head = run.vehicle_from_head.value_or(Pose::Identity());
+    if (auto named = named_way(run.settings, vehicle_from_head, way)) return named;
+    if (auto straight = straight_way(run.settings, way)) return straight;
+  }
   if (way.time.size() < 2) return {};
   return way;
 }

@@ -23,6 +23,7 @@ struct RunPings {
   std::string start_utc;
   std::optional<Pose> vehicle_from_head{};     ///< of its mission or --mount, at scan angle 0; absent: unknown
   std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
+  std::string settings{};                      ///< path of its run.toml, of a run without a mission
   MissionWater water{};                        ///< of its mission
   std::optional<double> position_deviation{};  ///< of what its mission believes of each coordinate [m]; 0: exact
   std::vector<MissionLeg> legs{};              ///< of its mission
@@ -46,8 +47,9 @@ std::optional<double> water_level(const RunPings& run);
 /// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is mounted.
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);
 
-/// The way of the vehicle: that of the mission, else through the places of the pings, head by head as they are stored, in
-/// the order of time. Absent for a single ping.
+/// The way of the vehicle: that of the mission; else of the trajectory or velocity that the run.toml of a ping names, if
+/// it leads through all pings; else through the places of the pings, head by head as they are stored, in the order of
+/// time. Absent for a single ping at rest.
 std::optional<Trajectory> way_of(const RunPings& run);
 
 /// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile.

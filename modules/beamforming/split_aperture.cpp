@@ -30,13 +30,10 @@ std::vector<double> resampled_shading(const std::vector<double>& shading, std::s
   return weights;
 }
 
-double signed_baseline(const SplitAperture& split, ApertureSide side) {
-  return side == ApertureSide::port ? split.half_baseline : -split.half_baseline;
-}
-
-/// Wave number times the place of a half: phase per direction cosine.
+/// Phase per direction cosine at a half: sound from its side comes to it earlier, by a smaller delay than the middle's.
 double phase_per_cosine(const SplitAperture& split, ApertureSide side, const Medium& medium) {
-  return 2 * pi * split.head.pulse.centre_frequency / medium.sound_speed * signed_baseline(split, side);
+  const double place = side == ApertureSide::port ? split.half_baseline : -split.half_baseline;
+  return -2 * pi * split.head.pulse.centre_frequency / medium.sound_speed * place;
 }
 
 Echoes turned(const Echoes& echoes, double phase_per_u) {
@@ -103,7 +100,7 @@ SonarHead with_one_half(const SonarHead& head, const SplitAperture& split, Apert
 }
 
 Grid<float> phase_between(const ComplexGrid& port, const ComplexGrid& starboard) {
-  return (port * starboard.conjugate()).arg().cast<float>();
+  return (starboard * port.conjugate()).arg().cast<float>();
 }
 
 }  // namespace insonify

@@ -22,7 +22,8 @@ SplitAperture split_aperture(const SonarHead& head, const char* who);
 enum class ApertureSide { port, starboard };
 
 /// Returns the image of one half, beams x bins [Pa], as synthesize_gridded of an array at its own place: echoes arrive with
-/// the phase exp(+-i k b u) and beams are steered with exp(-+i k b u_b), b the half baseline (E92). Narrow band, far field.
+/// the phase exp(-+i k b u), as their delays give it (E61), and beams are steered with exp(+-i k b u_b), b the half
+/// baseline, above for port (E92). Narrow band, far field.
 ComplexGrid half_pressure(const EchoSource& source, const SplitAperture& split, ApertureSide side, const Medium& medium,
                           const SynthesisOptions& options);
 /// The same of stored echoes.
@@ -33,8 +34,8 @@ ComplexGrid half_pressure(const Echoes& echoes, const SplitAperture& split, Aper
 /// elements as that of the whole array.
 SonarHead with_one_half(const SonarHead& head, const SplitAperture& split, ApertureSide side);
 
-/// Phase between the halves [rad], beams x bins: arg(port conj(starboard)) = 2 k b (u - u_b) of an echo from u, b the half
-/// baseline; 0 where there is nothing (E92).
+/// Phase between the halves [rad], beams x bins: arg(starboard conj(port)) = 2 k b (u - u_b) of an echo from u, b the half
+/// baseline, positive towards port; 0 where there is nothing (E92).
 Grid<float> phase_between(const ComplexGrid& port, const ComplexGrid& starboard);
 
 }  // namespace insonify

@@ -125,6 +125,12 @@ void GsfFile::put_attitudes() {
   attitudes_.clear();
 }
 
+void GsfFile::add_profile(const SoundSpeedProfile& profile, const GeoPlace& place, double time) {
+  GsfSurvey cast;
+  cast.profile = profile, cast.place = place, cast.time = time;
+  record(profile_record, profile_of(cast));
+}
+
 void GsfFile::add(const GsfPing& ping) {
   if (ping.beams.empty() || ping.beams.size() > most_beams)
     fail(ErrorKind::content, "GSF: ping ", ping.number, " has ", ping.beams.size(), " soundings, must be within 1 and ",

@@ -76,7 +76,7 @@ struct GsfProcessing {
 /// What a file says once, before its pings.
 struct GsfSurvey {
   GsfSensor sensor = GsfSensor::seabat_ii;
-  SoundSpeedProfile profile{};  ///< depths below the water level
+  SoundSpeedProfile profile{};  ///< of the first pings; depths below the water level
   GeoPlace place{};             ///< of the profile
   double time = 0;              ///< of the profile, parameters, comment and history, UTC, seconds since 1970
   GsfProcessing processing{};
@@ -105,6 +105,8 @@ class GsfFile {
  public:
   /// Throws Error(file) if the file cannot be made, Error(content) for a time before 1970 or after 2106.
   GsfFile(const std::string& path, const GsfSurvey& survey);
+  /// Writes a profile that holds for the pings that follow, measured and applied at `time` [s, UTC since 1970].
+  void add_profile(const SoundSpeedProfile& profile, const GeoPlace& place, double time);
   /// Throws Error(content) for a ping without beams or of more bytes than a record may have (2^19), with a number that
   /// its field cannot hold, or a time before 1970 or after 2106; the message names the ping and the quantity.
   void add(const GsfPing& ping);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
 
 #include "acoustics/shoot_ray.hpp"
 #include "core/error.hpp"
@@ -21,6 +20,9 @@ constexpr double width_of_deviation = 2.354820045;  // full width at half maximu
 constexpr double steepest_view = 1.3;          // [rad] from the vertical, of the footprint that is assumed at first
 constexpr int neighbours = 3;                  // beams on either side whose ranges give dr/du
 constexpr double half_power_of_line = 0.8859;  // length of a uniform line in wavelengths times its -3 dB width [rad]
+constexpr double turn_of_width =
+    1.2 * half_power_of_line * pi;        // of the phase across a shaded line's -3 dB width [rad]
+constexpr std::size_t fewest_slopes = 5;  // beams whose phases say how it turns in this ping
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 /// A found echo of a beam.
@@ -37,7 +39,9 @@ class BottomPing {
   std::vector<BottomFind> find(std::size_t beam) const;
   /// dr/du about a beam from the first echoes of its neighbours [m].
   double slope_at(std::size_t beam, const std::vector<std::vector<BottomFind>>& found) const;
-  BottomEcho echo_at(std::size_t beam, double range, double slope) const;
+  BottomEcho echo_at(double range, double slope, double turn) const;
+  /// Phase between the halves per direction cosine [rad], by the median of all beams.
+  double phase_per_cosine(const std::vector<std::vector<BottomFind>>& found) const;
   BottomBeam beam_of(std::size_t beam) const;
   float level_db_near(std::size_t beam, double range, double reach) const;
 
@@ -53,14 +57,10 @@ class BottomPing {
   double pulse_deviation_ = 0;
 };
 
-/// Mean of exponential noise from the smallest quarter of intensities, which an echo hardly changes: the estimate of
-/// greatest likelihood from censored samples, chi-square of twice as many degrees of freedom as there are samples used.
-double noise_of(std::vector<double> values) {
-  const std::size_t used = std::max<std::size_t>(1, values.size() / 4);
-  const auto last = values.begin() + static_cast<std::ptrdiff_t>(used - 1);
-  std::nth_element(values.begin(), last, values.end());
-  const double sum = std::accumulate(values.begin(), last + 1, 0.0);
-  return (sum + static_cast<double>(values.size() - used) * *last) / static_cast<double>(used);
+double median_of(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 Eigen::Array<double, 1, Eigen::Dynamic> BottomPing::side_lobe_floor() const {
@@ -162,18 +162,28 @@ double BottomPing::slope_at(std::size_t beam, const std::vector<std::vector<Bott
     const double range = found[beam].front().range;
     return range * std::tan(down_[beam]) / std::max(0.1, std::sqrt(1 - cosine_[beam] * cosine_[beam]));
   }
-  std::sort(slopes.begin(), slopes.end());
-  const std::size_t middle = slopes.size() / 2;
-  return slopes.size() % 2 ? slopes[middle] : 0.5 * (slopes[middle - 1] + slopes[middle]);
+  return median_of(slopes);
 }
 
-BottomEcho BottomPing::echo_at(std::size_t, double range, double slope) const {
+BottomEcho BottomPing::echo_at(double range, double slope, double turn) const {
   const double width = 2 * std::sin(0.5 * ping_.fan.beam_width);
   const double across = width / width_of_deviation, along = ping_.fan.elevation_width / width_of_deviation;
   // Slope of the bottom, and the sphere that bends away from it across and along the fan.
   const double spread =
       slope * slope * across * across + 0.5 * range * range * (std::pow(across, 4) + std::pow(along, 4));  // (E94)
-  return {pulse_deviation_, std::sqrt(spread), 0.5 * std::abs(slope) * width};
+  return {pulse_deviation_, std::sqrt(spread), 0.5 * std::abs(slope) * width, turn / slope};
+}
+
+double BottomPing::phase_per_cosine(const std::vector<std::vector<BottomFind>>& found) const {
+  std::vector<double> turns;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b].empty()) continue;
+    const double range = found[b].front().range, slope = slope_at(b, found);
+    if (const auto of_range = phase_slope(beam_of(b), echo_at(range, slope, 0), range))
+      turns.push_back(*of_range * slope);
+  }
+  if (turns.size() < fewest_slopes) return turn_of_width / ping_.fan.beam_width;
+  return median_of(turns);
 }
 
 BottomBeam BottomPing::beam_of(std::size_t beam) const {
@@ -247,12 +257,13 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
     float level_db;
   };
   std::vector<std::vector<Sounding>> soundings(beams);
+  const double turn = prepared.phase_per_cosine(found);
   parallel_for(beams, options.threads, [&](std::size_t b) {
     if (found[b].empty()) return;
     const double slope = prepared.slope_at(b, found);
     const BottomBeam beam = prepared.beam_of(b);
     for (const BottomFind& find : found[b]) {
-      const BottomEcho echo = prepared.echo_at(b, find.range, slope);
+      const BottomEcho echo = prepared.echo_at(find.range, slope, turn);
       const BottomEstimate amplitude = centre_of_gravity(beam, echo, find.range);
       const BottomEstimate phase =
           zero_crossing(beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range : find.range);

@@ -53,7 +53,8 @@ struct BottomOptions {
 ///   2. dr/du of the bottom: median of the slopes between the ranges of seven neighbouring beams
 ///   3. amplitude: centre of gravity of the intensity above noise within three standard deviations, with the error (E94)
 ///   4. phase: line fitted to the phase between the halves of the array within the main lobe, which crosses zero at the
-///      beam's axis, with the error of the fit's own residuals (E95)
+///      beam's axis, with the error of the fit's own residuals; of an echo of few samples with the slope that dr/du and the
+///      other beams give it (E95)
 ///   5. the method with the smaller predicted error
 ///
 /// Beams without a sample above noise have none; an echo that fills more than three quarters of the gate counts as noise.

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,11 +14,13 @@ namespace insonify {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double prior_looks = 16;    // that the expected variance of a fit counts for
-constexpr double fewest_cells = 8;    // independent samples of a fit of phases
-constexpr double most_cells = 64;     // of its last pass: over more the line would bend
-constexpr double phase_reach = 0.8;   // of it, in half-power reaches: within, phases are far from +-pi
-constexpr double widths_of_echo = 3;  // standard deviations on either side of a centre of gravity
+constexpr double prior_looks = 16;     // that the expected variance of a fit counts for
+constexpr double fewest_cells = 8;     // independent samples of a fit of phases
+constexpr double fewest_of_slope = 2;  // of a slope that is not taken alone
+constexpr double most_cells = 64;      // of its last pass: over more the line would bend
+constexpr double phase_reach = 0.8;    // of it, in half-power reaches: within, phases are far from +-pi
+constexpr double widths_of_echo = 3;   // standard deviations on either side of a centre of gravity
+constexpr double slope_error = 0.05;   // relative, of the slope that a phase is expected to have
 constexpr double cell_of_pulse =
     3.545;  // 2 sqrt(pi): effective independent spacing, in standard deviations of the pulse
 
@@ -97,15 +101,61 @@ std::pair<double, double> variances_of(const BottomBeam& beam, std::size_t begin
 }
 
 /// Variance of the phase of one look [rad^2]: (1 - g^2) / 2 g^2, g the coherence of the halves, which see the angles of a
-/// pulse's length at once and have noise of their own. (E95)
-double variance_of_looks(const BottomBeam& beam, const BottomEcho& echo, double slope, double mean_intensity) {
-  const double turn = slope * echo.pulse_deviation;
+/// pulse's length at once, with a deviation of their phases of `turn`, and have noise of their own. (E95)
+double variance_of_looks(const BottomBeam& beam, double turn, double mean_intensity) {
   const double noise = 2 * beam.noise / std::max(mean_intensity - beam.noise, 0.01 * mean_intensity);
   const double coherence = std::exp(-0.5 * turn * turn) / (1 + noise);
   return (1 - coherence * coherence) / (2 * coherence * coherence);
 }
 
+/// Part of the phase's slope that a pulse leaves: at each range it sees the middle of the beam more than its edges.
+double seen_slope(const BottomEcho& echo) {
+  const double pulse = echo.pulse_deviation * echo.pulse_deviation;
+  const double footprint = echo.footprint_deviation * echo.footprint_deviation;
+  return footprint / (footprint + pulse);
+}
+
+/// Bins in an independent sample.
+double bins_of_cell(const BottomBeam& beam, const BottomEcho& echo) {
+  return std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
+}
+
+/// The zero of a line with the slope that the bottom gives it, of an echo with too few samples to show its own. (E95) has too few samples to show its slope: a line of the slope that the bottom gives it.
+BottomEstimate zero_of_known_slope(const BottomBeam& beam, const BottomEcho& echo, double start) {
+  const double slope = echo.phase_slope * seen_slope(echo);
+  const double reach = std::max(phase_reach * echo.half_power_reach, echo.pulse_deviation);
+  double centre = start;
+  PhaseSums s;
+  std::size_t begin = 0, end = 0;
+  for (int pass = 0; pass < 6; ++pass) {
+    std::tie(begin, end) = bins_within(beam, centre, reach);
+    std::complex<double> sum = 0;
+    s = {};
+    for (std::size_t n = begin; n < end; ++n) {
+      const double w = beam.intensity[n], x = beam.range(n) - centre;
+      sum += std::polar(w, static_cast<double>(beam.phase[n]) - slope * x);
+      s.weight += w, s.x += w * x, s.squares += w * w;
+    }
+    if (!(s.weight > 0)) return {start, infinite};
+    centre -= std::arg(sum) / slope;
+    if (!(std::abs(centre - start) < 2 * echo.half_power_reach)) return {start, infinite};
+  }
+  const double looks = std::max(1.0, 2 * s.weight * s.weight / s.squares / bins_of_cell(beam, echo) - 1);
+  const double turn = echo.phase_slope * std::sqrt(seen_slope(echo)) * echo.pulse_deviation;
+  const double variance = variance_of_looks(beam, turn, s.weight / static_cast<double>(end - begin)) / looks;
+  const double away = slope_error * s.x / s.weight;
+  return {centre, std::sqrt(variance / (slope * slope) + away * away)};
+}
+
 }  // namespace
+
+double noise_of(std::vector<double> values) {
+  const std::size_t used = std::max<std::size_t>(1, values.size() / 4);
+  const auto last = values.begin() + static_cast<std::ptrdiff_t>(used - 1);
+  std::nth_element(values.begin(), last, values.end());
+  const double sum = std::accumulate(values.begin(), last + 1, 0.0);
+  return (sum + static_cast<double>(values.size() - used) * *last) / static_cast<double>(used);
+}
 
 BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start) {
   const double pulse = echo.pulse_deviation * echo.pulse_deviation;
@@ -136,17 +186,26 @@ BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo,
   return {centre, std::sqrt(speckle + from_noise)};
 }
 
+std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo, double start) {
+  const auto [begin, end] = bins_within(beam, start, phase_reach * echo.half_power_reach);
+  if (beam.phase.empty() ||
+      static_cast<double>(end - std::min(begin, end)) < fewest_of_slope * bins_of_cell(beam, echo))
+    return {};
+  return first_line(beam, begin, end, start).slope / seen_slope(echo);
+}
+
 BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start) {
   if (beam.phase.empty()) return {start, infinite};
-  const double cells = cell_of_pulse * echo.pulse_deviation / beam.step;  // bins in an independent sample
+  const double cells = bins_of_cell(beam, echo);
   const double widest = phase_reach * echo.half_power_reach;
-  const double narrowest = std::min(widest, 0.5 * most_cells * std::max(1.0, cells) * beam.step);
+  const double narrowest = std::min(widest, 0.5 * most_cells * cells * beam.step);
   double centre = start;
   PhaseLine line;
   std::size_t begin = 0, end = 0;
   for (int pass = 0; pass < 4; ++pass) {
     std::tie(begin, end) = bins_within(beam, centre, pass < 2 ? widest : narrowest);
-    if (static_cast<double>(end - std::min(begin, end)) < fewest_cells * std::max(1.0, cells)) return {start, infinite};
+    if (static_cast<double>(end - std::min(begin, end)) < fewest_cells * cells)
+      return zero_of_known_slope(beam, echo, start);
     line = first_line(beam, begin, end, centre);
     for (int step = 0; step < 3; ++step) line = refined(beam, begin, end, line);
     const double crossing = line.centre - wrapped(line.at_centre) / line.slope;
@@ -154,14 +213,15 @@ BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, dou
     centre = crossing;
   }
   const PhaseSums s = sums_about(beam, begin, end, line);
-  const double independent = s.weight * s.weight / s.squares / std::max(1.0, cells);
+  const double independent = s.weight * s.weight / s.squares / cells;
   if (!(independent > 2.5)) return {start, infinite};
-  const auto [of_offset, of_slope] = variances_of(beam, begin, end, line, std::max(1.0, cells));
+  const auto [of_offset, of_slope] = variances_of(beam, begin, end, line, cells);
   const double away = centre - line.centre;
   const double residual = of_offset + away * away * of_slope;
   // What theory expects of so many looks, as far as the fit has too few to judge itself; speckle halves `independent`, but
   // not the precision, since phases are the better known the stronger they are.
-  const double expected = variance_of_looks(beam, echo, line.slope, s.weight / static_cast<double>(end - begin));
+  const double expected =
+      variance_of_looks(beam, line.slope * echo.pulse_deviation, s.weight / static_cast<double>(end - begin));
   const double spread = 1 + away * away * s.weight / std::max(s.xx, 1e-30);
   const double variance = (independent * residual + prior_looks * expected * spread / (2 * independent)) /
                           (independent + prior_looks) / (line.slope * line.slope);  // (E95)

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace insonify {
 
@@ -20,6 +22,7 @@ struct BottomEcho {
   double pulse_deviation = 0;      ///< standard deviation of the pulse's intensity in range [m]
   double footprint_deviation = 0;  ///< of the ranges that the beam sees, weighted by its pattern [m]
   double half_power_reach = 0;     ///< half the range between the beam's -3 dB directions [m]
+  double phase_slope = 0;          ///< of the phase between the halves, over range [rad/m]
 };
 
 /// An estimate of a range with its standard deviation [m]; infinite if there is none.
@@ -27,13 +30,22 @@ struct BottomEstimate {
   double range = 0, deviation = 0;
 };
 
+/// Mean of exponential noise from the smallest quarter of intensities, which an echo hardly changes: the estimate of
+/// greatest likelihood from censored samples, chi-square of twice as many degrees of freedom as there are samples used.
+double noise_of(std::vector<double> values);
+
 /// The centre of gravity near `start` and its predicted deviation (E94). With speckle of a pulse of standard deviation s_p
 /// (in intensity) from a footprint of standard deviation s_f its variance is (s_f^2 / 2) / sqrt(1 + s_f^2 / s_p^2), to
 /// which noise adds.
 BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start);
 
+/// Slope of the phase over range near `start`, as of a short pulse [rad/m]; absent with fewer than two independent samples.
+std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo, double start);
+
 /// Where the line through the phases near `start`, weighted by intensity, crosses zero, and its deviation from the
-/// residuals of the fit and the coherence of so many looks (E95): infinite with fewer than eight independent samples, or a crossing outside of the beam. Of many samples the last fit takes the 64 nearest, over which a bottom is straight enough.
+/// residuals of the fit and the coherence of so many looks (E95): infinite of a crossing outside of the beam. With fewer
+/// than eight independent samples the line has the slope of the echo. Of many samples the last fit takes the 64 nearest,
+/// over which a bottom is straight enough.
 BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start);
 
 }  // namespace insonify

@@ -19,7 +19,7 @@ std::complex<double> at_echo(const ComplexGrid& image, const SonarHead& head, st
 
 }  // namespace
 
-// Element by element: the sum over one half of w exp(i k y (u - u_b)), y the element's place on the whole array.
+// Element by element: the sum over one half of w exp(-i k y (u - u_b)), y the element's place on the whole array.
 TEST(SplitAperture, halves_are_sums_over_their_own_elements) {
   for (const std::size_t elements : {48U, 49U}) {
     const SonarHead head = line_head({.beams = 7, .elements = elements});
@@ -35,11 +35,11 @@ TEST(SplitAperture, halves_are_sums_over_their_own_elements) {
         std::complex<double> of_half = 0, of_all = 0;
         for (std::size_t m = 0; m < elements; ++m)
           of_all += head.array.shading[m] / static_cast<double>(elements) *
-                    std::polar(1.0, k * head.array.spacing * element_place(m, elements) * (0.11 - u_b));
+                    std::polar(1.0, k * head.array.spacing * element_place(m, elements) * (u_b - 0.11));
         const std::size_t first = side == ApertureSide::port ? elements - 24 : 0;
         for (std::size_t m = 0; m < 24; ++m)
           of_half += split.head.array.shading[m] / 24 *
-                     std::polar(1.0, k * head.array.spacing * element_place(first + m, elements) * (0.11 - u_b));
+                     std::polar(1.0, k * head.array.spacing * element_place(first + m, elements) * (u_b - 0.11));
         const std::complex<double> expected = at_echo(whole, head, b) / of_all * of_half;
         EXPECT_LT(std::abs(at_echo(half, head, b) - expected), 1e-7 * std::abs(at_echo(whole, head, 3))) << b;
       }
@@ -47,7 +47,7 @@ TEST(SplitAperture, halves_are_sums_over_their_own_elements) {
   }
 }
 
-// An echo to port of a beam's axis comes to the port half first: its phase is ahead there, by 2 k b (u - u_b).
+// An echo to port of a beam's axis comes to the port half first: its phase is behind there, by 2 k b (u - u_b).
 TEST(SplitAperture, phase_grows_towards_port_and_crosses_zero_on_the_axis) {
   const SonarHead head = line_head({.beams = 1, .elements = 48});
   const SplitAperture split = split_aperture(head, "test");
@@ -59,6 +59,23 @@ TEST(SplitAperture, phase_grows_towards_port_and_crosses_zero_on_the_axis) {
                       half_pressure(echo, split, ApertureSide::starboard, split_water, {.tolerance = 1e-9}));
     const auto bin = static_cast<Eigen::Index>((2.0 - head.gate.min_range) / head.gate.bin_size);
     EXPECT_NEAR(static_cast<double>(phase(0, bin)), 2 * k * split.half_baseline * u, 1e-5) << u;
+  }
+}
+
+// Far away and of a narrow band, halves by true delays are those of the narrow band: the phase has one sign.
+TEST(SplitAperture, phase_by_true_delays_is_that_of_the_narrow_band) {
+  const SonarHead head = line_head({.beams = 1, .elements = 48, .max_range = 62});
+  const SplitAperture split = split_aperture(head, "test");
+  const double k = 2 * pi * head.pulse.centre_frequency / 1490;
+  for (const double u : {-0.01, 0.004, 0.015}) {
+    const Echoes echo{{2 * 60.0 / 1490}, {u}, {{0.3, -0.4}}};
+    const auto half = [&](ApertureSide side) {
+      return synthesize(echo, with_one_half(head, split, side), split_water, SynthesisMethod::true_delays,
+                        {.tolerance = 1e-4});
+    };
+    const auto bin = static_cast<Eigen::Index>((60.0 - head.gate.min_range) / head.gate.bin_size);
+    const Grid<float> phase = phase_between(half(ApertureSide::port), half(ApertureSide::starboard));
+    EXPECT_NEAR(static_cast<double>(phase(0, bin)), 2 * k * split.half_baseline * u, 0.02) << u;
   }
 }
 

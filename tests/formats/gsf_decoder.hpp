@@ -19,7 +19,8 @@ struct GsfSwath {
   std::vector<int> flags;
   int sensor;
   std::map<std::string, double> of_sensor;
-  std::string sensor_model;  ///< of 152
+  std::string sensor_model;                        ///< of 152
+  std::vector<std::pair<double, double>> profile;  ///< that holds for it
 };
 
 struct GsfHistory {
@@ -48,7 +49,7 @@ struct GsfContent {
   std::vector<std::string> parameters;
   std::map<std::string, std::string> parameter;  ///< by key
   double profile_time, profile_longitude_deg, profile_latitude_deg;
-  std::vector<std::pair<double, double>> profile;
+  std::vector<std::pair<double, double>> profile;  ///< the last
   std::vector<std::string> comments;
   std::vector<GsfHistory> histories;
   std::vector<GsfPositionError> position_errors;
@@ -229,6 +230,7 @@ inline GsfSwath read_gsf_swath(const std::string& data, std::map<int, GsfScale>&
 
 inline void read_gsf_profile(Cursor& in, GsfContent& content) {
   content.profile_time = gsf_time(in);
+  content.profile.clear();
   if (gsf_time(in) != content.profile_time) throw std::runtime_error("profile applied at another time");
   content.profile_longitude_deg = gsf_signed(in, 4, 1e7), content.profile_latitude_deg = gsf_signed(in, 4, 1e7);
   for (std::uint64_t n = in.unsigned_big(4); n > 0; --n) {
@@ -290,7 +292,10 @@ inline GsfContent read_gsf(const std::string& bytes) {
     if (content.records.empty() != (id == 1)) throw std::runtime_error("one header, at the begin");
     content.records.push_back(id);
     if (id == 1) content.version = in.text(12);
-    if (id == 2) content.swaths.push_back(read_gsf_swath(data, scales));
+    if (id == 2) {
+      content.swaths.push_back(read_gsf_swath(data, scales));
+      content.swaths.back().profile = content.profile;
+    }
     if (id == 3) read_gsf_profile(in, content);
     if (id == 4) read_gsf_parameters(in, content);
     if (id == 6) gsf_time(in), content.comments.push_back(gsf_text(in, 4));

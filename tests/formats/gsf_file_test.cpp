@@ -92,6 +92,21 @@ TEST(GsfFile, holds_what_its_specification_says) {
   }
 }
 
+TEST(GsfFile, another_profile_holds_for_the_pings_behind_it) {
+  const std::string path = own_path("casts.gsf");
+  GsfFile file(path, two_point_survey());
+  file.add(two_sided_ping());
+  file.add_profile({{0, 5, 12000}, {1500, 1499.5, 1499.25}}, {radians(-33.0), radians(-71.0), 0}, 1777624201.5);
+  file.add(two_sided_ping());
+  file.finish();
+  const decode::GsfContent read = decode::read_gsf(file_bytes(path));
+  ASSERT_EQ(read.swaths.size(), 2U);
+  EXPECT_EQ(read.swaths[0].profile.size(), 2U);
+  EXPECT_EQ(read.swaths[1].profile, (std::vector<std::pair<double, double>>{{0, 1500}, {5, 1499.5}, {12000, 1499.25}}));
+  EXPECT_NEAR(read.profile_time, 1777624201.5, 1e-6);
+  EXPECT_NEAR(read.profile_latitude_deg, -33, 1e-9);
+}
+
 TEST(GsfFile, names_profile_comment_and_history) {
   const decode::GsfContent read = written({two_sided_ping()});
   ASSERT_EQ(read.profile.size(), 2U);

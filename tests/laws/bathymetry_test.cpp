@@ -22,27 +22,49 @@ void add_bed(SceneCloud& scene, double begin, double end, const Eigen::Vector3d&
       add_surfel(scene, start + (y + 0.5 * s) * along + (j + 0.5) * s * Eigen::Vector3d::UnitX(), up, s * s);
 }
 
-BottomSoundings soundings_of(const SceneCloud& scene, const SonarHead& head, std::int64_t ping, bool noise) {
+SimulatedPing ping_of(const SceneCloud& scene, const SonarHead& head, std::int64_t ping, bool noise) {
   SimulationOptions o;
   o.seed = 100 + static_cast<std::uint64_t>(ping), o.ping = ping;
   o.outputs.split_phase = true;
   o.effects.noise = noise;
   o.synthesis.tolerance = 1e-3;
   o.sampling.scatterers_per_cell = 3;
-  const SimulatedPing result =
-      simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 0}, 0, pi / 2, 0), Environment{}, o);
+  return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 0}, 0, pi / 2, 0), Environment{}, o);
+}
+
+BottomSoundings soundings_of(const SimulatedPing& result, const SonarHead& head, bool phase = true) {
   const double c = result.medium.sound_speed;
   return detect_bottom(result.ping, {.sound_speed = c,
                                      .centre_frequency = head.pulse.centre_frequency,
                                      .range_resolution = range_resolution(head.pulse, c),
-                                     .absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db});
+                                     .absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db,
+                                     .phase = phase});
+}
+
+/// Root mean square, over beams from `begin` on, of the deviations about the mean of each beam to the predicted ones.
+double ratio_of(const std::vector<BottomSoundings>& pings, std::size_t begin, std::size_t end) {
+  const auto count = static_cast<double>(pings.size());
+  double sum = 0;
+  for (std::size_t b = begin; b < end; ++b) {
+    // About the mean of the pings, each with its weight: a beam may change its method.
+    double weights = 0, mean = 0;
+    const auto weight = [&](const BottomSoundings& ping) {
+      return 1 / std::pow(static_cast<double>(ping.deviation[b]), 2);
+    };
+    for (const BottomSoundings& ping : pings) weights += weight(ping), mean += weight(ping) * ping.range[b];
+    mean /= weights;
+    for (const BottomSoundings& ping : pings) sum += std::pow(ping.range[b] - mean, 2) * weight(ping) / (count - 1);
+  }
+  return std::sqrt(sum / static_cast<double>(end - begin));
 }
 
 /// Errors of a flat bed 20 m below, in equal parts of the fan.
 struct FlatBed {
-  std::vector<double> bias;      // mean error of depth [m]
-  std::vector<double> ratio;     // of deviations about the mean of each beam to the predicted ones, root mean square
-  std::vector<double> by_phase;  // share of the soundings
+  std::vector<double> bias;       // mean error of depth [m]
+  std::vector<double> ratio;      // of deviations to the predicted ones
+  std::vector<double> by_phase;   // share of the soundings
+  double by_phase_below = 0;      // the same within a degree of straight down
+  double ratio_of_amplitude = 0;  // of soundings without a phase, in the middle part
 };
 
 FlatBed measure_flat_bed(const std::string& sonar, double max_range) {
@@ -50,35 +72,31 @@ FlatBed measure_flat_bed(const std::string& sonar, double max_range) {
   SceneCloud scene;
   add_bed(scene, -60, 60, {0, 1, 0}, {0, 0, -20});
   constexpr std::size_t parts = 5;
-  constexpr int pings = 8;
-  std::vector<BottomSoundings> found;
-  for (int p = 0; p < pings; ++p) {
-    found.push_back(soundings_of(scene, head, p, true));
+  std::vector<BottomSoundings> found, by_amplitude;
+  for (int p = 0; p < 8; ++p) {
+    const SimulatedPing ping = ping_of(scene, head, p, true);
+    found.push_back(soundings_of(ping, head));
+    by_amplitude.push_back(soundings_of(ping, head, false));
     if (found.back().size() != head.fan.beams()) throw std::runtime_error("a beam has no sounding");
   }
-  FlatBed bed{std::vector<double>(parts), std::vector<double>(parts), std::vector<double>(parts)};
-  std::vector<double> soundings(parts);
-  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
-    const std::size_t k = b * parts / head.fan.beams();
-    // About the mean of the pings, each with its weight: a beam may change its method.
-    double weights = 0, mean = 0;
-    const auto weight = [&](const BottomSoundings& ping) {
-      return 1 / std::pow(static_cast<double>(ping.deviation[b]), 2);
-    };
-    for (const BottomSoundings& ping : found) weights += weight(ping), mean += weight(ping) * ping.range[b];
-    mean /= weights;
-    for (const BottomSoundings& ping : found) {
-      soundings[k] += 1;
-      bed.bias[k] += ping.position[b].z() + 20;
-      bed.ratio[k] += std::pow(ping.range[b] - mean, 2) * weight(ping) * pings / (pings - 1);
-      bed.by_phase[k] += ping.method[b] == BottomMethod::phase;
-    }
-  }
+  FlatBed bed;
+  double below = 0;
   for (std::size_t k = 0; k < parts; ++k) {
-    bed.bias[k] /= soundings[k];
-    bed.ratio[k] = std::sqrt(bed.ratio[k] / soundings[k]);
-    bed.by_phase[k] /= soundings[k];
+    const std::size_t begin = (k * head.fan.beams() + parts - 1) / parts;
+    const std::size_t end = ((k + 1) * head.fan.beams() + parts - 1) / parts;
+    double bias = 0, by_phase = 0;
+    for (std::size_t b = begin; b < end; ++b)
+      for (const BottomSoundings& ping : found) {
+        const bool phase = ping.method[b] == BottomMethod::phase;
+        bias += ping.position[b].z() + 20, by_phase += phase;
+        if (std::abs(head.fan.azimuth[b]) < radians(1)) below += 1, bed.by_phase_below += phase;
+      }
+    const auto soundings = static_cast<double>((end - begin) * found.size());
+    bed.bias.push_back(bias / soundings), bed.by_phase.push_back(by_phase / soundings);
+    bed.ratio.push_back(ratio_of(found, begin, end));
+    if (k == parts / 2) bed.ratio_of_amplitude = ratio_of(by_amplitude, begin, end);
   }
+  bed.by_phase_below /= below;
   return bed;
 }
 
@@ -90,10 +108,14 @@ void expect_honest(const FlatBed& bed) {
     EXPECT_LT(bed.ratio[k], 1.3) << k;
     EXPECT_GT(bed.ratio[k], 1 / 1.3) << k;
   }
-  // Amplitude about the specular direction, phase towards the edges.
+  testing::Test::RecordProperty("ratio_of_amplitude", std::to_string(bed.ratio_of_amplitude));
+  EXPECT_LT(bed.ratio_of_amplitude, 1.3);
+  EXPECT_GT(bed.ratio_of_amplitude, 1 / 1.3);
+  // Amplitude where a pulse is longer than the footprint, phase elsewhere.
   EXPECT_GT(bed.by_phase.front(), 0.95);
   EXPECT_GT(bed.by_phase.back(), 0.95);
-  EXPECT_LT(bed.by_phase[bed.by_phase.size() / 2], 0.1);
+  EXPECT_GT(bed.by_phase[bed.by_phase.size() / 2], 0.5);
+  EXPECT_LT(bed.by_phase_below, 0.1);
 }
 
 }  // namespace
@@ -134,7 +156,7 @@ TEST(BathymetryLaws, slope_of_45_degrees) {
   const SonarHead head = swath_head("r2sonic-2024", 8, 40);
   SceneCloud scene;
   add_bed(scene, -20, 26, Eigen::Vector3d(0, 1, 1).normalized(), {0, 0, -20});
-  const BottomSoundings found = soundings_of(scene, head, 0, true);
+  const BottomSoundings found = soundings_of(ping_of(scene, head, 0, true), head);
   RegionErrors below{"slope_below"}, beside{"slope_beside"};
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found.position[i].y() < -6) continue;  // beyond, the beams run along the slope
@@ -154,7 +176,7 @@ TEST(BathymetryLaws, step_of_one_metre) {
   add_bed(scene, -10, 8, {0, 1, 0}, {0, 0, -20});
   add_bed(scene, 0, 1, {0, 0, 1}, {0, 8, -20});
   add_bed(scene, 8, 26, {0, 1, 0}, {0, 0, -19});
-  const BottomSoundings found = soundings_of(scene, head, 0, true);
+  const BottomSoundings found = soundings_of(ping_of(scene, head, 0, true), head);
   int low = 0, high = 0, face = 0;
   RegionErrors bed{"before_step"}, top{"behind_step"};
   for (std::size_t i = 0; i < found.size(); ++i) {

@@ -118,6 +118,63 @@ TEST(DetectBottom, takes_the_zero_of_the_phase_where_the_echo_is_long) {
   EXPECT_LT(mean, -0.01);
 }
 
+namespace {
+
+/// Beams of 1 degree on a bottom of slope dr/du = 6 m: speckle of 2 cm in footprints of 10 cm, so that an echo has
+/// five independent samples at most. The phase turns by `turn` per direction cosine.
+Ping short_echoes(double turn, std::uint64_t number) {
+  constexpr Eigen::Index beams = 21;
+  constexpr double slope = 6, pulse = 0.02 / 2.3548, footprint = slope * 0.01745 / 2.3548;
+  Ping ping = silent_swath(beams, 20);
+  ping.split_phase = Grid<float>::Zero(beams, ping.pressure.cols());
+  ComplexGrid port = ComplexGrid::Zero(beams, ping.pressure.cols()), starboard = port;
+  for (Eigen::Index b = 0; b < beams; ++b) {
+    const double axis = 8.5 + slope * std::sin(ping.fan.azimuth[static_cast<std::size_t>(b)]);
+    for (int i = 0; i < 400; ++i) {
+      const double off = (i - 200) * 0.001;
+      const auto xi = random_complex_normal(5, RandomStage::noise,
+                                            {number, static_cast<std::uint64_t>(b), static_cast<std::uint64_t>(i)}) *
+                      std::exp(-0.25 * std::pow(off / footprint, 2));
+      for (std::size_t n = 0; n < ping.gate.bins(); ++n) {
+        const double x = ping.gate.centre(n) - axis - off;
+        if (std::abs(x) > 5 * pulse) continue;
+        const auto at = static_cast<Eigen::Index>(n);
+        const std::complex<double> echo = xi * std::exp(-0.25 * std::pow(x / pulse, 2));
+        ping.pressure(b, at) += std::complex<float>(echo);
+        port(b, at) += echo * std::polar(1.0, -0.5 * turn * off / slope);
+        starboard(b, at) += echo * std::polar(1.0, 0.5 * turn * off / slope);
+      }
+    }
+  }
+  ping.split_phase = (starboard * port.conjugate()).arg().cast<float>();
+  return ping;
+}
+
+}  // namespace
+
+// Of too few samples to show the slope of their phase: the other beams say it, of either sign.
+TEST(DetectBottom, takes_the_zero_of_the_phase_of_short_echoes) {
+  for (const double turn : {180.0, -180.0}) {
+    double by_phase = 0, by_amplitude = 0, predicted = 0, count = 0;
+    for (std::uint64_t number = 0; number < 4; ++number) {
+      const Ping ping = short_echoes(turn, number);
+      const BottomSoundings a = detect_bottom(ping, {.range_resolution = 0.02, .phase = false});
+      const BottomSoundings p = detect_bottom(ping, {.centre_frequency = 4e5, .range_resolution = 0.02});
+      ASSERT_EQ(p.size(), 21U);
+      for (std::size_t i = 0; i < 21; ++i) {
+        EXPECT_EQ(p.method[i], BottomMethod::phase);
+        const double truth = 8.5 + 6 * std::sin(ping.fan.azimuth[i]);
+        by_phase += std::pow(p.range[i] - truth, 2), by_amplitude += std::pow(a.range[i] - truth, 2);
+        predicted += std::pow(static_cast<double>(p.deviation[i]), 2), count += 1;
+      }
+    }
+    EXPECT_LT(std::sqrt(by_phase / count), 0.0035) << turn;
+    EXPECT_GT(std::sqrt(by_amplitude / count), 0.008) << turn;
+    EXPECT_LT(std::sqrt(by_phase / predicted), 1.3) << turn;
+    EXPECT_GT(std::sqrt(by_phase / predicted), 0.5) << turn;
+  }
+}
+
 // A sounding at the apparent place of a target stands where the target is: bend_paths puts it there.
 TEST(DetectBottom, unbends_the_ray_of_a_profile) {
   const SoundSpeedProfile profile{{0, 5, 12, 30}, {1520, 1505, 1480, 1478}};

@@ -59,7 +59,7 @@ double largest_difference(const decode::GsfContent& read) {
     for (std::size_t b = 0; b < s.flags.size(); ++b) {
       if (s.flags[b] != 0) continue;
       const auto [level, depth] =
-          ray_end(read.profile, s.depth_corrector + s.heave, radians(s.arrays.at(5)[b]), s.arrays.at(4)[b] / 2);
+          ray_end(s.profile, s.depth_corrector + s.heave, radians(s.arrays.at(5)[b]), s.arrays.at(4)[b] / 2);
       const double azimuth = radians(s.arrays.at(18)[b]);
       most = std::max({most, std::abs(depth + s.tide - s.arrays.at(1)[b]),
                        std::abs(level * std::cos(azimuth) - s.arrays.at(2)[b]),
@@ -191,6 +191,28 @@ TEST_F(ExportGsf, attitude_course_and_speed_are_those_of_the_ship) {
     EXPECT_EQ(attitude.pitch_deg, s.pitch_deg);
     EXPECT_EQ(attitude.roll_deg, s.roll_deg);
   }
+}
+
+// Of one ping on a trajectory, or with a velocity, course and speed are those, though its places are one.
+TEST_F(ExportGsf, single_pings_have_the_course_and_speed_of_their_trajectory) {
+  write("sea.toml", "[surface]\nheight_m = 0.5\n");
+  const std::string ping = "ping bed.obj --sonar em2040 --environment sea.toml --range 6:20 --set sonar.beams=8 -q ";
+  const std::string as_gsf = " --to gsf --anchor -33.9,-71.5,40 -q -o ";
+  succeed(ping + "--trajectory way.csv --time 1.4 --mount=0.5,0,-0.2,0,89,4 -o on-way");
+  succeed("export on-way" + as_gsf + "on-way.gsf");
+  const Ship ship{1.4};
+  const decode::GsfSwath s = content("on-way.gsf").swaths.at(0);
+  const double middle = ship.way_deg() + degrees(Ship::turn_rate * entry_step / 2);
+  EXPECT_NEAR(s.course_deg, std::fmod(40 - middle + 720, 360), 0.02);
+  EXPECT_NEAR(s.speed_knots, Ship::turn_rate * Ship::radius / 0.514444, 0.01);
+  // The file is looked up beside the run, too; another trajectory by now is not taken for that of the ping.
+  write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-1,0,0,0\n3,3,0,-1,0,0,0\n");
+  succeed("export on-way" + as_gsf + "other.gsf");
+  EXPECT_EQ(content("other.gsf").swaths.at(0).speed_knots, 0);
+  succeed(ping + "--pose=0,0,-1.7,0,89,0 --velocity=0,-2,0.1 -o fast");
+  succeed("export fast" + as_gsf + "fast.gsf");
+  EXPECT_NEAR(content("fast.gsf").swaths.at(0).speed_knots, 2 / 0.514444, 0.0051);
+  EXPECT_NEAR(content("fast.gsf").swaths.at(0).course_deg, 130, 0.0051);
 }
 
 TEST_F(ExportGsf, depth_of_the_head_height_and_place_are_those_of_the_track) {

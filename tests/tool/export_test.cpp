@@ -1,4 +1,5 @@
 // What `export` and --keep paths write for VTK's own readers.
+#include <nlohmann/json.hpp>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -17,6 +18,7 @@
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "tool/tool_runner.hpp"
+#include "view/grey_file.hpp"
 
 using namespace insonify;
 
@@ -186,4 +188,46 @@ TEST_F(Export, bad_input_gets_one_line_and_leaves_nothing) {
   expect_refused("export harbour.ply -o vtk", 3, {"harbour.ply"});
   succeed(ping + "-o out");
   expect_refused("export out -o out", 4, {"out", "is the input"});
+}
+
+// Pings of cold and of warm water: what is compensated is the absorption of each.
+TEST_F(Export, gains_are_of_the_absorption_of_each_ping) {
+  const std::string in = ping + "--set sonar.bin_size_m=0.01 --set water.temperature_c=";
+  succeed(in + "2 -o cold");
+  succeed(in + "25 --time 1 -o warm");
+  succeed("merge -q cold warm -o both");
+  succeed("export both -o vtk -q");
+  succeed("export both --to png -o grey -q");
+  const Cube cube = read_cube(path("both/cube.h5"));
+  ASSERT_EQ(cube.pings.size(), 2U);
+  EXPECT_GT(std::abs(cube.pings[0].absorption_db_per_m - cube.pings[1].absorption_db_per_m), 0.05);
+  const auto manifest = nlohmann::json::parse(read("grey/manifest.json"));
+  const double black = manifest["black_db"], white = manifest["white_db"];
+  for (std::size_t p = 0; p < 2; ++p) {
+    const Ping& from = cube.pings[p];
+    const std::string number = "00000" + std::to_string(p);
+    vtkNew<vtkXMLImageDataReader> image;
+    image->SetFileName(path("vtk/image_" + number + ".vti").c_str());
+    image->Update();
+    vtkDataArray* levels = image->GetOutput()->GetCellData()->GetArray("range_compensated_level_db");
+    ASSERT_NE(levels, nullptr);
+    const GreyPicture grey = load_grey_png(path("grey/samples_" + number + ".png"));
+    ASSERT_EQ(grey.value.rows(), from.pressure.cols());
+    ASSERT_EQ(grey.value.cols(), from.pressure.rows());
+    int within = 0;
+    for (Eigen::Index n = 0; n < from.pressure.cols(); n += 5)
+      for (Eigen::Index b = 0; b < from.pressure.rows(); ++b) {
+        const double amplitude = std::abs(std::complex<double>(from.pressure(b, n)));
+        if (!(amplitude > 1e-3)) continue;
+        const double r = from.gate.centre(static_cast<std::size_t>(n));
+        const double expected =
+            20 * std::log10(amplitude / std::sqrt(2.0) / 1e-6) + 40 * std::log10(r) + 2 * from.absorption_db_per_m * r;
+        EXPECT_NEAR(levels->GetTuple1(n * from.pressure.rows() + b), expected, 1e-4);
+        if (!(expected > black && expected < white)) continue;
+        ++within;
+        const int value = grey.value(from.pressure.cols() - 1 - n, from.pressure.rows() - 1 - b);
+        EXPECT_NEAR(black + value / 65535.0 * (white - black), expected, 1.02 * (white - black) / 65535);
+      }
+    EXPECT_GT(within, 100);
+  }
 }
