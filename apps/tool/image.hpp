@@ -22,8 +22,8 @@ struct ImageOptions {
   std::string output;
   std::string view = "fan";
   std::string layer;  ///< name, or empty: the whole pressure
-  std::string colour_map = "copper";
-  std::string size = "1400x1050";
+  std::string colour_map = default_colour_map;
+  std::string size;  ///< or empty: 1400x1050, of fans what they fill of it
   std::string title;
   double window_db = 45;
   std::string max_db;  ///< or empty: automatic
