@@ -27,7 +27,7 @@ void add_scene_view(OptionList list, ImageOptions& o) {
   list.add("--scene", &o.scene, "the run's scene, if it is not where run.toml says", {.group = group});
   list.add("--sonar", &o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run", {.group = group});
   list.add("--pose", &o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]", {.group = group});
-  list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's", {.group = group});
+  list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: to the end of the scene", {.group = group});
   list.add("--world", &o.world, "z-up or ned", {.words = {"z-up", "ned"}, .group = group});
   list.add("--camera", &o.camera, "auto, behind (the head), top, side or iso",
            {.words = words_of(camera_words), .group = group});
