@@ -36,6 +36,7 @@ struct ImageOptions {
   double tvg = 40;             ///< [dB per decade of range]
   int bits = 8;                ///< of view grey
   std::string frame = "head";  ///< of view scan
+  std::string min_level;       ///< of view labels [dB] or black; empty: none
   // Of view waterfall:
   std::string starboard;         ///< run to the right of this one
   std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range

@@ -10,6 +10,7 @@
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
 #include "tool/image.hpp"
+#include "tool/label_pictures.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
@@ -49,6 +50,7 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
   list.add("--frame", &o.frame, "of scan: head, as an operator sees it, or world: the vehicle's motion compensated",
            {.words = {"head", "world"}});
+  list.add("--min-level", &o.min_level, std::string("of labels: ") + min_level_help);
   list.add("--starboard", &o.starboard, "of waterfall: the run of the starboard head, RUN being the port one");
   list.add("--altitude", &o.altitude, "[m] of waterfall: ground range on a flat bottom so far below the head");
   list.add("--bottom", &o.bottom, "[m] of waterfall: the same, with the bottom at this z and the head at its pose",
@@ -150,6 +152,7 @@ void require_options_of_view(const ImageOptions& o) {
                                                 {"--colour", !o.colour.empty()},
                                                 {"--normals", o.normals},
                                                 {"--frame", o.frame != "head"},
+                                                {"--min-level", !o.min_level.empty()},
                                                 {"--starboard", !o.starboard.empty()},
                                                 {"--altitude", !o.altitude.empty()},
                                                 {"--bottom", !o.bottom.empty()}};
