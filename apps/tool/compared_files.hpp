@@ -23,6 +23,7 @@ struct CompareOptions {
   std::string strength;       ///< field of a cloud
   std::string unit = "db";    ///< of the field
   std::string repeat;         ///< another record of the same place
+  double cell = 0.25;         ///< [m] of grids of soundings and scene
   bool align = false;         ///< move A by the shift that is found
   bool force = false;
 };

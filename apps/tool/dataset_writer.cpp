@@ -88,7 +88,8 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   for (std::size_t k = 1; k < classes_.size(); ++k)
     if (std::find(options_.stuff.begin(), options_.stuff.end(), classes_[k]) != options_.stuff.end())
       stuff.insert(static_cast<std::uint8_t>(k));
-  const Grid<std::uint8_t> category = classes_of(ping.labels, options_.share, classes_);
+  const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, options_.share, classes_), level,
+                                                    parse_min_level(options_.min_level, window_.min_db));
   const Grid<std::uint16_t> object =
       objects_of(source, ping.labels, options_.share, category, stuff, static_cast<std::size_t>(options_.least_pixels));
 
@@ -192,6 +193,7 @@ std::string DatasetWriter::card() const {
       images_, polar_.boxes, fan_.boxes, INSONIFY_VERSION, sonars_, window_.min_db, window_.max_db,
       options_.raw ? "levels as received (re 1 uPa)"
                    : fmt::format("levels with a time-varied gain of {:g} log r + 2 a r", options_.tvg));
+  const std::optional<double> least = parse_min_level(options_.min_level, window_.min_db);
   text += fmt::format(
       "## Labels\n\nA pixel has the class of a material if visible surface of it lies in the pixel's own cell "
       "(half-power "
@@ -200,8 +202,9 @@ std::string DatasetWriter::card() const {
       "and multipath stronger than what is there). Objects are the scene's field `instance`, or without it connected "
       "parts of a class, of {} "
       "pixels of the polar image at least. "
-      "Holes of a scan count as nothing.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
-      options_.share, options_.least_pixels);
+      "Holes of a scan count as nothing{}.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
+      options_.share, options_.least_pixels,
+      least ? fmt::format(", and so do surfaces in pixels below {:g} dB", *least) : "");
   for (std::size_t k = 0; k < classes_.size(); ++k)
     text += fmt::format("| {} | {} | {} | {} |\n", k, classes_[k], polar_.pixels[k], fan_.pixels[k]);
   text += fmt::format(

@@ -23,6 +23,7 @@ struct DatasetOptions {
   std::vector<std::string> runs;
   std::string output, window;
   double share = least_label_share;  ///< of a pixel's energy, at least, for its class
+  std::string min_level;             ///< [dB] or black, below which surfaces have no class; empty: none
   int least_pixels = 20;             ///< of an object
   int columns = 512;                 ///< of fan pictures
   double tvg = 40;                   ///< [dB per decade of range]

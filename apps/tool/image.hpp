@@ -22,8 +22,8 @@ struct ImageOptions {
   std::string output;
   std::string view = "fan";
   std::string layer;  ///< name, or empty: the whole pressure
-  std::string colour_map = "copper";
-  std::string size = "1400x1050";
+  std::string colour_map = default_colour_map;
+  std::string size;  ///< or empty: 1400x1050, of fans what they fill of it
   std::string title;
   double window_db = 45;
   std::string max_db;  ///< or empty: automatic
@@ -36,6 +36,7 @@ struct ImageOptions {
   double tvg = 40;             ///< [dB per decade of range]
   int bits = 8;                ///< of view grey
   std::string frame = "head";  ///< of view scan
+  std::string min_level;       ///< of view labels [dB] or black; empty: none
   // Of view waterfall:
   std::string starboard;         ///< run to the right of this one
   std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range

@@ -77,7 +77,8 @@ ImageRun read_image_run(const std::string& path, const std::string& layer) {
 
 PictureOptions picture_options(const ImageOptions& o) {
   PictureOptions picture;
-  std::tie(picture.width, picture.height) = parse_size(o.size);
+  picture.trim = o.size.empty();
+  if (!o.size.empty()) std::tie(picture.width, picture.height) = parse_size(o.size);
   picture.colour_map = o.colour_map;
   picture.window_db = o.window_db;
   picture.dark = o.dark;

@@ -13,6 +13,7 @@
 #include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_files.hpp"
+#include "tool/scene_reach.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify::tool {
@@ -115,9 +116,12 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
   drawing.scene = load(o.common, options, progress);
-  if (setup)
+  if (setup) {
+    end_range_with_scene(*setup, bounds(drawing.scene), drawing.look.head->world_from_head);
+    drawing.look.head->gate = setup->head.gate;
     drawing.view =
         resolve_ping(whole_of(drawing.scene), setup->head, drawing.look.head->world_from_head, setup->environment).view;
+  }
   return drawing;
 }
 

@@ -57,7 +57,12 @@ void draw_labels(const ViewJob& job) {
          " has no labels: make the run with --keep contributors");
   const Ping ping = row_of(whole, rows_of(whole) / 2);
   const std::vector<std::string> classes = class_names(ping.labels);
-  const Grid<std::uint8_t> category = classes_of(ping.labels, least_label_share, classes);
+  const Grid<float> level =
+      level_image(ping, job.options.raw ? std::nullopt : std::optional(Tvg{job.options.tvg, whole.absorption_db_per_m}))
+          .level_db;
+  const ColourScale scale = colour_scale(level, job.picture, "image");
+  const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, least_label_share, classes), level,
+                                                    parse_min_level(job.options.min_level, scale.min_db));
   const FanRaster raster = fan_raster(ping.fan, ping.gate, job.picture.width);
   save_label_png(job.path, fan_picture(category, raster, std::uint8_t{0}));
   nlohmann::ordered_json palette{{"least_share", least_label_share},
@@ -191,6 +196,7 @@ const std::vector<ViewSpec>& all_views() {
       {.name = "labels",
        .shows =
            "what every pixel shows by class, in the colours of a .json beside it, of a run with --keep contributors",
+       .options = {"--min-level"},
        .draw = draw_labels},
       {.name = "grey", .shows = "the bare samples as 8- or 16-bit .png or .pgm", .draw = draw_grey},
   };

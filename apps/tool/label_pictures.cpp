@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "tool/parse_values.hpp"
 #include "view/label_colours.hpp"
 
 namespace insonify::tool {
@@ -38,6 +39,19 @@ Grid<std::uint8_t> classes_of(const PixelLabels& labels, double share, const std
     if (material == PixelLabels::nothing) return std::uint8_t{0};
     return material == PixelLabels::shadow ? shadow_class : class_of_material.at(material);
   });
+}
+
+std::optional<double> parse_min_level(const std::string& text, double black_db) {
+  if (text.empty()) return {};
+  return text == "black" ? black_db : parse_number("--min-level", text);
+}
+
+Grid<std::uint8_t> classes_above(const Grid<std::uint8_t>& classes, const Grid<float>& level_db,
+                                 std::optional<double> min_level) {
+  if (!min_level) return classes;
+  const auto least = static_cast<float>(*min_level);
+  return (classes > shadow_class && level_db < least)
+      .select(Grid<std::uint8_t>::Zero(classes.rows(), classes.cols()), classes);
 }
 
 std::size_t rows_of(const Ping& ping) { return fan_rows(ping.fan).size(); }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,16 @@ std::vector<std::string> class_names(const PixelLabels& labels);
 
 /// The class of every sample, beams x bins, numbered as `classes`; nothing where a label has less than `share` (E125).
 Grid<std::uint8_t> classes_of(const PixelLabels& labels, double share, const std::vector<std::string>& classes);
+
+/// --min-level: a level [dB], "black" for `black_db`, or nothing of "". Throws Error(argument).
+std::optional<double> parse_min_level(const std::string& text, double black_db);
+/// What --help says of --min-level.
+inline constexpr const char* min_level_help =
+    "[dB] surfaces have no class in pixels below; black: below the darkest grey; default: they have one at any level";
+
+/// The classes with nothing in place of surfaces where the level is below `min_level`, if that is given; shadow stays.
+Grid<std::uint8_t> classes_above(const Grid<std::uint8_t>& classes, const Grid<float>& level_db,
+                                 std::optional<double> min_level);
 
 /// One row of beams of a ping, from the lowest; all of it if it has one. Layers and other maps than levels and labels are
 /// left out.

@@ -36,7 +36,7 @@ struct SceneOptions {
 /// Sonar, environment, synthesis and output of a run.
 struct RunOptions {
   std::string sonar;
-  std::string range;        ///< "min:max" [m] or empty: the sonar's own
+  std::string range;        ///< "min:max" [m] or empty: the sonar's own, of a ping to the end of the scene at most
   std::string environment;  ///< TOML file, or empty
   std::string profile;      ///< CSV of sound speed against depth, or empty
   std::string output;

@@ -7,6 +7,7 @@
 #include "acoustics/reflection.hpp"
 #include "core/units.hpp"
 #include "tool/parse_values.hpp"
+#include "tool/scene_reach.hpp"
 
 namespace insonify::tool {
 
@@ -33,16 +34,39 @@ std::string no_multipath_note(const Environment& environment) {
   return "no echo comes by way of surface or bottom: " + sea;
 }
 
-/// States that the ping is silent and where the scene lies.
-std::string silence_note(const std::vector<Eigen::Vector3d>& places) {
+/// The options with which a head that hears nothing looks at the scene.
+std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& centre,
+                              const PingSetup& setup, bool mounted) {
+  const Eigen::Vector3d way = setup.pose.linear() * centre, at = setup.pose.translation();
+  std::string remedy =
+      mounted ? "move or turn the vehicle by --pose, or the head on it by --mount"
+              : fmt::format("--pose={} looks at it", pose_text(at, std::atan2(way.y(), way.x()),
+                                                               std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
+  double farthest = 0;
+  for (const auto& p : places) farthest = std::max(farthest, p.norm());
+  const RangeGate& gate = setup.head.head.gate;
+  if (centre.norm() > gate.max_range)
+    remedy += fmt::format(", with --range {}", range_text(gate.min_range, end_of_range(farthest)));
+  return remedy;
+}
+
+/// States that the ping is silent, where the scene lies and what to do.
+std::string silence_note(const std::vector<Eigen::Vector3d>& places, const SamplingReport& sampling,
+                         const PingSetup& setup, bool mounted) {
+  if (sampling.in_gate > 0)
+    return fmt::format(
+        "the ping is silent: of {} surfels inside fan and range gate {} face away from the head and {} are hidden; "
+        "move "
+        "the head to the side to which the normals point, or orient them by --viewpoint",
+        sampling.in_gate, sampling.back_facing, sampling.hidden);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& p : places) centre += p / static_cast<double>(places.size());
   const Direction d = direction_of(centre);
   return fmt::format(
       "nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
-      "{:.0f} deg to {} and {:.0f} deg {} the head's axis",
+      "{:.0f} deg to {} and {:.0f} deg {} the head's axis: {}",
       centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
-      d.elevation > 0 ? "above" : "below");
+      d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
 }
 
 std::string bound_text(const PlannedStage& stage) {
@@ -123,10 +147,10 @@ ordered_json motion_json(const Motion& motion) {
 }
 
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
-                                    const std::vector<Eigen::Vector3d>& places) {
+                                    const std::vector<Eigen::Vector3d>& places, bool mounted) {
   std::vector<std::string> notes = ping.notes;
   const Environment& environment = setup.head.environment;
-  if (ping.sampling.scatterers == 0) notes.push_back(silence_note(places));
+  if (ping.sampling.scatterers == 0) notes.push_back(silence_note(places, ping.sampling, setup, mounted));
   for (const LayerReport& layer : ping.layers)
     if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
   if (environment.profile) notes.push_back(refraction_note(ping.refraction, setup.head.head.gate));

@@ -96,6 +96,17 @@ std::uint16_t material_index(const std::vector<Material>& materials, const std::
   return static_cast<std::uint16_t>(at - names.begin());
 }
 
+/// A sentence with the remedy if the range ends beyond that of the sonar's file.
+std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
+  const double most = device.spec.max_range;
+  if (device.of_run || spec.max_range <= most) return {};
+  return fmt::format(
+      "the range ends at {:g} m, beyond the {:g} m of {}: echoes are computed from where the device hears none; "
+      "--range "
+      "{:g}:{:g} stays within it",
+      spec.max_range, most, device.spec.name, spec.min_range, most);
+}
+
 /// The setup of a ping at the pose of the options, or of one that has another.
 PingSetup set_up(const PingOptions& o, bool at_pose) {
   const Track track = track_of(o);
@@ -164,19 +175,23 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::o
     if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
   if (!run.environment.empty()) setup.environment = load_environment(run.environment);
   if (!run.profile.empty()) setup.environment.profile = load_sound_speed_profile(run.profile);
+  bool sets_range = false;
   for (const std::string& text : common.settings) {
     const Setting setting = parse_setting(text);
+    sets_range |= setting.section == "sonar" && setting.key == "max_range_m";
     if (setting.section == "sonar")
       set_sonar_value(setup.spec, setting.key, setting.value);
     else
       set_environment_value(setup.environment, setting.section, setting.key, setting.value);
   }
   if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
+  setup.range_is_own = run.range.empty() && !sets_range && !file.of_run;
   require_valid(setup.environment, "environment");
   const Environment there =
       head_height ? environment_at(setup.environment, *head_height, "environment") : setup.environment;
   setup.notes =
       validity_notes(there.water, setup.spec.centre_frequency, there.sound_speed_formula, there.absorption_formula);
+  if (const std::string note = beyond_sonar_note(setup.spec, file); !note.empty()) setup.notes.push_back(note);
   setup.medium = medium_of(setup.environment, setup.spec.centre_frequency);
   setup.head = make_head(setup.spec, slowest_sound(setup.environment));
   return setup;

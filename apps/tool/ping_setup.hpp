@@ -25,6 +25,7 @@ struct HeadSetup {
   Medium medium;                      ///< of the water as given; SimulatedPing::medium is that at the head's depth
   Pose mount = Pose::Identity();      ///< on a vehicle, as the sonar's file says
   std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
+  bool range_is_own = false;          ///< the sonar's: neither options nor a run say another
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,

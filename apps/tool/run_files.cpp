@@ -93,6 +93,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
   if (!run.no_picture) try {
       PictureOptions options;
       options.title = picture_title(setup.head.name, ping);
+      options.trim = true;
       show_fan(level_image(ping, Tvg{40, ping.absorption_db_per_m}), options, directory.file("fan.png"));
     } catch (const Error& error) {
       no_picture(error.what());

@@ -20,6 +20,11 @@ struct RunSetting {
   bool is_path = false;  ///< relative to the current folder, or to the folder of run.toml
 };
 
+/// Titles under which --help lists settings.
+inline constexpr const char *scene_title = "Scene", *sonar_title = "Sonar and water", *head_title = "Head",
+                            *sound_title = "Sound", *accuracy_title = "Accuracy", *output_title = "Output",
+                            *detection_title = "Detections";
+
 /// Rows of [scene]: how a cloud is read and completed.
 std::vector<RunSetting> scene_settings(SceneOptions& options);
 /// Rows of the top level: the synthesis.

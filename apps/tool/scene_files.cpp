@@ -11,6 +11,7 @@
 #include "simulate/resolve_ping.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/run_settings.hpp"
+#include "tool/scene_reach.hpp"
 
 namespace insonify::tool {
 
@@ -70,9 +71,21 @@ PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup, const Ti
   return result;
 }
 
-PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup) {
-  if (is_tiles(o.scene.path)) return load_ping_scene(o, setup, TiledScene(o.scene.path));
+PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
+  const auto add_notes = [&](const SceneCloud& scene, const Bounds& box) {
+    for (std::string& note : fit_notes(scene, box, setup)) setup.head.notes.push_back(std::move(note));
+  };
+  if (is_tiles(o.scene.path)) {
+    const TiledScene tiled(o.scene.path);
+    end_range_with_scene(setup.head, tiled.info().box, setup.pose);
+    PingScene result = load_ping_scene(o, setup, tiled);
+    add_notes(result.loaded.scene, tiled.info().box);
+    return result;
+  }
   PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
+  const Bounds box = bounds(result.loaded.scene);
+  end_range_with_scene(setup.head, box, setup.pose);
+  add_notes(result.loaded.scene, box);
   result.places = sampled_places(result.loaded.scene, setup.pose);
   require_in_reach(result.places, setup.head.head.gate, o.scene.path);
   sample_for_ping(o, setup, result.loaded);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "scene_io/load_scene.hpp"
@@ -22,10 +23,21 @@ const OptionRules bits{.within = std::pair(1, 24), .shown_as = "INT"};
 const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
 const OptionRules absorption_orders{.within = std::pair(-1, 2), .shown_as = "INT"};
 
+/// The settings, each under the title of the last key in `titles` at or before it.
+std::vector<RunSetting> under_titles(std::vector<RunSetting> settings,
+                                     const std::map<std::string, const char*>& titles) {
+  const char* title = nullptr;
+  for (RunSetting& setting : settings) {
+    if (const auto begins = titles.find(setting.key); begins != titles.end()) title = begins->second;
+    setting.rules.group = title;
+  }
+  return settings;
+}
+
 }  // namespace
 
 std::vector<RunSetting> scene_settings(SceneOptions& o) {
-  return {
+  std::vector<RunSetting> settings{
       {"scene", "path", "SCENE", &o.path, "cloud or mesh: " + scene_extensions(), scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
        "x,y,z [m] where the capture stood; orients estimated normals"},
@@ -43,10 +55,11 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
       {"scene", "keep_strays", "--keep-strays", &o.keep_strays,
        "points far from all others keep areas as large as their cells"},
   };
+  return under_titles(std::move(settings), {{"viewpoint", scene_title}});
 }
 
 std::vector<RunSetting> synthesis_settings(RunOptions& o) {
-  return {
+  std::vector<RunSetting> settings{
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
        "planned: true-delays where the narrow band costs too much; gridded: narrow band, far field; true-delays: wide "
@@ -54,6 +67,7 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
        "both; or incoherent: the expected level, no speckle",
        methods},
   };
+  return under_titles(std::move(settings), {{"tolerance", accuracy_title}});
 }
 
 RunSetting seed_setting(CommonOptions& o) {
@@ -139,7 +153,15 @@ std::vector<RunSetting> kept_settings(PingOptions& o) {
 std::vector<RunSetting> ping_settings(PingOptions& o) {
   std::vector<RunSetting> all = sent_settings(o);
   for (RunSetting& setting : kept_settings(o)) all.push_back(std::move(setting));
-  return all;
+  return under_titles(std::move(all), {{"pose", head_title},
+                                       {"accuracy_db", accuracy_title},
+                                       {"amplitude", sound_title},
+                                       {"keep", output_title},
+                                       {"absorption_order", sound_title},
+                                       {"velocity", head_title},
+                                       {"threshold_db", detection_title},
+                                       {"memory_limit_gib", scene_title},
+                                       {"with", accuracy_title}});
 }
 
 std::vector<RunSetting> mission_settings(PingOptions& o) {

@@ -29,23 +29,25 @@ void add_completion(OptionList list, SceneOptions& o) {
   add_settings(list, {settings.begin() + 1, settings.end()});
 }
 
-void add_sonar(OptionList list, CommonOptions& common, RunOptions& o) {
+void add_sonar(OptionList list, CommonOptions& common, RunOptions& o, const char* default_range) {
   list.add("--sonar", &o.sonar, "preset (see `insonify sonars`), a .toml file, or the run.toml of a run",
-           {.required = true});
-  list.add("--range", &o.range, "min:max [m]; default: the sonar's");
-  add_settings(list, synthesis_settings(o));
+           {.required = true, .group = sonar_title});
+  list.add("--range", &o.range, fmt::format("min:max [m]; default: {}", default_range), {.group = sonar_title});
   list.add("--environment", &o.environment,
-           "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run");
+           "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run",
+           {.group = sonar_title});
   list.add("--profile", &o.profile,
-           "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays; needs surface.height_m");
+           "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays; needs surface.height_m",
+           {.group = sonar_title});
   list.add("--set", &common.settings, "SECTION.KEY=VALUE of sonar or environment, e.g. water.temperature_c=4",
-           {.one_each = true});
+           {.one_each = true, .group = sonar_title});
+  add_settings(list, synthesis_settings(o));
 }
 
 void add_output(OptionList list, RunOptions& o) {
-  list.add("-o,--output", &o.output, "run directory to make", {.required = true});
-  list.add("--force", &o.force, "replace an existing run directory");
-  list.add("--no-picture", &o.no_picture, "do not draw fan.png");
+  list.add("-o,--output", &o.output, "run directory to make", {.required = true, .group = output_title});
+  list.add("--force", &o.force, "replace an existing run directory", {.group = output_title});
+  list.add("--no-picture", &o.no_picture, "do not draw fan.png", {.group = output_title});
 }
 
 void add_world(OptionList list, std::string& world) {
@@ -65,7 +67,8 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
       "not be given, and a flag is switched off by e.g. --noise=false");
   PingOptions& o = command.options;
   add_settings(list, scene_settings(o.scene));
-  add_sonar(list, o.common, o.run);
+  add_sonar(list, o.common, o.run, "to the end of the scene, at most the sonar's");
+  // Titles stand in the order in which they are first used.
   if (with_output) add_output(list, o.run);
   add_settings(list, ping_settings(o));
   add_common(list, o.common);

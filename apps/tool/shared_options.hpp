@@ -15,8 +15,8 @@ void add_common(OptionList list, CommonOptions& options);
 void add_work(OptionList list, CommonOptions& options);
 /// How a scene is completed: viewpoint, materials, unit.
 void add_completion(OptionList list, SceneOptions& options);
-/// --sonar, which is required, the environment and the synthesis.
-void add_sonar(OptionList list, CommonOptions& common, RunOptions& options);
+/// --sonar, which is required, the environment and the synthesis. `default_range` says what range holds by default.
+void add_sonar(OptionList list, CommonOptions& common, RunOptions& options, const char* default_range = "the sonar's");
 /// The run directory to make.
 void add_output(OptionList list, RunOptions& options);
 /// --world, beside a --pose.

@@ -10,6 +10,7 @@
 #include "store/environment_file.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
+#include "tool/scene_reach.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -145,6 +146,7 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
     if (!loaded_.mesh) prepared_.emplace(loaded_.scene, common.threads);
     box = bounds(loaded_.scene);
   }
+  std::vector<double> farthest(setup.heads.size());
   for (const SurveyPing& ping : setup.pings) {
     const Eigen::Vector3d at = place_of(setup.file.mission, ping).world_from_head.translation();
     const double away = (at - at.cwiseMax(box.min).cwiseMin(box.max)).norm();
@@ -152,7 +154,12 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
     if (away > reach)
       refuse_ping(setup, ping, "is ", away, " m from the scene, beyond its max range of ", reach,
                   " m; is the trajectory in another frame, or should this be a transit (active = false)?");
+    farthest[ping.head] =
+        std::max(farthest[ping.head], reach_of(box, at, setup.heads[ping.head].setup.head.environment));
   }
+  for (std::size_t h = 0; h < setup.heads.size(); ++h)
+    if (const std::string note = far_range_note(setup.heads[h].setup.head, farthest[h]); !note.empty())
+      progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
 SurveyScene::Made SurveyScene::make(const SurveySetup& setup, const SurveyPing& ping) const {

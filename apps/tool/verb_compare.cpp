@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "tool/compare_page.hpp"
+#include "tool/compare_soundings.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
@@ -18,10 +19,10 @@ namespace {
 using nlohmann::ordered_json;
 
 void add_options(OptionList list, CompareOptions& o) {
-  list.add("A", &o.a, "run directory or cube.h5; also a record", {.required = true});
+  list.add("A", &o.a, "run directory or cube.h5; also a record; or soundings of export --to csv", {.required = true});
   list.add("B", &o.b,
            "the reference: a run, .aris, .npy (dB, complex Pa, or grey), .png (grey, as view grey makes it), or with "
-           "--strength a cloud",
+           "--strength a cloud; of soundings their scene",
            {.required = true});
   list.add("-o,--output", &o.output, "folder to make: compare.json and a page of pictures, index.html");
   list.add("--window", &o.window, "MIN:MAX [dB] in which images are compared; default: 60 dB below the top of B");
@@ -36,6 +37,8 @@ void add_options(OptionList list, CompareOptions& o) {
            "B is a cloud with this field of measured strengths: the levels of A at its points are compared");
   list.add("--strength-unit", &o.unit, "of the field: db, linear (amplitude) or power",
            {.words = {"db", "linear", "power"}});
+  list.add("--cell", &o.cell, "[m] of the grids in which heights of soundings and scene are compared",
+           {.positive = true});
   list.add("--repeat", &o.repeat,
            "another cloud of the same place, whose strengths say what a repeated measurement reaches");
   list.add("--seed", &o.common.seed, "of the drawn floor");
@@ -245,6 +248,10 @@ void compare(const CompareOptions& o) {
   Progress progress(o.common, 3);
   progress.step("reading");
   if (!o.strength.empty()) return compare_with_points(o, directory);
+  if (std::filesystem::path(o.a).extension() == ".csv") {
+    const ordered_json result = compare_soundings(o);
+    return finish(o, directory, result, soundings_table(result));
+  }
   if (!o.repeat.empty()) fail(ErrorKind::argument, "--repeat goes with --strength, the field of both clouds");
   ComparedFile a = load_compared(o.a, o.ping, o), b = load_compared(o.b, o.ping_b < 0 ? o.ping : o.ping_b, o);
   match(a, b, o);
@@ -271,9 +278,10 @@ void compare(const CompareOptions& o) {
 
 Verb compare_verb() {
   return make_verb<CompareOptions>(
-      "compare", "how alike two runs are, or a run and a record",
+      "compare", "how alike two runs are, a run and a record, or soundings and the scene that they are of",
       {"insonify compare run other-seed -o compared", "insonify compare run picture.png --scale 40:100",
-       "insonify compare run scan.pcd --strength intensity --strength-unit linear"},
+       "insonify compare run scan.pcd --strength intensity --strength-unit linear",
+       "insonify compare soundings.csv reef.pcd --cell 0.1"},
       add_options, compare);
 }
 

@@ -29,6 +29,7 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("--raw", &o.raw, "levels as received, without --tvg", {.excludes = "--tvg", .shown_as = " "});
   list.add("--share", &o.share,
            "of a pixel's energy that must be of one material in the pixel's own cell, for that class");
+  list.add("--min-level", &o.min_level, min_level_help);
   list.add("--least-pixels", &o.least_pixels, "of an object, in the polar image",
            {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
   list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
@@ -114,6 +115,7 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
 void dataset(const DatasetOptions& o) {
   if (!(o.share > 0 && o.share <= 1)) fail(ErrorKind::argument, "--share = ", o.share, ", must be > 0 and at most 1");
   const std::vector<double> shares = parse_split(o.split);
+  (void)parse_min_level(o.min_level, 0);  // before any work
   std::vector<DatasetSource> sources = dataset_sources(o.runs);
   split_pings(sources, o.split_by, shares);
   Progress progress(o.common, static_cast<int>(sources.size()) + 2);

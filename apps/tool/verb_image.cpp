@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
 #include "tool/image.hpp"
+#include "tool/label_pictures.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
@@ -26,7 +28,7 @@ void add_scene_view(OptionList list, ImageOptions& o) {
   list.add("--scene", &o.scene, "the run's scene, if it is not where run.toml says", {.group = group});
   list.add("--sonar", &o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run", {.group = group});
   list.add("--pose", &o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]", {.group = group});
-  list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: the sonar's", {.group = group});
+  list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: to the end of the scene", {.group = group});
   list.add("--world", &o.world, "z-up or ned", {.words = {"z-up", "ned"}, .group = group});
   list.add("--camera", &o.camera, "auto, behind (the head), top, side or iso",
            {.words = words_of(camera_words), .group = group});
@@ -48,6 +50,7 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
   list.add("--frame", &o.frame, "of scan: head, as an operator sees it, or world: the vehicle's motion compensated",
            {.words = {"head", "world"}});
+  list.add("--min-level", &o.min_level, std::string("of labels: ") + min_level_help);
   list.add("--starboard", &o.starboard, "of waterfall: the run of the starboard head, RUN being the port one");
   list.add("--altitude", &o.altitude, "[m] of waterfall: ground range on a flat bottom so far below the head");
   list.add("--bottom", &o.bottom, "[m] of waterfall: the same, with the bottom at this z and the head at its pose",
@@ -60,8 +63,8 @@ void add_options(OptionList list, ImageOptions& o) {
            {.excludes = "--raw", .shown_as = "FLOAT"});
   list.add("--window", &o.window_db, "[dB] from darkest to brightest");
   list.add("--max", &o.max_db, "[dB] brightest level; default: automatic");
-  list.add("--colormap", &o.colour_map, "copper, viridis, amber, grey or jet");
-  list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]");
+  list.add("--colormap", &o.colour_map, joined(colour_map_names()));
+  list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, of fans as much of it as they fill");
   list.add("--title", &o.title, "default: sonar and ping");
   list.add("--dark", &o.dark, "dark background");
   list.add("--annotate", &o.annotate,
@@ -149,6 +152,7 @@ void require_options_of_view(const ImageOptions& o) {
                                                 {"--colour", !o.colour.empty()},
                                                 {"--normals", o.normals},
                                                 {"--frame", o.frame != "head"},
+                                                {"--min-level", !o.min_level.empty()},
                                                 {"--starboard", !o.starboard.empty()},
                                                 {"--altitude", !o.altitude.empty()},
                                                 {"--bottom", !o.bottom.empty()}};

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,12 +8,14 @@
 #include "core/error.hpp"
 #include "core/pending_file.hpp"
 #include "core/units.hpp"
+#include "scene_io/describe_file.hpp"
 #include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"
+#include "tool/scene_reach.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
 
@@ -23,7 +27,7 @@ struct MakeMissionOptions {
   std::string name, output, scene, sonar, range;
   std::string centre = "0,0,-3", size = "20,10";
   double spacing = 5, radius = 10, speed = 1, rate = 2, down_deg = 20;
-  bool force = false;
+  bool labels = false, force = false;
 };
 
 void add_options(OptionList list, MakeMissionOptions& o) {
@@ -33,7 +37,8 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("-o,--output", &o.output, "mission to write, .toml", {.required = true});
   list.add("--scene", &o.scene, "that the survey pings", {.required = true});
   list.add("--sonar", &o.sonar, "default: gemini-720im, of a tunnel ping360");
-  list.add("--range", &o.range, "min:max [m]; default: the sonar's");
+  list.add("--range", &o.range,
+           "min:max [m]; default: to the end of the scene from all of the way, at most the sonar's");
   list.add("--centre", &o.centre, "x,y,z of the middle [m]");
   list.add("--size", &o.size, "x,y extent of the lines [m]; of a tunnel its length is x");
   list.add("--spacing", &o.spacing, "between lines [m]", {.positive = true});
@@ -41,6 +46,7 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("--speed", &o.speed, "[m/s]", {.positive = true});
   list.add("--rate", &o.rate, "pings per second; of a tunnel as many as the range allows", {.positive = true});
   list.add("--down", &o.down_deg, "tilt of the head [deg]; not of one whose sonar file says how it is mounted");
+  list.add("--labels", &o.labels, "keep what every pixel shows, for insonify dataset");
   list.add("--force", &o.force, "replace an existing file");
   add_common(list, o.common);
 }
@@ -108,12 +114,35 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
           ""};
 }
 
+/// The range of a sonar that holds the scene from every point of the way.
+std::string range_over(const std::string& scene, const SonarSpec& sonar, const std::vector<Eigen::Vector3d>& way) {
+  Bounds box;
+  if (is_tiles(scene)) {
+    box = TiledScene(scene).info().box;
+  } else {
+    const FileDescription file = describe_file(scene);
+    box = {file.min, file.max};
+  }
+  double reach = 0;
+  for (const Eigen::Vector3d& p : way) reach = std::max(reach, reach_of(box, p, {}));
+  return range_text(sonar.min_range,
+                    reach > sonar.min_range ? std::min(sonar.max_range, end_of_range(reach)) : sonar.max_range);
+}
+
+/// [ping]: of heads that look down with several beams the phase, by which the bottom is detected; labels if asked for.
+std::string ping_as_toml(const MakeMissionOptions& o, const SonarFile& sonar) {
+  const bool swath = sonar.spec.beams > 1 && sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45);
+  std::string keys = swath ? "split = true  # for soundings: insonify export run --to csv, gsf, las or geotiff\n" : "";
+  if (o.labels) keys += "keep = [\"contributors\"]  # for labels: insonify dataset run\n";
+  return keys.empty() ? "" : "\n[ping]\n" + keys;
+}
+
 /// [[head]], or one for each side if the sonar is mounted to look to port.
-std::string heads_as_toml(const MakeMissionOptions& o, const std::string& sonar, const MissionShape& shape) {
-  const Eigen::Vector3d mounting = find_sonar(sonar).mounting;
+std::string heads_as_toml(const std::string& sonar, const std::string& range, const Eigen::Vector3d& mounting,
+                          const MissionShape& shape) {
   const auto head = [&](const char* name, const std::string& angles) {
     return fmt::format("\n[[head]]\nname = \"{}\"\nsonar = {}\n{}{}{}", name, toml_text(sonar),
-                       o.range.empty() ? "" : "range = " + toml_text(o.range) + "\n", angles, shape.head);
+                       range.empty() ? "" : "range = " + toml_text(range) + "\n", angles, shape.head);
   };
   if (mounting.x() != 0) return head("port", "") + head("starboard", "side = \"starboard\"\n");
   return head("sonar", mounting.isZero() ? shape.angles : "");
@@ -128,11 +157,16 @@ void make_mission(const MakeMissionOptions& o) {
                              : o.name == "orbit"   ? orbit(o, centre)
                                                    : tunnel(centre, size);
   const std::string sonar = !o.sonar.empty() ? o.sonar : o.name == "tunnel" ? "ping360" : "gemini-720im";
+  const SonarFile file = find_sonar(sonar);
+  std::string range = o.range;
+  if (range.empty() && std::filesystem::exists(o.scene)) range = range_over(o.scene, file.spec, shape.points);
   write_file(o.output,
              fmt::format("# {}; docs/survey.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = 1\n\n"
-                         "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}",
+                         "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
                          o.name, toml_text(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
-                         heads_as_toml(o, sonar, shape), shape.legs));
+                         heads_as_toml(sonar, range, file.mounting, shape), ping_as_toml(o, file), shape.legs));
+  if (range.empty())
+    Progress(o.common, 1).note(o.scene + " is not there yet, so the range is the sonar's own: give --range");
   print_summary(o.common, {{"output", o.output}, {"scene", o.scene}, {"sonar", sonar}},
                 fmt::format("{}: make it with: insonify survey {} -o run", o.output, o.output));
 }

@@ -67,7 +67,7 @@ void ping(const PingCommand& command) {
   const CommonOptions& common = o.common;
   // The whole command line is checked before any work.
   Progress progress(common, 4);
-  const PingSetup ready = set_up_ping(o);
+  PingSetup ready = set_up_ping(o);
   const HeadSetup& setup = ready.head;
   const SimulationOptions& simulation = ready.simulation;
   InputPaths inputs = input_files(all_settings(o));
@@ -97,7 +97,7 @@ void ping(const PingCommand& command) {
   progress.step("pinging");
   ContributorWriter contributors(directory, loaded.scene, setup.head, plan.options.outputs);
   SimulatedPing result = simulate_ping(loaded.scene, setup.head, ready.pose, setup.environment, plan.options);
-  for (const std::string& note : ping_notes(result, ready, in_reach.places)) note_to_user(note);
+  for (const std::string& note : ping_notes(result, ready, in_reach.places, !o.mount.empty())) note_to_user(note);
 
   progress.step("writing " + o.run.output);
   watch.lap();

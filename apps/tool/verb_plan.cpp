@@ -16,7 +16,7 @@ void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_opt
 void plan(const PingCommand& command) {
   const PingOptions o = settled_options(command);
   Progress progress(o.common, 2);
-  const PingSetup ready = set_up_ping(o);
+  PingSetup ready = set_up_ping(o);
   progress.step("loading " + o.scene.path);
   const LoadedScene loaded = load_ping_scene(o, ready).loaded;
   for (const std::string& note : ready.head.notes) progress.note(note);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <ctime>
 #include <filesystem>
 #include <mutex>
@@ -8,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/stop_watch.hpp"
 #include "core/text.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
@@ -33,7 +35,9 @@ void add_options(OptionList list, SurveyOptions& o) {
            "many as fill 32 MiB, at most 64",
            {.within = std::pair(0, 100000), .shown_as = "INT"});
   list.add("--plan", &o.plan,
-           "only print how many pings, bytes and CPU hours; makes a few pings of each head to measure");
+           "only print how many pings, bytes and CPU hours; makes one to five pings of each head to measure, as many "
+           "as take a "
+           "twentieth of the survey");
   add_common(list, o.common);
   list.add("-j,--threads", &o.common.threads,
            "pings at once, at most 1024; 0: as many as cores (results do not depend on it)",
@@ -57,31 +61,56 @@ Shard parse_shard(const std::string& text) {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Cost of the pings of one head, from a few of them, evenly spaced.
-ordered_json cost_of_head(const SurveySetup& s, const SurveyScene& scene, std::size_t h) {
-  constexpr std::size_t tried = 5;
+/// What the pings of a head cost, from those that were tried.
+struct HeadTrial {
   std::vector<SurveyPing> pings;
-  for (const SurveyPing& ping : s.pings)
-    if (ping.head == h) pings.push_back(ping);
-  const std::size_t samples = std::min(tried, pings.size());
-  double scatterers = 0, soundings = 0;
-  double cpu = 0;
-  for (std::size_t k = 0; k < samples; ++k) {
-    const double begin = cpu_seconds();
-    const SimulatedPing result = scene.make(s, pings[(2 * k + 1) * pings.size() / (2 * samples)]).ping;
-    cpu += cpu_seconds() - begin;
-    scatterers += static_cast<double>(result.sampling.scatterers);
-    soundings += static_cast<double>(result.soundings.size());
-  }
+  std::size_t tried = 0;
+  double cpu = 0, scatterers = 0, soundings = 0;
+
+  /// All pings over those tried.
+  double part() const { return tried > 0 ? static_cast<double>(pings.size()) / static_cast<double>(tried) : 0; }
+};
+
+std::vector<HeadTrial> trials_of(const SurveySetup& s) {
+  std::vector<HeadTrial> trials(s.heads.size());
+  for (const SurveyPing& ping : s.pings) trials[ping.head].pings.push_back(ping);
+  return trials;
+}
+
+/// Tries a ping of each head, then more, evenly spaced, as long as the plan takes at most a twentieth of the survey.
+/// `begun` runs since the scene began to be loaded.
+void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, const StopWatch& begun,
+               std::vector<HeadTrial>& trials) {
+  constexpr double most_of_survey = 0.05;
+  constexpr std::size_t fifths[] = {2, 0, 4, 1, 3};
+  const auto is_cheap = [&](const HeadTrial& next) {
+    double survey = 0;
+    for (const HeadTrial& trial : trials) survey += trial.cpu * trial.part() / cores;
+    return begun.seconds() + next.cpu / static_cast<double>(next.tried) <= most_of_survey * survey;
+  };
+  for (const std::size_t fifth : fifths)
+    for (HeadTrial& trial : trials) {
+      if (trial.tried >= trial.pings.size() || (trial.tried > 0 && !is_cheap(trial))) continue;
+      const double begin = cpu_seconds();
+      const SimulatedPing result = scene.make(s, trial.pings[(2 * fifth + 1) * trial.pings.size() / 10]).ping;
+      trial.cpu += cpu_seconds() - begin;
+      trial.scatterers += static_cast<double>(result.sampling.scatterers);
+      trial.soundings += static_cast<double>(result.soundings.size());
+      ++trial.tried;
+    }
+}
+
+ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::size_t h) {
   constexpr double row_bytes = 76;  // of returns.ply
-  const double n = static_cast<double>(pings.size()), part = samples > 0 ? n / static_cast<double>(samples) : 0;
+  const double n = static_cast<double>(trial.pings.size()), part = trial.part();
   return {{"name", s.file.mission.heads[h].name},
-          {"pings", pings.size()},
-          {"echoes", std::llround(scatterers * part)},
-          {"returns", std::llround(soundings * part)},
+          {"pings", trial.pings.size()},
+          {"pings_tried", trial.tried},
+          {"echoes", std::llround(trial.scatterers * part)},
+          {"returns", std::llround(trial.soundings * part)},
           {"bytes", std::llround(n * static_cast<double>(pressure_bytes(s.heads[h].setup.head.head)) +
-                                 soundings * part * row_bytes)},
-          {"cpu_hours", cpu * part / 3600}};
+                                 trial.soundings * part * row_bytes)},
+          {"cpu_hours", trial.cpu * part / 3600}};
 }
 
 void print_plan(const ordered_json& plan) {
@@ -97,20 +126,23 @@ void print_plan(const ordered_json& plan) {
              plan["hours"].get<double>(), plan["cores"].get<int>());
 }
 
-void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene) {
+void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, const StopWatch& begun) {
+  const int cores = thread_count(o.common.threads);
+  std::vector<HeadTrial> trials = trials_of(s);
+  try_pings(s, scene, cores, begun, trials);
   ordered_json heads = ordered_json::array(), all = {{"name", "all"}};
-  for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, scene, h));
+  for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, trials[h], h));
   for (const char* key : {"pings", "echoes", "returns", "bytes", "cpu_hours"}) {
     double sum = 0;
     for (const auto& head : heads) sum += head[key].get<double>();
     all[key] = sum;
   }
-  const int cores = thread_count(o.common.threads);
   const ordered_json plan = {{"heads", heads},
                              {"all", all},
                              {"blocks", s.blocks.size()},
                              {"cores", cores},
-                             {"hours", all["cpu_hours"].get<double>() / cores}};
+                             {"hours", all["cpu_hours"].get<double>() / cores},
+                             {"seconds_to_plan", begun.seconds()}};
   print_result(o.common, plan, [&] { print_plan(plan); });
 }
 
@@ -161,12 +193,14 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   SurveyStatus status(progress, (std::filesystem::path(o.output) / name).string(), o.shard, todo.pings, todo.done);
 
   bool whole = true;
+  std::atomic<std::size_t> silent = 0;
   if (!todo.blocks.empty()) {
     if (!scene) load();
     progress.step("pinging");
     SurveyWork work;
     work.simulate = [&](const SurveyPing& ping) {
       SurveyScene::Made made = scene->make(s, ping);
+      silent += made.ping.sampling.scatterers == 0;
       SurveyReturn returned = return_of(std::move(made.ping), s.file.mission, ping);
       returned.covered = std::move(made.covered);
       return returned;
@@ -184,11 +218,14 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
     throw Interrupted{fmt::format("{} of {} pings of {} are {}; the same command goes on from there",
                                   todo.done + status.made(), todo.pings, o.output,
                                   s.file.coverage ? "made, those of whole blocks kept" : "kept")};
-  const ordered_json result = {{"folder", o.output},
-                               {"pings", todo.pings},
-                               {"made", status.made()},
-                               {"failed", failures},
-                               {"seconds", status.seconds()}};
+  if (silent > 0)
+    progress.note(
+        fmt::format("{} of {} pings made are silent: nothing of the scene is inside fan and range; `insonify image {} "
+                    "--ping N` shows "
+                    "one; turn the head, lengthen its range, or make those parts of the way a transit (active = false)",
+                    silent.load(), status.made(), o.output));
+  const ordered_json result = {{"folder", o.output},      {"pings", todo.pings}, {"made", status.made()},
+                               {"silent", silent.load()}, {"failed", failures},  {"seconds", status.seconds()}};
   print_summary(o.common, result,
                 fmt::format("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}", o.output,
                             status.made(), todo.pings, status.seconds(), o.output));
@@ -208,9 +245,10 @@ void survey(const SurveyOptions& o) {
     for (const std::string& note : trajectory_notes(s.file.trajectory)) progress.note(note);
   if (!o.plan) return make_pings(o, s, shard, progress);
   progress.step("loading " + s.file.scene);
+  const StopWatch begun;
   const SurveyScene scene(s, o.common, progress);
   progress.step("planning");
-  plan_survey(o, s, scene);
+  plan_survey(o, s, scene, begun);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "tool/ping_setup.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/run_settings.hpp"
+#include "tool/scene_reach.hpp"
 #include "tool/shared_options.hpp"
 #include "viewer/survey_pings.hpp"
 #include "viewer/viewer_state.hpp"
@@ -41,14 +42,14 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
   list.add("--head", &c.head, "of a survey: the head to show; default: the first of its mission");
   list.add("--ping", &c.ping, "which ping to begin with, from 0");
   list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");
-  list.add("--colormap", &c.colour_map, "copper, viridis, amber, grey or jet");
+  list.add("--colormap", &c.colour_map, joined(colour_map_names()));
   list.add("--window", &c.window_db, "[dB] from darkest to brightest, 5 to 150");
   list.add("--scene", &c.scene.path, "scene of a run, if it is not where run.toml says");
   list.add("--no-scene", &c.no_scene, "a run without its scene: starts faster");
   list.add("--sonar", &c.run.sonar, "to inspect: preset, .toml file, or the run.toml of a run");
   list.add("--pose", &c.pose, "to inspect: x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
   tool::add_world(list, c.world);
-  list.add("--range", &c.run.range, "to inspect: min:max [m]; default: the sonar's");
+  list.add("--range", &c.run.range, "to inspect: min:max [m]; default: to the end of the scene, at most the sonar's");
   tool::add_completion(list, c.scene);
   list.add("--set", &c.common.settings, "to inspect: SECTION.KEY=VALUE of the sonar", {.one_each = true});
   list.add("--size", &c.size, "WIDTHxHEIGHT of the window [pixels], at least 800x600");
@@ -220,18 +221,19 @@ LoadedView load_inspection(const ViewerCommand& command) {
   if (command.pose.empty())
     fail(ErrorKind::argument, "--pose must be given to inspect a scene, e.g. --pose=0,0,-3,0,10,0");
   LoadedView view;
-  const tool::HeadSetup setup = tool::set_up_head(command.common, command.run);
+  tool::HeadSetup setup = tool::set_up_head(command.common, command.run);
   view.start.mode = ViewerMode::inspect;
   view.start.head = head_place(tool::parse_pose(command.pose, command.world) * setup.mount);
   view.start.scene_colour = SceneColour::visibility;
   view.data.fan = setup.head.fan;
-  view.data.gate = setup.head.gate;
   tool::SceneOptions options = command.scene;
   options.path = command.target;
   LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
   for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
   view.data.title = setup.head.name + " before " + fs::path(command.target).filename().string();
   view.data.scene = std::move(loaded.scene);
+  tool::end_range_with_scene(setup, bounds(view.data.scene), pose_of(view.start.head));
+  view.data.gate = setup.head.gate;
   view.data.view =
       resolve_ping(whole_of(view.data.scene), setup.head, pose_of(view.start.head), setup.environment).view;
   return view;

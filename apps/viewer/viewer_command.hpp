@@ -20,7 +20,7 @@ struct ViewerCommand {
   std::string head;  ///< of a survey; empty: its first
   std::uint64_t ping = 0;
   std::string beam;  ///< number, or empty: nothing is selected
-  std::string colour_map = "copper";
+  std::string colour_map = default_colour_map;
   double window_db = 45;
   std::string size = "1600x1000";
   std::string screenshot;  ///< file, or empty: a window

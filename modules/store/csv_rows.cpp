@@ -8,16 +8,6 @@
 namespace insonify {
 namespace {
 
-// Splits a line at its commas into `fields` (reused from line to line: a table may have millions).
-void cut_fields(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    fields.push_back(trimmed(line.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-}
-
 bool holds(const CsvColumns& columns, std::string_view name) {
   return std::find(columns.begin(), columns.end(), name) != columns.end();
 }
@@ -60,6 +50,15 @@ Header read_header(std::span<const CsvColumns> layouts, const std::vector<std::s
 }
 
 }  // namespace
+
+void cut_fields(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    fields.push_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+}
 
 void read_lines(const std::string& path,
                 const std::function<void(std::string_view line, const FilePlace& place)>& take) {

@@ -1,5 +1,6 @@
 #include "store/csv_tables.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -201,6 +202,33 @@ ScattererTable load_scatterer_table(const std::string& path) {
     };
   });
   return table;
+}
+
+std::vector<Eigen::Vector3d> load_positions(const std::string& path) {
+  const std::array<std::string, 3> names = {"x_m", "y_m", "z_m"};
+  std::vector<std::string_view> fields;
+  std::array<std::size_t, 3> column{};
+  std::size_t columns = 0;
+  std::vector<Eigen::Vector3d> positions;
+  read_lines(path, [&](std::string_view line, const FilePlace& place) {
+    cut_fields(line, fields);
+    if (columns == 0) {
+      columns = fields.size();
+      for (std::size_t k = 0; k < 3; ++k) {
+        column[k] = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), names[k]) - fields.begin());
+        if (column[k] == columns) place.fail_here("has no column ", names[k], "; export --to csv writes it");
+      }
+      return;
+    }
+    if (fields.size() != columns) place.fail_here("has ", fields.size(), " fields, the header has ", columns);
+    Eigen::Vector3d& at = positions.emplace_back();
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto of = static_cast<std::size_t>(k);
+      at[k] = read_number(fields[column[of]], names[of], place);
+    }
+  });
+  if (positions.empty()) fail(ErrorKind::content, path, ": has no rows, must have at least one");
+  return positions;
 }
 
 std::vector<Label> load_labels(const std::string& path) {

@@ -42,6 +42,10 @@ struct ScattererTable {
 /// Reads scatterers with the header range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im.
 ScattererTable load_scatterer_table(const std::string& path);
 
+/// Reads positions [m] from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes; what other
+/// columns hold does not matter, but fields have no quotes. Rules: at least one row.
+std::vector<Eigen::Vector3d> load_positions(const std::string& path);
+
 /// A user-defined label of a place in a picture.
 struct Label {
   double bearing_deg = 0;  ///< positive to starboard

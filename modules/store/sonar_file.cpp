@@ -136,7 +136,8 @@ SonarFile load_sonar_file(const std::string& path) {
   const TomlValue document = load_toml(path);
   // A run.toml holds its sonar in the table [sonar].
   const TomlValue* section = document.find("sonar");
-  const TomlValue& table = section && section->kind == TomlValue::Kind::table ? *section : document;
+  const bool of_run = section && section->kind == TomlValue::Kind::table;
+  const TomlValue& table = of_run ? *section : document;
 
   std::vector<std::string> known = sonar_key_names();
   known.insert(known.end(), {"schema", "name", "description", mounting_key});
@@ -147,6 +148,7 @@ SonarFile load_sonar_file(const std::string& path) {
 
   SonarFile file;
   file.path = path;
+  file.of_run = of_run;
   file.spec.name = toml_text(path, table, "name");
   if (table.find("description")) file.description = toml_text(path, table, "description");
   for (const std::string& key : sonar_key_names()) {

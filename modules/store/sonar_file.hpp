@@ -22,6 +22,7 @@ struct SonarFile {
   std::string description;
   std::string path;
   std::vector<SonarNumber> numbers;
+  bool of_run = false;                                 ///< read from a run.toml, whose ranges are those of that run
   Eigen::Vector3d mounting = Eigen::Vector3d::Zero();  ///< on a vehicle: yaw to port, pitch nose down, roll [rad]
 };
 

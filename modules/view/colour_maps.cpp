@@ -33,10 +33,23 @@ std::vector<ColourStop> viridis_stops() {
   return stops;
 }
 
-// Copper and jet as MATLAB defines them; amber is the screen of an analogue sonar: black, brown, orange, pale
+// Copper and jet as MATLAB defines them. Bronze in CIELAB: lightness 0, 20, 84, 98 and hue -10, 15, 95, 102 degrees at 0,
+// 0.3, 0.8 and 1, linear in between, so that most of its contrast lies where seabeds and their speckle are; amber is the screen of an analogue sonar: black, brown, orange, pale
 // yellow.
 std::vector<NamedMap> colour_maps() {
   return {{"viridis", viridis_stops()},
+          {"bronze",
+           {{0, 0x000000},
+            {0.1, 0x250D16},
+            {0.2, 0x440D1F},
+            {0.3, 0x650522},
+            {0.4, 0x961D22},
+            {0.5, 0xC0400E},
+            {0.6, 0xD77200},
+            {0.7, 0xE5A200},
+            {0.8, 0xECD235},
+            {0.9, 0xF6E78F},
+            {1, 0xFFFADD}}},
           {"copper", {{0, 0x000000}, {0.8, 0xFF9F65}, {1, 0xFFC77F}}},
           {"amber", {{0, 0x000000}, {0.35, 0x6B3205}, {0.7, 0xF39A1B}, {0.9, 0xFFDF7A}, {1, 0xFFF8DC}}},
           {"grey", {{0, 0x000000}, {1, 0xFFFFFF}}},

@@ -172,16 +172,17 @@ std::optional<PlacedText> place_title(const PictureOptions& options) {
   return title;
 }
 
-FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
-                      const std::string& unit) {
+namespace {
+
+/// A fan with its labels around the apex, and the room that title and colour bar leave for them.
+struct FanRoom {
+  Trial trial;
+  Box room;
+};
+
+FanRoom lay_out_room(FanLayout& layout, const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
+                     const std::string& unit) {
   const int font = font_size_for(options);
-  FanLayout layout;
-  layout.low = fan.low;
-  layout.high = fan.high;
-  layout.min_range = fan.min_range;
-  layout.max_range = fan.max_range;
-  layout.downwards = fan.downwards;
-  layout.font_size = font;
   layout.title = place_title(options);
 
   // Try the bar at the right and below.
@@ -197,11 +198,41 @@ FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, cons
   const bool lie = scale_above > 1.05 * scale_beside;
   layout.colour_bar = lie ? lying : upright;
   layout.pixels_per_metre = lie ? scale_above : scale_beside;
+  FanRoom placed{try_scale(fan, layout.pixels_per_metre, font), lie ? above : beside};
+  if (fan.downwards) turn_over(placed.trial);
+  return placed;
+}
+
+}  // namespace
+
+PictureOptions trimmed_to_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
+                              const std::string& unit) {
+  FanLayout layout;
+  const auto [trial, room] = lay_out_room(layout, fan, options, scale, unit);
+  const auto without = [](int pixels, double least, double free) {
+    const double needed = std::max(pixels - std::max(free, 0.0), least);
+    return std::min(pixels, 2 * static_cast<int>(std::ceil(needed / 2)));
+  };
+  PictureOptions trimmed = options;
+  trimmed.font_size = font_size_for(options);
+  const double title = layout.title ? layout.title->box().width() + 2 * trimmed.font_size : 0;
+  trimmed.width = without(options.width, std::max(title, 0.45 * options.width), room.width() - trial.extent.width());
+  trimmed.height = without(options.height, 0.45 * options.height, room.height() - trial.extent.height());
+  return trimmed;
+}
+
+FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
+                      const std::string& unit) {
+  FanLayout layout;
+  layout.low = fan.low;
+  layout.high = fan.high;
+  layout.min_range = fan.min_range;
+  layout.max_range = fan.max_range;
+  layout.downwards = fan.downwards;
+  layout.font_size = font_size_for(options);
 
   // Centre the fan with its labels in the room.
-  const Box room = lie ? above : beside;
-  Trial trial = try_scale(fan, layout.pixels_per_metre, font);
-  if (fan.downwards) turn_over(trial);
+  auto [trial, room] = lay_out_room(layout, fan, options, scale, unit);
   layout.apex = {(room.left + room.right - trial.extent.left - trial.extent.right) / 2,
                  (room.bottom + room.top - trial.extent.bottom - trial.extent.top) / 2};
   for (PlacedText& text : trial.texts) text.centre = {text.centre.x + layout.apex.x, text.centre.y + layout.apex.y};

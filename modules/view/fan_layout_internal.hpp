@@ -50,4 +50,9 @@ std::optional<PlacedText> place_title(const PictureOptions& options);
 FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
                       const std::string& unit);
 
+/// The options with the even width and height that the fan, as large as it is in the whole picture, needs with its labels,
+/// colour bar and title, and with the text size of the whole picture.
+PictureOptions trimmed_to_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
+                              const std::string& unit);
+
 }  // namespace insonify

@@ -35,16 +35,20 @@ struct Mark {
   std::string text;
 };
 
+/// The colours of levels where nothing else is asked for.
+inline constexpr const char* default_colour_map = "bronze";
+
 /// Size and style of a picture.
 struct PictureOptions {
   int width = 1400, height = 1050;  ///< [pixels]
   std::string title;
-  std::string colour_map = "copper";                         ///< viridis, copper, amber, grey, jet
+  std::string colour_map = default_colour_map;               ///< one of colour_map_names()
   double min_db = std::numeric_limits<double>::quiet_NaN();  ///< NaN: max_db - window_db
   double max_db = std::numeric_limits<double>::quiet_NaN();  ///< NaN: 99.9 % quantile of the levels above the
                                                              ///< lowest, rounded up to 5
   double window_db = 45;
   bool dark = false;          ///< dark background
+  bool trim = false;          ///< show_fan: cuts off what the fan and its labels leave free of width or height
   int font_size = 0;          ///< of ordinary text [pixels]; 0: chosen from the picture size
   std::vector<Mark> marks{};  ///< drawn by show_fan, show_rect and show_panels; those outside the image are omitted
 };

@@ -50,17 +50,28 @@ MarkRoom room_for_marks(const FanLayout& layout, const PictureOptions& options) 
   return room;
 }
 
-}  // namespace
+/// An image with its cells, ready to be laid out.
+struct FanImage {
+  const LevelImage& image;
+  ColourScale scale;
+  BeamCells cells;
+  FanOutline outline;
+  std::string unit;
+};
 
-FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions& options) {
-  const ColourScale scale = colour_scale(image.level_db, options, canvas.who());
-  const BeamCells cells = order_beams(image);
+FanImage fan_image(const LevelImage& image, const PictureOptions& options, const char* who) {
+  FanImage fan{image, colour_scale(image.level_db, options, who), order_beams(image), {}, {}};
   const double max_range = image.gate.min_range + static_cast<double>(image.level_db.cols()) * image.gate.bin_size;
+  fan.outline = {fan.cells.low(), fan.cells.high(), image.gate.min_range, max_range, image.downwards};
+  fan.unit = unit_text(image.unit, fan.cells);
+  return fan;
+}
 
+FanLayout draw_fan(Canvas& canvas, const FanImage& fan, const PictureOptions& options) {
+  const auto& [image, scale, cells, outline, unit] = fan;
   // Lay out everything, then draw it.
-  const FanOutline outline{cells.low(), cells.high(), image.gate.min_range, max_range, image.downwards};
-  const FanLayout layout = lay_out_fan(outline, options, scale, unit_text(image.unit, cells));
-  const double step = std::sqrt(0.8 / (max_range * layout.pixels_per_metre));  // chord within 0.1 pixel of its arc
+  const FanLayout layout = lay_out_fan(outline, options, scale, unit);
+  const double step = std::sqrt(0.8 / (outline.max_range * layout.pixels_per_metre));  // chord within 0.1 pixel
   for (const CellPatch& patch : fan_patches(cells, image.gate, layout.pixels_per_metre))
     canvas.add_cells(
         patch, cells.edges, scale, [&](double b, double r) { return layout.at(b, r); }, step);
@@ -73,10 +84,18 @@ FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions
   return layout;
 }
 
+}  // namespace
+
+FanLayout draw_fan(Canvas& canvas, const LevelImage& image, const PictureOptions& options) {
+  return draw_fan(canvas, fan_image(image, options, canvas.who()), options);
+}
+
 void show_fan(const LevelImage& image, const PictureOptions& options, const std::string& png_path) {
   constexpr const char* who = "show_fan";
   require_drawable(image, options, who);
-  save_picture(options, who, png_path, [&](Canvas& canvas) { draw_fan(canvas, image, options); });
+  const FanImage fan = fan_image(image, options, who);
+  const PictureOptions fitted = options.trim ? trimmed_to_fan(fan.outline, options, fan.scale, fan.unit) : options;
+  save_picture(fitted, who, png_path, [&](Canvas& canvas) { draw_fan(canvas, fan, fitted); });
 }
 
 }  // namespace insonify

@@ -47,7 +47,7 @@ struct ViewerState {
   double gain_db = 0;     ///< brightens: subtracted from the automatic top of the colour scale
   double window_db = 45;  ///< from darkest to brightest
   bool tvg = true;        ///< range compensated levels
-  std::string colour_map = "copper";
+  std::string colour_map = default_colour_map;
 
   bool playing = false;
   double pings_per_second = 4;

@@ -20,7 +20,7 @@ std::string message_of(const PictureOptions& options) {
 }  // namespace
 
 TEST(ColourMaps, every_listed_name_has_a_table) {
-  EXPECT_THAT(colour_map_names(), testing::UnorderedElementsAre("viridis", "copper", "amber", "grey", "jet"));
+  EXPECT_THAT(colour_map_names(), testing::UnorderedElementsAre("viridis", "bronze", "copper", "amber", "grey", "jet"));
   for (const std::string& name : colour_map_names()) EXPECT_NO_THROW(colour_table(name, "test")) << name;
 }
 
@@ -46,13 +46,52 @@ TEST(ColourMaps, copper_follows_its_formula) {
 }
 
 TEST(ColourMaps, all_but_jet_grow_brighter_with_the_level) {
-  for (const char* name : {"viridis", "copper", "amber", "grey"}) {
+  for (const char* name : {"viridis", "bronze", "copper", "amber", "grey"}) {
     const ColourTable table = colour_table(name, "test");
     const auto luma = [&](std::size_t i) { return 0.2126 * table[i][0] + 0.7152 * table[i][1] + 0.0722 * table[i][2]; };
     for (std::size_t i = 1; i < 256; ++i)
       EXPECT_GE(luma(i) + 0.8, luma(i - 1)) << name << " " << i;  // rounding to bytes
     EXPECT_GT(luma(255) - luma(0), 120) << name;
   }
+}
+
+// CIELAB of sRGB, IEC 61966-2-1 and ISO 11664-4, white D65.
+Eigen::Vector3d lab_of(const Rgb& colour) {
+  const auto linear = [](std::uint8_t value) {
+    const double u = value / 255.0;
+    return u <= 0.04045 ? u / 12.92 : std::pow((u + 0.055) / 1.055, 2.4);
+  };
+  const double r = linear(colour[0]), g = linear(colour[1]), b = linear(colour[2]);
+  const auto root = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+  const double x = root((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505);
+  const double y = root(0.2126 * r + 0.7152 * g + 0.0722 * b);
+  const double z = root((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+// Length of the way through CIELAB over the middle half of the levels, in steps beside which a byte's rounding is small.
+double contrast_of_mid_tones(const std::string& name) {
+  const ColourTable table = colour_table(name, "test");
+  double way = 0;
+  for (std::size_t i = 76; i < 204; i += 8) way += (lab_of(table[i + 8]) - lab_of(table[i])).norm();
+  return way;
+}
+
+TEST(ColourMaps, the_default_has_twice_the_contrast_of_copper_in_the_mid_tones_and_more_than_viridis) {
+  EXPECT_GT(contrast_of_mid_tones(default_colour_map), 2 * contrast_of_mid_tones("copper"));
+  EXPECT_GT(contrast_of_mid_tones(default_colour_map), contrast_of_mid_tones("viridis"));
+}
+
+TEST(ColourMaps, bronze_begins_black_and_its_hue_rises_from_red_to_yellow) {
+  const ColourTable table = colour_table("bronze", "test");
+  EXPECT_EQ(table[0], (Rgb{0, 0, 0}));
+  const auto hue = [&](std::size_t i) {
+    const Eigen::Vector3d lab = lab_of(table[i]);
+    return degrees(std::atan2(lab.z(), lab.y()));
+  };
+  for (std::size_t i = 80; i < 204; ++i) EXPECT_GT(hue(i + 1), hue(i) - 0.5) << i;  // rounding to bytes
+  EXPECT_LT(hue(80), 25);
+  EXPECT_GT(hue(204), 90);
 }
 
 TEST(ColourMaps, an_unknown_name_is_an_error_that_lists_the_known_ones) {

@@ -95,6 +95,38 @@ TEST(FanLayout, has_rings_and_spokes_with_labels) {
   });
 }
 
+TEST(FanLayout, of_a_trimmed_picture_is_as_large_and_leaves_nothing_free) {
+  for_all_fans([](const LaidOut& laid) {
+    const ColourScale scale{colour_table("copper", "test"), 62, 107};
+    const std::string unit = "dB re 1 µPa, range compensated";
+    const PictureOptions trimmed = trimmed_to_fan(laid.fan, laid.options, scale, unit);
+    EXPECT_LE(trimmed.width, laid.options.width);
+    EXPECT_LE(trimmed.height, laid.options.height);
+    const FanLayout layout = lay_out_fan(laid.fan, trimmed, scale, unit);
+    EXPECT_NEAR(layout.pixels_per_metre / laid.layout.pixels_per_metre, 1, 0.01);
+    EXPECT_EQ(layout.font_size, laid.layout.font_size);
+
+    // Title, fan with labels and bar lie close together, unless title or the least size keep them apart.
+    Box all = layout.colour_bar.outer();
+    const auto include = [&](const Box& box) {
+      all = {std::min(all.left, box.left), std::max(all.right, box.right), std::min(all.bottom, box.bottom),
+             std::max(all.top, box.top)};
+    };
+    for (const PlacedText& text : layout.texts) include(text.box());
+    for (int i = 0; i <= 720; ++i)
+      for (const double range : {laid.fan.min_range, laid.fan.max_range}) {
+        const Point2 p = layout.at(laid.fan.low + (laid.fan.high - laid.fan.low) * i / 720, range);
+        include({p.x, p.x, p.y, p.y});
+      }
+    const double border = 2.5 * layout.font_size;
+    const bool least_width =
+        trimmed.width <= layout.title->box().width() + border || trimmed.width < 0.46 * laid.options.width;
+    EXPECT_TRUE(all.width() > trimmed.width - border || least_width) << all.width() << " of " << trimmed.width;
+    EXPECT_TRUE(all.height() > layout.title->box().bottom - border || trimmed.height < 0.46 * laid.options.height)
+        << all.height() << " of " << trimmed.height;
+  });
+}
+
 TEST(FitText, shrinks_a_long_line_and_then_cuts_it_between_letters) {
   const std::string longer(400, 'x');
   const FittedText fitted = fit_text("µµ" + longer, 20, 300);

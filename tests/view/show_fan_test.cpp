@@ -56,6 +56,17 @@ TEST_F(ShowFan, comes_out_in_the_size_asked_for_without_a_screen) {
   }
 }
 
+TEST_F(ShowFan, cuts_off_what_a_wide_fan_leaves_free_above_and_a_narrow_one_beside) {
+  options = {};
+  options.trim = true;
+  const ReadPicture wide = show(flat_image(32, 130, 50, 90)), narrow = show(flat_image(32, 45, 50, 90));
+  EXPECT_EQ(wide.width, 1400);
+  EXPECT_LT(wide.height, 960);
+  EXPECT_EQ(narrow.height, 1050);
+  EXPECT_LT(narrow.width, 1100);
+  for (const int size : {wide.height, narrow.width}) EXPECT_EQ(size % 2, 0) << "films take even sizes alone";
+}
+
 TEST_F(ShowFan, has_starboard_right_and_forward_up_whatever_the_order_of_the_beams) {
   options.min_db = 50, options.max_db = 100;
   options.colour_map = "jet";
