@@ -28,7 +28,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
   return {
       {"scene", "path", "SCENE", &o.path, "cloud or mesh: " + scene_extensions(), scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
-       "x,y,z [m] where the capture stood; orients estimated normals"},
+       "x,y,z [m] where the capture stood; orients estimated normals; default: the file's, else 0,0,0 of an organised "
+       "scan that fans out from there, and from above of a raster of heights"},
       {"scene", "materials", "--materials", &o.materials_file, "TOML table of materials for the labels of the cloud",
        file, true},
       {"scene", "material_field", "--material-field", &o.material_field,
