@@ -32,9 +32,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.sampling.rays_per_beam = o.rays_per_beam;
   s.sampling.level_error_db = o.level_error_db;
   s.amplitude = *find_named(amplitude_words, o.amplitude);
-  s.synthesis.method = *find_named(method_words, o.run.method);
-  if (o.run.method == "gridded") s.synthesis.true_delays = Choice::never;
-  s.synthesis.tolerance = o.run.tolerance;
+  s.synthesis = asked_synthesis(o.run);
   s.accuracy_db = o.accuracy_db;
   s.effects.noise = o.noise;
   if (o.multipath) s.effects.multipath = Choice::always;
@@ -134,6 +132,10 @@ PingSetup set_up(const PingOptions& o, bool at_pose) {
 }
 
 }  // namespace
+
+SynthesisSettings asked_synthesis(const RunOptions& o) {
+  return {*find_named(method_words, o.method), o.tolerance, o.method == "gridded" ? Choice::never : Choice::as_needed};
+}
 
 bool keeps(const PingOptions& options, const std::string& what) {
   return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();

@@ -59,6 +59,9 @@ PingSetup set_up_ping(const PingOptions& options);
 /// The same, but for the depth of the head: of pings that have other poses than the options'.
 PingSetup set_up_any_ping(const PingOptions& options);
 
+/// How beams are formed, as --method and --tolerance ask for it.
+SynthesisSettings asked_synthesis(const RunOptions& options);
+
 /// Whether --keep names `what`.
 bool keeps(const PingOptions& options, const std::string& what);
 

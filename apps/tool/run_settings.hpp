@@ -35,6 +35,9 @@ std::vector<RunSetting> ping_settings(PingOptions& options);
 std::vector<RunSetting> mission_settings(PingOptions& options);
 /// The seed.
 RunSetting seed_setting(CommonOptions& options);
+/// The budget of what is left out, and the order of absorption: of [ping], or of another section.
+RunSetting accuracy_setting(double& accuracy_db, const char* section = "ping");
+RunSetting absorption_setting(int& order, const char* section = "ping");
 /// All settings of a ping, in the order of run.toml.
 std::vector<RunSetting> all_settings(PingOptions& options);
 

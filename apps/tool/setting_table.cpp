@@ -40,7 +40,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
   std::vector<RunSetting> settings{
       {"scene", "path", "SCENE", &o.path, "cloud or mesh: " + scene_extensions(), scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
-       "x,y,z [m] where the capture stood; orients estimated normals"},
+       "x,y,z [m] where the capture stood; orients estimated normals; default: the file's, else 0,0,0 of an organised "
+       "scan that fans out from there, and from above of a raster of heights"},
       {"scene", "materials", "--materials", &o.materials_file, "TOML table of materials for the labels of the cloud",
        file, true},
       {"scene", "material_field", "--material-field", &o.material_field,
@@ -70,6 +71,20 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   return under_titles(std::move(settings), {{"tolerance", accuracy_title}});
 }
 
+RunSetting accuracy_setting(double& accuracy_db, const char* section) {
+  return {section, "accuracy_db", "--accuracy-db", &accuracy_db,
+          "[dB] budget of all that is left out as not needed; `insonify plan` shows what that is"};
+}
+
+RunSetting absorption_setting(int& order, const char* section) {
+  return {section,
+          "absorption_order",
+          "--absorption-order",
+          &order,
+          "0: one absorption for the pulse; 1, 2: slope, curvature; -1: as --accuracy-db needs",
+          absorption_orders};
+}
+
 RunSetting seed_setting(CommonOptions& o) {
   return {"", "seed", "--seed", &o.seed, "of all random numbers; same seed, same bytes"};
 }
@@ -91,8 +106,7 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
        "number of the ping: noise, waves and water are drawn anew for each; -1: the time in milliseconds",
        ping_numbers},
       {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", worlds},
-      {"ping", "accuracy_db", "--accuracy-db", &o.accuracy_db,
-       "[dB] budget of all that is left out as not needed; `insonify plan` shows what that is"},
+      accuracy_setting(o.accuracy_db),
       {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", samplings},
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
        "surfels are split until a resolution cell holds so many"},
@@ -130,8 +144,7 @@ std::vector<RunSetting> kept_settings(PingOptions& o) {
        "range bins over which pictures and /intensity of the cube average", looks},
       {"ping", "looks_pings", "--looks-pings", &o.looks_pings,
        "pulses of independent speckle, each a whole ping of work, over which they average", looks},
-      {"ping", "absorption_order", "--absorption-order", &o.absorption_order,
-       "0: one absorption for the pulse; 1, 2: slope, curvature; -1: as --accuracy-db needs", absorption_orders},
+      absorption_setting(o.absorption_order),
       {"ping", "velocity", "--velocity", &o.velocity, "vx,vy,vz [m/s] of the head in the world"},
       {"ping", "turn_rate", "--turn-rate", &o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world"},
       {"ping", "threshold_db", "--threshold", &o.threshold_db, "[dB] of a detection above the noise floor"},

@@ -8,6 +8,7 @@
 #include "beamforming/synthesize.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
+#include "simulate/plan_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/progress.hpp"
@@ -24,12 +25,20 @@ struct SynthesizeOptions {
   CommonOptions common;
   RunOptions run;
   std::string scatterers;
+  double accuracy_db = library_options.accuracy_db;
+  int absorption_order = library_options.effects.absorption_order;
 };
+
+/// The settings that run.toml records at its top level.
+std::vector<RunSetting> settings(SynthesizeOptions& o) {
+  return {accuracy_setting(o.accuracy_db, ""), absorption_setting(o.absorption_order, "")};
+}
 
 void add_options(OptionList list, SynthesizeOptions& o) {
   list.add("SCATTERERS", &o.scatterers, "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im",
            {.required = true});
   add_sonar(list, o.common, o.run);
+  add_settings(list, settings(o));
   add_output(list, o.run);
   add_common(list, o.common);
   add_work(list, o.common);
@@ -38,7 +47,17 @@ void add_options(OptionList list, SynthesizeOptions& o) {
 /// What run.toml records beside sonar and environment.
 std::string settings_of(SynthesizeOptions o) {
   return settings_as_toml({seed_setting(o.common)}) + settings_as_toml(synthesis_settings(o.run)) +
-         fmt::format("scatterers = {}\n", toml_text(o.scatterers));
+         settings_as_toml(settings(o)) + fmt::format("scatterers = {}\n", toml_text(o.scatterers));
+}
+
+/// What is asked for; the plan decides the rest.
+SimulationOptions asked_of(const SynthesizeOptions& o) {
+  SimulationOptions options;
+  options.threads = o.common.threads;
+  options.accuracy_db = o.accuracy_db;
+  options.synthesis = asked_synthesis(o.run);
+  options.effects.absorption_order = o.absorption_order;
+  return options;
 }
 
 void synthesize(const SynthesizeOptions& o) {
@@ -57,19 +76,24 @@ void synthesize(const SynthesizeOptions& o) {
   const EchoOptions echo_options =
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
   const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
-  const SynthesisMethod method = *find_named(method_words, o.run.method);
-  const ComplexGrid pressure = synthesize(echoes, head, setup.medium, method, {o.run.tolerance, common.threads});
+  const SimulationOptions settled = settled_synthesis(table.scatterers, echoes, head, setup.environment, asked_of(o));
+  const auto& [method, tolerance, true_delays] = settled.synthesis;
+  const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, settled.effects.absorption_order);
+  const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = method == SynthesisMethod::incoherent;
-  note_water(setup.medium, ping);
+  note_water(medium, ping);
   const double seconds = watch.lap();
 
   progress.step("writing " + o.run.output);
-  nlohmann::ordered_json manifest = {{"schema", 1},
-                                     {"insonify_version", INSONIFY_VERSION},
-                                     {"seed", common.seed},
-                                     {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
-                                     {"notes", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json manifest = {
+      {"schema", 1},
+      {"insonify_version", INSONIFY_VERSION},
+      {"seed", common.seed},
+      {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
+      {"synthesis",
+       {{"method", name_of(method_words, method)}, {"absorption_order", settled.effects.absorption_order}}},
+      {"notes", nlohmann::ordered_json::array()}};
   for (const std::string& note : setup.notes) {
     progress.note(note);
     manifest["notes"].push_back(note);

@@ -27,6 +27,8 @@ ReverberationCells reverberation_cells(const BeamFan& fan, const RangeGate& gate
   require_valid(transmission.medium, who);
   require(options.cells_per_resolution > 0 && std::isfinite(options.cells_per_resolution), who,
           "options.cells_per_resolution", options.cells_per_resolution, "", "finite and > 0");
+  require(options.azimuth_margin >= 0 && std::isfinite(options.azimuth_margin), who, "options.azimuth_margin",
+          options.azimuth_margin, "", "finite and >= 0");
   const double c = transmission.medium.sound_speed;
   const double margin = 0.5 * c * pulse_half_length(transmission.pulse, pulse_floor);
   ReverberationCells cells;
@@ -34,7 +36,7 @@ ReverberationCells reverberation_cells(const BeamFan& fan, const RangeGate& gate
   cells.nearest = std::max(gate.min_range - margin, 0.5 * gate.min_range);
   const double first = std::floor(cells.nearest / cells.length);
   const double last = std::ceil((gate.max_range + margin) / cells.length);
-  cells.sector = insonified_sector(fan, pi);
+  cells.sector = insonified_sector(fan, pi, options.azimuth_margin);
   cells.azimuths = 2 * pi * options.cells_per_resolution / fan.beam_width;
   if (!(last < 1e15)) fail(ErrorKind::argument, who, ": gate.max_range = ", gate.max_range, " m is too many cells");
   cells.first = static_cast<std::size_t>(first);

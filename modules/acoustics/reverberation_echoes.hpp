@@ -14,6 +14,9 @@ namespace insonify {
 struct ReverberationOptions {
   double cells_per_resolution = 2;  ///< along range and along the fan, per resolution cell
   std::int64_t ping = 0;            ///< water and waves are new in every ping
+  /// How far beyond the outermost beams they reach, in u; 0: 1.5 beam widths, beyond which side lobes of a head of many
+  /// beams hear less than 0.02 dB. An array with further main lobes hears all that lies ahead: pi.
+  double azimuth_margin = 0;
 };
 
 // All of these fill the gate, and a pulse's reach on either side of it, over the fan's sector in azimuth; the

@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t counted_at_once = 512;
 constexpr double least_range = 1e-6;  // [m]
+constexpr double rounding = 1e-9;     // of a sum that others were added to, parts
 constexpr std::size_t max_scatterers = std::size_t{1} << 28, bytes_per_scatterer = 46;
 
 /// A surfel as the head sees it.
@@ -35,9 +36,9 @@ struct Seen {
         cosine(std::min(1.0, std::abs(head.direction(scene.normal[surfel].cast<double>()).dot(position)) / range)),
         radius(std::sqrt(area / pi)) {}
 
-  HeardSurfel heard(double energy) const {
+  HeardSurfel heard(double energy, std::uint8_t beyond) const {
     const double sine = std::sqrt(1 - cosine * cosine);
-    return {energy, range, radius * sine + 0.5 * radius * radius / range, position.y() / range, radius / range};
+    return {energy, range, radius * sine + 0.5 * radius * radius / range, position.y() / range, radius / range, beyond};
   }
 };
 
@@ -52,6 +53,10 @@ struct ByCells {
 PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                        const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options) {
   const bool by_shares = options.heard && cells.scatterers_per_cell() > 0;
+  const auto inner = options.inner_sector ? std::optional<SectorBounds>(*options.inner_sector) : std::nullopt;
+  const auto beyond = [&inner](const Vector3d& p) -> std::uint8_t {
+    return inner ? (inner->in_cones(p) ? 0 : 1) | (inner->in_elevations(p) ? 0 : 2) : 0;
+  };
   UnsetVector<ByCells> by_cells(surfels.size());
   UnsetVector<HeardSurfel> heard(by_shares ? surfels.size() : 0);
   parallel_blocks(surfels.size(), counted_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -60,7 +65,8 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
       const SampledCells::Widths widths = cells.widths(seen.position, seen.radius);
       by_cells[s] = {cells.parts(seen.range, seen.area, seen.cosine, widths), widths};
       if (by_shares)
-        heard[s] = seen.heard(options.heard(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]));
+        heard[s] = seen.heard(options.heard(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]),
+                              beyond(seen.position));
     }
   });
   std::optional<HeardShares> shares;
@@ -74,7 +80,7 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
       double wanted = by_cells[s].parts;
       if (by_shares && wanted > 1)
         wanted = std::min(wanted, cells.parts_of_share(shares->share(heard[s]), by_cells[s].widths));
-      counts.parts[s] = static_cast<std::uint16_t>(std::ceil(std::clamp<double>(wanted, 1, most_parts)));
+      counts.parts[s] = static_cast<std::uint16_t>(std::ceil(std::clamp<double>(wanted, 1, most_parts) - rounding));
       capped_here += wanted > most_parts;
     }
     capped += capped_here;

@@ -110,6 +110,17 @@ SamplingReport report_of(const SceneCloud& scene, const GatedSurfels& surfels, c
   return report;
 }
 
+Sampling split(const SceneCloud& scene, std::span<const std::uint32_t> surfels, const View& view) {
+  const SamplingOptions& options = view.options;
+  const SampledCells cells(view.fan, view.gate, options);
+  const PartCounts counts = count_parts(scene, view.head, surfels, cells, view.gate, options);
+  Sampling result;
+  result.scatterers = split_surfels(scene, view.head, surfels, first_parts(counts.parts, options.scatterers_per_cell),
+                                    cells.range_resolution(), options.seed, options.threads);
+  result.report.capped = counts.capped;
+  return result;
+}
+
 // Samples the visible part of the gated surfels.
 Sampling sample(const SceneCloud& scene, const GatedSurfels& surfels, const View& view) {
   const SamplingOptions& options = view.options;
@@ -126,11 +137,9 @@ Sampling sample(const SceneCloud& scene, const GatedSurfels& surfels, const View
     report.visible = cast.hit_surfels;
   } else {
     const auto visible = select_visible(surfels, options, report);
-    const SampledCells cells(view.fan, view.gate, options);
-    const PartCounts counts = count_parts(scene, view.head, visible, cells, view.gate, options);
-    result.scatterers = split_surfels(scene, view.head, visible, first_parts(counts.parts, options.scatterers_per_cell),
-                                      cells.range_resolution(), options.seed, options.threads);
-    report.capped = counts.capped;
+    Sampling parts = split(scene, visible, view);
+    result.scatterers = std::move(parts.scatterers);
+    report.capped = parts.report.capped;
   }
   report.scatterers = result.scatterers.size();
   return result;
@@ -242,6 +251,16 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   result.options.relief_outer_scale = outer_scale(prepared, options);
   result.relief = relief_of(scene, {options.seed, result.options.relief_outer_scale});
   return result;
+}
+
+Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                      const RangeGate& gate, std::span<const std::uint32_t> surfels, const SamplingOptions& options) {
+  const SceneCloud& scene = prepared.scene();
+  require_valid(world_from_head, fan, gate, options);
+  const View view(scene, world_from_head, fan, gate, options);
+  Sampling sampling = split(scene, surfels, view);
+  tilt(scene, view, outer_scale(prepared, options), sampling);
+  return std::move(sampling.scatterers);
 }
 
 Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -48,6 +49,9 @@ struct SamplingOptions {
   double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
   /// Beside main lobes, in u and v, surfels are split as inside up to this distance (E17); 2: everywhere.
   double lobe_margin = 0;
+  /// Shares (E127) do not depend on how far beyond this sector is sampled: surfels inside share what is heard from inside,
+  /// those beyond its cones, or its elevations, that and what is heard from beyond these. Empty: all share all.
+  std::optional<Sector> inner_sector{};
   /// Surfels that give little of what is heard from their range, for a fan also their direction in u, are split less
   /// (E127); empty: all are split alike.
   HeardEnergy heard = nullptr;

@@ -15,31 +15,45 @@ constexpr std::size_t most_spanned = 256, sums_of_energy = 4;
 
 HeardShares::HeardShares(std::span<const HeardSurfel> surfels, const RangeGate& gate, const SampledCells& cells,
                          int threads)
-    : start_(gate.min_range), width_(std::max(cells.width_of_shares(), 2 / most_places)) {
+    : width_(std::max(cells.width_of_shares(), 2 / most_places)) {
   const double reach = gate.max_range - gate.min_range, places = std::ceil(2 / width_);
   length_ = std::max(cells.range_resolution(), reach / std::min(most_places, most_cells / places));
+  start_ = length_ * std::floor(gate.min_range / length_);
   size_ = length_ / cells.range_resolution() * width_ / cells.width_of_shares();
-  places_ = static_cast<std::size_t>(places), ranges_ = static_cast<std::size_t>(reach / length_) + 1;
-  energy_.assign(places_ * ranges_, 0);
+  places_ = static_cast<std::size_t>(places);
+  ranges_ = static_cast<std::size_t>((gate.max_range - start_) / length_) + 1;
+  for (std::uint8_t beyond = 0; beyond < energy_.size(); ++beyond) energy_[beyond] = sum_of(surfels, beyond, threads);
+}
 
+std::vector<double> HeardShares::sum_of(std::span<const HeardSurfel> surfels, std::uint8_t beyond, int threads) const {
+  const auto counts = [beyond](const HeardSurfel& s) { return s.beyond == beyond; };
+  if (std::none_of(surfels.begin(), surfels.end(), counts)) return {};
   std::vector<std::vector<double>> sums(sums_of_energy);
   parallel_for(sums.size(), threads, [&](std::size_t part) {
-    sums[part].assign(energy_.size(), 0);
+    sums[part].assign(places_ * ranges_, 0);
     for (std::size_t s = part * surfels.size() / sums.size(); s < (part + 1) * surfels.size() / sums.size(); ++s)
-      add(surfels[s], sums[part]);
+      if (counts(surfels[s])) add(surfels[s], sums[part]);
   });
+  std::vector<double> all(places_ * ranges_, 0);
   for (const std::vector<double>& sum : sums)
-    std::transform(sum.begin(), sum.end(), energy_.begin(), energy_.begin(), std::plus<>());
+    std::transform(sum.begin(), sum.end(), all.begin(), all.begin(), std::plus<>());
+  return all;
 }
 
 double HeardShares::share(const HeardSurfel& surfel) const {
   const Cells cells = spanned(surfel);
   if (cells.number() > most_spanned) return HUGE_VAL;
   if (!(surfel.energy > 0)) return 0;
+  const auto heard_from = [&](std::size_t cell) {
+    double energy = 0;
+    for (std::uint8_t beyond = 0; beyond < energy_.size(); ++beyond)
+      if ((beyond & ~surfel.beyond) == 0 && !energy_[beyond].empty()) energy += energy_[beyond][cell];
+    return energy;
+  };
   double shares = 0;
   for (std::size_t u = cells.u.first; u <= cells.u.second; ++u)
     for (std::size_t k = cells.range.first; k <= cells.range.second; ++k)
-      shares += surfel.energy / energy_[u * ranges_ + k];
+      shares += surfel.energy / heard_from(u * ranges_ + k);
   return shares / static_cast<double>(cells.number()) * size_;  // (E127)
 }
 

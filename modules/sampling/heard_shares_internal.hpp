@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@ namespace insonify {
 /// from there.
 struct HeardSurfel {
   double energy, range, half_depth, u, half_u;
+  std::uint8_t beyond;  ///< bits of SamplingOptions::inner_sector: 1 beyond its cones, 2 beyond its elevations
 };
 
 /// The energy that is received from each cell of range and of u (E127). A cell of u is a main lobe wide; for one beam,
@@ -24,7 +27,8 @@ class HeardShares {
   /// number of sums, so that the result depends neither on threads nor on sorting.
   HeardShares(std::span<const HeardSurfel> surfels, const RangeGate& gate, const SampledCells& cells, int threads);
 
-  /// Returns the sum of a surfel's shares of the cells that it spans, in cells one range resolution long and
+  /// Returns the sum of a surfel's shares of the cells that it spans, of what is heard there from surfels that are beyond
+  /// the inner sector in no other way than it is, in cells one range resolution long and
   /// cells.width_of_shares() wide; without bound if it spans more than 256.
   double share(const HeardSurfel& surfel) const;
 
@@ -36,11 +40,13 @@ class HeardShares {
   };
   Cells spanned(const HeardSurfel& surfel) const;
   void add(const HeardSurfel& surfel, std::vector<double>& energy) const;
+  std::vector<double> sum_of(std::span<const HeardSurfel> surfels, std::uint8_t beyond, int threads) const;
 
   double start_, width_, length_;  // of the gate, of a cell
   double size_;                    // of a cell, in range resolutions and widths of shares
   std::size_t places_, ranges_;    // numbers of cells
-  std::vector<double> energy_;     // ranges of one u after those of the u before
+  // By HeardSurfel::beyond, ranges of one u after those of the u before; empty if there is none.
+  std::array<std::vector<double>, 4> energy_;
 };
 
 }  // namespace insonify

@@ -30,6 +30,11 @@ struct VisibleSurfels {
 VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                             const RangeGate& gate, const SamplingOptions& options = {});
 
+/// Returns the scatterers of surfels that are seen (indices in the scene, ascending), split and tilted as by
+/// find_scatterers with these options.
+Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
+                      const RangeGate& gate, std::span<const std::uint32_t> surfels, const SamplingOptions& options);
+
 /// Returns the scatterers of the given ones of `visible` (indices there).
 Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
                       std::span<const std::uint32_t> which, int threads);

@@ -48,15 +48,20 @@ void face_viewpoint(RawCloud& raw, LoadedScene& result) {
   result.scene.normals_oriented = true;
 }
 
-/// Estimates all normals and orients them towards the viewpoint if there is one.
+/// Estimates all normals and orients them towards the viewpoint if there is one, of a raster of heights up.
 void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   std::vector<std::uint32_t> all(raw.point.size());
   std::iota(all.begin(), all.end(), 0u);
   raw.normal = estimate_normals(raw.point, all, options.normal_neighbours, options.threads);
   result.report.normals_estimated = true;
   result.scene.normals_oriented = false;
-  if (raw.viewpoint) {
-    face_viewpoint(raw, result);
+  raw.raster = raster_triangles(raw.point);
+  if (raw.viewpoint) return face_viewpoint(raw, result);
+  if (looks_up(raw)) {
+    turn_up(raw.normal);
+    raw.heights = true;
+    result.scene.normals_oriented = true;
+    result.report.notes.push_back(looks_up_note);
     return;
   }
   result.report.notes.push_back(
@@ -81,6 +86,11 @@ void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
 
 }  // namespace
 
+void turn_up(std::vector<Vector3f>& normals) {
+  for (Vector3f& normal : normals)
+    if (normal.z() < 0) normal = -normal;
+}
+
 bool usable_normal(const Vector3f& normal) { return normal.allFinite() && normal.norm() > 1e-12f; }
 
 std::size_t renormalise(std::vector<Vector3f>& normals, bool prepared) {
@@ -95,7 +105,6 @@ std::size_t renormalise(std::vector<Vector3f>& normals, bool prepared) {
 }
 
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
-  if (options.viewpoint) raw.viewpoint = options.viewpoint;
   std::vector<std::uint32_t> bad;
   for (std::size_t i = 0; i < raw.normal.size(); ++i) {
     if (!usable_normal(raw.normal[i])) bad.push_back(static_cast<std::uint32_t>(i));

@@ -253,18 +253,20 @@ void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
   keep_only(raw.label, keep);
   keep_only(raw.id, keep);
   for (SceneColumn& column : raw.columns) keep_rows(column, keep);
+  if (!raw.raster.empty()) raw.raster = raster_triangles(raw.point);
 }
 
 LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
   LoadedScene result;
   result.report = begin_report(raw);
   SceneCloud& scene = result.scene;
+  scene.origin = raw.origin;
   if (raw.triangle.empty()) {
-    if (raw.bad_triangles > 0) {
+    if (raw.bad_triangles > 0)
       fail(ErrorKind::content, raw.path, ": no usable triangle (", raw.bad_triangles,
            " polygons, all with corners that do not exist); export the mesh again");
-    }
     complete_ids(raw, result.report);
+    find_viewpoint(raw, options, result.report.notes);
     drop_unusable(raw, result.report);
     complete_normals(raw, options, result);
     complete_areas(raw, options, result.report);
@@ -274,7 +276,6 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     scene.material = std::move(raw.label);
     scene.id = std::move(raw.id);
     scene.noise = std::move(raw.noise);
-    scene.origin = raw.origin;
     complete_noise(raw, options, result);
     complete_materials(raw, options, result);
     if (options.mesh_spacing == 0) add_raster(raw, result);
@@ -285,7 +286,6 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     complete_materials(raw, options, result);
     sample_mesh(raw, options, result);
   }
-  scene.origin = raw.origin;
   if (options.keep_columns) result.columns = take_columns(raw, options);
   note_no_area(std::accumulate(scene.area.begin(), scene.area.end(), 0.0), result.report.notes);
   if (!raw.tags.prepared) {

@@ -40,12 +40,35 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
 /// free.
 std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Eigen::Vector3f> points);
 
+/// Where an organised cloud without a viewpoint, not yet cleaned, was seen from: the origin of its coordinates, if it fans
+/// out from there. Empty for other clouds, and where the viewpoint is known.
+std::optional<Eigen::Vector3d> viewpoint_by_rows(const RawCloud& raw);
+/// Takes the viewpoint of the options, else leaves that of the file, else takes viewpoint_by_rows with a note.
+void find_viewpoint(RawCloud& raw, const LoadOptions& options, std::vector<std::string>& notes);
+/// What info and reports say of it.
+inline constexpr const char* fans_out_note =
+    "rows and columns fan out from 0,0,0: taken as seen from there; give the viewpoint if it was another";
+/// What they say of rasters of heights without a viewpoint.
+inline constexpr const char* looks_up_note =
+    "a raster of heights: its surface looks up; give the viewpoint if it was seen from below";
+
+/// Whether a cloud without a viewpoint is a raster of heights, which looks up: by its format, or by raw.raster unless it
+/// is an organised cloud in one plane, which may be a picture of a wall.
+bool looks_up(const RawCloud& raw);
+
+/// Whether the rows and columns of an organised cloud, not yet cleaned, fan out from the origin of its coordinates: the
+/// directions of neighbours from there are even where the points themselves are not. False where that cannot be seen, as
+/// of smooth surfaces.
+bool fans_out_from_origin(const RawCloud& raw);
+
 /// Uses the file's noise, else that of the options, else estimates it (E67).
 void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
 /// Scales usable normals to unit length unless save_scene wrote them (`prepared`). Returns the number whose length was
 /// off by more than 1e-3.
 std::size_t renormalise(std::vector<Eigen::Vector3f>& normals, bool prepared);
+/// Turns normals that look down.
+void turn_up(std::vector<Eigen::Vector3f>& normals);
 /// True if the normal is finite and not zero.
 bool usable_normal(const Eigen::Vector3f& normal);
 

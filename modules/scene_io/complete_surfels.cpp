@@ -15,8 +15,7 @@ bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint;
 /// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
 void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   ShapeOptions shaping{.threads = options.threads, .keep_strays = options.keep_strays};
-  std::vector<std::array<std::uint32_t, 3>> raster = raster_triangles(raw.point);
-  shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raster.empty();
+  shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raw.raster.empty();
   if (seen_at_once(raw)) shaping.viewpoint = *raw.viewpoint - raw.origin;
   SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, shaping);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
@@ -24,11 +23,12 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
                                                                             raw.point[i].cast<double>()) > 0;
     if (seen) raw.normal[i] = shapes.normal[i];
   }
+  if (raw.heights && !raw.viewpoint) turn_up(raw.normal);
   raw.area = std::move(shapes.area);
   report.areas_estimated = true;
   report.strays = shapes.strays;
   // Where most points show no noise, the surface between them is known too.
-  if (2 * shapes.height_field >= raw.point.size()) raw.raster = std::move(raster);
+  if (2 * shapes.height_field < raw.point.size()) raw.raster.clear();
   if (shapes.strays > 0)
     report.notes.push_back(share(shapes.strays, raw.point.size(), "points") + " stand far from all others: " +
                            (options.keep_strays ? "kept with areas as large as their cells"
@@ -44,6 +44,7 @@ double largest_area(const RawCloud& raw) {
 
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   if (raw.area.empty() && report.normals_estimated) return complete_shapes(raw, options, report);
+  raw.raster.clear();  // points with areas of their own stand for themselves
   const double limit = largest_area(raw);
   const auto bad = [&](float area) { return !(area >= 0 && area <= limit); };
   const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));

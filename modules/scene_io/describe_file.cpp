@@ -46,7 +46,7 @@ double median_spacing(const std::vector<Eigen::Vector3f>& points) {
 }
 
 /// Lists what load_scene would drop, repair or assume.
-void add_problems(const RawCloud& raw, FileDescription& file) {
+void add_problems(const RawCloud& raw, bool fans_out, FileDescription& file) {
   std::vector<std::string>& problems = file.problems;
   problems = raw.notes;
   if (raw.not_finite > 0)
@@ -58,9 +58,12 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
   if (raw.bad_triangles > 0)
     problems.push_back(share(raw.bad_triangles, file.triangles, "polygons") +
                        " have corners that do not exist: will be dropped");
+  if (fans_out) problems.push_back(fans_out_note);
   if (!file.has_normals && raw.triangle.empty())
-    problems.push_back(raw.viewpoint
-                           ? "no normals: will be estimated, towards the viewpoint in the file"
+    problems.push_back(fans_out        ? "no normals: will be estimated, towards that place"
+                       : raw.viewpoint ? "no normals: will be estimated, towards the viewpoint in the file"
+                       : looks_up(raw)
+                           ? looks_up_note
                            : "no normals and no viewpoint: estimated normals will not be oriented; give a viewpoint");
   if (!raw.tags.oriented) problems.push_back("the normals are not oriented: both sides will reflect");
   for (std::string& doubt : doubts_about(raw, file.median_spacing, 1)) problems.push_back(std::move(doubt));
@@ -69,7 +72,7 @@ void add_problems(const RawCloud& raw, FileDescription& file) {
 }  // namespace
 
 FileDescription describe_file(const std::string& path) {
-  const RawCloud raw = read_cloud(path, {});
+  RawCloud raw = read_cloud(path, {});
   FileDescription file;
   file.path = raw.path;
   file.format = raw.format;
@@ -86,8 +89,10 @@ FileDescription describe_file(const std::string& path) {
   file.has_normals = !raw.normal.empty();
   file.has_area = !raw.area.empty();
   file.has_materials = !raw.label.empty() || !raw.tags.materials.empty();
-  file.viewpoint = raw.viewpoint;
-  add_problems(raw, file);
+  const std::optional<Eigen::Vector3d> seen_from = viewpoint_by_rows(raw);
+  file.viewpoint = raw.viewpoint ? raw.viewpoint : seen_from;
+  if (!file.has_normals && !file.viewpoint && raw.triangle.empty()) raw.raster = raster_triangles(distinct);
+  add_problems(raw, seen_from.has_value(), file);
   return file;
 }
 

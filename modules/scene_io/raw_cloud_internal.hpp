@@ -57,6 +57,7 @@ struct RawCloud {
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate
   bool float_coordinates = false;                        ///< stored as float32
   std::optional<Eigen::Vector3d> viewpoint;              ///< [m]
+  bool heights = false;                                  ///< points of a raster: seen from above but for a viewpoint
   SceneTags tags;
   std::vector<std::string> notes;
 };

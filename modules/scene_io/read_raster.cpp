@@ -147,6 +147,7 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
   read_rows_apart(raw, file_size_of(path), options, read_heights);
+  raw.heights = true;
   return raw;
 }
 

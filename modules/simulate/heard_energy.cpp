@@ -38,7 +38,8 @@ HeardEnergy heard_energy(const ResolvedPing& ping, std::span<const Material> mat
   const bool coherent =
       sent.amplitude == SurfaceAmplitude::coherent || std::any_of(materials.begin(), materials.end(), keeps_phase);
   if (fan_rows(fan).size() > 1 || fan.row_width > 0 || ping.head.column || coherent ||
-      sampling.kind != SamplingKind::surfels || sampling.lobe_margin >= 2 || !(sampling.scatterers_per_cell > 0))
+      sampling.kind != SamplingKind::surfels || sampling.lobe_margin >= lobes_everywhere ||
+      !(sampling.scatterers_per_cell > 0))
     return nullptr;
   const double frequency = ping.head.pulse.centre_frequency, absorption = ping.sent.medium.absorption.a0;
   const auto gains = std::make_shared<const ElevationGains>(sent);

@@ -7,7 +7,6 @@
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/heard_energy_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
-#include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -99,10 +98,9 @@ void keep_wanted(const EchoSource::Filter& wanted, const VisibleSurfels& visible
 }  // namespace
 
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
-  const auto in = [](Choice choice) { return choice == Choice::always; };
   return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
-         o.sampling.kind == SamplingKind::rays || o.sampling.level_error_db > 0 || in(o.effects.multipath) ||
-         ping.environment.profile || !streamed(ping.head, o.synthesis.method);
+         o.sampling.kind == SamplingKind::rays || o.sampling.level_error_db > 0 || ping.environment.profile ||
+         !streamed(ping.head, o.synthesis.method);
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
@@ -152,6 +150,21 @@ EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, Ping
     visit(patches, echoes_of(patches, on_one_thread));
   };
   return source;
+}
+
+Multipath bounced_echoes(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts) {
+  View view = ping.view;
+  view.sampling.lobe_margin = lobes_everywhere;
+  view.sampling.heard = nullptr;
+  Scatterers seen;
+  if (view.sampling.kind == SamplingKind::surfels) {
+    std::vector<std::uint32_t> surfels = parts.stored ? parts.sampling.scatterers.surfel : parts.visible.surfel;
+    std::sort(surfels.begin(), surfels.end());
+    surfels.erase(std::unique(surfels.begin(), surfels.end()), surfels.end());
+    seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
+    refract(ping, seen);
+  }
+  return multipath_echoes(prepared.scene(), seen, ping.environment, view, ping.sent);
 }
 
 }  // namespace insonify

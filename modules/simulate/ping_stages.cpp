@@ -3,6 +3,7 @@
 
 #include "acoustics/reverberation_echoes.hpp"
 #include "core/stop_watch.hpp"
+#include "core/units.hpp"
 #include "returns/find_contributors.hpp"
 #include "returns/label_pixels.hpp"
 #include "sampling/find_holes.hpp"
@@ -10,6 +11,7 @@
 #include "sampling/seen_surfels.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
+#include "simulate/pulse_spectrum_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -140,11 +142,24 @@ std::vector<std::string> sparse_notes(const SamplingReport& report, std::size_t 
 
 }  // namespace
 
+namespace {
+
+/// Whether beams formed over the whole band hear beside their sector as in main lobes, at its upper end.
+bool hears_all_ahead(const ResolvedPing& ping) {
+  const SynthesisMethod method = ping.options.synthesis.method;
+  if (method != SynthesisMethod::true_delays && method != SynthesisMethod::element_exact) return false;
+  const double highest = ping.head.pulse.centre_frequency + spectrum_nodes(ping.head.pulse).back().frequency;
+  return has_further_lobes(ping.head, ping.sent.medium.sound_speed / highest);
+}
+
+}  // namespace
+
 std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping) {
   const Environment& e = ping.environment;
   const auto& [pose, fan, gate, sampling] = ping.view;
   ReverberationOptions options;
   options.ping = ping.options.ping;
+  options.azimuth_margin = hears_all_ahead(ping) ? pi : 0;
   std::vector<Reverberation> parts;
   if (e.volume_scattering_db) parts.push_back({"volume", volume_echoes(e, fan, gate, ping.sent, options)});
   if (e.surface && e.surface->scattering_strength_db)

@@ -31,6 +31,11 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, Simula
 /// parts.direct.
 EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
+/// Returns the echoes by way of the boundaries. Sound by a boundary may come by a main lobe from what a side lobe hears
+/// directly, so all that is seen is split for that as in main lobes, apart from the direct echoes: theirs are the same with
+/// and without these.
+Multipath bounced_echoes(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts);
+
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {
   const char* name;

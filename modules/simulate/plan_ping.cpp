@@ -104,18 +104,46 @@ PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& w
   return plan;
 }
 
+namespace {
+
+/// The options with their open stages judged.
+SimulationOptions settled_by(const PlanFacts& facts) {
+  const SimulationOptions& options = facts.ping.options;
+  const std::vector<PlanStage> stages = all_stages();
+  const double share = budget_share(stages, options.accuracy_db);
+  SimulationOptions settled = options;
+  for (const PlanStage& stage : stages)
+    if (is_open(stage, options)) plan_stage(stage, facts, share, settled);
+  return settled;
+}
+
+}  // namespace
+
 SimulationOptions settled_options(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
                                   const Environment& environment, const SimulationOptions& options, const char* who) {
   const SceneCloud& scene = prepared.scene();
   const ResolvedPing ping = resolve_ping(prepared.whole(), head, world_from_head, environment, options, who);
   const std::vector<PlanStage> stages = all_stages();
-  SimulationOptions settled = options;
-  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, options); })) return settled;
-  const PlanFacts facts{scene, ping, sample_scene(scene, &prepared, ping), {}};
-  const double share = budget_share(stages, options.accuracy_db);
-  for (const PlanStage& stage : stages)
-    if (is_open(stage, options)) plan_stage(stage, facts, share, settled);
-  return settled;
+  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, options); })) return options;
+  return settled_by({scene, ping, sample_scene(scene, &prepared, ping), {}});
+}
+
+SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
+                                    const Environment& environment, const SimulationOptions& options) {
+  constexpr const char* me = "settled_synthesis";
+  Environment water = environment;
+  water.surface.reset(), water.bottom.reset(), water.water_level.reset();
+  if (environment.profile)
+    water.profile = SoundSpeedProfile{{0}, {medium_of(environment, head.pulse.centre_frequency).sound_speed}};
+  SimulationOptions synthesis = options;
+  synthesis.sampling.outer_elevations = synthesis.sampling.outer_azimuths = Choice::never;
+  synthesis.effects.multipath = synthesis.effects.refraction = synthesis.effects.moving = Choice::never;
+  const ResolvedPing ping = resolve_ping({}, head, Pose::Identity(), water, synthesis, me);
+  const SimulationOptions settled = settled_by({SceneCloud{}, ping, sample_of(places, echoes, ping), {}});
+  SimulationOptions result = options;
+  result.effects.absorption_order = settled.effects.absorption_order;
+  result.synthesis = settled.synthesis;
+  return result;
 }
 
 void force_stage(const std::string& name, bool included, Environment& environment, SimulationOptions& options) {

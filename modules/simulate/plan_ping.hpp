@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "acoustics/echoes.hpp"
+#include "sampling/scatterers.hpp"
 #include "simulate/ping_plan.hpp"
 #include "simulate/simulate_ping.hpp"
 
@@ -21,6 +23,12 @@ namespace insonify {
 /// The time is that of one core of the machine named in docs/plan.md. Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                    const Environment& environment, const SimulationOptions& options = {});
+
+/// The options for synthesizing these echoes, of patches or targets at `places`, with what is open decided as plan_ping
+/// decides it: whether true delays and absorption over the band are in. The other stages are no part of it. Of the
+/// environment the water counts as it is, whatever its depth. Throws Error as simulate_ping does.
+SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
+                                    const Environment& environment, const SimulationOptions& options = {});
 
 /// Forces a stage in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another method
 /// changes nothing. Throws Error(argument) for a stage that is unknown or cannot be forced, naming those that can, and

@@ -118,16 +118,17 @@ class NarrowBandError {
   std::vector<double> u_beam_, y_, shading_;
 };
 
-/// Some places of the sample, each standing for the same power at an element.
-double narrow_band_bound(const PlanFacts& facts) {
+/// The error of all places with these powers at an element, and their image, by some of them that each stand for the same
+/// power [Pa^2, summed over beams].
+NarrowBandError::Sums narrow_band_sums(const PlanFacts& facts, const NarrowBandError& error,
+                                       const std::vector<double>& power) {
   const SceneSample& s = facts.sample;
-  const NarrowBandError error(facts);
-  const double all = std::accumulate(s.power.begin(), s.power.end(), 0.0), part = all / error.places();
+  const double all = std::accumulate(power.begin(), power.end(), 0.0), part = all / error.places();
   double passed = -0.5 * part;
   std::vector<std::pair<std::size_t, double>> places;  // and how many each stands for
-  for (std::size_t i = 0; i < s.power.size(); ++i) {
-    passed += s.power[i];
-    if (s.power[i] == 0 || passed < 0) continue;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    passed += power[i];
+    if (power[i] == 0 || passed < 0) continue;
     places.emplace_back(i, std::floor(passed / part) + 1);
     passed -= places.back().second * part;
   }
@@ -139,8 +140,16 @@ double narrow_band_bound(const PlanFacts& facts) {
     }
   });
   NarrowBandError::Sums sum;
-  for (const auto& of_place : sums) sum.error += of_place.error, sum.image += of_place.image;
-  return added_bound(facts, (sum.image > 0 ? sum.error / sum.image : 0) * s.in_view);
+  for (const auto& of_place : sums) sum.error += part * of_place.error, sum.image += part * of_place.image;
+  return sum;
+}
+
+/// Of what is in view, and of what side lobes hear unless it is out by the options.
+double narrow_band_bound(const PlanFacts& facts) {
+  const NarrowBandError error(facts);
+  const NarrowBandError::Sums inside = narrow_band_sums(facts, error, facts.sample.power),
+                              beside = narrow_band_sums(facts, error, facts.sample.power_off_azimuth);
+  return added_bound(facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
 }
 
 StageVerdict judge_true_delays(const PlanFacts& facts) {

@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "core/units.hpp"
+#include "simulate/pulse_spectrum_internal.hpp"
 #include "simulate/received_energy_internal.hpp"
 
 namespace insonify {
@@ -33,19 +34,30 @@ std::vector<complex> beam_terms(const SonarHead& head, double step) {
 
 }  // namespace
 
-ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double half_width) {
+ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double half_width, bool over_band) {
   const double step = 2 * pi * head.array.spacing / wavelength;
-  std::vector<complex> terms = beam_terms(head, step);
+  std::size_t entries = 8 * head.array.elements();
+  if (half_width > 0) entries = std::min(entries, static_cast<std::size_t>(8 / half_width));
+  table_.assign(entries + 2, 0);
+  if (over_band)
+    for (const SpectrumNode& node : spectrum_nodes(head.pulse))
+      add_frequency(head, step * std::max(0.1, 1 + node.frequency / head.pulse.centre_frequency), half_width,
+                    node.weight);
+  else
+    add_frequency(head, step, half_width, 1);
   const std::vector<FanRow> rows = fan_rows(head.fan);
-  std::size_t entries = 8 * terms.size();
-  if (half_width > 0) {
+  for (double& entry : table_) entry /= static_cast<double>(rows.size());
+  if (rows.size() > 1 || head.column)
+    for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);
+}
+
+void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double half_width, double part) {
+  std::vector<complex> terms = beam_terms(head, step);
+  if (half_width > 0)
     for (std::size_t m = 1; m < terms.size(); ++m) {
       const double x = step * half_width * static_cast<double>(m);
       terms[m] *= std::sin(x) / x;
     }
-    entries = std::min(entries, static_cast<std::size_t>(8 / half_width));
-  }
-  table_.resize(entries + 2);
   // Some entries side by side; real and imaginary parts apart, which needs no test for infinities.
   constexpr std::size_t lanes = 8;
   for (std::size_t begin = 0; begin < table_.size(); begin += lanes) {
@@ -63,10 +75,8 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double 
         phase[l][1] = re * turn[l][1] + im * turn[l][0];
       }
     for (std::size_t l = 0; l < std::min(lanes, table_.size() - begin); ++l)
-      table_[begin + l] = std::max(0.0, sum[l]) / static_cast<double>(rows.size());
+      table_[begin + l] += part * std::max(0.0, sum[l]);
   }
-  if (rows.size() > 1 || head.column)
-    for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);
 }
 
 double ReceivedEnergy::along_array(double u) const {

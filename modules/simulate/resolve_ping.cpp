@@ -23,29 +23,31 @@ EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
   return with_patterns(echoes, head);
 }
 
-/// How far beside their main lobes beams may receive echoes as loud as inside, in u and v.
-double lobe_margin(const SonarHead& head, const Medium& medium, const SimulationOptions& o) {
-  constexpr double everywhere = 2;
-  // By bounces and bent rays sound comes from other directions than the surfel's.
-  if (o.effects.multipath == Choice::always || o.effects.refraction == Choice::always) return everywhere;
-  // Elements more than half a wavelength apart have further main lobes.
-  double most_u = 0, most_v = 0;
-  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
-    const Eigen::Vector3d axis = unit_vector({head.fan.azimuth[b], head.fan.elevation[b]});
-    most_u = std::max(most_u, std::abs(axis.y())), most_v = std::max(most_v, std::abs(axis.z()));
-  }
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  if (wavelength / head.array.spacing < 1 + most_u || (head.column && wavelength / head.column->spacing < 1 + most_v))
-    return everywhere;
+/// The most by which a path through the profile turns on its way out to `range`: it bends by the gradient of sound speed.
+double most_turned(const SoundSpeedProfile& profile, double range) {
+  const auto [slowest, fastest] = std::minmax_element(profile.sound_speed.begin(), profile.sound_speed.end());
+  double steepest = 0;
+  for (std::size_t i = 1; i < profile.depth.size(); ++i)
+    steepest = std::max(steepest, std::abs(profile.sound_speed[i] - profile.sound_speed[i - 1]) /
+                                      (profile.depth[i] - profile.depth[i - 1]));
+  return steepest / *slowest * range * *fastest / *slowest;
+}
+
+/// How far beside their main lobes beams may receive echoes as loud as inside, in u and v: by what profile and motion do,
+/// whether their stages are in or out, so that the scatterers are the same.
+double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment,
+                   const SimulationOptions& o) {
+  if (has_further_lobes(head, medium.sound_speed / head.pulse.centre_frequency)) return lobes_everywhere;
+  double margin = environment.profile ? most_turned(*environment.profile, head.gate.max_range) : 0;
   // A moving head has turned when it receives.
-  const Motion& motion = o.effects.motion;
-  if (o.effects.moving != Choice::always || motion.none()) return 0;
-  return 3 * most_displacement(motion, medium.sound_speed) +
-         motion.turn_rate.norm() * 2 * head.gate.max_range / medium.sound_speed;
+  if (const Motion& motion = o.effects.motion; !motion.none())
+    margin += 3 * most_displacement(motion, medium.sound_speed) +
+              motion.turn_rate.norm() * 2 * head.gate.max_range / medium.sound_speed;
+  return std::min(margin, lobes_everywhere);
 }
 
 SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, const Medium& medium,
-                            const SimulationOptions& o) {
+                            const Environment& environment, const SimulationOptions& o) {
   SamplingOptions s;
   s.kind = o.sampling.kind;
   s.scatterers_per_cell = o.sampling.scatterers_per_cell;
@@ -54,7 +56,7 @@ SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, cons
   const bool all_elevations = o.sampling.outer_elevations == Choice::always;
   s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
   s.azimuth_margin = o.sampling.outer_azimuths == Choice::always ? pi : o.sampling.azimuth_margin;
-  s.lobe_margin = lobe_margin(head, medium, o);
+  s.lobe_margin = lobe_margin(head, medium, environment, o);
   s.occlusion = o.sampling.occlusion;
   s.relief_outer_scale = scene.mean_spacing;
   s.seed = o.seed;
@@ -106,6 +108,23 @@ DetectionOptions detection_of(const SimulationOptions& o, const LineArray& array
 
 }  // namespace
 
+bool has_further_lobes(const SonarHead& head, double wavelength) {
+  double most_u = 0, most_v = 0;
+  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
+    const Eigen::Vector3d axis = unit_vector({head.fan.azimuth[b], head.fan.elevation[b]});
+    most_u = std::max(most_u, std::abs(axis.y())), most_v = std::max(most_v, std::abs(axis.z()));
+  }
+  return wavelength / head.array.spacing < 1 + most_u ||
+         (head.column && wavelength / head.column->spacing < 1 + most_v);
+}
+
+SamplingOptions sampling_in_view(const ResolvedPing& ping) {
+  SamplingOptions s = ping.view.sampling;
+  s.azimuth_margin = ping.options.sampling.azimuth_margin;
+  s.elevation_half_extent = sampled_half_extent(ping.head, ping.options.sampling.elevation_floor_db);
+  return s;
+}
+
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
 
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
@@ -122,7 +141,8 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
       medium_of(environment, head.pulse.centre_frequency, std::max(0, options.effects.absorption_order));
   ping.sent = {head.pulse, medium, echo_options_of(head, options)};
   ping.view = {world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
-               sampling_of(scene, head, medium, options)};
+               sampling_of(scene, head, medium, environment, options)};
+  ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
   ping.sector = insonified_sector(head.fan, ping.view.sampling);
   ping.region = region_of(ping);
   ping.element_noise_db = element_noise_level_db(environment, head.pulse);

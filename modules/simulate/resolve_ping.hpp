@@ -22,6 +22,15 @@ struct ResolvedPing {
   DetectionOptions detection;   ///< with that noise floor and the pulse's resolution, if the options leave them open
 };
 
+/// Whether a beam has another main lobe in a direction that there is: elements are too far apart for this wavelength [m].
+bool has_further_lobes(const SonarHead& head, double wavelength);
+
+/// SamplingOptions::lobe_margin that holds all directions.
+inline constexpr double lobes_everywhere = 2;
+
+/// Sampling of what counts as in view: main lobes with their margin, and elevations above the floor of the pattern.
+SamplingOptions sampling_in_view(const ResolvedPing& ping);
+
 /// Whether sound can come by way of a surface or bottom.
 bool has_boundary(const Environment& environment);
 

@@ -152,7 +152,8 @@ void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Sc
     std::size_t interval;
   };
   std::vector<Counted> counted;
-  std::vector<double> received(range_intervals * sides, 0);
+  std::array<std::vector<double>, kinds> received;
+  received.fill(std::vector<double>(range_intervals * sides, 0));
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t surfel = patches.surfel[i];
     const double times = sampled.stands_for[surfel], cosine = patches.cos_incidence[i];
@@ -161,28 +162,64 @@ void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Sc
     const SampledCells::Widths widths = cells.widths(p, std::sqrt(area / pi));
     counted.push_back({cells.parts(patches.range[i], area, cosine, widths),
                        heard ? heard(p, cosine, area, patches.material[i]) : 0, widths, interval_of(p)});
-    if (sampled.kind[surfel] != elsewhere && sampled.kind[surfel] != other_range)
-      received[counted[i].interval] += times * counted[i].energy;
+    received[sampled.kind[surfel]][counted[i].interval] += times * counted[i].energy;
   }
   double none = 0;
   double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations, &none};
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t surfel = patches.surfel[i];
     const Counted& c = counted[i];
-    const double of_cell = received[c.interval] / shares_in_interval;
+    const Kind kind = sampled.kind[surfel];
+    // What lies inside shares what is heard from inside (SamplingOptions::inner_sector).
+    double heard_there = received[in_view][c.interval];
+    if (kind == off_azimuth || kind == off_elevation) heard_there += received[kind][c.interval];
+    const double of_cell = heard_there / shares_in_interval;
     const double by_share = heard && of_cell > 0 ? cells.parts_of_share(c.energy / of_cell, c.widths) : HUGE_VAL;
-    *numbers[sampled.kind[surfel]] += sampled.stands_for[surfel] * std::max(1.0, std::min(c.by_cells, by_share));
+    *numbers[kind] += sampled.stands_for[surfel] * std::max(1.0, std::min(c.by_cells, by_share));
   }
 }
 
-}  // namespace
-
-SamplingOptions sampling_in_view(const ResolvedPing& ping) {
-  SamplingOptions s = ping.view.sampling;
-  s.azimuth_margin = ping.options.sampling.azimuth_margin;
-  s.elevation_half_extent = sampled_half_extent(ping.head, ping.options.sampling.elevation_floor_db);
-  return s;
+/// Whether beams are formed of all frequencies of the pulse, or may be as far as the options say.
+bool may_have_true_delays(const ResolvedPing& ping) {
+  const auto& [method, tolerance, true_delays] = ping.options.synthesis;
+  if (method == SynthesisMethod::gridded) return true_delays != Choice::never && !ping.head.column;
+  return method == SynthesisMethod::true_delays || method == SynthesisMethod::element_exact;
 }
+
+/// What beams receive of a surfel, spread over its disc if it may be split: parts of it reach beyond the middle's u.
+class ReceivedOfDisc {
+ public:
+  explicit ReceivedOfDisc(const ResolvedPing& ping)
+      : received_(ping.head, ping.sent.medium.sound_speed / ping.head.pulse.centre_frequency, 0,
+                  may_have_true_delays(ping)),
+        to_head_(ping.view.world_from_head.linear().transpose()),
+        split_(ping.view.sampling.scatterers_per_cell > 0 && ping.view.sampling.kind == SamplingKind::surfels) {}
+
+  /// area [m^2]; normal in the world; u and v of the middle.
+  double at(double u, double v, double range, double area, const Eigen::Vector3f& normal) {
+    const double middle = received_.at(u, v), across = std::sqrt(std::max(0.0, 1 - u * u));
+    if (!split_ || across < 1e-6) return middle;
+    // Along the direction in which u grows, the disc is as wide as its tilt leaves it.
+    const double ahead = std::sqrt(std::max(0.0, 1 - u * u - v * v));
+    const Eigen::Vector3d along = (Eigen::Vector3d::UnitY() - u * Eigen::Vector3d(ahead, u, v)) / across;
+    const double tilt = (to_head_ * normal.cast<double>()).dot(along);
+    const double reach = std::sqrt(area / pi) / range * across * std::sqrt(std::max(0.0, 1 - tilt * tilt));
+    constexpr double places[] = {0.4, 0.8}, chords[] = {0.917, 0.6};
+    double sum = middle, parts = 1;
+    for (const int k : {0, 1}) {
+      for (const double side : {-reach, reach}) sum += chords[k] * received_.at(u + side * places[k], v);
+      parts += 2 * chords[k];
+    }
+    return sum / parts;
+  }
+
+ private:
+  ReceivedEnergy received_;
+  Eigen::Matrix3d to_head_;
+  bool split_;
+};
+
+}  // namespace
 
 SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
   const Sorter sorter(ping);
@@ -197,7 +234,9 @@ SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared,
 
   // Energies and numbers, by where the echoes come from.
   SceneSample s;
-  ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
+  ReceivedOfDisc received(ping);
+  const bool with_off_azimuth = ping.options.sampling.outer_azimuths != Choice::never;
+  if (with_off_azimuth) s.power_off_azimuth.assign(patches.size(), 0);
   double* const energies[] = {&s.in_view, &s.other_ranges, &s.off_azimuth, &s.off_elevation};
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t surfel = patches.surfel[i];
@@ -208,8 +247,10 @@ SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared,
     const double r = patches.range[i], times = sampled.stands_for[surfel];
     const double power =
         std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) * left_in_gate(ping, r);
-    const double energy = power * received.at(echoes.u[i], std::sin(patches.elevation[i]));
+    const double energy = power * received.at(echoes.u[i], std::sin(patches.elevation[i]), r,
+                                              sampled.scene.area[surfel] / times, sampled.scene.normal[surfel]);
     *energies[kind] += energy;
+    if (kind == off_azimuth && with_off_azimuth) s.power_off_azimuth[i] = power;
     if (kind != in_view) continue;
     s.surfels += times;
     s.energy.back() = energy;
@@ -221,6 +262,22 @@ SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared,
   s.back_facing = sampled.back_facing;
   s.scene = std::move(sampled.scene);
   s.places = std::move(patches);
+  return s;
+}
+
+SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const ResolvedPing& ping) {
+  const Medium& medium = ping.sent.medium;
+  const RangeGate& gate = ping.head.gate;
+  ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
+  SceneSample s;
+  s.places = places;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const double r = places.range[i];
+    const bool heard = r >= gate.min_range && r <= gate.max_range;
+    s.power.push_back(heard ? std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) : 0);
+    s.energy.push_back(s.power[i] * received.at(echoes.u[i], std::sin(places.elevation[i])));
+    s.in_view += s.energy[i];
+  }
   return s;
 }
 

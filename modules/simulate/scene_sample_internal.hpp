@@ -14,10 +14,11 @@ struct SceneSample {
   double off_azimuth = 0;    ///< beside the sector: what side lobes receive
   double off_elevation = 0;  ///< where the elevation pattern is below its floor
 
-  SceneCloud scene;            ///< the surfels, with areas scaled up to stand for all
-  Scatterers places;           ///< those of them that are not hidden
-  std::vector<double> energy;  ///< of each of `places` [Pa^2, as above]; 0 outside the view
-  std::vector<double> power;   ///< the same at one element, without the beams [Pa^2]
+  SceneCloud scene;                       ///< the surfels, with areas scaled up to stand for all
+  Scatterers places;                      ///< those of them that are not hidden
+  std::vector<double> energy;             ///< of each of `places` [Pa^2, as above]; 0 outside the view
+  std::vector<double> power;              ///< the same at one element, without the beams [Pa^2]
+  std::vector<double> power_off_azimuth;  ///< of those off_azimuth; empty if these are out by the options
 
   double scatterers = 0;        ///< in view after splitting, estimated
   double outer_azimuths = 0;    ///< the same of off_azimuth
@@ -26,8 +27,9 @@ struct SceneSample {
   double back_facing = 0;       ///< in view but turned away, estimated
 };
 
-/// Sampling of what counts as in view: main lobes with their margin, and elevations above the floor of the pattern.
-SamplingOptions sampling_in_view(const ResolvedPing& ping);
+/// Given echoes of patches or targets at `places` as such a sample, of the head's gate alone: only places, energy, power
+/// and in_view are set.
+SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const ResolvedPing& ping);
 
 /// Samples at most 4096 surfels of each kind of place, evenly strided. Kinds are sampled one by one: what a part of the
 /// scene gives does not depend on whether other parts were loaded. A prepared scene gives the same, but visits only the

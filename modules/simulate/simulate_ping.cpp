@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "acoustics/multipath_echoes.hpp"
 #include "core/stop_watch.hpp"
 #include "core/work_progress.hpp"
 #include "simulate/average_looks_internal.hpp"
@@ -22,13 +21,11 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   const SimulationOptions settled =
       settled_options(prepared, head, world_from_head, environment, options, "simulate_ping");
   ResolvedPing ping = resolve_ping(prepared.whole(), head, world_from_head, environment, settled, "simulate_ping");
-  const Transmission& sent = ping.sent;
   const EffectSettings& effects = settled.effects;
 
   // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
   begin_stage("sampling");
   PingParts parts = sample_parts(prepared, ping, result);
-  const Scatterers& patches = parts.sampling.scatterers;
   result.seconds.sampling = watch.lap();
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
@@ -41,7 +38,7 @@ SimulatedPing simulate_ping(const PreparedScene& prepared, const SonarHead& head
   LayerSum layers(ping, kept);
   layers.add("direct", direct);
   const bool bounces = effects.multipath == Choice::always;
-  if (bounces) parts.bounced = multipath_echoes(scene, patches, ping.environment, ping.view, sent);
+  if (bounces) parts.bounced = bounced_echoes(prepared, ping, parts);
   if (bounces) layers.add("multipath", parts.bounced.echoes);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (effects.noise) layers.add_noise();

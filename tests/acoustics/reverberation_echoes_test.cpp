@@ -91,6 +91,40 @@ TEST(VolumeEchoes, has_the_level_of_the_sonar_equation) {
   EXPECT_NEAR(looks.contrast(), 2, 0.2);
 }
 
+// The energy of every beam of a uniform line, summed over ranges from 3 to 11 m with their squares: 2 p0^2 Sv (R2 - R1)
+// integral B^2(u - u_b) b_E^2(e) cos(e) de dtheta, by quadrature. All directions ahead, mean power: what is left is the
+// random places of the cells.
+TEST(VolumeEchoes, of_all_beams_have_the_closed_form_to_0_02_db) {
+  const BeamFan fan = fan_of(120);
+  Transmission sent = transmission(1, radians(20));
+  sent.echo_options.amplitude = SurfaceAmplitude::mean_power;
+  const Echoes cells = volume_echoes(environment(), fan, {2, 12, 0.01}, sent, {.azimuth_margin = pi});
+  const auto pattern = [](double du) {
+    const double x = pi * array_length / wavelength_900k * du;
+    return std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
+  };
+  double sum = 0, closed_sum = 0;
+  for (std::size_t b = 0; b < fan.beams(); b += 7) {
+    const double u_beam = std::sin(fan.azimuth[b]);
+    double energy = 0, directions = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (const double r = 750 * cells.delay[i]; r >= 3 && r <= 11)
+        energy += std::norm(cells.amplitude[i] * r * pattern(cells.u[i] - u_beam));
+    constexpr int azimuths = 4000, elevations = 80;
+    for (int k = 0; k < azimuths; ++k)
+      for (int j = 0; j < elevations; ++j) {
+        const double azimuth = pi * ((k + 0.5) / azimuths - 0.5), e = radians(80) * ((j + 0.5) / elevations - 0.5);
+        directions += std::exp2(-std::pow(2 * e / radians(20), 2)) * std::cos(e) *
+                      std::pow(pattern(std::cos(e) * std::sin(azimuth) - u_beam), 2);
+      }
+    directions *= pi / azimuths * radians(80) / elevations;
+    const double closed = std::pow(source_pressure(pulse_900k), 2) * power_from_db(-70) * 8 * directions;
+    EXPECT_NEAR(db_from_power(energy / closed), 0, 0.1) << b;
+    sum += energy, closed_sum += closed;
+  }
+  EXPECT_NEAR(db_from_power(sum / closed_sum), 0, 0.02);
+}
+
 // Larger cells, same mean: the level must not depend on the division of the water into cells.
 TEST(VolumeEchoes, level_does_not_depend_on_the_cells) {
   double power[2] = {0, 0};

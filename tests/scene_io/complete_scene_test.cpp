@@ -72,8 +72,10 @@ TEST(CompleteScene, the_viewpoint_of_a_pcd_orients_normals_and_turns_no_point) {
   EXPECT_EQ(world(turned.scene, 24), Eigen::Vector3d(2, 2, 3));
   const LoadedScene above = load_scene(own_file("b.pcd", pcd_text("0 0 5 1 0 0 0", rows, 25)));
   for (const auto& n : above.scene.normal) EXPECT_GT(n.z(), 0.999f);
-  // The identity pose is what writers put when they know nothing.
-  EXPECT_FALSE(load_scene(own_file("c.pcd", pcd_text("0 0 0 1 0 0 0", rows, 25))).scene.normals_oriented);
+  // The identity pose is what writers put when they know nothing: then a raster of heights looks up.
+  const LoadedScene unknown = load_scene(own_file("c.pcd", pcd_text("0 0 0 1 0 0 0", rows, 25)));
+  EXPECT_FALSE(unknown.report.viewpoint);
+  for (const auto& n : unknown.scene.normal) EXPECT_GT(n.z(), 0.999f);
   // The caller's word counts more than the file's.
   LoadOptions options;
   options.viewpoint = Eigen::Vector3d(0, 0, 9);

@@ -22,7 +22,13 @@ TEST(DescribeFile, counts_bounds_and_spacing_of_a_plate) {
   EXPECT_DOUBLE_EQ(file.median_spacing, 0.25);
   EXPECT_FALSE(file.has_normals);
   EXPECT_TRUE(has_problem(file, "1 of 402 points (0.25 %) are not finite"));
-  EXPECT_TRUE(has_problem(file, "no normals and no viewpoint"));
+  EXPECT_TRUE(has_problem(file, "a raster of heights: its surface looks up"));
+}
+
+TEST(DescribeFile, says_that_sides_are_not_known) {
+  std::string text;
+  for (int i = 0; i < 50; ++i) text += std::to_string(std::sin(i)) + " " + std::to_string(std::cos(2.3 * i)) + " 0\n";
+  EXPECT_TRUE(has_problem(describe_file(own_file("a.xyz", text)), "no normals and no viewpoint"));
 }
 
 TEST(DescribeFile, fields_size_and_viewpoint_of_an_organised_pcd) {

@@ -6,6 +6,7 @@
 #include "beamforming/sonar_spec.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "simulate/simulate_ping.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -80,5 +81,68 @@ TEST(EdgeBeams, receive_the_reverberation_of_all_directions) {
     expect_alike(volume_echoes(e, head.fan, gate, sent), volume_echoes(e, half_circle(head), gate, sent), head);
     expect_alike(bottom_echoes(e, pose, head.fan, gate, sent), bottom_echoes(e, pose, half_circle(head), gate, sent),
                  head);
+  }
+}
+
+// Over the upper half of a band of a quarter of the carrier, elements of half a wavelength have further main lobes for beams
+// at the edge: what the water adds there, against the integral over directions and band, of the same speckle.
+TEST(EdgeBeams, of_a_wide_band_hear_all_the_water_that_further_lobes_do) {
+  SonarSpec spec;
+  spec.centre_frequency = 750e3, spec.bandwidth = 187.5e3;
+  spec.beams = 24, spec.field_of_view = radians(130), spec.beam_width = radians(1.5),
+  spec.elevation_width = radians(20);
+  spec.min_range = 4, spec.max_range = 6;
+  const SonarHead head = make_head(spec, sound_speed(Water{}));
+  Environment water;
+  water.volume_scattering_db = -60;
+  SceneCloud behind;
+  add_surfel(behind, {-50, 0, 0}, {1, 0, 0}, 1);
+  behind.materials = {Material{}};
+  const auto energies = [&](std::uint64_t seed, SynthesisMethod method) -> Eigen::ArrayXd {
+    SimulationOptions o;
+    o.seed = seed, o.synthesis.method = method, o.effects.absorption_order = 0;
+    o.synthesis.tolerance = 1e-3, o.synthesis.true_delays = Choice::never;
+    return simulate_ping(behind, head, Pose::Identity(), water, o)
+        .ping.pressure.cast<std::complex<double>>()
+        .abs2()
+        .rowwise()
+        .sum();
+  };
+  Eigen::ArrayXd narrow = Eigen::ArrayXd::Zero(24), wide = narrow;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    narrow += energies(seed, SynthesisMethod::gridded);
+    wide += energies(seed, SynthesisMethod::true_delays);
+  }
+
+  // Energy of a steered beam from all directions ahead, at a part f of the carrier.
+  const std::vector<double>& shading = head.array.shading;
+  const auto heard = [&](std::size_t beam, double f) {
+    double sum = 0;
+    for (int k = 0; k < 720; ++k)
+      for (int j = -8; j <= 8; ++j) {
+        const double azimuth = pi * ((k + 0.5) / 720 - 0.5), elevation = radians(2.5) * j;
+        const double du = std::cos(elevation) * std::sin(azimuth) - std::sin(head.fan.azimuth[beam]);
+        std::complex<double> response = 0;
+        for (std::size_t m = 0; m < shading.size(); ++m)
+          response += std::polar(shading[m], pi * f * du * static_cast<double>(m));  // half a wavelength apart
+        sum +=
+            std::norm(response) * std::exp2(-std::pow(2 * elevation / spec.elevation_width, 2)) * std::cos(elevation);
+      }
+    return sum;
+  };
+  for (const std::size_t beam : {0U, 12U}) {
+    double expected = 0, parts = 0;
+    for (int n = -12; n <= 12; ++n) {
+      const double x = 0.25 * n, part = std::exp(-0.5 * x * x),
+                   deviation = spec.bandwidth / std::sqrt(8 * std::numbers::ln2);
+      expected += part * heard(beam, 1 + x * deviation / spec.centre_frequency), parts += part;
+    }
+    const double closed = db_from_power(expected / parts / heard(beam, 1));
+    const std::size_t other = 23 - beam;
+    const double found = db_from_power((wide[beam] + wide[other]) / (narrow[beam] + narrow[other]));
+    EXPECT_NEAR(found, closed, 0.3) << beam;
+    if (beam == 0) {
+      EXPECT_GT(closed, 1.2);
+    }
   }
 }

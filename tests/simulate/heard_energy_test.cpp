@@ -91,7 +91,9 @@ TEST(HeardEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {
   EXPECT_FALSE(given(two_rows, {}));
   EXPECT_FALSE(given(single_beam, {}, 0.1));
   EXPECT_FALSE(given(single_beam, {.amplitude = SurfaceAmplitude::coherent}));
-  EXPECT_FALSE(given(single_beam, {.effects = {.refraction = Choice::always}}));
+  SonarHead sparse = single_beam;
+  sparse.array.spacing *= 2.1;
+  EXPECT_FALSE(given(sparse, {}));
   EXPECT_FALSE(given(single_beam, {.sampling = {.kind = SamplingKind::rays}}));
   EXPECT_FALSE(given(single_beam, {.sampling = {.scatterers_per_cell = 0}}));
 }

@@ -71,7 +71,8 @@ TEST(SideLobeCells, have_the_speckle_of_many_scatterers) {
   EXPECT_NEAR(squares / (mean * mean), 2, 0.2);  // <I^2> of an exponential distribution
 }
 
-// Bounces and bent rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes.
+// Bent rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes: whether the
+// stages that say so are in or out. Bounces have scatterers of their own.
 TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
   const auto margin_of = [](const SonarHead& head, const SimulationOptions& options, const Environment& environment) {
     return resolve_ping(WholeScene{}, head, Pose::Identity(), environment, options).view.sampling.lobe_margin;
@@ -79,14 +80,19 @@ TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
   Environment sea;
   sea.surface = SeaSurface{3, 1e-4, -35};
   EXPECT_EQ(margin_of(one_beam, {}, sea), 0);
-  EXPECT_EQ(margin_of(one_beam, {.effects = {.multipath = Choice::always}}, sea), 2);
-  EXPECT_EQ(margin_of(one_beam, {.effects = {.refraction = Choice::always}}, sea), 2);
+  EXPECT_EQ(margin_of(one_beam, {.effects = {.multipath = Choice::always}}, sea), 0);
+  sea.profile = SoundSpeedProfile{{0, 20, 40}, {1500, 1500, 1490}};
+  const double turn = 10.0 / 20 / 1490 * one_beam.gate.max_range;
+  for (const Choice refraction : {Choice::never, Choice::as_needed, Choice::always})
+    EXPECT_NEAR(margin_of(one_beam, {.effects = {.refraction = refraction}}, sea), turn, 0.01 * turn);
+  sea.profile = SoundSpeedProfile{{0, 40}, {1500, 1500}};
+  EXPECT_EQ(margin_of(one_beam, {.effects = {.refraction = Choice::always}}, sea), 0);
   SonarHead sparse = one_beam;
   sparse.array.spacing *= 2.1;
   EXPECT_EQ(margin_of(sparse, {}, sea), 2);
   const Motion turning{.turn_rate = {0, 0, 0.5}};
-  EXPECT_EQ(margin_of(one_beam, {.effects = {.motion = turning, .moving = Choice::never}}, sea), 0);
   const double turned = margin_of(one_beam, {.effects = {.motion = turning, .moving = Choice::always}}, sea);
+  EXPECT_EQ(margin_of(one_beam, {.effects = {.motion = turning, .moving = Choice::never}}, sea), turned);
   EXPECT_GE(turned, 0.5 * 2 * one_beam.gate.max_range / 1500);
   EXPECT_LT(turned, 0.02);
 }

@@ -1,7 +1,10 @@
 // Levels through the whole tool.
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 #include "store/cube.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -16,7 +19,7 @@ class Levels : public ToolTest {
 };
 
 // A scatterer of -20 dB on the axis of a beam, at a bin centre: SL - 2 TL + TS within 1e-6 dB, in float32, if so much is
-// asked for (1e-8 of the pressure), and within what the default tolerance of 1e-4 allows.
+// asked for (1e-8 of the pressure), and within what the default tolerance of 1e-4 allows; with one absorption for the pulse.
 TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
   write_scatterer("first.csv", 10, 0);
   const std::string sonar = " --sonar p900-45 --range 5:15 --no-picture -q";
@@ -26,7 +29,7 @@ TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
     for (const std::string method : {"gridded", "gridded --tolerance 1e-8", "direct"}) {
       const double r = axes.gate.centre(400);
       write_scatterer("one.csv", r, axes.fan.azimuth[beam]);
-      succeed("synthesize one.csv --force -o one --method " + method + sonar);
+      succeed("synthesize one.csv --force -o one --absorption-order 0 --method " + method + sonar);
       const Cube c = cube("one");
       const double expected = c.source_level_db - 2 * (20 * std::log10(r) + c.absorption_db_per_m * r) - 20;
       const auto& p = c.pings[0].pressure;
@@ -38,6 +41,36 @@ TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
       EXPECT_EQ(peak_beam, static_cast<int>(beam));
       EXPECT_EQ(peak_bin, 400);
     }
+}
+
+// Without further options the beams are what the elements receive, to the tolerance, as of a ping: delays across the array
+// and absorption over the band where the budget needs them.
+TEST_F(Levels, synthesize_computes_what_the_plan_of_a_ping_finds_needed) {
+  std::string rows = "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n";
+  for (int i = 0; i < 12; ++i)
+    rows += std::to_string(4.7 + 0.05 * i) + "," + std::to_string(-0.8 + 0.14 * i) + ",0.02,0.01," +
+            (i % 2 == 0 ? "1,0\n" : "0,-1\n");
+  write("some.csv", rows);
+  const auto pressure = [&](const std::string& run, const std::string& more) {
+    succeed("synthesize some.csv -o " + run + " --sonar oculus-m750d --set sonar.beams=40 --no-picture -q " + more);
+    return ComplexGrid(cube(run).pings[0].pressure.cast<std::complex<double>>());
+  };
+  const std::string near = "--range 4.5:5.6 ";
+  const ComplexGrid planned = pressure("planned", near);
+  const ComplexGrid elements = pressure("elements", near + "--method element-exact --absorption-order 2");
+  EXPECT_LT(relative_l2(planned, elements), 2e-4);
+  EXPECT_GT(relative_l2(pressure("narrow", near + "--method gridded"), elements), 0.1);
+  const auto synthesis = [&](const std::string& run) {
+    return nlohmann::json::parse(read(run + "/manifest.json"))["synthesis"];
+  };
+  EXPECT_EQ(synthesis("planned")["method"], "true-delays");
+  EXPECT_EQ(synthesis("planned")["absorption_order"], 2);
+  EXPECT_EQ(synthesis("narrow")["method"], "gridded");
+  // A budget of ten times the pressure needs neither.
+  pressure("rough", near + "--accuracy-db 20");
+  EXPECT_EQ(synthesis("rough")["method"], "gridded");
+  EXPECT_EQ(synthesis("rough")["absorption_order"], 0);
+  EXPECT_NE(read("rough/run.toml").find("accuracy_db = 20"), std::string::npos);
 }
 
 // Twice the points, the same level: 40 beams x 16 m of independent cells, 0.05 dB of speckle.

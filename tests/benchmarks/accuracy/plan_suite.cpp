@@ -96,7 +96,6 @@ std::vector<PlanCase> plan_cases() {
     PlanCase& c = cases.emplace_back(
         PlanCase{scene, part.sonar, std::move(cloud), head_of(part, environment), at, environment, {}});
     c.options.seed = cases.size();
-    c.options.sampling.scatterers_per_cell = 0;
     c.options.sampling.outer_elevations = c.options.sampling.outer_azimuths = Choice::never;
     c.options.effects.multipath = c.options.effects.refraction = c.options.effects.moving = Choice::never;
     c.options.effects.absorption_order = 0;
@@ -148,6 +147,31 @@ std::vector<PlanEffect> plan_effects(const PlanCase& c) {
                        db_from_power(with.abs2().sum() / energy), seconds});
   }
   return effects;
+}
+
+LeftOut left_out_of_default(const PlanCase& c, double accuracy_db) {
+  PlanCase by_default = c;
+  by_default.options = {};
+  by_default.options.accuracy_db = accuracy_db;
+  by_default.options.seed = c.options.seed;
+  by_default.options.effects.motion = c.options.effects.motion;
+  const PingPlan plan = plan_ping(c.cloud, c.head, c.pose, c.environment, by_default.options);
+  by_default.options = plan.options;
+  PlanCase whole = by_default;
+  LeftOut result;
+  double squares = 0;
+  for (const PlannedStage& stage : plan.stages) {
+    const bool too_slow = stage.name == "true-delays" && c.head.column;
+    if (stage.by != DecidedBy::budget || stage.included || stage.bound_relative == 0 || too_slow) continue;
+    force_stage(stage.name, true, whole.environment, whole.options);
+    result.stages += (result.stages.empty() ? "" : ", ") + stage.name;
+    squares += stage.bound_relative * stage.bound_relative;
+  }
+  if (result.stages.empty()) return result;
+  const ComplexGrid without = image(by_default), with = image(whole);
+  result.bound_db = db_from_amplitude(1 + std::sqrt(squares));
+  result.actual_db = db_from_amplitude(1 + std::sqrt((with - without).abs2().sum() / without.abs2().sum()));
+  return result;
 }
 
 }  // namespace insonify

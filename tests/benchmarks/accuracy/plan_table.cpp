@@ -1,5 +1,5 @@
 // Prints the tables of docs/plan.md: what the plan promises of each stage and what forcing the stage in does, or,
-// called with `costs`, what it says of time and memory and what pings take.
+// called with `left-out`, what default pings lack, or with `costs`, what it says of time and memory and what pings take.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -21,6 +21,18 @@ void print_effects() {
     }
 }
 
+void print_left_out() {
+  std::puts("| scene | sonar | budget | left out | bound | actual |\n|---|---|---|---|---|---|");
+  for (const double budget : {0.1, 1.0})
+    for (const PlanCase& c : plan_cases()) {
+      const LeftOut left = left_out_of_default(c, budget);
+      if (left.stages.empty()) continue;
+      std::printf("| %s | %s | %g dB | %s | %.2g dB | %.2g dB |\n", c.scene.c_str(), c.sonar.c_str(), budget,
+                  left.stages.c_str(), left.bound_db, left.actual_db);
+      std::fflush(stdout);
+    }
+}
+
 void print_costs() {
   std::puts(
       "| ping | sonar | planned | CPU time | ratio | planned | memory | ratio | scatterers, planned / actual |\n"
@@ -39,8 +51,11 @@ void print_costs() {
 }  // namespace insonify
 
 int main(int count, char** arguments) {
-  if (count > 1 && arguments[1] == std::string("costs"))
+  const std::string what = count > 1 ? arguments[1] : "effects";
+  if (what == "costs")
     insonify::print_costs();
+  else if (what == "left-out")
+    insonify::print_left_out();
   else
     insonify::print_effects();
 }
