@@ -7,12 +7,12 @@ set -euo pipefail
 declare -A why=(
   [build-essential]="compiler" [cmake]="build system" [ninja-build]="build system" [pkg-config]="finds FFTW and EGL"
   [ca-certificates]="certificates" [libpcl-dev]="point clouds, normals (PCL)" [libvtk9-dev]="pictures, mesh readers (VTK)"
-  [libflann-dev]="KD-trees (FLANN)" [liblz4-dev]="FLANN's headers ask for it" [libssl-dev]="SHA-256 (OpenSSL)" [libeigen3-dev]="linear algebra (Eigen)"
+  [libflann-dev]="KD-trees (FLANN)" [liblz4-dev]="FLANN's headers ask for it, compressed MCAP" [libzstd-dev]="compressed MCAP" [libssl-dev]="SHA-256 (OpenSSL)" [libeigen3-dev]="linear algebra (Eigen)"
   [libfftw3-dev]="Fourier transforms (FFTW)" [libhdf5-dev]="ping cubes (HDF5)" [librandom123-dev]="counter-based random numbers"
   [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
   [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
-  [libx11-dev]="the viewer's window" [libgdal-dev]="rasters as scenes (GDAL; libvtk9-dev needs it too)"
+  [libx11-dev]="the viewer's window" [libgdal-dev]="rasters as scenes, map projections (GDAL; libvtk9-dev needs it too)"
 )
 if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"

@@ -13,8 +13,12 @@ if("store" IN_LIST insonify_modules)
   set_property(TARGET PkgConfig::HDF5 APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${HDF5_HL_LIBRARY})
   find_package(tomlplusplus REQUIRED)
 endif()
+if("formats" IN_LIST insonify_modules)
+  pkg_check_modules(MCAP_LZ4 QUIET IMPORTED_TARGET liblz4)  # chunks of MCAP, if they are there
+  pkg_check_modules(MCAP_ZSTD QUIET IMPORTED_TARGET libzstd)
+endif()
 if("scene_io" IN_LIST insonify_modules)
-  find_package(GDAL QUIET CONFIG)  # rasters as scenes, if it is there
+  find_package(GDAL QUIET CONFIG)  # rasters as scenes, and map projections, if it is there
   find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search features)
 endif()
 if("scene_io" IN_LIST insonify_modules OR "view" IN_LIST insonify_modules)

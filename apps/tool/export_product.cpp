@@ -10,6 +10,7 @@
 #include "store/run_directory.hpp"
 #include "tool/product_run.hpp"
 #include "tool/progress.hpp"
+#include "tool/raster_plane.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -88,13 +89,22 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   }
   const auto& product =
       *std::find_if(std::begin(products), std::end(products), [&](const Product& each) { return o.to == each.name; });
-  if (product.placed && !run.place)
+  if (o.to == "las" && o.output.ends_with(".laz"))
+    fail(ErrorKind::argument, "--output ", o.output,
+         ": LAZ is not written, since Debian 12 has no library for it; write a ",
+         ".las and pack it: laszip -i x.las -o x.laz, or pdal translate x.las x.laz");
+  const bool raster = o.to == "geotiff";
+  if (!o.crs.empty() && !raster)
+    fail(ErrorKind::argument, "--crs goes with --to geotiff; --to ", o.to, " is in ",
+         product.placed ? "the UTM zone or the degrees of its place" : "the axes of the world", ": leave --crs out");
+  if (product.placed && !run.place && !RasterPlane::is_local(o.crs))
     fail(ErrorKind::argument, o.run, ": does not say where on the globe it is, which --to ", o.to,
          " needs; give --anchor LAT,LON[,HEADING] of the origin and x axis of its world, anchor in the mission, or ",
-         "--utm ZONE of a world in UTM");
+         "--utm ZONE of a world in UTM", raster ? "; or --crs local for a grid of the world's own plane" : "");
   require_free_file(o.output, o.force, {o.run});
   progress.step("writing " + o.output);
   const std::size_t soundings = product.write(run);
+  if (const std::string note = o.to == "mcap" ? compression_note(o) : ""; !note.empty()) progress.note(note);
   print_summary(common, {{"output", o.output}, {"to", o.to}, {"soundings", soundings}},
                 fmt::format("{}: {} soundings as {}", o.output, soundings, o.to));
 }

@@ -10,9 +10,11 @@ struct ProductOptions {
   std::string to = "vtk", run, output;
   std::string head;                    ///< of a survey with several
   std::string anchor, utm, start_utc;  ///< where and when; empty: as the mission says
+  std::string crs;                     ///< of a raster: EPSG:N, local, or empty: UTM
   double cell = 0.5;                   ///< of a raster [m]
   int per_beam = 1;                    ///< soundings of a beam
   std::string las_version = "1.4";     ///< or 1.2
+  std::string compression = "none";    ///< of an mcap: or lz4, zstd
   bool linear = false;                 ///< images of pressure in 32 bits
   bool force = false;                  ///< replace a file or directory
 };

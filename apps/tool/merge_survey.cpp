@@ -93,11 +93,21 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
   return all;
 }
 
+/// The plane of mosaic.tif; absent if none is made.
+std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const SurveyFrame& frame) {
+  if (mosaic.cell == 0 || (mosaic.crs.empty() && !frame.anchor)) return {};
+  std::optional<Georeference> place;
+  if (frame.anchor) place = Georeference{{}, *frame.anchor};
+  return RasterPlane(mosaic.crs, place);
+}
+
 }  // namespace
 
 void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common) {
   const SurveyRun run = load_survey_run(folder);
   const std::vector<Finished> finished = finished_blocks(folder, run);
+  const SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
+  const std::optional<RasterPlane> plane = plane_of(mosaic, frame);
   Progress progress(common, 2 + static_cast<int>(run.heads.size()) + (mosaic.cell > 0));
   progress.step("checking " + folder);
   parallel_for(finished.size(), common.threads,
@@ -112,7 +122,6 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                            {"mission_sha256", run.mission_sha256},
                            {"blocks", finished.size()},
                            {"heads", heads}};
-  const SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
   manifest.update(frame_json(frame));
   if (frame.anchor)
     write_file((fs::path(folder) / "track.geojson").string(), track_geojson(frame, joined_cubes).dump(1) + "\n");
@@ -120,7 +129,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
     join_clouds(returns, clouds);
     if (mosaic.cell > 0) {
       progress.step("laying the images on the bed");
-      save_mosaic(folder, cubes, returns, mosaic, common.threads);
+      save_mosaic(folder, cubes, returns, mosaic, plane, common.threads);
     }
     manifest["returns_sha256"] = sha256_of_file(returns);
   }

@@ -12,6 +12,7 @@
 #include "formats/geotiff_file.hpp"
 #include "formats/las_file.hpp"
 #include "tool/product_run.hpp"
+#include "tool/raster_plane.hpp"
 #include "tool/sounding_map.hpp"
 
 namespace insonify::tool {
@@ -64,17 +65,15 @@ std::size_t las_product(const PlacedRun& run) {
 
 std::size_t geotiff_product(const PlacedRun& run) {
   if (!(run.options.cell > 0)) fail(ErrorKind::argument, "--cell = ", run.options.cell, " m, must be > 0");
-  const UtmWorld world(run.reference());
+  const RasterPlane plane(run.options.crs, run.place);
   SoundingMap map(run.options.cell);
   const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
     for (std::size_t i = 0; i < found.size(); ++i)
-      map.add(world.place(found.position[i]),
+      map.add(plane.place(found.position[i]),
               power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
   });
   if (map.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
-  GeoGrid grid = map.grid();
-  grid.zone = world.zone;
-  write_geotiff(run.options.output, map.bands(), grid);
+  write_geotiff(run.options.output, map.bands(), plane.in_system(map.grid()));
   return soundings;
 }
 

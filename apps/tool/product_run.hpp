@@ -47,6 +47,8 @@ std::size_t las_product(const PlacedRun& run);
 std::size_t geotiff_product(const PlacedRun& run);
 std::size_t csv_product(const PlacedRun& run);
 std::size_t mcap_product(const PlacedRun& run);
+/// What to say if an mcap is not compressed as it was asked for; else nothing.
+std::string compression_note(const ProductOptions& options);
 /// Writes pictures and how to read them; returns how many pings there were.
 std::size_t png_product(const PlacedRun& run, RunDirectory& directory);
 

@@ -58,7 +58,7 @@ std::vector<GeoBand> SoundingMap::bands() const {
 
 GeoGrid SoundingMap::grid() const {
   const Extent e = extent();
-  return {{}, static_cast<double>(e.west) * cell_, static_cast<double>(e.south) * cell_, cell_};
+  return {0, static_cast<double>(e.west) * cell_, static_cast<double>(e.south) * cell_, cell_};
 }
 
 }  // namespace insonify::tool

@@ -10,6 +10,7 @@
 #include "store/run_directory.hpp"
 #include "tool/export_product.hpp"
 #include "tool/progress.hpp"
+#include "tool/raster_plane.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/run_pings.hpp"
 #include "tool/shared_options.hpp"
@@ -32,7 +33,8 @@ void add_options(OptionList list, ExportOptions& o) {
       "--to", &p.to,
       "vtk: grids and returns for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 "
       "in "
-      "UTM, geotiff: a grid in UTM, or csv: a table; mcap: images, points and poses as messages of ROS 2; png: bare "
+      "UTM, geotiff: a grid in UTM or another projected system, or csv: a table; mcap: images, points and poses as "
+      "messages of ROS 2; png: bare "
       "pictures",
       {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png"}});
   list.add("--anchor", &p.anchor,
@@ -40,10 +42,13 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
   list.add("--start-utc", &p.start_utc, "of time 0, as 2026-05-01T08:30:00Z; default: the mission's, else 1970");
   list.add("--head", &p.head, "of a survey with several heads");
+  list.add("--crs", &p.crs, crs_help);
   list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
            {.within = std::pair(1, 100), .shown_as = "INT"});
   list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
+  list.add("--compression", &p.compression, "of the chunks of an mcap; one that this build lacks is noted, and none",
+           {.words = {"none", "lz4", "zstd"}});
   list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
   list.add("--force", &p.force, "replace an existing file, or the directory of an earlier export");
   add_common(list, o.common);

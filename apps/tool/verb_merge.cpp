@@ -11,6 +11,7 @@
 #include "tool/merge_companions.hpp"
 #include "tool/merge_survey.hpp"
 #include "tool/progress.hpp"
+#include "tool/raster_plane.hpp"
 #include "tool/run_checks.hpp"
 #include "tool/shared_options.hpp"
 #include "tool/verb.hpp"
@@ -37,12 +38,14 @@ void add_options(OptionList list, MergeOptions& o) {
            "merged in its own folder");
   list.add("--copy", &o.copy, "of a survey: copy the blocks into the cubes, which otherwise refer to them");
   list.add("--mosaic", &o.mosaic.cell,
-           "of a survey: the images of all heads laid on the bed, on a grid of such cells [m]: .vti and .png",
+           "of a survey: the images of all heads laid on the bed, on a grid of such cells [m]: .vti, .png, and "
+           "GeoTIFF if the mission has an anchor",
            {.positive = true});
   list.add("--bottom", &o.mosaic.bottom, "z of a level bed for the mosaic [m]; default: the surface of the returns");
   list.add("--mosaic-by", &o.mosaic.by,
            "mean: of all pings that hear a cell; best: of the ping whose beam is narrowest there",
            {.words = {"mean", "best"}});
+  list.add("--crs", &o.mosaic.crs, crs_help);
   list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common);
 }
@@ -79,8 +82,12 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
 }
 
 void merge(const MergeOptions& o) {
-  if (o.mosaic.cell == 0 && (!o.mosaic.bottom.empty() || o.mosaic.by != "mean"))
-    fail(ErrorKind::argument, o.mosaic.bottom.empty() ? "--mosaic-by" : "--bottom", " goes with --mosaic");
+  if (o.mosaic.cell == 0 && (!o.mosaic.bottom.empty() || o.mosaic.by != "mean" || !o.mosaic.crs.empty()))
+    fail(ErrorKind::argument,
+         !o.mosaic.crs.empty()     ? "--crs"
+         : o.mosaic.bottom.empty() ? "--mosaic-by"
+                                   : "--bottom",
+         " goes with --mosaic");
   if (o.runs.size() == 1 && is_survey_run(o.runs.front())) {
     if (!o.output.empty()) fail(ErrorKind::argument, "--output: a survey is merged in its own folder; leave it out");
     return merge_survey(o.runs.front(), o.copy, o.mosaic, o.common);

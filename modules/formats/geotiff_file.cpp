@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include "core/pending_file.hpp"
 #include "core/require.hpp"
@@ -11,6 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr const char* geotiff_call = "write_geotiff";
+constexpr const char* local_grid_name = "local grid of metres";
 enum TiffType : std::uint16_t { tiff_ascii = 2, tiff_short = 3, tiff_long = 4, tiff_double = 12 };
 
 /// A directory entry: its values as bytes, put behind the directory if they are more than four.
@@ -47,6 +49,20 @@ std::string band_metadata(const std::vector<GeoBand>& bands) {
   return text + "</GDALMetadata>\n";
 }
 
+/// The keys of a projected system, or of a plane of its own in metres: a user-defined model with a name.
+std::vector<TiffEntry> geo_keys_of(int epsg) {
+  using Shorts = std::vector<std::uint16_t>;
+  if (epsg > 0)
+    return {tiff_entry(34735, tiff_short,
+                       Shorts{1, 1, 1, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, static_cast<std::uint16_t>(epsg)})};
+  const std::string name = std::string(local_grid_name) + "|";
+  return {tiff_entry(34735, tiff_short, Shorts{1, 1,    1,     4,     1024,
+                                               0, 1,    32767, 1025,  0,
+                                               1, 1,    1026,  34737, static_cast<std::uint16_t>(name.size()),
+                                               0, 3076, 0,     1,     9001}),
+          tiff_text(34737, name)};
+}
+
 /// Entries in the order of their tags; the first band begins at `data`.
 std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const GeoGrid& grid, std::uint32_t data) {
   const auto rows = static_cast<std::uint32_t>(bands[0].values.rows());
@@ -69,11 +85,11 @@ std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const Geo
                                     tiff_entry(284, tiff_short, Shorts{2})};  // band after band
   if (count > 1) entries.push_back(tiff_entry(338, tiff_short, Shorts(count - 1, 0)));
   entries.push_back(tiff_entry(339, tiff_short, Shorts(count, 3)));  // floats
-  entries.push_back(tiff_entry(33550, tiff_double, std::vector<double>{grid.cell, grid.cell, 0}));
-  const double north = grid.south + grid.cell * rows;
-  entries.push_back(tiff_entry(33922, tiff_double, std::vector<double>{0, 0, 0, grid.west, north, 0}));
-  const auto code = static_cast<std::uint16_t>(epsg_code(grid.zone));
-  entries.push_back(tiff_entry(34735, tiff_short, Shorts{1, 1, 1, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, code}));
+  const double cell = grid.cell / grid.unit, north = grid.south + grid.cell * rows;
+  entries.push_back(tiff_entry(33550, tiff_double, std::vector<double>{cell, cell, 0}));
+  entries.push_back(
+      tiff_entry(33922, tiff_double, std::vector<double>{0, 0, 0, grid.west / grid.unit, north / grid.unit, 0}));
+  for (TiffEntry& keys : geo_keys_of(grid.epsg)) entries.push_back(std::move(keys));
   entries.push_back(tiff_text(42112, band_metadata(bands)));
   entries.push_back(tiff_text(42113, "nan"));
   return entries;
@@ -110,6 +126,9 @@ void write_geotiff(const std::string& path, const std::vector<GeoBand>& bands, c
     require(band.values.size() > 0 && band.values.rows() == rows && band.values.cols() == columns, geotiff_call, "rows",
             static_cast<double>(band.values.rows()), "", "at least 1, and the same in all bands");
   require(grid.cell > 0 && std::isfinite(grid.cell), geotiff_call, "cell", grid.cell, "m", "> 0 and finite");
+  require(grid.unit > 0 && std::isfinite(grid.unit), geotiff_call, "unit", grid.unit, "m", "> 0 and finite");
+  require(grid.epsg == 0 || (grid.epsg >= 1024 && grid.epsg <= 32767), geotiff_call, "epsg", grid.epsg, "",
+          "0, or within 1024 and 32767");
   const double size =
       4.0 * static_cast<double>(bands.size()) * static_cast<double>(rows) * static_cast<double>(columns);
   require(size < 4.29e9, geotiff_call, "size", size / 0x1p30, "GiB", "below 4; make the cells larger");

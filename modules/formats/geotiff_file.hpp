@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-#include "core/geodesy.hpp"
 #include "core/grid.hpp"
 
 namespace insonify {
@@ -15,14 +14,15 @@ struct GeoBand {
 
 /// Where a raster lies.
 struct GeoGrid {
-  UtmZone zone{};
+  int epsg = 0;                ///< code of its projected system, from 1024 to 32767; 0: a plane of its own
   double west = 0, south = 0;  ///< corner of the cell of row 0, column 0 [m]
   double cell = 1;             ///< size [m]
+  double unit = 1;             ///< of the system [m]: coordinates are written in it
 };
 
 /// Writes bands as a GeoTIFF 1.1 of 32-bit floats, north up, cells as areas, not compressed, no value NaN. The same bands
-/// give the same bytes. Throws Error(argument) without bands, for bands of different or no extent, for a cell that is not
-/// > 0 and finite, or for more than 4 GiB; Error(file) if it cannot write.
+/// give the same bytes. Throws Error(argument) without bands, for bands of different or no extent, for a cell or unit that is not
+/// > 0 and finite, for another code, or for more than 4 GiB; Error(file) if it cannot write.
 void write_geotiff(const std::string& path, const std::vector<GeoBand>& bands, const GeoGrid& grid);
 
 }  // namespace insonify

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "formats/mcap_compression_internal.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {
@@ -20,6 +21,8 @@ enum McapRecord : std::uint8_t {
   mcap_message_index = 7,
   mcap_chunk_index = 8,
   mcap_statistics = 11,
+  mcap_metadata = 12,
+  mcap_metadata_index = 13,
   mcap_summary_offset = 14,
   mcap_data_end = 15
 };
@@ -35,9 +38,17 @@ void put_text(std::string& bytes, std::string_view text) {
   bytes.append(text);
 }
 
+void put_pairs(std::string& bytes, const std::map<std::string, std::string>& map) {
+  std::string pairs;
+  for (const auto& [key, value] : map) put_text(pairs, key), put_text(pairs, value);
+  put_text(bytes, pairs);
+}
+
 }  // namespace
 
-McapFile::McapFile(const std::string& path) : pending_(path), out_(pending_.temporary(), std::ios::binary) {
+McapFile::McapFile(const std::string& path, McapCompression compression)
+    : pending_(path), out_(pending_.temporary(), std::ios::binary), compression_(compression) {
+  if (!has_compression(compression)) compressed(compression, "");
   std::string header;
   put_text(header, "ros2");
   put_text(header, "insonify");
@@ -53,7 +64,7 @@ void McapFile::write(std::string_view bytes) {
 std::uint16_t McapFile::add_topic(const std::string& topic, const std::string& type, const std::string& text,
                                   const std::map<std::string, std::string>& metadata) {
   const auto number = static_cast<std::uint16_t>(topics_.size() + 1);
-  std::string schema, channel, pairs;
+  std::string schema, channel;
   put_little(schema, number);
   put_text(schema, type);
   put_text(schema, "ros2msg");
@@ -62,10 +73,18 @@ std::uint16_t McapFile::add_topic(const std::string& topic, const std::string& t
   put_little(channel, number);
   put_text(channel, topic);
   put_text(channel, "cdr");
-  for (const auto& [key, value] : metadata) put_text(pairs, key), put_text(pairs, value);
-  put_text(channel, pairs);
+  put_pairs(channel, metadata);
   topics_.push_back({mcap_record(mcap_schema, schema), mcap_record(mcap_channel, channel)});
   return number;
+}
+
+void McapFile::add_metadata(const std::string& name, const std::map<std::string, std::string>& pairs) {
+  std::string content;
+  put_text(content, name);
+  put_pairs(content, pairs);
+  const std::string record = mcap_record(mcap_metadata, content);
+  metadata_.push_back({name, written_, record.size()});
+  write(record);
 }
 
 void McapFile::add(std::uint16_t topic, std::uint64_t time, std::string_view message) {
@@ -86,15 +105,16 @@ void McapFile::add(std::uint16_t topic, std::uint64_t time, std::string_view mes
 
 void McapFile::end_chunk() {
   if (records_.empty()) return;
-  Chunk chunk{first_, last_, written_, 0, 0, records_.size(), {}};
+  const std::string packed = compressed(compression_, records_);
+  Chunk chunk{first_, last_, written_, 0, 0, records_.size(), packed.size(), {}};
   std::string content;
   put_little(content, first_);
   put_little(content, last_);
   put_little(content, static_cast<std::uint64_t>(records_.size()));
   put_little(content, crc_32(records_));
-  put_text(content, "");  // not compressed
-  put_little(content, static_cast<std::uint64_t>(records_.size()));
-  write(mcap_record(mcap_chunk, content + records_));
+  put_text(content, mcap_compression_name(compression_));
+  put_little(content, static_cast<std::uint64_t>(packed.size()));
+  write(mcap_record(mcap_chunk, content + packed));
   chunk.length = written_ - chunk.start;
   for (const auto& [topic, entries] : index_) {
     chunk.index_of[topic] = written_;
@@ -108,6 +128,18 @@ void McapFile::end_chunk() {
   chunks_.push_back(chunk);
   records_.clear();
   index_.clear();
+}
+
+std::string McapFile::metadata_indexes() const {
+  std::string indexes;
+  for (const Metadata& each : metadata_) {
+    std::string content;
+    put_little(content, each.start);
+    put_little(content, each.length);
+    put_text(content, each.name);
+    indexes += mcap_record(mcap_metadata_index, content);
+  }
+  return indexes;
 }
 
 /// All records between data and footer, in groups, and where the groups are.
@@ -129,15 +161,16 @@ std::string McapFile::summary() const {
     for (const auto& [topic, place] : chunk.index_of) put_little(places, topic), put_little(places, place);
     put_text(content, places);
     put_little(content, chunk.index_length);
-    put_text(content, "");
-    put_little(content, chunk.size);
+    put_text(content, mcap_compression_name(compression_));
+    put_little(content, chunk.packed);
     put_little(content, chunk.size);
     indexes += mcap_record(mcap_chunk_index, content);
   }
   put_little(statistics, messages);
   put_little(statistics, static_cast<std::uint16_t>(topics_.size()));
   put_little(statistics, static_cast<std::uint32_t>(topics_.size()));
-  put_little(statistics, std::uint64_t{0});  // attachments, metadata
+  put_little(statistics, std::uint32_t{0});  // attachments
+  put_little(statistics, static_cast<std::uint32_t>(metadata_.size()));
   put_little(statistics, static_cast<std::uint32_t>(chunks_.size()));
   put_little(statistics, first);
   put_little(statistics, last);
@@ -146,6 +179,7 @@ std::string McapFile::summary() const {
   std::string bytes, offsets;
   for (const auto& [kind, group] :
        {std::pair(mcap_schema, schemas), std::pair(mcap_channel, channels), std::pair(mcap_chunk_index, indexes),
+        std::pair(mcap_metadata_index, metadata_indexes()),
         std::pair(mcap_statistics, mcap_record(mcap_statistics, statistics))}) {
     if (group.empty()) continue;
     std::string offset(1, static_cast<char>(kind));

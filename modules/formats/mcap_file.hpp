@@ -10,13 +10,21 @@
 
 namespace insonify {
 
-/// Writes messages of ROS 2 as an MCAP file (mcap.dev, profile ros2): chunks of about 1 MiB, not compressed, each with its
+/// How chunks are compressed: as one frame of LZ4 or of Zstandard.
+enum class McapCompression : std::uint8_t { none, lz4, zstd };
+
+/// Whether this build has the library of a compression.
+bool has_compression(McapCompression compression);
+
+/// Writes messages of ROS 2 as an MCAP file (mcap.dev, profile ros2): chunks of about 1 MiB, each with its
 /// CRC and an index of its messages; a summary with schemas, channels, chunk indexes and statistics, and CRCs of data and
 /// summary. Messages stream. The same messages give the same bytes.
 class McapFile {
  public:
-  /// Throws Error(file) if the file cannot be made.
-  explicit McapFile(const std::string& path);
+  /// Throws Error(file) if the file cannot be made, Error(argument) for a compression that this build lacks.
+  explicit McapFile(const std::string& path, McapCompression compression = McapCompression::none);
+  /// Writes a metadata record of the whole file, before the first message.
+  void add_metadata(const std::string& name, const std::map<std::string, std::string>& pairs);
   /// Adds a topic with messages of `type` (package/msg/Name) in CDR, whose definition is `text`; returns its number.
   /// All topics come before the first message.
   std::uint16_t add_topic(const std::string& topic, const std::string& type, const std::string& text,
@@ -32,19 +40,26 @@ class McapFile {
     std::uint32_t messages = 0;
   };
   struct Chunk {
-    std::uint64_t first = 0, last = 0, start = 0, length = 0, index_length = 0, size = 0;
+    std::uint64_t first = 0, last = 0, start = 0, length = 0, index_length = 0, size = 0, packed = 0;
     std::map<std::uint16_t, std::uint64_t> index_of;  ///< places of its message indexes
+  };
+  struct Metadata {
+    std::string name;
+    std::uint64_t start, length;
   };
   void write(std::string_view bytes);
   void end_chunk();
+  std::string metadata_indexes() const;
   std::string summary() const;
 
   PendingFile pending_;
   std::ofstream out_;
+  McapCompression compression_;
   std::uint64_t written_ = 0;
   std::uint32_t crc_ = 0;
   std::vector<Topic> topics_;
   std::vector<Chunk> chunks_;
+  std::vector<Metadata> metadata_;
   std::string records_;                                                                  ///< of the open chunk
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;  ///< of it: times and places
   std::uint64_t first_ = 0, last_ = 0;                                                   ///< times in it

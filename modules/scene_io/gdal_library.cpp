@@ -10,8 +10,9 @@ namespace insonify {
 void* find_in_gdal(const char* name) {
   static void* const library = dlopen(INSONIFY_GDAL, RTLD_LAZY | RTLD_LOCAL);
   if (!library)
-    fail(ErrorKind::runtime, "rasters are read by GDAL, whose library ", INSONIFY_GDAL,
-         " is not there; install it, or convert the raster: gdal2xyz.py -csv in.tif out.xyz");
+    fail(ErrorKind::runtime, "GDAL's library ", INSONIFY_GDAL,
+         ", which reads rasters and projects places, is not there; install ",
+         "libgdal32 or what holds it, or do without: gdal2xyz.py -csv in.tif out.xyz, no --crs");
   void* const function = dlsym(library, name);
   if (!function)
     fail(ErrorKind::runtime, INSONIFY_GDAL, " lacks ", name, "; install the GDAL that insonify was built with");

@@ -22,7 +22,7 @@ std::vector<GeoBand> two_bands() {
 
 TEST(GeotiffFile, holds_what_its_specifications_say) {
   const std::string path = own_path("bed.tif");
-  write_geotiff(path, two_bands(), {{33, false}, 565000, 5995000, 0.5});
+  write_geotiff(path, two_bands(), {32733, 565000, 5995000, 0.5});
   const std::string bytes = file_bytes(path);
   auto tags = decode::tiff_tags(bytes);
   EXPECT_EQ(tags[256], std::vector<double>{3});
@@ -55,15 +55,25 @@ TEST(GeotiffFile, holds_what_its_specifications_say) {
     EXPECT_ANY_THROW(decode::read_geotiff(bytes.substr(0, size))) << size;
 }
 
+// Coordinates and cells are in the unit of the system.
+TEST(GeotiffFile, of_feet_has_feet) {
+  const std::string path = own_path("feet.tif");
+  write_geotiff(path, two_bands(), {2263, 304.8, 609.6, 1.524, 0.3048});
+  auto tags = decode::tiff_tags(file_bytes(path));
+  EXPECT_NEAR(tags[33550][0], 5, 1e-12);
+  EXPECT_NEAR(tags[33922][3], 1000, 1e-9);
+  EXPECT_NEAR(tags[33922][4], 2010, 1e-9);
+}
+
 TEST(GeotiffFile, refuses_what_is_no_raster) {
-  const GeoGrid grid{{32, true}, 0, 0, 1};
+  const GeoGrid grid{32632, 0, 0, 1};
   EXPECT_THAT(error_of([&] { write_geotiff(own_path("a.tif"), {}, grid); }),
               HasSubstr("bands = 0, must be at least one"));
   std::vector<GeoBand> bands = two_bands();
   bands[1].values = Grid<float>::Zero(1, 3);
   EXPECT_THAT(error_of([&] { write_geotiff(own_path("a.tif"), bands, grid); }), HasSubstr("the same in all bands"));
   EXPECT_THAT(error_of([&] {
-                write_geotiff(own_path("a.tif"), two_bands(), {{32, true}, 0, 0, 0});
+                write_geotiff(own_path("a.tif"), two_bands(), {32632, 0, 0, 0});
               }),
               HasSubstr("cell = 0 m, must be > 0"));
 }

@@ -105,7 +105,7 @@ TEST(GoldenBytes, of_geotiff) {
   bands[0].values.resize(2, 3), bands[1].values.resize(2, 3);
   bands[0].values << -20, -21, std::numeric_limits<float>::quiet_NaN(), -18, -17.5F, 2.25F;
   bands[1].values << 1, 2, 0, 4, 5, 6;
-  write_geotiff(path, bands, {{32, true}, 565400, 5995100, 0.5});
+  write_geotiff(path, bands, {32632, 565400, 5995100, 0.5});
   EXPECT_EQ(decode::read_geotiff(file_bytes(path)).bands.size(), 2U);
   expect_golden(path, "bed.tif");
 }

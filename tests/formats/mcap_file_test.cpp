@@ -1,5 +1,12 @@
 #include "formats/mcap_file.hpp"
 
+#ifdef INSONIFY_TEST_LZ4
+#include <lz4frame.h>
+#endif
+#ifdef INSONIFY_TEST_ZSTD
+#include <zstd.h>
+#endif
+
 #include "formats/ros_decoder.hpp"
 #include "formats/ros_messages.hpp"
 #include "support/test.hpp"
@@ -184,6 +191,78 @@ TEST(McapFile, indexes_many_messages_in_chunks) {
   std::string spoilt = bytes;
   spoilt[bytes.size() / 2] = static_cast<char>(spoilt[bytes.size() / 2] ^ 1);
   EXPECT_THROW(decode::read_mcap(spoilt), std::runtime_error);
+}
+
+namespace {
+
+/// Bytes of a chunk by the library of its compression.
+std::string unpacked(const std::string& compression, const std::string& bytes, std::uint64_t size) {
+  std::string plain(size, '\0');
+#ifdef INSONIFY_TEST_LZ4
+  if (compression == "lz4") {
+    LZ4F_dctx* context = nullptr;
+    LZ4F_createDecompressionContext(&context, LZ4F_VERSION);
+    std::size_t made = plain.size(), used = bytes.size();
+    const std::size_t left = LZ4F_decompress(context, plain.data(), &made, bytes.data(), &used, nullptr);
+    LZ4F_freeDecompressionContext(context);
+    if (left != 0 || made != size || used != bytes.size()) throw std::runtime_error("no frame of LZ4");
+    return plain;
+  }
+#endif
+#ifdef INSONIFY_TEST_ZSTD
+  if (compression == "zstd") {
+    if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != size ||
+        ZSTD_decompress(plain.data(), size, bytes.data(), bytes.size()) != size)
+      throw std::runtime_error("no frame of Zstandard");
+    return plain;
+  }
+#endif
+  throw std::runtime_error("compression '" + compression + "'");
+}
+
+/// 40 messages of 50 kB each.
+std::string forty_messages(McapCompression compression) {
+  const std::string path = own_path("packed.mcap");
+  McapFile file(path, compression);
+  file.add_metadata("insonify", {{"sonar", "any"}, {"version", "1"}});
+  const auto topic = file.add_topic("/a", "std_msgs/msg/Blob", "uint8[] data\n");
+  for (std::uint64_t i = 0; i < 40; ++i)
+    file.add(topic, i, std::string("\0\1\0\0\x50\xc3\0\0", 8) + std::string(50000, static_cast<char>(i)));
+  file.finish();
+  return file_bytes(path);
+}
+
+}  // namespace
+
+TEST(McapFile, compresses_chunks_where_the_library_is_there) {
+  const std::string plain = forty_messages(McapCompression::none);
+  EXPECT_TRUE(has_compression(McapCompression::none));
+  for (const auto& [compression, name] :
+       {std::pair(McapCompression::lz4, "lz4"), std::pair(McapCompression::zstd, "zstd")}) {
+    if (!has_compression(compression)) {
+      EXPECT_THAT(error_of([&, which = compression] { McapFile(own_path("no.mcap"), which); }),
+                  HasSubstr("whose library this build does not have"));
+      continue;
+    }
+    const std::string bytes = forty_messages(compression);
+    EXPECT_LT(bytes.size(), plain.size() / 20) << name;
+    EXPECT_EQ(bytes, forty_messages(compression));
+    const decode::McapContent read = decode::read_mcap(bytes, unpacked);
+    EXPECT_EQ(read.compressions, std::set<std::string>{name});
+    EXPECT_EQ(read.chunks, 2U);
+    ASSERT_EQ(read.messages.size(), 40U);
+    for (const decode::McapMessage& m : read.messages) {
+      ASSERT_EQ(m.content.numbers.at("data").size(), 50000U);
+      EXPECT_EQ(m.content.numbers.at("data").back(), static_cast<double>(m.time));
+    }
+  }
+}
+
+TEST(McapFile, metadata_of_the_file_is_indexed) {
+  const decode::McapContent read = decode::read_mcap(forty_messages(McapCompression::none));
+  using Pairs = std::map<std::string, std::string>;
+  EXPECT_EQ(read.records, (std::map<std::string, Pairs>{{"insonify", {{"sonar", "any"}, {"version", "1"}}}}));
+  EXPECT_EQ(read.compressions, std::set<std::string>{""});
 }
 
 // The bytes of a file without messages, from the specification.

@@ -62,11 +62,12 @@ Ping npm_ping() {
   return ping;
 }
 
-std::string written_log(const char* name) {
+std::string written_log(const char* name, McapCompression compression = McapCompression::none) {
   const std::string path = own_path(name);
   const Ping ping = npm_ping();
   const double most = static_cast<double>(level_db(ping).maxCoeff());
-  McapFile file(path);
+  McapFile file(path, compression);
+  file.add_metadata("insonify", {{"sonar", "any"}});
   const auto add = [&](const char* topic, const RosType& type) {
     return file.add_topic(topic, type.name, type.text, {{"reference", "dB re 1 uPa at 1 m"}});
   };
@@ -108,6 +109,24 @@ TEST_F(McapNpm, read_every_number_of_every_message) {
     EXPECT_EQ(message["metadata"]["reference"], "dB re 1 uPa at 1 m");
   }
   EXPECT_EQ(read["messages"][0]["type"].get<std::string>().substr(0, 4), "mari");
+}
+
+TEST_F(McapNpm, unpack_chunks_and_know_the_metadata_of_the_file) {
+  const json plain = read_by_packages(written_log("plain.mcap"));
+  EXPECT_EQ(plain["metadata"], json({{"insonify", {{"sonar", "any"}}}}));
+  EXPECT_EQ(plain["compressions"], json({""}));
+  if (!std::filesystem::exists(INSONIFY_NODE_MODULES "/fzstd") ||
+      !std::filesystem::exists(INSONIFY_NODE_MODULES "/lz4js"))
+    GTEST_SKIP() << "fzstd and lz4js are not installed";
+  for (const auto& [compression, name] :
+       {std::pair(McapCompression::lz4, "lz4"), std::pair(McapCompression::zstd, "zstd")}) {
+    if (!has_compression(compression)) continue;
+    const json packed = read_by_packages(written_log("packed.mcap", compression));
+    ASSERT_FALSE(packed.contains("error")) << packed["error"];
+    EXPECT_EQ(packed["compressions"], json({name}));
+    EXPECT_EQ(packed["messages"], plain["messages"]);
+    EXPECT_EQ(packed["metadata"], plain["metadata"]);
+  }
 }
 
 TEST_F(McapNpm, refuse_a_changed_byte_and_a_cut_file) {

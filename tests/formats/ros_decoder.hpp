@@ -3,7 +3,9 @@
 // file itself holds.
 #include <algorithm>
 #include <any>
+#include <functional>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -138,12 +140,17 @@ struct McapContent {
   std::map<std::string, std::map<std::string, std::string>> metadata;  ///< of topics
   std::vector<McapMessage> messages;                                   ///< found by the indexes of the summary
   std::uint64_t chunks = 0;
+  std::map<std::string, std::map<std::string, std::string>> records;  ///< metadata of the file, by names
+  std::set<std::string> compressions;                                 ///< of chunks
 };
+
+/// The bytes of a compressed chunk: its compression, its bytes and how many they become.
+using Unpack = std::function<std::string(const std::string&, const std::string&, std::uint64_t)>;
 
 inline std::string mcap_text(Cursor& c) { return c.text(static_cast<std::size_t>(c.unsigned_little(4))); }
 
 /// Reads a file from its end: footer, summary, chunk indexes, message indexes; checks all CRCs.
-inline McapContent read_mcap(const std::string& bytes) {
+inline McapContent read_mcap(const std::string& bytes, const Unpack& unpack = {}) {
   const std::string magic("\x89MCAP0\r\n", 8);
   if (bytes.size() < 37 + 8 || bytes.substr(0, 8) != magic || bytes.substr(bytes.size() - 8) != magic)
     throw std::runtime_error("no magic bytes at both ends");
@@ -186,6 +193,19 @@ inline McapContent read_mcap(const std::string& bytes) {
       }
     } else if (kind == 11) {
       counted = c.unsigned_little(8);
+      c.text(2 + 4 + 4);
+      if (c.unsigned_little(4) != content.records.size()) throw std::runtime_error("statistics count other metadata");
+    } else if (kind == 13) {
+      Cursor record(bytes, c.unsigned_little(8));
+      const std::uint64_t length = c.unsigned_little(8);
+      if (expect(record, 12) + 9 != length) throw std::runtime_error("metadata of another length");
+      const std::string name = mcap_text(record);
+      if (name != mcap_text(c)) throw std::runtime_error("metadata of another name");
+      const std::uint64_t end_of_map = record.unsigned_little(4) + record.at();
+      while (record.at() < end_of_map) {
+        const std::string key = mcap_text(record);
+        content.records[name][key] = mcap_text(record);
+      }
     } else if (kind == 8) {
       ++content.chunks;
       c.text(16);
@@ -198,10 +218,19 @@ inline McapContent read_mcap(const std::string& bytes) {
       }
       Cursor chunk(bytes, chunk_at);
       expect(chunk, 6);
-      chunk.text(16 + 8);
+      chunk.text(16);
+      const std::uint64_t plain = chunk.unsigned_little(8);
       const std::uint64_t crc = chunk.unsigned_little(4);
-      if (!mcap_text(chunk).empty()) throw std::runtime_error("compressed");
-      const std::string records = chunk.text(chunk.unsigned_little(8));
+      const std::string compression = mcap_text(chunk);
+      if (!compression.empty() && !unpack) throw std::runtime_error("compressed");
+      std::string records = chunk.text(chunk.unsigned_little(8));
+      const std::size_t packed = records.size();
+      if (!compression.empty()) records = unpack(compression, records, plain);
+      if (records.size() != plain) throw std::runtime_error("chunk of another size");
+      c.text(8);
+      if (mcap_text(c) != compression || c.unsigned_little(8) != packed || c.unsigned_little(8) != plain)
+        throw std::runtime_error("chunk index says another compression");
+      content.compressions.insert(compression);
       if (crc != reference_crc(records)) throw std::runtime_error("CRC of a chunk");
       for (const auto& [channel, place] : indexes) {
         Cursor index(bytes, place);

@@ -33,7 +33,7 @@ inline std::map<int, std::vector<double>> tiff_tags(const std::string& bytes) {
 struct GeotiffContent {
   std::size_t columns, rows;
   double west, north, cell;
-  int epsg;
+  int epsg;  ///< 0: a plane of its own
   std::vector<std::vector<float>> bands;
 };
 
@@ -44,7 +44,7 @@ inline GeotiffContent read_geotiff(const std::string& bytes) {
                          tags.at(33922).at(3),
                          tags.at(33922).at(4),
                          tags.at(33550).at(0),
-                         static_cast<int>(tags.at(34735).at(15)),
+                         tags.at(34735).at(7) == 1 ? static_cast<int>(tags.at(34735).at(15)) : 0,
                          {}};
   for (std::size_t band = 0; band < tags.at(273).size(); ++band) {
     if (tags.at(279).at(band) != static_cast<double>(4 * content.columns * content.rows))

@@ -8,6 +8,7 @@
 #include "core/geodesy.hpp"
 #include "formats/gsf_decoder.hpp"
 #include "formats/las_decoder.hpp"
+#include "formats/mcap_file.hpp"
 #include "formats/ros_decoder.hpp"
 #include "formats/tiff_decoder.hpp"
 #include "scene_io/load_scene.hpp"
@@ -266,6 +267,39 @@ TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
   EXPECT_LT(std::abs(off / compared), 0.1 * half);  // without a bias
 }
 
+// The file says what made it, and what its grey values are, in a record of its own; compressed it is smaller, or says why
+// it is not.
+TEST_F(ExportProducts, mcap_has_metadata_and_compressed_chunks) {
+  const std::string to = "export out --to mcap --start-utc 2026-05-01T08:30:00Z -o ";
+  succeed(to + "plain.mcap -q");
+  const decode::McapContent content = decode::read_mcap(read("plain.mcap"));
+  ASSERT_EQ(content.records.size(), 1U);
+  std::map<std::string, std::string> about = content.records.at("insonify");
+  EXPECT_EQ(about["name"], "insonify");
+  EXPECT_THAT(about["version"], testing::MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+"));
+  EXPECT_EQ(about["sonar"], read_cube(path("out/cube.h5")).sonar);
+  EXPECT_EQ(about["start_utc"], "2026-05-01T08:30:00Z");
+  for (const auto& [key, value] : content.metadata.at("/sonar/image")) EXPECT_EQ(about[key], value) << key;
+  EXPECT_NEAR(std::stod(about["white_db"]) - std::stod(about["black_db"]), 80, 1e-9);
+  for (const auto& [compression, name] :
+       {std::pair(McapCompression::lz4, "lz4"), std::pair(McapCompression::zstd, "zstd")}) {
+    const std::string file = std::string(name) + ".mcap";
+    const ToolResult said = run(to + file + " --compression " + name);
+    EXPECT_EQ(said.exit_code, 0);
+    if (has_compression(compression)) {
+      EXPECT_LT(read(file).size(), read("plain.mcap").size());
+      const decode::Unpack none = [](const std::string& used, const std::string&, std::uint64_t) -> std::string {
+        throw std::runtime_error("packed by " + used);
+      };
+      EXPECT_THAT([&] { decode::read_mcap(read(file), none); },
+                  testing::ThrowsMessage<std::runtime_error>(std::string("packed by ") + name));
+    } else {
+      EXPECT_EQ(read(file), read("plain.mcap"));
+      EXPECT_THAT(said.err, testing::AllOf(HasSubstr("is not compressed"), HasSubstr(name)));
+    }
+  }
+}
+
 TEST_F(ExportProducts, soundings_can_be_looked_at) {
   succeed("image out --view soundings -o soundings.png -q");
   EXPECT_EQ(read("soundings.png").substr(1, 3), "PNG");
@@ -277,6 +311,8 @@ TEST_F(ExportProducts, says_how_to_give_what_it_misses) {
   for (const char* to : {"gsf", "las", "geotiff"})
     expect_refused("export out --to " + std::string(to) + " -o product", 2,
                    {"--anchor LAT,LON[,HEADING]", "--utm ZONE"});
+  expect_refused("export out --to las --anchor 54,8 -o packed.laz", 2,
+                 {"packed.laz", "LAZ is not written", "laszip -i"});
   expect_refused("export out --to gsf --anchor 100,0 -o product", 2, {"--anchor", "latitude = 100"});
   expect_refused("export out --to gsf --utm 99N -o product", 2, {"--utm", "1 to 60"});
   expect_refused("export out --to mcap --start-utc yesterday -o product", 2, {"--start-utc 'yesterday'"});

@@ -48,7 +48,7 @@ TEST(SoundingMap, is_opened_by_gdal) {
   SoundingMap map(0.5);
   for (int i = 0; i < 12; ++i) map.add({565400 + 0.3 * i, 5995100 + 0.2 * i, -10 - 0.125 * i}, 100);
   GeoGrid grid = map.grid();
-  grid.zone = {32, true};
+  grid.epsg = 32632;
   const std::string path = own_path("map.tif"), out = own_path("info.txt");
   write_geotiff(path, map.bands(), grid);
   ASSERT_EQ(std::system(("gdalinfo " + path + " >" + out + " 2>&1").c_str()), 0);

@@ -1,10 +1,27 @@
-// Prints all messages of an MCAP file as JSON, read by @mcap/core and @foxglove/rosmsg2-serialization:
+// Prints all messages and metadata of an MCAP file as JSON, read by @mcap/core and @foxglove/rosmsg2-serialization, chunks
+// unpacked by fzstd and lz4js:
 // node read_mcap.cjs FILE. Packages are found by NODE_PATH.
 "use strict";
 const fs = require("node:fs/promises");
 const { McapIndexedReader } = require("@mcap/core");
 const { parse } = require("@foxglove/rosmsg");
 const { MessageReader } = require("@foxglove/rosmsg2-serialization");
+
+/// A package, or null where it is not installed.
+function optional(name) {
+  try {
+    return require(name);
+  } catch {
+    return null;
+  }
+}
+
+function unpackers() {
+  const zstd = optional("fzstd"), lz4 = optional("lz4js"), handlers = {};
+  if (zstd) handlers.zstd = (bytes, size) => zstd.decompress(bytes, new Uint8Array(Number(size)));
+  if (lz4) handlers.lz4 = (bytes, size) => lz4.decompress(bytes, Number(size));
+  return handlers;
+}
 
 async function main(path) {
   const file = await fs.open(path);
@@ -17,7 +34,7 @@ async function main(path) {
       return bytes;
     },
   };
-  const reader = await McapIndexedReader.Initialize({ readable });
+  const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers: unpackers() });
   const readers = new Map();
   const messages = [];
   for await (const message of reader.readMessages({ validateCrcs: true })) {
@@ -36,9 +53,12 @@ async function main(path) {
       content: readers.get(channel.schemaId).readMessage(message.data),
     });
   }
+  const metadata = {};
+  for await (const record of reader.readMetadata()) metadata[record.name] = Object.fromEntries(record.metadata);
+  const compressions = [...new Set(reader.chunkIndexes.map((chunk) => chunk.compression))];
   await file.close();
   const plain = (key, value) => (ArrayBuffer.isView(value) ? Array.from(value) : typeof value === "bigint" ? Number(value) : value);
-  console.log(JSON.stringify({ profile: reader.header.profile, messages }, plain));
+  console.log(JSON.stringify({ profile: reader.header.profile, metadata, compressions, messages }, plain));
 }
 
 main(process.argv[2]).catch((error) => {

@@ -1,0 +1,43 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "core/geodesy.hpp"
+#include "formats/geotiff_file.hpp"
+#include "scene_io/projected_system.hpp"
+
+namespace insonify::tool {
+
+/// What --crs may say.
+inline constexpr const char* crs_help =
+    "projected system of a geotiff, as EPSG:25832 (by GDAL and PROJ), or local: the plane of the world; default: the "
+    "UTM "
+    "zone of the place";
+
+/// The plane that the cells of a raster lie in: a UTM zone, any projected system, or that of the world.
+class RasterPlane {
+ public:
+  /// crs    as --crs: EPSG:N, local, or "" for UTM
+  /// place  where the world is on the globe; only the local plane needs none
+  /// Throws Error(argument) for another crs, or without a place, and as ProjectedSystem.
+  RasterPlane(const std::string& crs, const std::optional<Georeference>& place);
+
+  /// Whether it can do without a place on the globe.
+  static bool is_local(const std::string& crs) { return crs == "local"; }
+
+  /// Easting, northing [m] and height of a place in the world.
+  Eigen::Vector3d place(const Eigen::Vector3d& world) const;
+  /// The inverse of place() at z = 0 of the world, to a micrometre.
+  Eigen::Vector2d world_of(const Eigen::Vector2d& place) const;
+  /// The same grid with code and unit of the system.
+  GeoGrid in_system(GeoGrid grid) const;
+
+ private:
+  std::optional<Georeference> reference_;
+  std::variant<std::monostate, UtmZone, ProjectedSystem> system_;  ///< monostate: the world
+};
+
+}  // namespace insonify::tool

@@ -1,0 +1,148 @@
+// Projected coordinate systems through GDAL and PROJ. Without GDAL all are refused, with a remedy.
+#include "scene_io/projected_system.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+#ifdef INSONIFY_GDAL
+#include "scene_io/gdal_library_internal.hpp"
+#endif
+
+namespace insonify {
+
+#ifndef INSONIFY_GDAL
+
+ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
+  fail(ErrorKind::runtime, option, " EPSG:", epsg,
+       ": needs GDAL, which was not found when insonify was built; install libgdal-dev and build again, or leave ",
+       option, " out for UTM");
+}
+int ProjectedSystem::epsg() const { return 0; }
+double ProjectedSystem::unit() const { return 1; }
+Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace&) const { return {0, 0}; }
+
+#else
+
+namespace {
+
+constexpr double beside_area_deg = 0.5;  // of a survey at the border of a system's area
+constexpr int wgs84_degrees = 4326;
+
+struct FreeReference {
+  void operator()(void* reference) const { OSRDestroySpatialReference(reference); }
+};
+using Reference = std::unique_ptr<void, FreeReference>;
+
+struct FreeTransformation {
+  void operator()(void* transformation) const { OCTDestroyCoordinateTransformation(transformation); }
+};
+
+/// Keeps GDAL from printing; its last message is part of ours.
+struct QuietErrors {
+  QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler), CPLErrorReset(); }
+  ~QuietErrors() { CPLPopErrorHandler(); }
+  static std::string reason() {
+    const std::string text = CPLGetLastErrorMsg();
+    return text.empty() ? text : " (" + text + ")";
+  }
+};
+
+Reference reference_of(int epsg, const std::string& named) {
+  Reference reference(OSRNewSpatialReference(nullptr));
+  if (OSRImportFromEPSG(reference.get(), epsg) != OGRERR_NONE)
+    fail(ErrorKind::argument, named, " is not known to PROJ", QuietErrors::reason(),
+         "; look it up at epsg.org, e.g. EPSG:32632 for UTM zone 32N");
+  OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  return reference;
+}
+
+/// The transformation from longitude and latitude on WGS 84 [deg], without a guess where data for a datum are missing.
+void* transformation_to(void* reference) {
+  const Reference from = reference_of(wgs84_degrees, "EPSG:4326");
+  const auto options = OCTNewCoordinateTransformationOptions();
+  OCTCoordinateTransformationOptionsSetBallparkAllowed(options, 0);
+  void* const made = OCTNewCoordinateTransformationEx(from.get(), reference, options);
+  OCTDestroyCoordinateTransformationOptions(options);
+  return made;
+}
+
+}  // namespace
+
+struct ProjectedSystem::Parts {
+  int epsg = 0;
+  std::string named;
+  Reference reference;
+  double unit = 1;
+  bool bounded = false;
+  double west = -180, south = -90, east = 180, north = 90;  ///< of its area of use [deg]
+  std::string area;
+  std::unique_ptr<void, FreeTransformation> transformation;
+
+  bool holds(double longitude, double latitude) const {
+    if (!bounded) return true;
+    if (latitude < south - beside_area_deg || latitude > north + beside_area_deg) return false;
+    double width = east - west;  // less than 0 across the 180th meridian
+    if (width < 0) width += 360;
+    const double away = std::remainder(longitude - (west + width / 2), 360);
+    return std::abs(away) <= width / 2 + beside_area_deg;
+  }
+};
+
+ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
+  const auto parts = std::make_shared<Parts>();
+  parts_ = parts;
+  Parts& p = *parts;
+  p.epsg = epsg;
+  p.named = std::string(option) + " EPSG:" + std::to_string(epsg);
+  if (epsg < 1024 || epsg > 32766)
+    fail(ErrorKind::argument, p.named, " must be within 1024 and 32766, the codes that GeoTIFF holds");
+  const QuietErrors quiet;
+  p.reference = reference_of(epsg, p.named);
+  void* const reference = p.reference.get();
+  const std::string name = OSRGetName(reference);
+  if (OSRIsGeographic(reference) || OSRIsGeocentric(reference))
+    fail(ErrorKind::argument, p.named, " (", name,
+         ") has degrees or earth-centred axes, but cells need metres: give a ", "projected system, or leave ", option,
+         " out for UTM");
+  if (!OSRIsProjected(reference) || OSRIsCompound(reference))
+    fail(ErrorKind::argument, p.named, " (", name, ") is no projected system alone; give that of its plane, or leave ",
+         option, " out for UTM");
+  OGRAxisOrientation first = OAO_Other, second = OAO_Other;
+  OSRGetAxis(reference, nullptr, 0, &first), OSRGetAxis(reference, nullptr, 1, &second);
+  const bool east_north = first == OAO_East && second == OAO_North,
+             north_east = first == OAO_North && second == OAO_East;
+  if (!east_north && !north_east)
+    fail(ErrorKind::argument, p.named, " (", name, ") counts to the ", OSRAxisEnumToName(first), " and the ",
+         OSRAxisEnumToName(second), ", but a grid is north up: leave ", option, " out for UTM");
+  p.unit = OSRGetLinearUnits(reference, nullptr);
+  const char* area = nullptr;
+  p.bounded = OSRGetAreaOfUse(reference, &p.west, &p.south, &p.east, &p.north, &area) && p.west > -1000;
+  p.area = name + (area ? std::string(", for ") + area : std::string());
+  p.transformation.reset(transformation_to(reference));
+  if (!p.transformation)
+    fail(ErrorKind::content, p.named, " (", p.area, "): PROJ has no transformation from WGS 84", QuietErrors::reason(),
+         "; install proj-data, or leave ", option, " out for UTM");
+}
+
+int ProjectedSystem::epsg() const { return parts_->epsg; }
+double ProjectedSystem::unit() const { return parts_->unit; }
+
+Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace& place) const {
+  double x = degrees(place.longitude), y = degrees(place.latitude);
+  if (!parts_->holds(x, y))
+    fail(ErrorKind::argument, parts_->named, " (", parts_->area, ") does not reach to latitude ", y, ", longitude ", x,
+         "; give the system of that place, or none for UTM");
+  const QuietErrors quiet;
+  const double longitude = x, latitude = y;
+  if (!OCTTransform(parts_->transformation.get(), 1, &x, &y, nullptr) || !std::isfinite(x) || !std::isfinite(y))
+    fail(ErrorKind::content, parts_->named, " (", parts_->area, "): PROJ has no place for latitude ", latitude,
+         ", longitude ", longitude, QuietErrors::reason(), "; install proj-data, or leave it out for UTM");
+  return Eigen::Vector2d(x, y) * parts_->unit;
+}
+
+#endif
+
+}  // namespace insonify
