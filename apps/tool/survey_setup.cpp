@@ -162,6 +162,14 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
       progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
+std::optional<PingPlan> SurveyScene::plan(const SurveySetup& setup, const SurveyPing& ping) const {
+  if (!prepared_) return {};
+  const PingSetup& head = setup.heads[ping.head].setup;
+  const PingPlace place = place_of(setup.file.mission, ping);
+  return plan_ping(prepared_->scene(), head.head.head, place.world_from_head, head.head.environment,
+                   options_of(head.simulation, ping, place));
+}
+
 SurveyScene::Made SurveyScene::make(const SurveySetup& setup, const SurveyPing& ping) const {
   const SurveyHead& head = setup.heads[ping.head];
   PingPlace place = place_of(setup.file.mission, ping);

@@ -8,6 +8,7 @@
 
 #include "beamforming/kept_synthesizers.hpp"
 #include "scene_io/tiled_scene.hpp"
+#include "simulate/plan_ping.hpp"
 #include "simulate/simulate_survey.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
@@ -61,6 +62,8 @@ class SurveyScene {
     SimulatedPing ping;
     std::vector<CoveredSurfel> covered;
   };
+  /// What a ping would compute, of a scene that all pings share; nothing of a mesh or tiles.
+  std::optional<PingPlan> plan(const SurveySetup& setup, const SurveyPing& ping) const;
   /// Simulates a ping; may be called by several threads at once.
   Made make(const SurveySetup& setup, const SurveyPing& ping) const;
 

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <ctime>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/stop_watch.hpp"
 #include "core/text.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/parse_values.hpp"
@@ -61,56 +61,88 @@ Shard parse_shard(const std::string& text) {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// What the pings of a head cost, from those that were tried.
-struct HeadTrial {
-  std::vector<SurveyPing> pings;
-  std::size_t tried = 0;
-  double cpu = 0, scatterers = 0, soundings = 0;
-
-  /// All pings over those tried.
-  double part() const { return tried > 0 ? static_cast<double>(pings.size()) / static_cast<double>(tried) : 0; }
+/// A ping that may be tried, and what its plan expects of it; 1 each where there is no plan.
+struct PlannedPing {
+  SurveyPing ping;
+  double seconds = 1, scatterers = 1;
 };
 
-std::vector<HeadTrial> trials_of(const SurveySetup& s) {
+/// What the pings of a head cost: of a few, evenly spaced, some are made, and the others count as their plans compare.
+struct HeadTrial {
+  std::size_t pings = 0, tried = 0;
+  std::vector<PlannedPing> planned;  ///< the most typical first
+  double cpu = 0, scatterers = 0, soundings = 0;
+
+  /// All pings over those tried, by a number of their plans.
+  double part(double PlannedPing::*number) const {
+    double all = 0, made = 0;
+    for (std::size_t k = 0; k < planned.size(); ++k)
+      all += planned[k].*number, made += k < tried ? planned[k].*number : 0;
+    const double n = static_cast<double>(pings);
+    return made > 0    ? n * all / (made * static_cast<double>(planned.size()))
+           : tried > 0 ? n / static_cast<double>(tried)
+                       : 0;
+  }
+};
+
+std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene) {
+  constexpr std::size_t most = 5;
   std::vector<HeadTrial> trials(s.heads.size());
-  for (const SurveyPing& ping : s.pings) trials[ping.head].pings.push_back(ping);
+  for (std::size_t h = 0; h < trials.size(); ++h) {
+    HeadTrial& trial = trials[h];
+    std::vector<SurveyPing> pings;
+    std::copy_if(s.pings.begin(), s.pings.end(), std::back_inserter(pings), [h](const auto& p) { return p.head == h; });
+    trial.pings = pings.size();
+    const std::size_t places = std::min(most, pings.size());
+    double mean = 0;
+    for (std::size_t k = 0; k < places; ++k) {
+      PlannedPing planned{pings[(2 * k + 1) * pings.size() / (2 * places)]};
+      if (const auto plan = scene.plan(s, planned.ping))
+        planned.seconds = plan->seconds, planned.scatterers = plan->scatterers;
+      mean += planned.seconds / static_cast<double>(places);
+      trial.planned.push_back(planned);
+    }
+    const auto off = [mean](const PlannedPing& p) { return std::abs(p.seconds - mean); };
+    std::stable_sort(trial.planned.begin(), trial.planned.end(),
+                     [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  }
   return trials;
 }
 
-/// Tries a ping of each head, then more, evenly spaced, as long as the plan takes at most a twentieth of the survey.
-/// `begun` runs since the scene began to be loaded.
-void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, const StopWatch& begun,
+/// Makes a ping of each head, then more, as long as the plan takes at most a twentieth of the survey. `begun` is the CPU time
+/// when the scene began to be loaded.
+void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double begun,
                std::vector<HeadTrial>& trials) {
   constexpr double most_of_survey = 0.05;
-  constexpr std::size_t fifths[] = {2, 0, 4, 1, 3};
   const auto is_cheap = [&](const HeadTrial& next) {
     double survey = 0;
-    for (const HeadTrial& trial : trials) survey += trial.cpu * trial.part() / cores;
-    return begun.seconds() + next.cpu / static_cast<double>(next.tried) <= most_of_survey * survey;
+    for (const HeadTrial& trial : trials) survey += trial.cpu * trial.part(&PlannedPing::seconds) / cores;
+    return cpu_seconds() - begun + next.cpu / static_cast<double>(next.tried) <= most_of_survey * survey;
   };
-  for (const std::size_t fifth : fifths)
+  bool more = true;
+  for (bool first = true; std::exchange(more, false); first = false)
     for (HeadTrial& trial : trials) {
-      if (trial.tried >= trial.pings.size() || (trial.tried > 0 && !is_cheap(trial))) continue;
+      if (trial.tried >= trial.planned.size() || (!first && !is_cheap(trial))) continue;
       const double begin = cpu_seconds();
-      const SimulatedPing result = scene.make(s, trial.pings[(2 * fifth + 1) * trial.pings.size() / 10]).ping;
+      const SimulatedPing result = scene.make(s, trial.planned[trial.tried].ping).ping;
       trial.cpu += cpu_seconds() - begin;
       trial.scatterers += static_cast<double>(result.sampling.scatterers);
       trial.soundings += static_cast<double>(result.soundings.size());
-      ++trial.tried;
+      ++trial.tried, more = true;
     }
 }
 
 ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::size_t h) {
   constexpr double row_bytes = 76;  // of returns.ply
-  const double n = static_cast<double>(trial.pings.size()), part = trial.part();
+  const double n = static_cast<double>(trial.pings), part = trial.part(&PlannedPing::scatterers);
   return {{"name", s.file.mission.heads[h].name},
-          {"pings", trial.pings.size()},
+          {"pings", trial.pings},
           {"pings_tried", trial.tried},
           {"echoes", std::llround(trial.scatterers * part)},
           {"returns", std::llround(trial.soundings * part)},
           {"bytes", std::llround(n * static_cast<double>(pressure_bytes(s.heads[h].setup.head.head)) +
                                  trial.soundings * part * row_bytes)},
-          {"cpu_hours", trial.cpu * part / 3600}};
+          {"cpu_hours", trial.cpu * trial.part(&PlannedPing::seconds) / 3600}};
 }
 
 void print_plan(const ordered_json& plan) {
@@ -126,9 +158,9 @@ void print_plan(const ordered_json& plan) {
              plan["hours"].get<double>(), plan["cores"].get<int>());
 }
 
-void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, const StopWatch& begun) {
+void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, double begun) {
   const int cores = thread_count(o.common.threads);
-  std::vector<HeadTrial> trials = trials_of(s);
+  std::vector<HeadTrial> trials = trials_of(s, scene);
   try_pings(s, scene, cores, begun, trials);
   ordered_json heads = ordered_json::array(), all = {{"name", "all"}};
   for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, trials[h], h));
@@ -142,7 +174,7 @@ void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene
                              {"blocks", s.blocks.size()},
                              {"cores", cores},
                              {"hours", all["cpu_hours"].get<double>() / cores},
-                             {"seconds_to_plan", begun.seconds()}};
+                             {"cpu_seconds_to_plan", cpu_seconds() - begun}};
   print_result(o.common, plan, [&] { print_plan(plan); });
 }
 
@@ -245,7 +277,7 @@ void survey(const SurveyOptions& o) {
     for (const std::string& note : trajectory_notes(s.file.trajectory)) progress.note(note);
   if (!o.plan) return make_pings(o, s, shard, progress);
   progress.step("loading " + s.file.scene);
-  const StopWatch begun;
+  const double begun = cpu_seconds();
   const SurveyScene scene(s, o.common, progress);
   progress.step("planning");
   plan_survey(o, s, scene, begun);

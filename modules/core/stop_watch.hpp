@@ -6,8 +6,6 @@ namespace insonify {
 /// Wall time between laps.
 class StopWatch {
  public:
-  /// Seconds since the last lap, or since it was made.
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count(); }
   /// Seconds since the last call, or since it was made.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
