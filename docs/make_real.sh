@@ -109,8 +109,8 @@ Where insonify is off, and what is not its fault:
 
 - The difference of the slopes over range, 30 dB per decade, is that of a time-varied gain of 30 log r, absorption included; the device's is not published. Trends are taken off
   before ranks are compared.
-- The sonar saw every point, so the run may let none hide another: `--viewpoint=0,0,0`. Without it a third of the points are behind the surfels of others, where the run hears side lobes 50 dB
-  below; their share grows with range, which made a slope of -98 dB per decade. `compare` notes points that are predicted 20 dB below the trend.
+- The sonar saw every point, so the run may let none hide another: `--viewpoint=0,0,0`, which a ping takes by itself, since rows and columns of the cloud fan out from there. Before, a third of the points
+  were behind the surfels of others, where the run heard side lobes 50 dB below; their share grows with range, which made a slope of -98 dB per decade. `compare` notes points that are predicted 20 dB below the trend.
 - One frame is a cloud of one echo for each direction: what lies between is not there, normals are estimated from neighbours, and material is one for all. What a rank correlation lacks of the
   ceiling says so: geometry alone explains that much of the strength, not more.
 - One frame alone: the ceiling of a repeated measurement (`--repeat`) is not known; that of one look of speckle is.
