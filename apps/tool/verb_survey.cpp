@@ -71,7 +71,7 @@ struct PlannedPing {
 struct HeadTrial {
   std::size_t pings = 0, tried = 0;
   std::vector<PlannedPing> planned;  ///< the most typical first
-  double cpu = 0, scatterers = 0, soundings = 0;
+  double cpu = 0, first_cpu = 0, scatterers = 0, soundings = 0;
 
   /// All pings over those tried, by a number of their plans.
   double part(double PlannedPing::*number) const {
@@ -82,6 +82,17 @@ struct HeadTrial {
     return made > 0    ? n * all / (made * static_cast<double>(planned.size()))
            : tried > 0 ? n / static_cast<double>(tried)
                        : 0;
+  }
+
+  /// CPU time of all pings [s]. The first one also makes what the others use again, which a second one shows.
+  double cpu_of_all() const {
+    double later = 0;
+    for (std::size_t k = 1; k < tried; ++k) later += planned[k].seconds;
+    if (!(later > 0)) return cpu * part(&PlannedPing::seconds);
+    double mean = 0;
+    for (const PlannedPing& p : planned) mean += p.seconds / static_cast<double>(planned.size());
+    const double rate = (cpu - first_cpu) / later;
+    return std::max(0.0, first_cpu - rate * planned.front().seconds) + rate * mean * static_cast<double>(pings);
   }
 };
 
@@ -113,10 +124,10 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
 /// when the scene began to be loaded.
 void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double begun,
                std::vector<HeadTrial>& trials) {
-  constexpr double most_of_survey = 0.05;
+  constexpr double most_of_survey = 0.04;  // of a forecast that may fall when more than the first ping is known
   const auto is_cheap = [&](const HeadTrial& next) {
     double survey = 0;
-    for (const HeadTrial& trial : trials) survey += trial.cpu * trial.part(&PlannedPing::seconds) / cores;
+    for (const HeadTrial& trial : trials) survey += trial.cpu_of_all() / cores;
     return cpu_seconds() - begun + next.cpu / static_cast<double>(next.tried) <= most_of_survey * survey;
   };
   bool more = true;
@@ -126,6 +137,7 @@ void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double
       const double begin = cpu_seconds();
       const SimulatedPing result = scene.make(s, trial.planned[trial.tried].ping).ping;
       trial.cpu += cpu_seconds() - begin;
+      if (trial.tried == 0) trial.first_cpu = trial.cpu;
       trial.scatterers += static_cast<double>(result.sampling.scatterers);
       trial.soundings += static_cast<double>(result.soundings.size());
       ++trial.tried, more = true;
@@ -142,7 +154,7 @@ ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::siz
           {"returns", std::llround(trial.soundings * part)},
           {"bytes", std::llround(n * static_cast<double>(pressure_bytes(s.heads[h].setup.head.head)) +
                                  trial.soundings * part * row_bytes)},
-          {"cpu_hours", trial.cpu * trial.part(&PlannedPing::seconds) / 3600}};
+          {"cpu_hours", trial.cpu_of_all() / 3600}};
 }
 
 void print_plan(const ordered_json& plan) {
