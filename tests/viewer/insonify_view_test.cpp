@@ -76,7 +76,7 @@ TEST_F(InsonifyView, inspects_a_scene_before_any_ping) {
   EXPECT_TRUE(is_png(read("a.png")));
 }
 
-TEST_F(InsonifyView, estimates_missing_normals_and_says_so) {
+TEST_F(InsonifyView, estimates_missing_normals_and_says_to_which_side) {
   std::string cloud;
   for (int i = 0; i < 40; ++i)
     for (int j = 0; j < 40; ++j)
@@ -86,7 +86,7 @@ TEST_F(InsonifyView, estimates_missing_normals_and_says_so) {
   const ToolResult result =
       run("view bare.xyz --sonar p900-45 --pose=0,0,2,0,15,0 --range 1:12 --size 800x600 --screenshot a.png");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("normals"));
+  EXPECT_THAT(result.err, HasSubstr("a raster of heights: its surface looks up"));
 }
 
 TEST_F(InsonifyView, a_run_whose_scene_is_gone_is_shown_without_it) {
