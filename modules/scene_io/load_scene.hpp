@@ -71,7 +71,8 @@ struct LoadedScene {
 std::string scene_extensions();
 
 /// Reads a cloud or mesh by its extension, one of scene_extensions(), fields by name and type. Clouds without normals
-/// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else two-sided; without areas,
+/// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else to the origin if rows and columns
+/// of an organised cloud fan out from there, else up if they are a raster of heights, else two-sided; without areas,
 /// estimated ones (E15, E69; E73 for an organised cloud with a viewpoint); without noise, estimated noise (E67), raised
 /// where a line of sight of an organised cloud with a viewpoint proves that a surfel hides nothing. Meshes are sampled,
 /// area-preserving and stratified; their normals are the file's, else follow the winding, two-sided if more than 1 % of

@@ -139,11 +139,11 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
   const double image =
       method == SynthesisMethod::true_delays ? true_delay_row(facts, options, load.own_shapes).bytes : 0;
   const bool direct = method == SynthesisMethod::gridded && summed_directly(load, facts.synthesis);
+  const bool stored = needs_all_patches(facts.ping, options) || options.effects.multipath == Choice::always;
   cost.bytes =
-      0x1p20 + (needs_all_patches(facts.ping, options)
-                    ? 90 * surfels + 105 * echoes + 24 * samples + image
-                    : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 160 * echoes : 0)) +
-                          60 * facts.sample.surfels);
+      0x1p20 + (stored ? 90 * surfels + 105 * echoes + 24 * samples + image
+                       : std::max(90 * surfels, 14 * surfels + 24 * samples + image + (direct ? 160 * echoes : 0)) +
+                             60 * facts.sample.surfels);
   if (options.synthesis.method == SynthesisMethod::element_exact || options.outputs.elements)
     cost.bytes += 80 * load.elements * load.bins;
   return cost;
