@@ -16,8 +16,8 @@ struct BuiltInSceneOptions {
   std::size_t points = 200000;                         ///< requested number of surfels; met within 2 %
   Eigen::Vector2d size = Eigen::Vector2d(40.0, 40.0);  ///< [m]; plane: extent in x and y; wall: width and height
   double radius = 0.5;                                 ///< [m]; sphere
-  double lambert_mu = 0.001995262314968880;            ///< [1/sr] of plane, wall, sphere (harbour, reef, river: per part)
-  std::uint64_t seed = 1;                              ///< seeds the stratified jitter, the ripples, corals and boulders
+  double lambert_mu = 0.001995262314968880;  ///< [1/sr] of plane, wall, sphere (harbour, reef, river: per part)
+  std::uint64_t seed = 1;                    ///< seeds the stratified jitter, the ripples, corals and boulders
 };
 
 /// Returns the names accepted by make_built_in_scene: harbour, reef, river, plane, sphere, wall, poles.
