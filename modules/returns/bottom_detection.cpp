@@ -12,15 +12,16 @@
 #include "core/units.hpp"
 #include "returns/bottom_fits_internal.hpp"
 #include "returns/detect_soundings.hpp"
+#include "returns/judge_soundings_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr const char* bottom_call = "detect_bottom";
-constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
-constexpr double steepest_view = 1.3;          // [rad] from the vertical, of the footprint that is assumed at first
-constexpr int neighbours = 3;                  // beams on either side whose ranges give dr/du
-constexpr double half_power_of_line = 0.8859;  // length of a uniform line in wavelengths times its -3 dB width [rad]
+constexpr double gaussian_width = 2.354820045;  // full width at half maximum of a Gaussian
+constexpr double steepest_view = 1.3;           // [rad] from the vertical, of the footprint that is assumed at first
+constexpr int neighbours = 3;                   // beams on either side whose ranges give dr/du
+constexpr double half_power_of_line = 0.8859;   // length of a uniform line in wavelengths times its -3 dB width [rad]
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 /// A found echo of a beam.
@@ -40,11 +41,14 @@ class BottomPing {
   BottomEcho echo_at(std::size_t beam, double range, double slope) const;
   BottomBeam beam_of(std::size_t beam) const;
   float level_db_near(std::size_t beam, double range, double reach) const;
+  void judge(const std::vector<BottomEcho>& echoes, BottomSoundings& soundings) const;
 
  private:
   std::size_t reach_of(std::size_t beam, double range) const;
   /// Intensity at each range below which a sample is a side lobe.
   Eigen::Array<double, 1, Eigen::Dynamic> side_lobe_floor() const;
+  /// How far in range side lobes stand from their echo [m].
+  double side_lobe_reach() const;
 
   const Ping& ping_;
   const BottomOptions& options_;
@@ -63,11 +67,22 @@ double noise_of(std::vector<double> values) {
   return (sum + static_cast<double>(values.size() - used) * *last) / static_cast<double>(used);
 }
 
-Eigen::Array<double, 1, Eigen::Dynamic> BottomPing::side_lobe_floor() const {
-  const Eigen::Array<double, 1, Eigen::Dynamic> strongest = intensity_.colwise().maxCoeff();
-  // Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier and later: by L / 2 in range.
+// Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier and later: by L / 2 in range.
+double BottomPing::side_lobe_reach() const {
   const double wavelength = options_.centre_frequency > 0 ? options_.sound_speed / options_.centre_frequency : 0;
-  const double half_array = 0.5 * half_power_of_line * wavelength / ping_.fan.beam_width;
+  return 0.5 * half_power_of_line * wavelength / ping_.fan.beam_width;
+}
+
+void BottomPing::judge(const std::vector<BottomEcho>& echoes, BottomSoundings& soundings) const {
+  judge_soundings(
+      {ping_, intensity_, noise_, echoes, options_.absorption_db_per_m, side_lobe_reach(), options_.threads},
+      soundings);
+}
+
+Eigen::Array<double, 1, Eigen::Dynamic> BottomPing::side_lobe_floor() const {
+  Eigen::Array<double, 1, Eigen::Dynamic> strongest = intensity_.row(0);
+  for (Eigen::Index b = 1; b < intensity_.rows(); ++b) strongest = strongest.max(intensity_.row(b));
+  const double half_array = side_lobe_reach();
   const auto reach = static_cast<Eigen::Index>(std::ceil(half_array / ping_.gate.bin_size));
   Eigen::Array<double, 1, Eigen::Dynamic> floor(strongest.size());
   for (Eigen::Index n = 0; n < floor.size(); ++n) {
@@ -83,7 +98,7 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
       intensity_(ping.pressure.cast<std::complex<double>>().abs2()),
       compensated_(intensity_.rows(), intensity_.cols()) {
   const double resolution = options.range_resolution > 0 ? options.range_resolution : ping.gate.bin_size;
-  pulse_deviation_ = resolution / width_of_deviation;
+  pulse_deviation_ = resolution / gaussian_width;
   // Of so many independent cells of noise the strongest exceeds this, above the estimate of their mean, with the
   // false-alarm rate. (E78)
   const double cells =
@@ -113,7 +128,7 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
 std::size_t BottomPing::reach_of(std::size_t beam, double range) const {
   const double along = 0.5 * range * std::tan(down_[beam]) * ping_.fan.beam_width / std::cos(down_[beam]);
   return static_cast<std::size_t>(
-      std::ceil(std::max(along, 0.5 * width_of_deviation * pulse_deviation_) / ping_.gate.bin_size));
+      std::ceil(std::max(along, 0.5 * gaussian_width * pulse_deviation_) / ping_.gate.bin_size));
 }
 
 std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
@@ -167,13 +182,8 @@ double BottomPing::slope_at(std::size_t beam, const std::vector<std::vector<Bott
   return slopes.size() % 2 ? slopes[middle] : 0.5 * (slopes[middle - 1] + slopes[middle]);
 }
 
-BottomEcho BottomPing::echo_at(std::size_t, double range, double slope) const {
-  const double width = 2 * std::sin(0.5 * ping_.fan.beam_width);
-  const double across = width / width_of_deviation, along = ping_.fan.elevation_width / width_of_deviation;
-  // Slope of the bottom, and the sphere that bends away from it across and along the fan.
-  const double spread =
-      slope * slope * across * across + 0.5 * range * range * (std::pow(across, 4) + std::pow(along, 4));  // (E94)
-  return {pulse_deviation_, std::sqrt(spread), 0.5 * std::abs(slope) * width};
+BottomEcho BottomPing::echo_at(std::size_t beam, double range, double slope) const {
+  return echo_of_plane(ping_.fan, cosine_[beam], range, slope, pulse_deviation_);
 }
 
 BottomBeam BottomPing::beam_of(std::size_t beam) const {
@@ -245,6 +255,7 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
     BottomEstimate best;
     BottomMethod method;
     float level_db;
+    BottomEcho echo;
   };
   std::vector<std::vector<Sounding>> soundings(beams);
   parallel_for(beams, options.threads, [&](std::size_t b) {
@@ -254,17 +265,18 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
     for (const BottomFind& find : found[b]) {
       const BottomEcho echo = prepared.echo_at(b, find.range, slope);
       const BottomEstimate amplitude = centre_of_gravity(beam, echo, find.range);
-      const BottomEstimate phase =
-          zero_crossing(beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range : find.range);
+      const BottomEstimate phase = zero_crossing(
+          beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range + echo.lengthening : find.range);
       const bool by_phase = phase.deviation < amplitude.deviation;
       BottomEstimate best = by_phase ? phase : amplitude;
       if (!std::isfinite(best.deviation)) best.deviation = std::max(echo.half_power_reach, ping.gate.bin_size);
       soundings[b].push_back({best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
-                              prepared.level_db_near(b, best.range, echo.half_power_reach)});
+                              prepared.level_db_near(b, best.range, echo.half_power_reach), echo});
     }
   });
 
   BottomSoundings all;
+  std::vector<BottomEcho> echoes;
   for (std::size_t b = 0; b < beams; ++b)
     for (const Sounding& s : soundings[b]) {
       all.position.push_back(place_of(ping, options, b, s.best.range));
@@ -274,7 +286,9 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
       all.level_db.push_back(s.level_db);
       all.method.push_back(s.method);
       all.beam.push_back(static_cast<std::uint32_t>(b));
+      echoes.push_back(s.echo);
     }
+  prepared.judge(echoes, all);
   return all;
 }
 

@@ -12,11 +12,13 @@ namespace insonify {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double prior_looks = 16;    // that the expected variance of a fit counts for
-constexpr double fewest_cells = 8;    // independent samples of a fit of phases
-constexpr double most_cells = 64;     // of its last pass: over more the line would bend
-constexpr double phase_reach = 0.8;   // of it, in half-power reaches: within, phases are far from +-pi
-constexpr double widths_of_echo = 3;  // standard deviations on either side of a centre of gravity
+constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
+constexpr double most_sine = 0.999;                 // of the angle of a beam from the head's axis
+constexpr double prior_looks = 16;                  // that the expected variance of a fit counts for
+constexpr double fewest_cells = 8;                  // independent samples of a fit of phases
+constexpr double most_cells = 64;                   // of its last pass: over more the line would bend
+constexpr double phase_reach = 0.8;                 // of it, in half-power reaches: within, phases are far from +-pi
+constexpr double widths_of_echo = 3;                // standard deviations on either side of a centre of gravity
 constexpr double cell_of_pulse =
     3.545;  // 2 sqrt(pi): effective independent spacing, in standard deviations of the pulse
 
@@ -107,6 +109,23 @@ double variance_of_looks(const BottomBeam& beam, const BottomEcho& echo, double 
 
 }  // namespace
 
+BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double slope, double pulse_deviation) {
+  const double width = 2 * std::sin(0.5 * fan.beam_width);
+  const double across = width / width_of_deviation, along = fan.elevation_width / width_of_deviation;
+  // Over the angle of the fan r'' = r + 2 r'^2 / r; along the way a plane bends away from the cone of a beam. (E132)
+  const double u = std::clamp(sine, -most_sine, most_sine), down = std::sqrt(1 - u * u), turned = slope * down;
+  const double second = (range + 2 * turned * turned / range + turned * u / down) / (down * down);
+  const double away = range + std::max(0.0, turned * u / down);
+  const double spread = slope * slope * across * across + 0.5 * range * range * std::pow(across, 4) +
+                        0.5 * away * away * std::pow(along, 4);  // (E94)
+  BottomEcho echo{pulse_deviation, std::sqrt(spread), 0.5 * std::abs(slope) * width};
+  echo.along_deviation = away * along * along / std::sqrt(2.0);
+  echo.lengthening_along = 0.5 * away * along * along;
+  echo.lengthening = 0.5 * second * across * across + echo.lengthening_along;
+  echo.bend = slope != 0 ? 0.5 * second / (slope * slope) : 0;
+  return echo;
+}
+
 BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start) {
   const double pulse = echo.pulse_deviation * echo.pulse_deviation;
   const double footprint = echo.footprint_deviation * echo.footprint_deviation;
@@ -133,11 +152,12 @@ BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo,
   const double noise = beam.noise * (std::isfinite(gain) ? std::abs(gain) : 0);
   const double cells = std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
   const double from_noise = cells * (noise * noise * square / (sum * sum) + 2 * noise * (pulse + footprint) / sum);
-  return {centre, std::sqrt(speckle + from_noise)};
+  return {centre - echo.lengthening, std::sqrt(speckle + from_noise)};
 }
 
 BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start) {
-  if (beam.phase.empty()) return {start, infinite};
+  // Where a footprint is long along the way its ranges do not tell the directions of the fan.
+  if (beam.phase.empty() || echo.lengthening_along > echo.half_power_reach) return {start, infinite};
   const double cells = cell_of_pulse * echo.pulse_deviation / beam.step;  // bins in an independent sample
   const double widest = phase_reach * echo.half_power_reach;
   const double narrowest = std::min(widest, 0.5 * most_cells * std::max(1.0, cells) * beam.step);
@@ -165,7 +185,9 @@ BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, dou
   const double spread = 1 + away * away * s.weight / std::max(s.xx, 1e-30);
   const double variance = (independent * residual + prior_looks * expected * spread / (2 * independent)) /
                           (independent + prior_looks) / (line.slope * line.slope);  // (E95)
-  return {centre, std::sqrt(variance)};
+  // The line is straight, the range of a plane over direction is not.
+  const double bent = echo.bend * (s.xx / s.weight - away * away);
+  return {centre - std::clamp(bent, -0.5 * widest, 0.5 * widest) - echo.lengthening_along, std::sqrt(variance)};
 }
 
 }  // namespace insonify
