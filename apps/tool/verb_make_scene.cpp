@@ -34,7 +34,7 @@ struct MakeSceneOptions {
 };
 
 void add_options(OptionList list, MakeSceneOptions& o) {
-  list.add("NAME", &o.name, "harbour, reef, plane, sphere, wall or poles", {.required = true});
+  list.add("NAME", &o.name, "harbour, reef, river, plane, sphere, wall or poles", {.required = true});
   list.add("-o,--output", &o.output, "scene to write, .ply or .pcd; or .tiles, for any size", {.required = true});
   list.add("--points", &o.points, "surfels wanted");
   list.add("--size", &o.size, "plane: x,y extent; wall: width,height [m]");

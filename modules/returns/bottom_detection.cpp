@@ -11,18 +11,18 @@
 #include "core/units.hpp"
 #include "returns/bottom_fits_internal.hpp"
 #include "returns/detect_soundings.hpp"
+#include "returns/judge_soundings_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr const char* bottom_call = "detect_bottom";
-constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
-constexpr double steepest_view = 1.3;          // [rad] from the vertical, of the footprint that is assumed at first
-constexpr int neighbours = 3;                  // beams on either side whose ranges give dr/du
-constexpr double half_power_of_line = 0.8859;  // length of a uniform line in wavelengths times its -3 dB width [rad]
-constexpr double turn_of_width =
-    1.2 * half_power_of_line * pi;        // of the phase across a shaded line's -3 dB width [rad]
-constexpr std::size_t fewest_slopes = 5;  // beams whose phases say how it turns in this ping
+constexpr double gaussian_width = 2.354820045;  // full width at half maximum of a Gaussian
+constexpr double steepest_view = 1.3;           // [rad] from the vertical, of the footprint that is assumed at first
+constexpr int neighbours = 3;                   // beams on either side whose ranges give dr/du
+constexpr double half_power_of_line = 0.8859;   // length of a uniform line in wavelengths times its -3 dB width [rad]
+constexpr double turn_of_width = 1.2 * half_power_of_line * pi;  // of the phase across a line's -3 dB width [rad]
+constexpr std::size_t fewest_slopes = 5;                         // beams whose phases say how it turns in this ping
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 /// A found echo of a beam.
@@ -39,16 +39,19 @@ class BottomPing {
   std::vector<BottomFind> find(std::size_t beam) const;
   /// dr/du about a beam from the first echoes of its neighbours [m].
   double slope_at(std::size_t beam, const std::vector<std::vector<BottomFind>>& found) const;
-  BottomEcho echo_at(double range, double slope, double turn) const;
+  BottomEcho echo_at(std::size_t beam, double range, double slope, double turn) const;
   /// Phase between the halves per direction cosine [rad], by the median of all beams.
   double phase_per_cosine(const std::vector<std::vector<BottomFind>>& found) const;
   BottomBeam beam_of(std::size_t beam) const;
   float level_db_near(std::size_t beam, double range, double reach) const;
+  void judge(const std::vector<BottomEcho>& echoes, BottomSoundings& soundings) const;
 
  private:
   std::size_t reach_of(std::size_t beam, double range) const;
   /// Intensity at each range below which a sample is a side lobe.
   Eigen::Array<double, 1, Eigen::Dynamic> side_lobe_floor() const;
+  /// How far in range side lobes stand from their echo [m].
+  double side_lobe_reach() const;
 
   const Ping& ping_;
   const BottomOptions& options_;
@@ -57,18 +60,22 @@ class BottomPing {
   double pulse_deviation_ = 0;
 };
 
-double median_of(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+// Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier and later: by L / 2 in range.
+double BottomPing::side_lobe_reach() const {
+  const double wavelength = options_.centre_frequency > 0 ? options_.sound_speed / options_.centre_frequency : 0;
+  return 0.5 * half_power_of_line * wavelength / ping_.fan.beam_width;
+}
+
+void BottomPing::judge(const std::vector<BottomEcho>& echoes, BottomSoundings& soundings) const {
+  judge_soundings(
+      {ping_, intensity_, noise_, echoes, options_.absorption_db_per_m, side_lobe_reach(), options_.threads},
+      soundings);
 }
 
 Eigen::Array<double, 1, Eigen::Dynamic> BottomPing::side_lobe_floor() const {
-  const Eigen::Array<double, 1, Eigen::Dynamic> strongest = intensity_.colwise().maxCoeff();
-  // Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier and later: by L / 2 in range.
-  const double wavelength = options_.centre_frequency > 0 ? options_.sound_speed / options_.centre_frequency : 0;
-  const double half_array = 0.5 * half_power_of_line * wavelength / ping_.fan.beam_width;
-  const auto reach = static_cast<Eigen::Index>(std::ceil(half_array / ping_.gate.bin_size));
+  Eigen::Array<double, 1, Eigen::Dynamic> strongest = intensity_.row(0);
+  for (Eigen::Index b = 1; b < intensity_.rows(); ++b) strongest = strongest.max(intensity_.row(b));
+  const auto reach = static_cast<Eigen::Index>(std::ceil(side_lobe_reach() / ping_.gate.bin_size));
   Eigen::Array<double, 1, Eigen::Dynamic> floor(strongest.size());
   for (Eigen::Index n = 0; n < floor.size(); ++n) {
     const Eigen::Index first = std::max<Eigen::Index>(0, n - reach);
@@ -83,7 +90,7 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
       intensity_(ping.pressure.cast<std::complex<double>>().abs2()),
       compensated_(intensity_.rows(), intensity_.cols()) {
   const double resolution = options.range_resolution > 0 ? options.range_resolution : ping.gate.bin_size;
-  pulse_deviation_ = resolution / width_of_deviation;
+  pulse_deviation_ = resolution / gaussian_width;
   // Of so many independent cells of noise the strongest exceeds this, above the estimate of their mean, with the
   // false-alarm rate. (E78)
   const double cells =
@@ -113,7 +120,7 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
 std::size_t BottomPing::reach_of(std::size_t beam, double range) const {
   const double along = 0.5 * range * std::tan(down_[beam]) * ping_.fan.beam_width / std::cos(down_[beam]);
   return static_cast<std::size_t>(
-      std::ceil(std::max(along, 0.5 * width_of_deviation * pulse_deviation_) / ping_.gate.bin_size));
+      std::ceil(std::max(along, 0.5 * gaussian_width * pulse_deviation_) / ping_.gate.bin_size));
 }
 
 std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
@@ -165,13 +172,10 @@ double BottomPing::slope_at(std::size_t beam, const std::vector<std::vector<Bott
   return median_of(slopes);
 }
 
-BottomEcho BottomPing::echo_at(double range, double slope, double turn) const {
-  const double width = 2 * std::sin(0.5 * ping_.fan.beam_width);
-  const double across = width / width_of_deviation, along = ping_.fan.elevation_width / width_of_deviation;
-  // Slope of the bottom, and the sphere that bends away from it across and along the fan.
-  const double spread =
-      slope * slope * across * across + 0.5 * range * range * (std::pow(across, 4) + std::pow(along, 4));  // (E94)
-  return {pulse_deviation_, std::sqrt(spread), 0.5 * std::abs(slope) * width, turn / slope};
+BottomEcho BottomPing::echo_at(std::size_t beam, double range, double slope, double turn) const {
+  BottomEcho echo = echo_of_plane(ping_.fan, cosine_[beam], range, slope, pulse_deviation_);
+  echo.phase_slope = turn / slope;
+  return echo;
 }
 
 double BottomPing::phase_per_cosine(const std::vector<std::vector<BottomFind>>& found) const {
@@ -179,7 +183,7 @@ double BottomPing::phase_per_cosine(const std::vector<std::vector<BottomFind>>& 
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b].empty()) continue;
     const double range = found[b].front().range, slope = slope_at(b, found);
-    if (const auto of_range = phase_slope(beam_of(b), echo_at(range, slope, 0), range))
+    if (const auto of_range = phase_slope(beam_of(b), echo_at(b, range, slope, 0), range))
       turns.push_back(*of_range * slope);
   }
   if (turns.size() < fewest_slopes) return turn_of_width / ping_.fan.beam_width;
@@ -255,6 +259,7 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
     BottomEstimate best;
     BottomMethod method;
     float level_db;
+    BottomEcho echo;
   };
   std::vector<std::vector<Sounding>> soundings(beams);
   const double turn = prepared.phase_per_cosine(found);
@@ -263,19 +268,20 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
     const double slope = prepared.slope_at(b, found);
     const BottomBeam beam = prepared.beam_of(b);
     for (const BottomFind& find : found[b]) {
-      const BottomEcho echo = prepared.echo_at(find.range, slope, turn);
+      const BottomEcho echo = prepared.echo_at(b, find.range, slope, turn);
       const BottomEstimate amplitude = centre_of_gravity(beam, echo, find.range);
-      const BottomEstimate phase =
-          zero_crossing(beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range : find.range);
+      const BottomEstimate phase = zero_crossing(
+          beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range + echo.lengthening : find.range);
       const bool by_phase = phase.deviation < amplitude.deviation;
       BottomEstimate best = by_phase ? phase : amplitude;
       if (!std::isfinite(best.deviation)) best.deviation = std::max(echo.half_power_reach, ping.gate.bin_size);
       soundings[b].push_back({best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
-                              prepared.level_db_near(b, best.range, echo.half_power_reach)});
+                              prepared.level_db_near(b, best.range, echo.half_power_reach), echo});
     }
   });
 
   BottomSoundings all;
+  std::vector<BottomEcho> echoes;
   for (std::size_t b = 0; b < beams; ++b)
     for (const Sounding& s : soundings[b]) {
       all.position.push_back(place_of(ping, options, b, s.best.range));
@@ -285,7 +291,9 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
       all.level_db.push_back(s.level_db);
       all.method.push_back(s.method);
       all.beam.push_back(static_cast<std::uint32_t>(b));
+      echoes.push_back(s.echo);
     }
+  prepared.judge(echoes, all);
   return all;
 }
 

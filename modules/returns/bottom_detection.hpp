@@ -14,6 +14,14 @@ namespace insonify {
 /// crosses zero.
 enum class BottomMethod : std::uint8_t { amplitude = 1, phase = 2 };
 
+/// Why a sounding is rejected, as bits of BottomSoundings::reject.
+enum RejectReason : std::uint8_t {
+  reject_side_lobe = 1,  ///< side lobes of what other beams hear at its range may explain it
+  reject_skirt = 2,      ///< the main lobe of a louder beam beside it explains it
+  reject_faint = 4,      ///< far below the bottom about it
+  reject_lone = 8        ///< no sounding beside it confirms it, and it stands out of neither side lobes nor noise
+};
+
 /// Soundings of the bottom as a structure of arrays, by beams and, in a beam, by falling energy.
 struct BottomSoundings {
   std::vector<Eigen::Vector3d> position;  ///< world [m]: along the beam's axis, bent by the profile
@@ -23,10 +31,14 @@ struct BottomSoundings {
   std::vector<float> level_db;            ///< of the strongest sample of the echo [dB re 1 uPa]
   std::vector<BottomMethod> method;
   std::vector<std::uint32_t> beam;
+  std::vector<std::uint8_t> reject;  ///< 0: kept; else bits of RejectReason
 
   /// Returns the number of soundings.
   std::size_t size() const { return range.size(); }
 };
+
+/// Removes the soundings i for which keep[i] is 0.
+void keep_soundings(BottomSoundings& soundings, const std::vector<char>& keep);
 
 /// Options of detect_bottom.
 struct BottomOptions {

@@ -14,13 +14,15 @@ namespace insonify {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double prior_looks = 16;     // that the expected variance of a fit counts for
-constexpr double fewest_cells = 8;     // independent samples of a fit of phases
-constexpr double fewest_of_slope = 2;  // of a slope that is not taken alone
-constexpr double most_cells = 64;      // of its last pass: over more the line would bend
-constexpr double phase_reach = 0.8;    // of it, in half-power reaches: within, phases are far from +-pi
-constexpr double widths_of_echo = 3;   // standard deviations on either side of a centre of gravity
-constexpr double slope_error = 0.05;   // relative, of the slope that a phase is expected to have
+constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
+constexpr double most_sine = 0.999;                 // of the angle of a beam from the head's axis
+constexpr double prior_looks = 16;                  // that the expected variance of a fit counts for
+constexpr double fewest_cells = 8;                  // independent samples of a fit of phases
+constexpr double fewest_of_slope = 2;               // of a slope that is not taken alone
+constexpr double most_cells = 64;                   // of its last pass: over more the line would bend
+constexpr double phase_reach = 0.8;                 // of it, in half-power reaches: within, phases are far from +-pi
+constexpr double widths_of_echo = 3;                // standard deviations on either side of a centre of gravity
+constexpr double slope_error = 0.05;                // relative, of the slope that a phase is expected to have
 constexpr double cell_of_pulse =
     3.545;  // 2 sqrt(pi): effective independent spacing, in standard deviations of the pulse
 
@@ -120,7 +122,7 @@ double bins_of_cell(const BottomBeam& beam, const BottomEcho& echo) {
   return std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
 }
 
-/// The zero of a line with the slope that the bottom gives it, of an echo with too few samples to show its own. (E95) has too few samples to show its slope: a line of the slope that the bottom gives it.
+/// The zero of a line of the slope that the bottom gives it: of an echo with too few samples to show its own. (E95)
 BottomEstimate zero_of_known_slope(const BottomBeam& beam, const BottomEcho& echo, double start) {
   const double slope = echo.phase_slope * seen_slope(echo);
   const double reach = std::max(phase_reach * echo.half_power_reach, echo.pulse_deviation);
@@ -134,20 +136,32 @@ BottomEstimate zero_of_known_slope(const BottomBeam& beam, const BottomEcho& ech
     for (std::size_t n = begin; n < end; ++n) {
       const double w = beam.intensity[n], x = beam.range(n) - centre;
       sum += std::polar(w, static_cast<double>(beam.phase[n]) - slope * x);
-      s.weight += w, s.x += w * x, s.squares += w * w;
+      s.weight += w, s.x += w * x, s.xx += w * x * x, s.squares += w * w;
     }
     if (!(s.weight > 0)) return {start, infinite};
     centre -= std::arg(sum) / slope;
     if (!(std::abs(centre - start) < 2 * echo.half_power_reach)) return {start, infinite};
   }
-  const double looks = std::max(1.0, 2 * s.weight * s.weight / s.squares / bins_of_cell(beam, echo) - 1);
+  const double looks = std::max(1.0, 2 * s.weight * s.weight / s.squares / bins_of_cell(beam, echo));
   const double turn = echo.phase_slope * std::sqrt(seen_slope(echo)) * echo.pulse_deviation;
   const double variance = variance_of_looks(beam, turn, s.weight / static_cast<double>(end - begin)) / looks;
   const double away = slope_error * s.x / s.weight;
-  return {centre, std::sqrt(variance / (slope * slope) + away * away)};
+  // At a range the pulse sees a part of the footprint, whose ranges bend over direction. (E132)
+  const double across =
+      echo.footprint_deviation * echo.footprint_deviation - echo.along_deviation * echo.along_deviation;
+  const double seen = seen_slope(echo);
+  const double bent = echo.bend * (seen * s.xx / s.weight + across * (1 - seen) / seen);
+  return {centre - std::clamp(bent, -0.5 * reach, 0.5 * reach) - echo.lengthening_along,
+          std::sqrt(variance / (slope * slope) + away * away)};
 }
 
 }  // namespace
+
+double median_of(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
 
 double noise_of(std::vector<double> values) {
   const std::size_t used = std::max<std::size_t>(1, values.size() / 4);
@@ -155,6 +169,23 @@ double noise_of(std::vector<double> values) {
   std::nth_element(values.begin(), last, values.end());
   const double sum = std::accumulate(values.begin(), last + 1, 0.0);
   return (sum + static_cast<double>(values.size() - used) * *last) / static_cast<double>(used);
+}
+
+BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double slope, double pulse_deviation) {
+  const double width = 2 * std::sin(0.5 * fan.beam_width);
+  const double across = width / width_of_deviation, along = fan.elevation_width / width_of_deviation;
+  // Over the angle of the fan r'' = r + 2 r'^2 / r; along the way a plane bends away from the cone of a beam. (E132)
+  const double u = std::clamp(sine, -most_sine, most_sine), down = std::sqrt(1 - u * u), turned = slope * down;
+  const double second = (range + 2 * turned * turned / range + turned * u / down) / (down * down);
+  const double away = range + std::max(0.0, turned * u / down);
+  const double spread = slope * slope * across * across + 0.5 * range * range * std::pow(across, 4) +
+                        0.5 * away * away * std::pow(along, 4);  // (E94)
+  BottomEcho echo{pulse_deviation, std::sqrt(spread), 0.5 * std::abs(slope) * width};
+  echo.along_deviation = away * along * along / std::sqrt(2.0);
+  echo.lengthening_along = 0.5 * away * along * along;
+  echo.lengthening = 0.5 * second * across * across + echo.lengthening_along;
+  echo.bend = slope != 0 ? 0.5 * second / (slope * slope) : 0;
+  return echo;
 }
 
 BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start) {
@@ -183,7 +214,7 @@ BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo,
   const double noise = beam.noise * (std::isfinite(gain) ? std::abs(gain) : 0);
   const double cells = std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
   const double from_noise = cells * (noise * noise * square / (sum * sum) + 2 * noise * (pulse + footprint) / sum);
-  return {centre, std::sqrt(speckle + from_noise)};
+  return {centre - echo.lengthening, std::sqrt(speckle + from_noise)};
 }
 
 std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo, double start) {
@@ -195,7 +226,8 @@ std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo
 }
 
 BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start) {
-  if (beam.phase.empty()) return {start, infinite};
+  // Where a footprint is long along the way its ranges do not tell the directions of the fan.
+  if (beam.phase.empty() || echo.lengthening_along > echo.half_power_reach) return {start, infinite};
   const double cells = bins_of_cell(beam, echo);
   const double widest = phase_reach * echo.half_power_reach;
   const double narrowest = std::min(widest, 0.5 * most_cells * cells * beam.step);
@@ -225,7 +257,9 @@ BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, dou
   const double spread = 1 + away * away * s.weight / std::max(s.xx, 1e-30);
   const double variance = (independent * residual + prior_looks * expected * spread / (2 * independent)) /
                           (independent + prior_looks) / (line.slope * line.slope);  // (E95)
-  return {centre, std::sqrt(variance)};
+  // The line is straight, the range of a plane over direction is not.
+  const double bent = echo.bend * (s.xx / s.weight - away * away);
+  return {centre - std::clamp(bent, -0.5 * widest, 0.5 * widest) - echo.lengthening_along, std::sqrt(variance)};
 }
 
 }  // namespace insonify

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "sampling/beam_fan.hpp"
+
 namespace insonify {
 
 /// One beam's samples for bottom detection; all spans have one entry per bin.
@@ -23,12 +25,23 @@ struct BottomEcho {
   double footprint_deviation = 0;  ///< of the ranges that the beam sees, weighted by its pattern [m]
   double half_power_reach = 0;     ///< half the range between the beam's -3 dB directions [m]
   double phase_slope = 0;          ///< of the phase between the halves, over range [rad/m]
+  double lengthening = 0;          ///< mean range of a plane over the footprint, less that on the beam's axis [m]
+  double lengthening_along = 0;    ///< of that, what comes from along the way [m]
+  double along_deviation = 0;      ///< of footprint_deviation, what comes from along the way [m]
+  double bend = 0;                 ///< r'' / (2 r'^2) of a plane's range over the direction cosine of the fan [1/m]
 };
+
+/// Returns the echo of a plane that crosses the axis of a beam of direction cosine `sine` at `range` [m]; `slope` is dr/du
+/// there [m], the pulse's deviation in range [m]. (E94, E132)
+BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double slope, double pulse_deviation);
 
 /// An estimate of a range with its standard deviation [m]; infinite if there is none.
 struct BottomEstimate {
   double range = 0, deviation = 0;
 };
+
+/// The middle value, or the mean of the two middle ones; puts `values`, at least one, in order.
+double median_of(std::vector<double>& values);
 
 /// Mean of exponential noise from the smallest quarter of intensities, which an echo hardly changes: the estimate of
 /// greatest likelihood from censored samples, chi-square of twice as many degrees of freedom as there are samples used.

@@ -9,6 +9,7 @@
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "scene/reef_patches_internal.hpp"
+#include "scene/river_patches_internal.hpp"
 #include "scene/sample_patches_internal.hpp"
 
 namespace insonify {
@@ -210,6 +211,7 @@ void require_valid(const std::string& name, const BuiltInSceneOptions& options) 
 std::vector<Patch> patches_of(const std::string& name, const BuiltInSceneOptions& options) {
   if (name == "harbour") return harbour_patches(options.seed);
   if (name == "reef") return reef_patches(options.seed);
+  if (name == "river") return river_patches(options.seed);
   if (name == "plane") return plane_patches(options);
   if (name == "sphere") return sphere_patches(options);
   if (name == "wall") return wall_patches(options);
@@ -218,13 +220,16 @@ std::vector<Patch> patches_of(const std::string& name, const BuiltInSceneOptions
 
 }  // namespace
 
-std::vector<std::string> built_in_scene_names() { return {"harbour", "reef", "plane", "sphere", "wall", "poles"}; }
+std::vector<std::string> built_in_scene_names() {
+  return {"harbour", "reef", "river", "plane", "sphere", "wall", "poles"};
+}
 
 SceneCloud empty_built_in_scene(const std::string& name, const BuiltInSceneOptions& options) {
   require_valid(name, options);
   SceneCloud scene;
   scene.materials = name == "harbour" ? harbour_materials()
                     : name == "reef"  ? reef_materials()
+                    : name == "river" ? river_materials()
                                       : std::vector<Material>{{name, options.lambert_mu}};
   return scene;
 }

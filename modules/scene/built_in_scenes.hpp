@@ -16,11 +16,11 @@ struct BuiltInSceneOptions {
   std::size_t points = 200000;                         ///< requested number of surfels; met within 2 %
   Eigen::Vector2d size = Eigen::Vector2d(40.0, 40.0);  ///< [m]; plane: extent in x and y; wall: width and height
   double radius = 0.5;                                 ///< [m]; sphere
-  double lambert_mu = 0.001995262314968880;            ///< [1/sr] of plane, wall, sphere (harbour, reef: per part)
-  std::uint64_t seed = 1;                              ///< seeds the stratified jitter, the ripples and the corals
+  double lambert_mu = 0.001995262314968880;  ///< [1/sr] of plane, wall, sphere (harbour, reef, river: per part)
+  std::uint64_t seed = 1;                    ///< seeds the stratified jitter, the ripples, corals and boulders
 };
 
-/// Returns the names accepted by make_built_in_scene: harbour, reef, plane, sphere, wall, poles.
+/// Returns the names accepted by make_built_in_scene: harbour, reef, river, plane, sphere, wall, poles.
 std::vector<std::string> built_in_scene_names();
 
 /// Returns a reproducible scene with outward normals, exact areas and materials, by stratified, area-preserving
@@ -29,6 +29,8 @@ std::vector<std::string> built_in_scene_names();
 ///            surface z = 0, sea bed near z = -8; a good pose is 0,0,-3, pitch 10 deg
 ///   reef     spurs of rough rock over sand, with massive, branching and table corals; x 0..12, y -6..6, z -5..-3; a
 ///            good pose is 0,0,-3, pitch 15 deg
+///   river    dunes with ripples, pits and boulders between banks, with gaps as a scan has them behind boulders; x 0..40,
+///            y -8..8, z -7..-4.2, water surface z = 0; a good way of a swath is along y = 0 at z = -0.5
 ///   plane    z = 0, x 0..size.x, y -size.y/2..size.y/2, normal up
 ///   sphere   centred at (5, 0, 0)
 ///   wall     x = 5, y -size.x/2..size.x/2, z -size.y/2..size.y/2, normal towards -x, with a 1 m square hole

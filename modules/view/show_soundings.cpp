@@ -15,13 +15,15 @@ void show_soundings(const Ping& ping, const BottomSoundings& found, const Pictur
   const Eigen::Vector3d head = ping.world_from_head.translation(), port = ping.world_from_head.linear().col(1);
   const Eigen::Vector2d starboard = -port.head<2>().normalized();
 
-  // Two kinds of points.
+  // Three kinds of points.
   LineChart chart;
-  chart.lines = {{{}, {}, "by phase", LineStyle::points}, {{}, {}, "by amplitude", LineStyle::points}};
+  chart.lines = {{{}, {}, "by phase", LineStyle::points},
+                 {{}, {}, "by amplitude", LineStyle::points},
+                 {{}, {}, "rejected", LineStyle::points}};
   double low = found.position[0].z(), high = low, left = 0, right = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Eigen::Vector3d away = found.position[i] - head;
-    ChartLine& line = chart.lines[found.method[i] == BottomMethod::phase ? 0 : 1];
+    ChartLine& line = chart.lines[found.reject[i] != 0 ? 2 : found.method[i] == BottomMethod::phase ? 0 : 1];
     line.x.push_back(starboard.dot(away.head<2>()));
     line.y.push_back(found.position[i].z());
     low = std::min(low, line.y.back()), high = std::max(high, line.y.back());

@@ -114,9 +114,39 @@ TEST(Reef, is_rough_rock_with_corals_over_sand) {
   EXPECT_GT(box.max.z() - box.min.z(), 1.5);
 }
 
+TEST(River, has_dunes_pits_boulders_and_gaps_between_banks) {
+  const SceneCloud scene = make_built_in_scene("river", {.points = 60000});
+  const Bounds box = bounds(scene);
+  EXPECT_NEAR(box.min.x(), 0, 0.05);
+  EXPECT_NEAR(box.max.x(), 40, 0.05);
+  EXPECT_NEAR(box.min.y(), -8, 0.05);
+  EXPECT_NEAR(box.max.y(), 8, 0.05);
+  EXPECT_GT(box.min.z(), -7);
+  EXPECT_LT(box.max.z(), -4.2);
+  ASSERT_EQ(scene.materials.size(), 2U);
+  double plan = 0, stones = 0, low = 0, high = -100, pit = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Vector3f& p = scene.point[i];
+    if (scene.material[i] == 1) {
+      stones += scene.area[i];
+      continue;
+    }
+    ASSERT_GT(scene.normal[i].z(), 0.3);
+    plan += scene.area[i] * scene.normal[i].z();
+    pit = std::min(pit, static_cast<double>(p.z()));
+    if (std::abs(p.y()) < 0.5F) low = std::min(low, p.z() + 5.6), high = std::max(high, p.z() + 5.6);
+  }
+  EXPECT_LT(plan, 640 - 5);  // gaps
+  EXPECT_GT(plan, 640 - 40);
+  EXPECT_GT(stones, 20);
+  EXPECT_GT(high, 0.15);  // dunes
+  EXPECT_LT(low, -0.15);
+  EXPECT_LT(pit, -6.2);
+}
+
 TEST(BuiltInScenes, refuse_bad_options) {
   using testing::HasSubstr;
-  EXPECT_THAT(message_of("harbor", {}), HasSubstr("no scene 'harbor', must be one of: harbour, reef, plane"));
+  EXPECT_THAT(message_of("harbor", {}), HasSubstr("no scene 'harbor', must be one of: harbour, reef, river, plane"));
   EXPECT_THAT(message_of("plane", {.points = 0}), HasSubstr("points = 0"));
   EXPECT_THAT(message_of("plane", {.size = {0, 1}}), HasSubstr("size = 0 x 1 m"));
   EXPECT_THAT(message_of("sphere", {.radius = -1}), HasSubstr("radius = -1 m"));

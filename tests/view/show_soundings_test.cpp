@@ -15,6 +15,7 @@ class ShowSoundings : public PictureTest {
     for (int i = 0; i < 40; ++i) {
       found.position.push_back(by + Eigen::Vector3d(0, 2 - 0.1 * i, -2 + 0.015 * i));
       found.range.push_back(2);
+      found.reject.push_back(0);
       found.method.push_back(i % 2 == 0 ? BottomMethod::amplitude : BottomMethod::phase);
     }
     show_soundings(ping, found, options, path);

@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "returns/judge_soundings_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double side_lobe_sum_db = 22;  // below the sum of all other bearings, in beams as wide as a main lobe
+constexpr double main_lobe = 1.5;        // half of one, with its skirts, in beam widths
+constexpr double faint_db = 18;          // below the louder quarter of the bottom about a beam
+constexpr double bottom_about = pi / 6;  // to either side [rad]
+constexpr double skirt_margin_db = 8;    // below what a louder beam's main lobe brings into this one
+constexpr double partly_skirt_db = 2;    // from there on a sounding may lie off its beam, in the direction of that one
+constexpr double skirt_reach = 3;        // beam widths to either side
+constexpr double lone_margin_db = 10;  // above the limits of side lobes and of noise, of a sounding that none confirms
+constexpr double lone_noise_db = 20;
+constexpr double reference_of_levels = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
+constexpr double full_width_of_normal = 2.354820045;                   // at half its height, in standard deviations
+constexpr double steepest = 4;               // dr / (r dtheta) up to which beams see one surface: 76 degrees
+constexpr std::size_t witnesses = 2;         // soundings beside one that confirm it
+constexpr double median_of_normal = 1.4826;  // standard deviations in a median absolute deviation
+constexpr double own_part = 0.5;             // of the largest step beside a sounding that counts as its deviation
+constexpr double sure_of_relief = 2.5;       // variances that errors alone may give
+constexpr double widest_slope = 0.6;         // of a bottom along the way, where its echo is measured
+constexpr double width_part = 0.5;           // of an echo's excess width along the way that counts as deviation
+
+/// Bins about a range, first and behind the last.
+struct Bins {
+  Eigen::Index first, end;
+};
+
+/// How far a sounding lies off its neighbours [m], and the variance that their errors alone give [m^2].
+struct Bend {
+  double off, expected;
+};
+
+/// What a beam beside a sounding explains of it: as a part of its intensity, from how far [rad].
+struct Skirt {
+  double part = 0, away = 0;
+};
+
+class Judge {
+ public:
+  Judge(const JudgedPing& judged, const BottomSoundings& soundings);
+
+  /// What a beam beside a sounding explains of it.
+  Skirt skirt_at(std::size_t i) const;
+  std::uint8_t reject(std::size_t i, const Skirt& skirt) const;
+  /// Variance that the relief of the bottom adds to the range of a sounding [m^2].
+  double relief_variance(std::size_t i, const Skirt& skirt) const;
+
+ private:
+  Bins bins_about(double range, double reach) const;
+  double strongest(std::size_t beam, Bins bins) const;
+  double side_lobes_at(std::size_t i) const;
+  double excess_width(std::size_t i) const;
+  bool is_faint(std::size_t i) const;
+  bool is_confirmed(std::size_t i) const;
+  /// The sounding of a beam that has most energy; none if it has none.
+  std::optional<std::size_t> sounding_of(std::ptrdiff_t beam) const;
+  std::optional<Bend> bend_at(std::ptrdiff_t beam) const;
+  const std::optional<Bend>& bend_of(std::ptrdiff_t beam) const {
+    static const std::optional<Bend> none;
+    return beam >= 0 && beam < static_cast<std::ptrdiff_t>(bends_.size()) ? bends_[static_cast<std::size_t>(beam)]
+                                                                          : none;
+  }
+
+  const JudgedPing& judged_;
+  const BottomSoundings& soundings_;
+  std::vector<std::ptrdiff_t> first_;            ///< of each beam its first sounding; -1: none
+  std::vector<float> own_;                       ///< deviations as the echoes predict them [m]
+  std::vector<double> sine_, angle_;             ///< of each beam in the plane of the fan
+  std::vector<std::optional<Bend>> bends_;       ///< of each beam
+  std::vector<double> loudness_db_;              ///< of each sounding, without what range costs a bottom
+  Eigen::Array<double, 1, Eigen::Dynamic> all_;  ///< sum over beams of the intensity of each bin [Pa^2]
+  std::ptrdiff_t lag_ = 1;                       ///< beams in a beam's width
+  std::ptrdiff_t relief_lag_ = 1;  ///< beams in the longer side of a footprint, at most a sixteenth of all
+  double share_ = 1;               ///< of a beam's width between two beams
+};
+
+Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
+    : judged_(judged), soundings_(soundings), first_(judged.ping.fan.beams(), -1), own_(soundings.deviation) {
+  const BeamFan& fan = judged.ping.fan;
+  for (std::size_t i = soundings.size(); i-- > 0;) first_[soundings.beam[i]] = static_cast<std::ptrdiff_t>(i);
+  for (std::size_t b = 0; b < fan.beams(); ++b)
+    sine_.push_back(std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b])), angle_.push_back(std::asin(sine_[b]));
+  if (fan.beams() > 1) {
+    share_ = std::abs(sine_.back() - sine_.front()) / static_cast<double>(fan.beams() - 1) / fan.beam_width;
+    lag_ = std::clamp<std::ptrdiff_t>(std::llround(1 / std::max(share_, 1e-6)), 1,
+                                      static_cast<std::ptrdiff_t>(fan.beams()));
+    const double longer = std::max(1.0, fan.elevation_width / fan.beam_width);
+    relief_lag_ = std::min(std::llround(longer * static_cast<double>(lag_)),
+                           std::max<long long>(lag_, static_cast<long long>(fan.beams() / 16)));
+  }
+  for (std::size_t b = 0; b < fan.beams(); ++b) bends_.push_back(bend_at(static_cast<std::ptrdiff_t>(b)));
+  all_.setZero(judged.intensity.cols());
+  for (Eigen::Index b = 0; b < judged.intensity.rows(); ++b) all_ += judged.intensity.row(b);  // as they lie in memory
+  for (std::size_t i = 0; i < soundings.size(); ++i)
+    loudness_db_.push_back(static_cast<double>(soundings.level_db[i]) + 30 * std::log10(soundings.range[i]) +
+                           2 * judged.absorption_db_per_m * soundings.range[i]);
+}
+
+Bins Judge::bins_about(double range, double reach) const {
+  const RangeGate& gate = judged_.ping.gate;
+  const double last = static_cast<double>(judged_.intensity.cols() - 1);
+  const double low = std::clamp(std::floor((range - reach - gate.centre(0)) / gate.bin_size), 0.0, last);
+  const double high = std::clamp(std::ceil((range + reach - gate.centre(0)) / gate.bin_size), low, last);
+  return {static_cast<Eigen::Index>(low), static_cast<Eigen::Index>(high) + 1};
+}
+
+double Judge::strongest(std::size_t beam, Bins bins) const {
+  return judged_.intensity.row(static_cast<Eigen::Index>(beam)).segment(bins.first, bins.end - bins.first).maxCoeff();
+}
+
+/// The largest intensity that side lobes may bring in at the range of a sounding.
+double Judge::side_lobes_at(std::size_t i) const {  // (E129)
+  const Bins bins = bins_about(soundings_.range[i], judged_.side_lobe_reach + 2 * judged_.echoes[i].pulse_deviation);
+  Eigen::Array<double, 1, Eigen::Dynamic> others = all_.segment(bins.first, bins.end - bins.first);
+  const std::size_t beam = soundings_.beam[i];
+  const auto reach = static_cast<std::size_t>(std::lround(main_lobe * static_cast<double>(lag_)));
+  for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b)
+    others -= judged_.intensity.row(static_cast<Eigen::Index>(b)).segment(bins.first, bins.end - bins.first);
+  return std::max(0.0, others.maxCoeff()) * std::min(1.0, share_) * power_from_db(-side_lobe_sum_db);
+}
+
+/// Whether the bottom about a sounding is far louder.
+bool Judge::is_faint(std::size_t i) const {  // (E130)
+  std::vector<double> about;
+  for (std::size_t k = 0; k < soundings_.size(); ++k)
+    if (std::abs(angle_[soundings_.beam[k]] - angle_[soundings_.beam[i]]) < bottom_about)
+      about.push_back(loudness_db_[k]);
+  const auto louder = about.begin() + static_cast<std::ptrdiff_t>(about.size() * 3 / 4);
+  std::nth_element(about.begin(), louder, about.end());
+  return loudness_db_[i] < *louder - faint_db;
+}
+
+/// The beam within a few widths whose main lobe brings most into that of a sounding.
+Skirt Judge::skirt_at(std::size_t i) const {
+  const std::size_t beam = soundings_.beam[i];
+  const Bins bins = bins_about(soundings_.range[i], 4 * judged_.echoes[i].pulse_deviation);
+  const auto reach = static_cast<std::size_t>(std::ceil(skirt_reach * static_cast<double>(lag_)));
+  const double here = strongest(beam, bins);
+  Skirt most;
+  for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b) {
+    const double off = (sine_[b] - sine_[beam]) / judged_.ping.fan.beam_width;
+    const double part = strongest(b, bins) * std::exp2(-4 * off * off) / here;  // a Gaussian main lobe
+    if (b != beam && part > most.part) most = {part, std::abs(angle_[b] - angle_[beam])};
+  }
+  return most;
+}
+
+std::optional<std::size_t> Judge::sounding_of(std::ptrdiff_t beam) const {
+  if (beam < 0 || beam >= static_cast<std::ptrdiff_t>(first_.size()) || first_[static_cast<std::size_t>(beam)] < 0)
+    return {};
+  return static_cast<std::size_t>(first_[static_cast<std::size_t>(beam)]);
+}
+
+/// Whether two soundings beside it lie on a surface with it.
+bool Judge::is_confirmed(std::size_t i) const {
+  const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
+  const double range = soundings_.range[i];
+  std::size_t count = 0;
+  for (std::ptrdiff_t b = beam - 2 * lag_ - 1; b <= beam + 2 * lag_ + 1; ++b) {
+    const std::optional<std::size_t> other = sounding_of(b);
+    if (b == beam || !other) continue;
+    const double turn = std::abs(angle_[soundings_.beam[*other]] - angle_[soundings_.beam[i]]);
+    const double reach = judged_.echoes[i].half_power_reach + 4 * judged_.echoes[i].pulse_deviation;
+    count += std::abs(soundings_.range[*other] - range) < std::max(reach, steepest * range * turn);
+  }
+  return count >= witnesses;
+}
+
+std::uint8_t Judge::reject(std::size_t i, const Skirt& skirt) const {
+  const double level = power_from_db(static_cast<double>(soundings_.level_db[i])) * reference_of_levels;
+  const double side_lobes = side_lobes_at(i), noise = judged_.noise[soundings_.beam[i]] * power_from_db(lone_noise_db);
+  std::uint8_t reasons = 0;
+  if (level < side_lobes) reasons |= reject_side_lobe;
+  if (skirt.part > power_from_db(skirt_margin_db)) reasons |= reject_skirt;
+  if (is_faint(i)) reasons |= reject_faint;
+  if (!is_confirmed(i) && level < std::max(side_lobes * power_from_db(lone_margin_db), noise)) reasons |= reject_lone;
+  return reasons;
+}
+
+/// Of a sounding against the plane through those a beam's width to either side, whose 1 / r is linear in the cosine and sine
+/// of the angle.
+std::optional<Bend> Judge::bend_at(std::ptrdiff_t beam) const {
+  const auto before = sounding_of(beam - relief_lag_), here = sounding_of(beam),
+             after = sounding_of(beam + relief_lag_);
+  if (!before || !here || !after) return {};
+  const auto angle = [&](std::size_t i) { return angle_[soundings_.beam[i]]; };
+  const auto variance = [&](std::size_t i) { return std::pow(static_cast<double>(own_[i]), 2); };
+  const double whole = std::sin(angle(*after) - angle(*before));
+  if (std::abs(whole) < 1e-9) return {};  // beams of one angle, in a fan of several rows
+  const double to_after = std::sin(angle(*after) - angle(*here)) / whole;
+  const double from_before = std::sin(angle(*here) - angle(*before)) / whole;
+  const double plane = 1 / (to_after / soundings_.range[*before] + from_before / soundings_.range[*after]);
+  return Bend{std::abs(soundings_.range[*here] - plane) / std::sqrt(1.5),
+              (variance(*here) + 0.25 * (variance(*before) + variance(*after))) / 1.5};
+}
+
+double Judge::relief_variance(std::size_t i, const Skirt& skirt) const {  // (E131)
+  const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
+  std::vector<double> bends, expected;
+  for (std::ptrdiff_t b = beam - 2 * relief_lag_; b <= beam + 2 * relief_lag_; ++b)
+    if (const std::optional<Bend>& bend = bend_of(b)) bends.push_back(bend->off), expected.push_back(bend->expected);
+  const double aside = skirt.part > power_from_db(partly_skirt_db) ? soundings_.range[i] * skirt.away : 0;
+  const double other = std::pow(std::max(aside, width_part * excess_width(i)), 2);
+  if (bends.size() < 3) return other;
+  double most = 0;
+  for (std::ptrdiff_t b = beam - relief_lag_; b <= beam + relief_lag_; ++b)
+    if (const std::optional<Bend>& bend = bend_of(b)) most = std::max(most, bend->off);
+  const double scatter = std::max(median_of_normal * median_of(bends), own_part * most);
+  return std::max({0.0, scatter * scatter - sure_of_relief * median_of(expected), other});
+}
+
+/// By how much the echo of a beam that is wide along the way is longer than that of a plane, as a standard deviation [m].
+double Judge::excess_width(std::size_t i) const {
+  const BottomEcho& echo = judged_.echoes[i];
+  if (echo.along_deviation < 2 * echo.pulse_deviation) return 0;
+  const std::size_t beam = soundings_.beam[i];
+  const RangeGate& gate = judged_.ping.gate;
+  const double range = soundings_.range[i], plane = std::hypot(echo.footprint_deviation, echo.pulse_deviation);
+  const double slope = widest_slope * range * judged_.ping.fan.elevation_width / full_width_of_normal;
+  const Bins bins = bins_about(range, 3 * std::max(plane, slope));
+  double sum = 0, moment = 0, square = 0;
+  for (Eigen::Index n = bins.first; n < bins.end; ++n) {
+    const double x = gate.centre(static_cast<std::size_t>(n)) - range;
+    const double w = std::max(0.0, judged_.intensity(static_cast<Eigen::Index>(beam), n) - judged_.noise[beam]);
+    sum += w, moment += w * x, square += w * x * x;
+  }
+  if (!(sum > 0)) return 0;
+  return std::sqrt(std::max(0.0, square / sum - moment / sum * (moment / sum) - plane * plane));
+}
+
+}  // namespace
+
+void keep_soundings(BottomSoundings& soundings, const std::vector<char>& keep) {
+  const auto keep_of = [&](auto& column) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (keep[i]) column[next++] = column[i];
+    column.resize(next);
+  };
+  keep_of(soundings.position), keep_of(soundings.range), keep_of(soundings.deviation), keep_of(soundings.quality);
+  keep_of(soundings.level_db), keep_of(soundings.method), keep_of(soundings.beam), keep_of(soundings.reject);
+}
+
+void judge_soundings(const JudgedPing& judged, BottomSoundings& soundings) {
+  soundings.reject.assign(soundings.size(), 0);
+  if (soundings.size() == 0) return;
+  const Judge judge(judged, soundings);
+  std::vector<double> relief(soundings.size());
+  parallel_for(soundings.size(), judged.threads, [&](std::size_t i) {
+    const Skirt skirt = judge.skirt_at(i);
+    soundings.reject[i] = judge.reject(i, skirt);
+    relief[i] = judge.relief_variance(i, skirt);
+  });
+  for (std::size_t i = 0; i < soundings.size(); ++i) {
+    const auto own = static_cast<double>(soundings.deviation[i]);
+    soundings.deviation[i] = static_cast<float>(std::sqrt(own * own + relief[i]));
+    soundings.quality[i] =
+        static_cast<float>(std::log10(soundings.range[i] / static_cast<double>(soundings.deviation[i])));
+  }
+}
+
+}  // namespace insonify

@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "returns/bottom_detection.hpp"
+#include "returns/bottom_fits_internal.hpp"
+
+namespace insonify {
+
+/// What judge_soundings needs of the ping that soundings were found in.
+struct JudgedPing {
+  const Ping& ping;
+  const Grid<double>& intensity;       ///< beams x bins [Pa^2]
+  const std::vector<double>& noise;    ///< of each beam [Pa^2]
+  std::span<const BottomEcho> echoes;  ///< of each sounding
+  double absorption_db_per_m = 0;
+  double side_lobe_reach = 0;  ///< how far side lobes stand from the range of their echo [m]
+  int threads = 0;
+};
+
+/// Sets `reject`, and adds to `deviation` and `quality` what the neighbours and the echo say of the bottom's relief within
+/// the footprint.
+void judge_soundings(const JudgedPing& judged, BottomSoundings& soundings);
+
+}  // namespace insonify

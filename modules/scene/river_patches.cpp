@@ -1,0 +1,116 @@
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "scene/river_patches_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector2d, Eigen::Vector3d;
+
+enum RiverMaterial : std::uint16_t { river_sand, boulder };
+
+constexpr double tile_length = 8, tile_width = 4;  ///< of the bed's tiles along x and across [m]
+constexpr int tiles_along = 5, tiles_across = 4;
+constexpr double bank = 0.5 * tile_width * tiles_across;  ///< how far the bed reaches to either side [m]
+
+/// Independent numbers in (0, 1) for one thing of the river.
+std::array<double, 4> river_numbers(std::uint64_t seed, std::uint64_t thing) {
+  return random_uniform(seed, RandomStage::scene_points, {~2ull, thing, 0});
+}
+
+/// Height of the bed: dunes steeper downstream, ripples on them, four pits, and banks that rise a metre to either side.
+class RiverBed {
+ public:
+  explicit RiverBed(std::uint64_t seed) : phase_(river_numbers(seed, 0)) {
+    for (std::size_t i = 0; i < pits_.size(); ++i) {
+      const auto u = river_numbers(seed, 1 + i);
+      pits_[i] = {Vector2d(4 + 32 * u[0], 10 * (u[1] - 0.5)), 0.5 + 0.5 * u[2], 0.8 + 0.6 * u[3]};
+    }
+  }
+
+  double height(double x, double y) const {
+    const double crest = x + 1.2 * std::sin(0.25 * y + 2 * pi * phase_[0]) + 0.5 * std::sin(0.6 * y);
+    const double turn = 2 * pi * (crest / 6 + phase_[1]);
+    const double dune = -0.2 * (std::sin(turn) + 0.35 * std::sin(2 * turn) + 0.13 * std::sin(3 * turn));
+    const double ripple = 0.012 * std::sin(2 * pi * (crest + 0.1 * std::sin(3 * y)) / 0.35 + 2 * pi * phase_[2]);
+    double pits = 0;
+    for (const Pit& pit : pits_)
+      pits += pit.depth * std::exp(-(Vector2d(x, y) - pit.centre).squaredNorm() / (pit.radius * pit.radius));
+    return -5.6 + std::pow(y / bank, 4) + dune + ripple - pits;
+  }
+
+ private:
+  struct Pit {
+    Vector2d centre = Vector2d::Zero();
+    double depth = 0, radius = 1;
+  };
+  std::array<double, 4> phase_;
+  std::array<Pit, 4> pits_{};
+};
+
+/// A part of the bed over a rectangle of the level plane, given by a map from the unit square to it.
+template <typename Level>
+Patch bed_over(const RiverBed& bed, const Level& level) {
+  return facing_away_from({0, 0, -1000}, {[bed, level](double u, double v) {
+                                            const Vector2d p = level(u, v);
+                                            return Vector3d(p.x(), p.y(), bed.height(p.x(), p.y()));
+                                          },
+                                          river_sand});
+}
+
+/// A tile with an elliptic gap: four parts, each between a quarter of the gap's edge and a side of the tile.
+void add_tile_with_gap(std::vector<Patch>& patches, const RiverBed& bed, const Vector2d& middle, const Vector2d& gap,
+                       const Vector2d& radii) {
+  const Vector2d half(tile_length / 2, tile_width / 2);
+  for (int side = 0; side < 4; ++side) {
+    const Eigen::Rotation2Dd quarter(0.5 * pi * side);
+    patches.push_back(bed_over(bed, [=](double u, double v) -> Vector2d {
+      const double across = 2 * v - 1, turn = 0.25 * pi * across;
+      const Vector2d edge = gap + radii.cwiseProduct(quarter * Vector2d(std::cos(turn), std::sin(turn)));
+      return edge + u * (middle + half.cwiseProduct(quarter * Vector2d(1, across)) - edge);
+    }));
+  }
+}
+
+void add_boulder(std::vector<Patch>& patches, const RiverBed& bed, const Vector2d& at, double radius) {
+  patches.push_back(
+      ellipsoid({at.x(), at.y(), bed.height(at.x(), at.y()) + 0.3 * radius}, {radius, 0.85 * radius, 0.7 * radius}));
+  patches.back().material = boulder;
+  patches.back().density = 2;
+}
+
+}  // namespace
+
+std::vector<Patch> river_patches(std::uint64_t seed) {
+  const RiverBed bed(seed);
+  std::vector<Patch> patches;
+  for (int i = 0; i < tiles_along; ++i)
+    for (int j = 0; j < tiles_across; ++j) {
+      const auto u = river_numbers(seed, 100 + static_cast<std::uint64_t>(tiles_across * i + j));
+      const Vector2d middle((i + 0.5) * tile_length, (j + 0.5) * tile_width - bank);
+      const Vector2d gap = middle + Vector2d(2 * (u[0] - 0.5), 2 * (u[1] - 0.5));
+      const double radius = 0.3 + 0.5 * u[2];
+      add_boulder(patches, bed, gap - Vector2d(1.2 * radius, 0), radius);
+      if (u[3] < 0.4) {  // the boulder stood between the bed behind it and the scanner
+        add_tile_with_gap(patches, bed, middle, gap, {1.3 * radius, 0.9 * radius});
+      } else {
+        const Vector2d corner = middle - 0.5 * Vector2d(tile_length, tile_width);
+        patches.push_back(bed_over(bed, [corner](double a, double b) -> Vector2d {
+          return corner + Vector2d(tile_length * a, tile_width * b);
+        }));
+      }
+    }
+  return patches;
+}
+
+std::vector<Material> river_materials() {
+  // As those of the reef: orders of magnitude of sand and rock in APL-UW TR 9407; not calibrated.
+  return {{"river_sand", power_from_db(-20)}, {"boulder", power_from_db(-10)}};
+}
+
+}  // namespace insonify

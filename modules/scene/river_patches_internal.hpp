@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "scene/sample_patches_internal.hpp"
+
+namespace insonify {
+
+/// The surfaces of the built-in river bed: dunes with ripples, pits and boulders between two banks, and gaps where a scan
+/// of it saw nothing. `seed` determines phases and places.
+std::vector<Patch> river_patches(std::uint64_t seed);
+
+/// Its materials, in the order of the numbers that the patches hold.
+std::vector<Material> river_materials();
+
+}  // namespace insonify
