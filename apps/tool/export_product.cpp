@@ -1,12 +1,14 @@
 #include "tool/export_product.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "returns/quantise.hpp"
+#include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
 #include "tool/product_run.hpp"
 #include "tool/progress.hpp"
@@ -34,7 +36,7 @@ std::optional<Georeference> georeference_of(const ProductOptions& o, const RunPi
 struct Product {
   const char* name;
   bool placed;
-  std::size_t (*write)(const PlacedRun& run);
+  SoundingCount (*write)(const PlacedRun& run);
 };
 constexpr Product products[] = {{"gsf", true, gsf_product},
                                 {"las", true, las_product},
@@ -59,18 +61,36 @@ GreyScale::GreyScale(const Ping& first) {
   window = {most - shown_span_db, most};
 }
 
-std::size_t each_swath(const PlacedRun& run,
-                       const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use) {
-  std::size_t pings = 0, soundings = 0;
+std::string profile_name(const ProductOptions& options) {
+  return std::filesystem::path(options.processing_profile).filename().string();
+}
+
+std::string profile_remark(const ProductOptions& options) {
+  return options.processing_profile.empty() ? "" : "processing profile: " + profile_name(options);
+}
+
+SoundingCount each_swath(const PlacedRun& run,
+                         const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use) {
+  const ProductOptions& o = run.options;
+  SoundingCount count;
+  std::size_t pings = 0;
   each_ping(run.pings, [&](const Cube& cube, const Ping& ping) {
-    const BottomSoundings found =
-        detect_bottom(ping, bottom_options(cube, ping, run.pings.environment, run.options.per_beam));
+    BottomOptions how = bottom_options(cube, ping, run.pings.environment, o.per_beam);
+    if (run.processing_profile) how.profile = run.processing_profile;
+    BottomSoundings found = detect_bottom(ping, how);
+    std::vector<char> keep(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      count.rejected += found.reject[i] != 0;
+      keep[i] = (o.keep_rejected || found.reject[i] == 0) && static_cast<double>(found.level_db[i]) >= o.min_level &&
+                static_cast<double>(found.deviation[i]) <= o.max_deviation;
+    }
+    keep_soundings(found, keep);
     ++pings;
-    soundings += found.size();
+    count.soundings += found.size();
     use(cube, ping, found);
   });
-  if (pings == 0) fail(ErrorKind::content, run.options.run, ": has no pings");
-  return soundings;
+  if (pings == 0) fail(ErrorKind::content, o.run, ": has no pings");
+  return count;
 }
 
 void export_product(const ProductOptions& o, const CommonOptions& common) {
@@ -79,6 +99,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   PlacedRun run{o, find_run_pings(o.run, o.head)};
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
   run.place = georeference_of(o, run.pings);
+  if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);
   if (o.to == "png") {
     RunDirectory directory(o.output, o.force, {o.run});
     progress.step("writing " + o.output);
@@ -103,10 +124,15 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
          "--utm ZONE of a world in UTM", raster ? "; or --crs local for a grid of the world's own plane" : "");
   require_free_file(o.output, o.force, {o.run});
   progress.step("writing " + o.output);
-  const std::size_t soundings = product.write(run);
+  const SoundingCount count = product.write(run);
   if (const std::string note = o.to == "mcap" ? compression_note(o) : ""; !note.empty()) progress.note(note);
-  print_summary(common, {{"output", o.output}, {"to", o.to}, {"soundings", soundings}},
-                fmt::format("{}: {} soundings as {}", o.output, soundings, o.to));
+  nlohmann::ordered_json summary = {
+      {"output", o.output}, {"to", o.to}, {"soundings", count.soundings}, {"rejected", count.rejected}};
+  if (!o.processing_profile.empty()) summary["processing_profile"] = profile_name(o);
+  print_summary(
+      common, summary,
+      fmt::format("{}: {} soundings as {}; {} rejected {} {}", o.output, count.soundings, o.to, count.rejected,
+                  count.rejected == 1 ? "one" : "ones", o.keep_rejected ? "are among them, flagged" : "are left out"));
 }
 
 }  // namespace insonify::tool

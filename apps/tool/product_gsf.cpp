@@ -68,6 +68,7 @@ GsfBeam placed_beam(const PlacedRun& run, const Anchor& here, const BottomSoundi
   beam.quality = static_cast<double>(found.quality[i]);
   beam.vertical_deviation = deviation * std::cos(beam.angle);
   beam.horizontal_deviation = deviation * std::sin(beam.angle);
+  beam.rejected = found.reject[i] != 0;
   beam.by_phase = found.method[i] == BottomMethod::phase;
   return beam;
 }
@@ -136,10 +137,11 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
   return out;
 }
 
-/// The profile that the rays of a ping ran through, from the surface to below any sea floor: beyond its ends it is
+/// The profile by which the rays of a ping are traced, from the surface to below any sea floor: beyond its ends it is
 /// constant, without one in the environment it has the speed at the head.
-SoundSpeedProfile whole_profile(const RunPings& pings, const Ping& ping) {
-  SoundSpeedProfile profile = pings.environment.profile.value_or(SoundSpeedProfile{{0}, {ping.sound_speed}});
+SoundSpeedProfile whole_profile(const PlacedRun& run, const Ping& ping) {
+  SoundSpeedProfile profile = run.pings.environment.profile.value_or(SoundSpeedProfile{{0}, {ping.sound_speed}});
+  if (run.processing_profile) profile = *run.processing_profile;
   if (profile.depth.front() > 0) {
     profile.depth.insert(profile.depth.begin(), 0);
     profile.sound_speed.insert(profile.sound_speed.begin(), profile.sound_speed.front());
@@ -157,7 +159,12 @@ std::string command_of(const ProductOptions& o) {
   for (const auto& [option, value] : {std::pair("--anchor", o.anchor), std::pair("--utm", o.utm),
                                       std::pair("--start-utc", o.start_utc), std::pair("--head", o.head)})
     if (!value.empty()) command += fmt::format(" {} {}", option, value);
-  return command + (o.per_beam > 1 ? fmt::format(" --per-beam {}", o.per_beam) : "");
+  if (o.per_beam > 1) command += fmt::format(" --per-beam {}", o.per_beam);
+  if (o.keep_rejected) command += " --keep-rejected";
+  if (std::isfinite(o.min_level)) command += fmt::format(" --min-level {}", o.min_level);
+  if (std::isfinite(o.max_deviation)) command += fmt::format(" --max-deviation {}", o.max_deviation);
+  if (!o.processing_profile.empty()) command += " --processing-profile " + profile_name(o);
+  return command;
 }
 
 /// What the file says before its first ping.
@@ -173,6 +180,7 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
   survey.processing.tidal_datum = run.pings.water.datum;
   if (run.pings.vehicle_from_head) survey.processing.mounting = mounting_of(*run.pings.vehicle_from_head);
   survey.comment = fmt::format("sonar {}, simulated by insonify {}", cube.sonar, cube.insonify_version);
+  if (!run.options.processing_profile.empty()) survey.comment += "; processing profile " + profile_name(run.options);
   survey.history_command = command_of(run.options);
   survey.history_comment = fmt::format("soundings of the bottom found in each ping by insonify {}", INSONIFY_VERSION);
   survey.position_deviation = run.pings.position_deviation;
@@ -181,15 +189,15 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
 
 }  // namespace
 
-std::size_t gsf_product(const PlacedRun& run) {
+SoundingCount gsf_product(const PlacedRun& run) {
   const std::optional<Trajectory> way = way_of(run.pings);
   std::unique_ptr<GsfFile> file;
   double before = 0, speed = 0;  // time of the last ping, and at the surface in its profile
-  const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
+  const auto count = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
     GsfPing swath = gsf_ping(run, way, cube, ping, found);
     if (file) swath.period = std::max(0.0, swath.time - before);
     before = swath.time;
-    const SoundSpeedProfile profile = whole_profile(run.pings, ping);
+    const SoundSpeedProfile profile = whole_profile(run, ping);
     const bool other = std::abs(profile.sound_speed.front() - speed) > 0.5 * profile_step;
     if (!file)
       file = std::make_unique<GsfFile>(run.options.output, survey_of(run, cube, profile, swath));
@@ -199,7 +207,7 @@ std::size_t gsf_product(const PlacedRun& run) {
     file->add(swath);
   });
   file->finish();
-  return soundings;
+  return count;
 }
 
 }  // namespace insonify::tool

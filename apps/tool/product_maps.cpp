@@ -44,11 +44,11 @@ double angle_from_nadir(const Pose& world_from_head, const Eigen::Vector3d& plac
 
 }  // namespace
 
-std::size_t las_product(const PlacedRun& run) {
+SoundingCount las_product(const PlacedRun& run) {
   const UtmWorld world(run.reference());
   std::unique_ptr<LasFile> file;
-  const LasOptions options{run.options.las_version == "1.2" ? 2 : 4, run.start};
-  const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
+  const LasOptions options{run.options.las_version == "1.2" ? 2 : 4, run.start, profile_remark(run.options)};
+  const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     if (!file)
       file = std::make_unique<LasFile>(run.options.output, world.zone, world.place(ping.world_from_head.translation()),
                                        options);
@@ -57,39 +57,43 @@ std::size_t las_product(const PlacedRun& run) {
     for (std::size_t i = 0; i < found.size(); ++i)
       file->add({world.place(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
                  static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i]), line,
-                 returns[i].first, returns[i].second, angle_from_nadir(ping.world_from_head, found.position[i])});
+                 returns[i].first, returns[i].second, angle_from_nadir(ping.world_from_head, found.position[i]),
+                 found.reject[i] != 0});
   });
   file->finish();
-  return soundings;
+  return count;
 }
 
-std::size_t geotiff_product(const PlacedRun& run) {
+SoundingCount geotiff_product(const PlacedRun& run) {
   if (!(run.options.cell > 0)) fail(ErrorKind::argument, "--cell = ", run.options.cell, " m, must be > 0");
   const RasterPlane plane(run.options.crs, run.place);
   SoundingMap map(run.options.cell);
-  const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
+  const auto count = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
     for (std::size_t i = 0; i < found.size(); ++i)
       map.add(plane.place(found.position[i]),
               power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
   });
   if (map.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
-  write_geotiff(run.options.output, map.bands(), plane.in_system(map.grid()));
-  return soundings;
+  GeoGrid grid = plane.in_system(map.grid());
+  grid.remark = profile_remark(run.options);
+  write_geotiff(run.options.output, map.bands(), grid);
+  return count;
 }
 
-std::size_t csv_product(const PlacedRun& run) {
+SoundingCount csv_product(const PlacedRun& run) {
   PendingFile pending(run.options.output);
   std::ofstream out(pending.temporary(), std::ios::binary);
-  out << "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method"
+  if (const std::string remark = profile_remark(run.options); !remark.empty()) out << "# " << remark << '\n';
+  out << "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,reject"
       << (run.place ? ",latitude_deg,longitude_deg\n" : "\n");
-  const std::size_t soundings = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
+  const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     std::string rows;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const Eigen::Vector3d& at = found.position[i];
-      rows += fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.2f},{:.3f},{}", ping.number,
+      rows += fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.2f},{:.3f},{},{}", ping.number,
                           run.start + ping.time, found.beam[i], at.x(), at.y(), at.z(), found.range[i],
                           found.deviation[i], found.level_db[i], found.quality[i],
-                          found.method[i] == BottomMethod::phase ? "phase" : "amplitude");
+                          found.method[i] == BottomMethod::phase ? "phase" : "amplitude", found.reject[i]);
       if (run.place) {
         const GeoPlace place = geo_from_world(run.reference(), at);
         rows += fmt::format(",{:.9f},{:.9f}", degrees(place.latitude), degrees(place.longitude));
@@ -99,7 +103,7 @@ std::size_t csv_product(const PlacedRun& run) {
     out << rows;
   });
   pending.commit(out);
-  return soundings;
+  return count;
 }
 
 }  // namespace insonify::tool

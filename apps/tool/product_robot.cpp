@@ -63,7 +63,9 @@ struct RobotLog {
     };
     image = add("/sonar/image", projected_sonar_image_type(), o.linear ? numbers : greys);
     fan = add("/sonar/fan", image_type(), greys);
-    points = add("/sonar/points", point_cloud_type(), place);
+    std::map<std::string, std::string> of_points = place;
+    if (!o.processing_profile.empty()) of_points["processing_profile"] = profile_name(o);
+    points = add("/sonar/points", point_cloud_type(), of_points);
     transforms = add("/tf", transforms_type(), place);
     fixed_transforms = add("/tf_static", transforms_type(), {{"offered_qos_profiles", kept_for_late_listeners}});
     if (run.place) fix = add("/sonar/fix", nav_sat_fix_type(), {{"frame_id", "head"}});
@@ -78,9 +80,9 @@ std::string compression_note(const ProductOptions& o) {
                      o.compression, o.compression == "lz4" ? "liblz4-dev" : "libzstd-dev");
 }
 
-std::size_t mcap_product(const PlacedRun& run) {
+SoundingCount mcap_product(const PlacedRun& run) {
   std::unique_ptr<RobotLog> log;
-  const std::size_t soundings = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
+  const auto count = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
     const auto time = static_cast<std::uint64_t>(std::llround((run.start + ping.time) * 1e9));
     if (!log) {
       log = std::make_unique<RobotLog>(run, cube.sonar, ping);
@@ -98,7 +100,7 @@ std::size_t mcap_product(const PlacedRun& run) {
     log->file.add(log->points, time, point_cloud(found, log->origin, time));
   });
   log->file.finish();
-  return soundings;
+  return count;
 }
 
 }  // namespace insonify::tool

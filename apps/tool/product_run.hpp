@@ -14,8 +14,9 @@ namespace insonify::tool {
 struct PlacedRun {
   const ProductOptions& options;
   RunPings pings;
-  std::optional<Georeference> place{};  ///< where its world is; csv, mcap and png need none
-  double start = 0;                     ///< seconds since 1970 of time 0
+  std::optional<Georeference> place{};                    ///< where its world is; csv, mcap and png need none
+  double start = 0;                                       ///< seconds since 1970 of time 0
+  std::optional<SoundSpeedProfile> processing_profile{};  ///< by which soundings are placed; absent: the true one
 
   const Georeference& reference() const { return *place; }
 };
@@ -29,10 +30,20 @@ struct UtmWorld {
   Eigen::Vector3d place(const Eigen::Vector3d& world) const;
 };
 
-/// Calls `use` with every ping and its soundings of the bottom; returns how many soundings there were. Throws
-/// Error(content) for a run without pings.
-std::size_t each_swath(const PlacedRun& run,
-                       const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use);
+/// How many soundings a product has, and how many were rejected, whether it has them or not.
+struct SoundingCount {
+  std::size_t soundings = 0, rejected = 0;
+};
+
+/// The name of the processing profile, without its folder.
+std::string profile_name(const ProductOptions& options);
+/// What the header of a product says of its processing profile; empty without one.
+std::string profile_remark(const ProductOptions& options);
+
+/// Calls `use` with every ping and its soundings of the bottom, as far as the options keep them; returns how many there
+/// were. Throws Error(content) for a run without pings.
+SoundingCount each_swath(const PlacedRun& run,
+                         const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use);
 
 /// How range-compensated levels become grey values: one window for all pings, from the first, and the gain of each.
 struct GreyScale {
@@ -42,11 +53,11 @@ struct GreyScale {
 };
 
 // Writers of the products: each returns how many soundings there were.
-std::size_t gsf_product(const PlacedRun& run);
-std::size_t las_product(const PlacedRun& run);
-std::size_t geotiff_product(const PlacedRun& run);
-std::size_t csv_product(const PlacedRun& run);
-std::size_t mcap_product(const PlacedRun& run);
+SoundingCount gsf_product(const PlacedRun& run);
+SoundingCount las_product(const PlacedRun& run);
+SoundingCount geotiff_product(const PlacedRun& run);
+SoundingCount csv_product(const PlacedRun& run);
+SoundingCount mcap_product(const PlacedRun& run);
 /// What to say if an mcap is not compressed as it was asked for; else nothing.
 std::string compression_note(const ProductOptions& options);
 /// Writes pictures and how to read them; returns how many pings there were.

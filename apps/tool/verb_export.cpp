@@ -1,9 +1,11 @@
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "returns/looks.hpp"
 #include "returns/quantise.hpp"
 #include "scene_io/load_scene.hpp"
@@ -46,6 +48,12 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
            {.within = std::pair(1, 100), .shown_as = "INT"});
+  list.add("--keep-rejected", &p.keep_rejected, "also soundings that are judged wrong, flagged");
+  list.add("--min-level", &p.min_level, "[dB re 1 uPa] of a sounding");
+  list.add("--max-deviation", &p.max_deviation, "[m] of a sounding, its predicted standard deviation",
+           {.positive = true});
+  list.add("--processing-profile", &p.processing_profile,
+           "sound-speed profile (.csv) by which soundings are placed; default: the one that the sound ran through");
   list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
   list.add("--compression", &p.compression, "of the chunks of an mcap; one that this build lacks is noted, and none",
            {.words = {"none", "lz4", "zstd"}});
@@ -86,7 +94,18 @@ std::optional<std::size_t> save_returns(const RunPings& run, const std::string& 
   return returns.soundings.size();
 }
 
+/// Throws for options of soundings beside a product that has none.
+void require_soundings(const ProductOptions& o) {
+  if ((o.to == "vtk" || o.to == "png") && (o.keep_rejected || std::isfinite(o.min_level) ||
+                                           std::isfinite(o.max_deviation) || !o.processing_profile.empty()))
+    fail(ErrorKind::argument, "--to = ", o.to,
+         " has no soundings of the bottom: --keep-rejected, --min-level, --max-deviation and --processing-profile must "
+         "go "
+         "with gsf, las, geotiff, csv or mcap");
+}
+
 void export_run(const ExportOptions& options) {
+  require_soundings(options.product);
   if (options.product.to != "vtk") return export_product(options.product, options.common);
   const ProductOptions& o = options.product;
   Progress progress(options.common, 2);

@@ -73,16 +73,16 @@ std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const Geo
   for (std::size_t i = 0; i < count; ++i) places.push_back(data + static_cast<std::uint32_t>(i) * band_bytes);
   using Shorts = std::vector<std::uint16_t>;
   using Longs = std::vector<std::uint32_t>;
-  std::vector<TiffEntry> entries = {tiff_entry(256, tiff_long, Longs{columns}),
-                                    tiff_entry(257, tiff_long, Longs{rows}),
+  std::vector<TiffEntry> entries = {tiff_entry(256, tiff_long, Longs{columns}), tiff_entry(257, tiff_long, Longs{rows}),
                                     tiff_entry(258, tiff_short, Shorts(count, 32)),
-                                    tiff_entry(259, tiff_short, Shorts{1}),  // not compressed
-                                    tiff_entry(262, tiff_short, Shorts{1}),  // dark is low
-                                    tiff_entry(273, tiff_long, places),
-                                    tiff_entry(277, tiff_short, Shorts{static_cast<std::uint16_t>(count)}),
-                                    tiff_entry(278, tiff_long, Longs{rows}),
-                                    tiff_entry(279, tiff_long, sizes),
-                                    tiff_entry(284, tiff_short, Shorts{2})};  // band after band
+                                    tiff_entry(259, tiff_short, Shorts{1}),   // not compressed
+                                    tiff_entry(262, tiff_short, Shorts{1})};  // dark is low
+  if (!grid.remark.empty()) entries.push_back(tiff_text(270, grid.remark));
+  entries.push_back(tiff_entry(273, tiff_long, places));
+  entries.push_back(tiff_entry(277, tiff_short, Shorts{static_cast<std::uint16_t>(count)}));
+  entries.push_back(tiff_entry(278, tiff_long, Longs{rows}));
+  entries.push_back(tiff_entry(279, tiff_long, sizes));
+  entries.push_back(tiff_entry(284, tiff_short, Shorts{2}));  // band after band
   if (count > 1) entries.push_back(tiff_entry(338, tiff_short, Shorts(count - 1, 0)));
   entries.push_back(tiff_entry(339, tiff_short, Shorts(count, 3)));  // floats
   const double cell = grid.cell / grid.unit, north = grid.south + grid.cell * rows;

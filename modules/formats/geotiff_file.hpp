@@ -18,6 +18,7 @@ struct GeoGrid {
   double west = 0, south = 0;  ///< corner of the cell of row 0, column 0 [m]
   double cell = 1;             ///< size [m]
   double unit = 1;             ///< of the system [m]: coordinates are written in it
+  std::string remark{};        ///< of the whole file (ImageDescription); empty: none
 };
 
 /// Writes bands as a GeoTIFF 1.1 of 32-bit floats, north up, cells as areas, not compressed, no value NaN. The same bands

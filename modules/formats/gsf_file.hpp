@@ -26,6 +26,7 @@ struct GsfBeam {
   double quality = 0;      ///< log10(range / its standard deviation)
   double vertical_deviation = 0, horizontal_deviation = 0;  ///< standard deviations [m]
   bool by_phase = false;  ///< where the phase crossed zero; else the centre of gravity of the echo
+  bool rejected = false;  ///< flagged as edited by a filter
 };
 
 /// One ping of a swath, beams from port to starboard: an entry for each sounding, of which a beam may have several, and

@@ -175,16 +175,17 @@ const GsfField<Ping> r2sonic_fields[] = {
 
 }  // namespace
 
-const GsfArray gsf_beam_flags = {16,
-                                 0,
-                                 u8,
-                                 1,
-                                 0,
-                                 "BEAM_FLAGS",
-                                 "",
-                                 "0: a sounding, 1: none; a size of its own, no scale factor",
-                                 [](const GsfBeam&) { return 0.0; },
-                                 1};
+const GsfArray gsf_beam_flags = {
+    16,
+    0,
+    u8,
+    1,
+    0,
+    "BEAM_FLAGS",
+    "",
+    "0: a sounding, 9: a rejected one (edited by a filter), 1: none; a size of its own, no scale factor",
+    [](const GsfBeam& b) { return b.rejected ? 9.0 : 0.0; },
+    1};
 
 std::span<const GsfField<GsfPing>> gsf_ping_fields() { return ping_fields; }
 std::span<const GsfArray> gsf_arrays() { return arrays; }

@@ -126,6 +126,7 @@ std::string LasFile::header() const {
   else
     put_variable_record(records, "LASF_Projection", 34735, "GeoTIFF keys", geo_keys(zone_));
   put_variable_record(records, "LASF_Spec", 4, "Extra Bytes", extra_bytes_record());
+  if (!options_.remark.empty()) put_variable_record(records, "LASF_Spec", 3, "Text Area", options_.remark + '\0');
 
   std::string bytes = "LASF";
   put_little(bytes, std::uint16_t{0});
@@ -138,7 +139,7 @@ std::string LasFile::header() const {
   put_little(bytes, day), put_little(bytes, year);
   put_little(bytes, version.header_bytes);
   put_little(bytes, static_cast<std::uint32_t>(version.header_bytes + records.size()));
-  put_little(bytes, std::uint32_t{2});  // variable length records
+  put_little(bytes, std::uint32_t{options_.remark.empty() ? 2U : 3U});  // variable length records
   put_little(bytes, version.point_format);
   put_little(bytes, version.point_bytes);
   const bool legacy = version.minor < 4;  // counts of 32 bits, which later versions leave empty
@@ -180,13 +181,13 @@ void LasFile::add(const LasPoint& point) {
   const double angle = degrees(point.scan_angle);
   if (version.minor == 4) {
     put_little(bytes, static_cast<std::uint8_t>(number | returns << 4));
-    put_little(bytes, std::uint8_t{0});
+    put_little(bytes, static_cast<std::uint8_t>(point.withheld ? 0x04 : 0));
     put_little(bytes, version.classification);
     put_little(bytes, std::uint8_t{0});
     put_little(bytes, static_cast<std::int16_t>(std::nearbyint(std::clamp(angle, -180.0, 180.0) / scan_angle_step)));
   } else {
     put_little(bytes, static_cast<std::uint8_t>(number | returns << 3));
-    put_little(bytes, version.classification);
+    put_little(bytes, static_cast<std::uint8_t>(version.classification | (point.withheld ? 0x80 : 0)));
     put_little(bytes, static_cast<std::int8_t>(std::nearbyint(std::clamp(angle, -90.0, 90.0))));
     put_little(bytes, std::uint8_t{0});
   }

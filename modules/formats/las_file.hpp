@@ -26,12 +26,14 @@ struct LasPoint {
   std::uint16_t source = 0;                     ///< number of the line of the survey, from 1; 0: of none
   std::uint8_t return_number = 1, returns = 1;  ///< among the soundings of its beam, nearest first
   double scan_angle = 0;                        ///< from straight down [rad], positive to starboard
+  bool withheld = false;                        ///< not to be used
 };
 
 /// Options of a LasFile.
 struct LasOptions {
-  int minor = 4;     ///< of the version: 4, point format 6; or 2, point format 1
-  double start = 0;  ///< UTC, seconds since 1970: day and year of the header; 0: not known
+  int minor = 4;         ///< of the version: 4, point format 6; or 2, point format 1
+  double start = 0;      ///< UTC, seconds since 1970: day and year of the header; 0: not known
+  std::string remark{};  ///< of the whole file, as a text area description; empty: none
 };
 
 /// Writes points as LAS 1.4 (ASPRS 2019), point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB

@@ -192,6 +192,7 @@ std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& ori
       put_little(message.raw(), number);
     put_little(message.raw(), found.beam[i]);
     put_little(message.raw(), static_cast<std::uint32_t>(found.method[i]));
+    put_little(message.raw(), static_cast<std::uint32_t>(found.reject[i]));
   }
   message.put(std::uint8_t{1});  // all are finite
   return message.raw();

@@ -50,7 +50,7 @@ inline constexpr RosPointField ros_point_fields[] = {
     {"z", "float32", "m"},      {"intensity", "float32", "dB re 1 uPa"},
     {"range", "float32", "m"},  {"deviation", "float32", "m"},
     {"quality", "float32", ""}, {"beam", "uint32", ""},
-    {"method", "uint32", ""}};
+    {"method", "uint32", ""},   {"reject", "uint32", ""}};
 
 /// Returns a PointCloud2 of soundings in the frame "world", less `origin` [m]: ros_point_fields.
 std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& origin, std::uint64_t time);

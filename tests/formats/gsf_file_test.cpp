@@ -107,6 +107,15 @@ TEST(GsfFile, another_profile_holds_for_the_pings_behind_it) {
   EXPECT_NEAR(read.profile_latitude_deg, -33, 1e-9);
 }
 
+// A rejected sounding has its numbers and the flag of one that a filter edited.
+TEST(GsfFile, flags_rejected_soundings) {
+  GsfPing ping = two_sided_ping();
+  ping.beams[0].rejected = true;
+  const decode::GsfSwath s = written({ping}).swaths.at(0);
+  EXPECT_EQ(s.flags, (std::vector<int>{9, 1, 0}));
+  EXPECT_NEAR(s.arrays.at(1)[0], 20.1234, 5.1e-5);
+}
+
 TEST(GsfFile, names_profile_comment_and_history) {
   const decode::GsfContent read = written({two_sided_ping()});
   ASSERT_EQ(read.profile.size(), 2U);

@@ -12,6 +12,7 @@ struct LasRow {
   std::array<double, 3> place;
   double time;  ///< UTC, seconds since 1970; of files of 2017 or later, with 18 leap seconds
   unsigned intensity, classification, return_number, returns, source;
+  bool withheld;
   double scan_angle_deg;
   float level_db, deviation;
   unsigned ping, beam;
@@ -42,8 +43,10 @@ inline std::vector<LasRow> read_las(const std::string& bytes) {
     row.intensity = static_cast<unsigned>(c.unsigned_little(2));
     const auto numbers = static_cast<unsigned>(c.unsigned_little(1));
     row.return_number = numbers & (modern ? 15U : 7U), row.returns = modern ? numbers >> 4 : numbers >> 3 & 7U;
-    if (modern) c.text(1);
-    row.classification = static_cast<unsigned>(c.unsigned_little(1));
+    const auto flags = modern ? static_cast<unsigned>(c.unsigned_little(1)) : 0U;
+    const auto kind = static_cast<unsigned>(c.unsigned_little(1));
+    row.classification = modern ? kind : kind & 31U;
+    row.withheld = (modern ? flags & 4U : kind & 128U) != 0;
     if (modern) c.text(1);
     row.scan_angle_deg = static_cast<double>(c.signed_little(modern ? 2 : 1)) * (modern ? 0.006 : 1);
     if (!modern) c.text(1);

@@ -74,6 +74,28 @@ TEST(LasFile, holds_what_its_specification_says) {
   }
 }
 
+// Bit 2 of the classification flags, in 1.2 bit 7 of the classification; a remark is the text area description.
+TEST(LasFile, flags_withheld_points_and_has_a_remark) {
+  for (const int minor : {2, 4}) {
+    const std::string path = own_path("withheld.las");
+    LasFile file(path, las_zone, las_points[0].position, {minor, 0, "processing profile: ctd.csv"});
+    for (LasPoint point : las_points) {
+      point.withheld = point.ping == 9;
+      file.add(point);
+    }
+    file.finish();
+    const std::string bytes = file_bytes(path);
+    const std::vector<decode::LasRow> rows = decode::read_las(bytes);
+    ASSERT_EQ(rows.size(), 3U);
+    for (const decode::LasRow& row : rows) {
+      EXPECT_EQ(row.withheld, row.ping == 9) << minor;
+      EXPECT_EQ(row.classification, minor == 4 ? 40U : 2U);
+    }
+    EXPECT_EQ(decode::Cursor(bytes, 100).unsigned_little(4), 3U);
+    EXPECT_THAT(bytes, HasSubstr("processing profile: ctd.csv"));
+  }
+}
+
 TEST(LasFile, is_read_as_a_scene_in_its_own_coordinates) {
   const std::string path = own_path("scene.las");
   LasFile file(path, las_zone, {565400, 5995100, -20});

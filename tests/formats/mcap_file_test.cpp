@@ -111,7 +111,7 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
 
   const decode::RosMessage& cloud = read.messages.at(1).content;
   EXPECT_EQ(cloud.one("width"), 2);
-  EXPECT_EQ(cloud.one("point_step"), 36);
+  EXPECT_EQ(cloud.one("point_step"), 40);
   EXPECT_EQ(cloud.texts.at("fields[3].name"), "intensity");
   EXPECT_EQ(cloud.one("fields[2].offset"), 8);
   EXPECT_EQ(cloud.one("fields[0].datatype"), 7);
@@ -124,6 +124,7 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
       EXPECT_EQ(points.float32(), expected);
     EXPECT_EQ(points.unsigned_little(4), i + 7);
     EXPECT_EQ(points.unsigned_little(4), 2U);  // by phase
+    EXPECT_EQ(points.unsigned_little(4), 2 * i);
   }
   const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
   for (std::size_t k = 0; k < std::size(ros_point_fields); ++k) {

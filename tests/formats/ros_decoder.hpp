@@ -270,6 +270,7 @@ inline BottomSoundings soundings_at(const std::vector<Eigen::Vector3d>& places, 
     found.quality.push_back(1.5F);
     found.method.push_back(BottomMethod::phase);
     found.beam.push_back(static_cast<std::uint32_t>(i + 7));
+    found.reject.push_back(static_cast<std::uint8_t>(2 * i));
   }
   return found;
 }

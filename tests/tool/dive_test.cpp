@@ -27,29 +27,6 @@ double time_down(double from, double to) {
   return sum * (to - from) / steps;
 }
 
-/// Rows of a CSV by the names of its header.
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
-  std::istringstream lines(text);
-  const auto cells_of = [](const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream from(line);
-    for (std::string cell; std::getline(from, cell, ',');) cells.push_back(cell);
-    return cells;
-  };
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> names = cells_of(line);
-  std::vector<std::map<std::string, std::string>> rows;
-  while (std::getline(lines, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (i == 0) rows.emplace_back();
-      rows.back()[names.at(i)] = cells[i];
-    }
-  }
-  return rows;
-}
-
 class Dive : public ToolTest {
  protected:
   void SetUp() override {

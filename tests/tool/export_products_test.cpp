@@ -152,7 +152,8 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line,
-            "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,latitude_deg,longitude_deg");
+            "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,reject,latitude_deg,"
+            "longitude_deg");
   // The page has a row for each column, and for each extra one of LAS.
   const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
   const auto expect_in_table = [&](const char* table, const std::string& column) {
@@ -172,7 +173,7 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
     std::vector<std::string> words;
     std::istringstream row(line);
     for (std::string word; std::getline(row, word, ',');) words.push_back(word);
-    ASSERT_EQ(words.size(), 13U);
+    ASSERT_EQ(words.size(), 14U);
     const Eigen::Vector3d at(std::stod(words[3]), std::stod(words[4]), std::stod(words[5]));
     const decode::LasRow& las = rows.at(i);
     EXPECT_LT((at - in_world({las.place[0], las.place[1], las.place[2]})).norm(), 1e-3);
@@ -183,15 +184,16 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
     EXPECT_NEAR(std::stod(words[8]), static_cast<double>(las.level_db), 0.006);
     EXPECT_NEAR(std::stod(words[9]), std::log10(std::stod(words[6]) / std::stod(words[7])), 0.01);
     const GeoPlace place = geo_from_world(ball_anchor, at);
-    EXPECT_NEAR(std::stod(words[11]), degrees(place.latitude), 2e-9);
-    EXPECT_NEAR(std::stod(words[12]), degrees(place.longitude), 2e-9);
+    EXPECT_EQ(words[11], "0");
+    EXPECT_NEAR(std::stod(words[12]), degrees(place.latitude), 2e-9);
+    EXPECT_NEAR(std::stod(words[13]), degrees(place.longitude), 2e-9);
   }
   EXPECT_EQ(i, rows.size());
   // Without a place on the globe the columns of the world remain.
   succeed("export out --to csv -o world.csv -q");
   EXPECT_THAT(read("world.csv"),
               testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,"
-                                  "method\n"));
+                                  "method,reject\n"));
 }
 
 // The head stands below the middle of the last row, port on the left.

@@ -1,6 +1,7 @@
 #include "tool/tool_runner.hpp"
 
 #include <cstdio>
+#include <sstream>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -68,4 +69,23 @@ void ToolTest::expect_refused(const std::string& arguments, int exit_code,
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   for (const std::string& part : parts) EXPECT_THAT(result.err, HasSubstr(part)) << arguments;
   EXPECT_EQ(files(), before) << arguments << " left something behind";
+}
+
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::string> names;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    std::istringstream cells(line);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    if (names.empty()) {
+      names = row;
+      continue;
+    }
+    rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) rows.back()[names[i]] = row.at(i);
+  }
+  return rows;
 }

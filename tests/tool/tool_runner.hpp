@@ -1,4 +1,8 @@
 #pragma once
+#include <map>
+#include <string>
+#include <vector>
+
 #include "support/test.hpp"
 
 /// What a run of the tool left behind.
@@ -25,3 +29,6 @@ class ToolTest : public testing::Test {
 
   const std::filesystem::path folder_ = insonify::own_folder();
 };
+
+/// Rows of a CSV by the names of its header, without lines that begin with #.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv);
