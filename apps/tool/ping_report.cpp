@@ -69,6 +69,14 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
       d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
 }
 
+/// States that the head sees nearly only backs.
+std::string backs_note(const SamplingReport& s) {
+  return fmt::format(
+      "{:.0f} % of the surfels in fan and range gate face away from the head and give no echo: is it below the ground, "
+      "or inside a body? Check the pose, or the viewpoint of the scene",
+      100.0 * static_cast<double>(s.back_facing) / static_cast<double>(s.in_gate));
+}
+
 std::string bound_text(const PlannedStage& stage) {
   if (std::isinf(stage.bound_relative)) return "not known";
   if (stage.bound_relative == 0) return "0";
@@ -150,7 +158,14 @@ std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& 
                                     const std::vector<Eigen::Vector3d>& places, bool mounted) {
   std::vector<std::string> notes = ping.notes;
   const Environment& environment = setup.head.environment;
-  if (ping.sampling.scatterers == 0) notes.push_back(silence_note(places, ping.sampling, setup, mounted));
+  const SamplingReport& sampling = ping.sampling;
+  constexpr double nearly_all = 0.95;
+  const bool backs = sampling.in_gate > 0 &&
+                     static_cast<double>(sampling.back_facing) >= nearly_all * static_cast<double>(sampling.in_gate);
+  if (backs)
+    notes.push_back(backs_note(sampling));
+  else if (sampling.scatterers == 0)
+    notes.push_back(silence_note(places, sampling, setup, mounted));
   for (const LayerReport& layer : ping.layers)
     if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
   if (environment.profile) notes.push_back(refraction_note(ping.refraction, setup.head.head.gate));

@@ -257,13 +257,14 @@ void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& 
   if (!loaded.mesh) return;
   const ResolvedPing ping =
       resolve_ping(loaded.mesh->whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation);
-  const auto most = o.memory_limit > 0 ? static_cast<std::size_t>(std::ceil(o.memory_limit * 0x1p30 / bytes_to_ping))
-                                       : default_mesh_surfels;
+  constexpr double bytes = bytes_to_ping + bytes_of_facet;
+  const auto most =
+      o.memory_limit > 0 ? static_cast<std::size_t>(std::ceil(o.memory_limit * 0x1p30 / bytes)) : default_mesh_surfels;
   MeshSurfels fine = mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling, most);
   if (fine.coarsening > 1)
     loaded.report.notes.push_back(fmt::format(
         "{} surfels at most are sampled from the mesh ({:.2g} GiB), {}: raise --memory-limit, or narrow the range",
-        most, static_cast<double>(most) * bytes_to_ping / 0x1p30,
+        most, static_cast<double>(most) * bytes / 0x1p30,
         std::isinf(fine.coarsening)
             ? fmt::format("fewer than its triangles within reach: {} in all are taken", loaded.scene.size())
             : fmt::format("{} times as large as the beams ask for", fine.coarsening)));

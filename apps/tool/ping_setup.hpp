@@ -73,6 +73,7 @@ std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose&
 void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);
 
 constexpr double bytes_to_ping = 192;  ///< per surfel read: surfel, index, scatterers and echoes
+constexpr double bytes_of_facet = 88;  ///< besides, per surfel of a mesh: its triangle, in the scene and in head axes
 
 /// Replaces the overview of a mesh by the surfels that the ping needs (E70), within --memory-limit, and notes what could
 /// not be kept; leaves other scenes as they are.

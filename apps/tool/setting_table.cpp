@@ -49,7 +49,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
       {"scene", "material", "--material", &o.material, "one material for everything, by name, e.g. sand"},
       {"scene", "unit", "--unit", &o.unit, "of the file: m, mm, cm, km, ft, or metres per unit"},
       {"scene", "mesh_spacing", "--mesh-spacing", &o.mesh_spacing,
-       "[m] between surfels of a mesh; 0: a ping samples it by what its beams resolve, other verbs take 200 000 "
+       "[m] between surfels of a mesh or height field; 0: a ping samples it by what its beams resolve, other verbs "
+       "take 200 000 "
        "surfels"},
       {"scene", "scan_noise", "--scan-noise", &o.scan_noise,
        "[m] standard deviation of a cloud across its surfaces; default: its field 'noise', else estimated"},

@@ -139,10 +139,15 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   } else {
     loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
     for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
+    if (loaded_.mesh && loaded_.columns.heights && setup.file.coverage) {
+      loaded_.mesh.reset();
+      progress.note(setup.file.scene +
+                    ": coverage counts its points, so they are pinged, and not the surface between them");
+    }
     if (loaded_.mesh && setup.file.coverage)
       fail(ErrorKind::content, setup.file.path,
            ": coverage counts the pings of each surfel, but a mesh has other ones in ", "every ping; make surfels of ",
-           setup.file.scene, " by insonify prepare, or leave coverage out");
+           setup.file.scene, " by insonify prepare --mesh-spacing METRES, or leave coverage out");
     if (!loaded_.mesh) prepared_.emplace(loaded_.scene, common.threads);
     box = bounds(loaded_.scene);
   }

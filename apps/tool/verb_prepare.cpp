@@ -84,15 +84,23 @@ void prepare(const PrepareOptions& o) {
     SceneCloud thinned = thin_scene(loaded.scene, o.thin);
     loaded.columns = columns_of(loaded.columns, loaded.scene.id, thinned.id);
     loaded.scene = std::move(thinned);
+    loaded.columns.heights = false;
+    loaded.mesh.reset();
     notes.push_back(
         fmt::format("thinned to {} m: {} of {} surfels kept, with the area of all", o.thin, loaded.scene.size(), all));
   }
+  const bool as_surfels =
+      loaded.mesh && (is_tiles(o.output) || !(loaded.columns.heights || o.output.ends_with(".ply")));
+  if (as_surfels)
+    notes.push_back(
+        fmt::format("{} has no place for triangles: it holds {} surfels, which hide as discs; a .ply keeps the mesh",
+                    o.output, loaded.scene.size()));
   for (const std::string& note : notes) progress.note(note);
   progress.step("writing " + o.output);
   if (is_tiles(o.output))
     save_tiles(o.output, loaded.scene);
   else
-    save_scene(o.output, loaded.scene, loaded.columns);
+    save_scene(o.output, loaded);
 
   const double area = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0);
   const ordered_json result = {

@@ -25,6 +25,7 @@ void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
   to.material.push_back(from.material[i]);
   to.id.push_back(from.id[i]);
   if (!from.noise.empty()) to.noise.push_back(from.noise[i]);
+  if (!from.facet.empty()) to.facet.push_back(Facet(from.facet[i]));
 }
 
 bool above_surface(const std::vector<Boundary>& boundaries, double z) {
@@ -59,6 +60,8 @@ MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Bo
     append(cloud, k, cloud);
     cloud.point.back().z() = static_cast<float>(2 * plane - cloud.point[k].z());
     cloud.normal.back().z() = -cloud.normal[k].z();
+    if (!cloud.facet.empty())
+      for (Eigen::Vector3f& corner : cloud.facet.back()) corner.z() = static_cast<float>(2 * plane - corner.z());
   }
   all.asked.assign(real, 0);
   all.asked.resize(2 * real, 1);

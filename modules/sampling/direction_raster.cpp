@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -21,6 +22,22 @@ struct Extent {
   float x, y, half_x, half_y;
 };
 
+// The box round the three corners. False if one of them is behind the head along the face's axis.
+bool project(const GatedFacet& facet, std::uint32_t face, Extent& box) {
+  const int k = static_cast<int>(face / 2), i = (k + 1) % 3, j = (k + 2) % 3;
+  const float sign = face % 2 == 0 ? 1.0f : -1.0f;
+  Eigen::Array2f low = Eigen::Array2f::Constant(std::numeric_limits<float>::max()), high = -low;
+  for (const Vector3f& c : facet.corner) {
+    const float d = sign * c[k];
+    if (!(d > 0)) return false;
+    const Eigen::Array2f at(c[i] / d, c[j] / d);
+    low = low.min(at), high = high.max(at);
+  }
+  const Eigen::Array2f middle = 0.5f * (low + high), half = 0.5f * (high - low);
+  box = {middle.x(), middle.y(), half.x() * slack_factor + box_slack, half.y() * slack_factor + box_slack};
+  return true;
+}
+
 // For v in the disc or ball, p + v projects to x + (v . w) / (d + v . f) with w = e_x - x f; bounding numerator and
 // denominator separately gives the box.
 bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Extent& box) {
@@ -39,6 +56,11 @@ bool project(const GatedSurfel& s, std::uint32_t face, Footprint footprint, Exte
   box.half_x = reach(1 + box.x * box.x, s.away[i] - box.x * nf) * per_front + box_slack;
   box.half_y = reach(1 + box.y * box.y, s.away[j] - box.y * nf) * per_front + box_slack;
   return true;
+}
+
+bool project(const GatedSurfels& surfels, std::uint32_t index, std::uint32_t face, Footprint footprint, Extent& box) {
+  const bool by_facet = footprint == Footprint::disc && !surfels.facet.empty();
+  return by_facet ? project(surfels.facet[index], face, box) : project(surfels[index], face, footprint, box);
 }
 
 bool stays_on_face(const Extent& e) { return std::abs(e.x) + e.half_x <= 1 && std::abs(e.y) + e.half_y <= 1; }
@@ -86,7 +108,7 @@ DirectionRaster::DirectionRaster(const GatedSurfels& surfels, std::span<const Cu
   parallel_blocks(surfels.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Box>& part = boxes[begin / directions_at_once];
     part.reserve(end - begin);
-    for (std::size_t s = begin; s < end; ++s) add_boxes(surfels[s], static_cast<std::uint32_t>(s), footprint, part);
+    for (std::size_t s = begin; s < end; ++s) add_boxes(surfels, static_cast<std::uint32_t>(s), footprint, part);
   });
   wide_ = list_where(surfels.size(), threads, [&](std::size_t s) { return is_wide(surfels[s]); });
   sort_boxes(boxes, threads);
@@ -119,7 +141,7 @@ void DirectionRaster::size_cells(const GatedSurfels& surfels, std::span<const Cu
     Extent e;
     if (is_wide(surfels[s]) || !(surfels[s].radius > 0)) continue;
     const std::uint32_t face = main_face(surfels[s].position);
-    if (!project(surfels[s], face, footprint, e)) continue;
+    if (!project(surfels, static_cast<std::uint32_t>(s), face, footprint, e)) continue;
     Typical& of_face = typical[face];
     of_face.log_x += std::log(2.0 * e.half_x);
     of_face.log_y += std::log(2.0 * e.half_y);
@@ -151,8 +173,9 @@ void DirectionRaster::size_cells(const GatedSurfels& surfels, std::span<const Cu
   }
 }
 
-void DirectionRaster::add_boxes(const GatedSurfel& s, std::uint32_t index, Footprint footprint,
+void DirectionRaster::add_boxes(const GatedSurfels& surfels, std::uint32_t index, Footprint footprint,
                                 std::vector<Box>& boxes) const {
+  const GatedSurfel& s = surfels[index];
   if (!(s.radius > 0) || is_wide(s)) return;
   const auto add = [&](std::uint32_t f, const Extent& e) {
     const Face& face = faces_[f];
@@ -168,11 +191,11 @@ void DirectionRaster::add_boxes(const GatedSurfel& s, std::uint32_t index, Footp
   };
   Extent e;
   const std::uint32_t home = main_face(s.position);
-  if (!project(s, home, footprint, e)) return;
+  if (!project(surfels, index, home, footprint, e)) return;
   add(home, e);
   if (stays_on_face(e)) return;
   for (std::uint32_t f = 0; f < faces_.size(); ++f)
-    if (f != home && faces_[f].nx > 0 && project(s, f, footprint, e)) add(f, e);
+    if (f != home && faces_[f].nx > 0 && project(surfels, index, f, footprint, e)) add(f, e);
 }
 
 // Counting sort by tile; a box that crosses tiles is clipped and added to each.

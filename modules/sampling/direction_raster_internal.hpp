@@ -22,8 +22,8 @@ CubePoint on_cube(const Eigen::Vector3f& v);
 
 /// Which footprint of a surfel is rasterised.
 enum class Footprint {
-  disc,  ///< where it may help to occlude another surfel (`cover`): its disc, hiding_reach times as wide
-  cone   ///< where a ray may hit it (`hit_surface`): the cone around a ball of its radius
+  disc,  ///< where it may help to occlude another surfel (`cover`): its disc, hiding_reach times as wide, or its facet
+  cone   ///< where a ray may hit it (`hit_surface`): the cone around a ball of its radius, which holds its facet
 };
 
 /// Range of cells of one tile that a footprint may overlap, inclusive.
@@ -121,7 +121,7 @@ class DirectionRaster {
 
   void bound_faces(std::span<const CubePoint> queries, int threads);
   void size_cells(const GatedSurfels& surfels, std::span<const CubePoint> queries, Footprint footprint);
-  void add_boxes(const GatedSurfel& s, std::uint32_t index, Footprint footprint, std::vector<Box>& boxes) const;
+  void add_boxes(const GatedSurfels& surfels, std::uint32_t index, Footprint footprint, std::vector<Box>& boxes) const;
   void sort_boxes(const std::vector<std::vector<Box>>& boxes, int threads);
   void sort_queries(std::span<const CubePoint> queries, int threads);
 

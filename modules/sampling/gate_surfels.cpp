@@ -24,7 +24,8 @@ struct Gate {
     const Vector3d p = head.position(scene.point[i]);
     const double r2 = p.squaredNorm();
     if (!(r2 <= range.max_range * range.max_range) || r2 < min_distance * min_distance) return;
-    const double spacing = std::sqrt(static_cast<double>(scene.area[i])), radius = footprint * spacing;
+    const double spacing = std::sqrt(static_cast<double>(scene.area[i]));
+    const double radius = scene.facet.empty() ? footprint * spacing : reach_of(scene.facet[i], scene.point[i]);
     if (!sector.holds(p, hiding_reach * radius)) return;
 
     const double r = std::sqrt(r2);
@@ -42,6 +43,29 @@ struct Gate {
     s.in_gate = r >= range.min_range && sector.holds(p);
     s.facing = scene.normals_oriented ? along < 0 : along != 0;
     inside.push_back(s);
+    if (!scene.facet.empty()) inside.facet.push_back(gated(scene.facet[i], spacing));
+  }
+
+  // Distance of the farthest corner, with room for rounding.
+  static double reach_of(const Facet& facet, const Eigen::Vector3f& point) {
+    float squared = 0;
+    for (const Eigen::Vector3f& corner : facet) squared = std::max(squared, (corner - point).squaredNorm());
+    return 1.0001 * std::sqrt(static_cast<double>(squared));
+  }
+
+  GatedFacet gated(const Facet& facet, double spacing) const {
+    constexpr double of_side = 1e-4, of_coordinate = 3e-7;  // of the side of a square; rounding of a float
+    const std::array<Vector3d, 3> corner = {head.position(facet[0]), head.position(facet[1]), head.position(facet[2])};
+    const Vector3d across = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    const double area = across.norm();
+    Vector3d away = area > 0 ? Vector3d(across / area) : Vector3d(Vector3d::Zero());
+    if (away.dot(corner[0]) < 0) away = -away;
+    float largest = 0;
+    for (const Eigen::Vector3f& c : facet) largest = std::max(largest, c.cwiseAbs().maxCoeff());
+    return {{corner[0].cast<float>(), corner[1].cast<float>(), corner[2].cast<float>()},
+            away.cast<float>(),
+            static_cast<float>(away.dot(corner[0])),
+            static_cast<float>(of_side * spacing + of_coordinate * largest)};
   }
 };
 
@@ -61,8 +85,12 @@ GatedSurfels join(const std::vector<GatedSurfels>& parts, int threads) {
   std::vector<std::size_t> first(parts.size() + 1, 0);
   for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].size();
   GatedSurfels all(first.back());
+  if (std::any_of(parts.begin(), parts.end(), [](const GatedSurfels& part) { return !part.facet.empty(); }))
+    all.facet.resize(first.back());
   parallel_for(parts.size(), threads, [&](std::size_t k) {
-    std::copy(parts[k].begin(), parts[k].end(), all.begin() + static_cast<std::ptrdiff_t>(first[k]));
+    const auto at = static_cast<std::ptrdiff_t>(first[k]);
+    std::copy(parts[k].begin(), parts[k].end(), all.begin() + at);
+    std::copy(parts[k].facet.begin(), parts[k].facet.end(), all.facet.begin() + at);
   });
   return all;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct GatedSurfel {
   float range;               ///< [m]
   Eigen::Vector3f away;      ///< unit normal, oriented away from the head
   float plane_distance;      ///< from the head to the tangent plane [m], >= 0; 0: seen edge-on
-  float radius;              ///< of the disc [m]
+  float radius;              ///< of the disc, or the farthest corner of the facet [m]
   float spacing;             ///< sqrt(area) [m]
   float noise;               ///< of the surface [m]
   std::uint32_t surfel;      ///< index in the scene
@@ -28,7 +29,19 @@ struct GatedSurfel {
   bool facing;               ///< front side towards the head (either side if normals are not oriented)
 };
 
-using GatedSurfels = UnsetVector<GatedSurfel>;
+/// The triangle of a surfel as an occluder, in head axes.
+struct GatedFacet {
+  std::array<Eigen::Vector3f, 3> corner;  ///< [m]
+  Eigen::Vector3f away;                   ///< unit normal, away from the head; 0 if the triangle has no area
+  float plane_distance;                   ///< from the head to its plane [m], >= 0
+  float tolerance;  ///< how deep below the plane something lies that is on it but for rounding [m]
+};
+
+/// Surfels in head axes, and their facets if the scene has them.
+struct GatedSurfels : UnsetVector<GatedSurfel> {
+  using UnsetVector<GatedSurfel>::UnsetVector;
+  UnsetVector<GatedFacet> facet;  ///< empty: surfels hide as discs
+};
 
 /// Distance from a surfel's centre within which it helps to occlude others, in radii of its disc.
 inline constexpr float hiding_reach = 1.5f;

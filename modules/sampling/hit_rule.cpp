@@ -70,7 +70,38 @@ bool passes_beside(const GatedSurfels& surfels, std::span<const std::uint32_t> c
   return true;
 }
 
+// True if the direction passes through the triangle; depth: its component along the normal, above 0. The corners are taken
+// from where it crosses the plane, so that nothing is the difference of large numbers.
+bool passes(const GatedFacet& f, const Eigen::Vector3f& direction, float depth) {
+  const Eigen::Vector3f crossing = direction * (f.plane_distance / depth);
+  const Eigen::Vector3f a = f.corner[0] - crossing, b = f.corner[1] - crossing, c = f.corner[2] - crossing;
+  const float ab = a.cross(b).dot(f.away), bc = b.cross(c).dot(f.away), ca = c.cross(a).dot(f.away);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+// The first facet that the ray passes through, of those that face the head unless all are asked for.
+RayOutcome hit_facet(const GatedSurfels& surfels, const Eigen::Vector3f& direction, bool facing_only,
+                     std::span<const std::uint32_t> candidates, RayHit& hit) {
+  hit.range = std::numeric_limits<float>::infinity();
+  for (const std::uint32_t c : candidates) {
+    const GatedFacet& f = surfels.facet[c];
+    const float slope = f.away.dot(direction);
+    if (!(slope > 0) || (facing_only && !surfels[c].facing) || !passes(f, direction, slope)) continue;
+    const float range = f.plane_distance / slope;
+    if (range < hit.range || (range == hit.range && c < hit.surfel)) hit = {c, range};
+  }
+  if (!std::isfinite(hit.range)) return RayOutcome::missed;
+  return surfels[hit.surfel].facing ? RayOutcome::hit : RayOutcome::blocked;
+}
+
 }  // namespace
+
+Cover cover(const GatedFacet& front, const LineOfSight& line) {
+  constexpr float rounding = 2e-6f;  // of a direction and a plane, in ranges
+  const float depth = front.away.dot(line.end->position);
+  if (!(depth - front.plane_distance > front.tolerance + rounding * line.end->range)) return 0;
+  return passes(front, line.end->position, depth) ? whole_cover : 0;
+}
 
 Cover cover(const GatedSurfel& front, const LineOfSight& line) {
   const GatedSurfel& behind = *line.end;
@@ -119,6 +150,7 @@ bool is_surrounded(const Eigen::Vector3f& direction, const GatedSurfels& surfels
 
 RayOutcome hit_surface(const GatedSurfels& surfels, const Eigen::Vector3f& direction, bool front_only,
                        std::vector<std::uint32_t>& candidates, RayHit& hit) {
+  if (!surfels.facet.empty()) return hit_facet(surfels, direction, !front_only, candidates, hit);
   keep_covering(direction, surfels, candidates);
   if (candidates.empty()) return RayOutcome::missed;
   std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -36,6 +36,15 @@ inline float hiding_depth(const GatedSurfel& a, const GatedSurfel& b) {
 /// seen in the tangent plane, if within hiding_reach radii; else nothing.
 Cover cover(const GatedSurfel& front, const LineOfSight& line);
 
+/// What a facet covers of the line of sight to a surfel behind its plane: all of it, if the line passes through the triangle,
+/// else nothing.
+Cover cover(const GatedFacet& front, const LineOfSight& line);
+
+/// What a surfel covers, by its facet if it has one.
+inline Cover cover(const GatedSurfels& surfels, std::size_t front, const LineOfSight& line) {
+  return surfels.facet.empty() ? cover(surfels[front], line) : cover(surfels.facet[front], line);
+}
+
 /// True if covers stand on more than one side: spread over 120 degrees, as round the cell of a surface's last surfel. So
 /// surfaces have no gaps between surfels, and do not grow at their edges.
 inline bool hides(Cover c) {
@@ -73,7 +82,8 @@ bool is_surrounded(const Eigen::Vector3f& direction, const GatedSurfels& surfels
 /// beside it: the ray crosses no member's tangent plane within 0.71 spacing of the centre, and all centres lie within
 /// 90 degrees on one side. Cones thus close the gaps inside a surface without extending it at its edges. `candidates`
 /// must contain all these surfels and may contain more; it is used as scratch. front_only = false makes all surfels one
-/// cluster.
+/// cluster. Where surfels have facets, the ray hits the first one that it passes through, in its plane; with front_only =
+/// false, the first that faces the head.
 RayOutcome hit_surface(const GatedSurfels& surfels, const Eigen::Vector3f& direction, bool front_only,
                        std::vector<std::uint32_t>& candidates, RayHit& hit);
 

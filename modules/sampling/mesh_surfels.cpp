@@ -4,11 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/random.hpp"
 #include "sampling/gate_surfels_internal.hpp"
+#include "sampling/mesh_parts_internal.hpp"
 #include "sampling/sampled_cells.hpp"
 
 // Surfels of a mesh for one ping (E70): each triangle is a binary tree of parts, halved across the longest edge. The tree
@@ -24,49 +25,11 @@ constexpr double per_lobe = 16;        // surfels
 constexpr double longest_squared = 8;  // of an edge, in areas allowed
 constexpr std::size_t wanted_tasks = 1024;
 
-/// A node of the tree, with the place of its surfel.
-struct Part {
-  Corners corner;
-  Eigen::Matrix3d weights = Eigen::Matrix3d::Identity();  ///< columns: barycentric weights of the corners
-  Vector3d place;                                         ///< of the surfel, in weights of these corners
-  double area = 0;                                        ///< [m^2]
-  std::uint64_t node = 1;                                 ///< children of n are 2 n and 2 n + 1
-  std::uint32_t id = 0;
-  int depth = 0;
-};
-
-/// Share of a triangle in the 2^32 ids.
-struct IdRange {
-  std::uint32_t first = 0;
-  int depth = 0;  ///< 2^depth ids
-};
-
-std::vector<IdRange> share_out_ids(const SceneMesh& mesh) {
-  std::vector<double> area(mesh.triangle.size());
-  double total = 0;
-  for (std::size_t t = 0; t < area.size(); ++t) total += area[t] = area_of(corners_of(mesh, t));
-  std::vector<IdRange> ranges(area.size());
-  const double ids = 0x1p32 - static_cast<double>(area.size());
-  std::uint64_t next = 0;
-  for (std::size_t t = 0; t < area.size(); ++t) {
-    const int depth = std::clamp(static_cast<int>(std::floor(std::log2(ids * area[t] / total))), 0, 31);
-    ranges[t] = {static_cast<std::uint32_t>(next), depth};
-    next += std::uint64_t{1} << depth;
-  }
-  return ranges;
-}
-
 /// Angle that the side of a surfel may fill, by lobes of these widths [rad].
 double widest_surfel(const SampledCells::Widths& lobe, double elevation_width) {
   const double height = lobe.row > 0 ? std::min(lobe.row, elevation_width) : elevation_width;
   return std::min(lobe_share * std::min(lobe.beam, height), std::sqrt(lobe.beam * height / per_lobe));
 }
-
-struct MeshSurfel {
-  MeshPlace place;
-  float area;
-  std::uint32_t id;
-};
 
 class MeshSampler {
  public:
@@ -76,8 +39,7 @@ class MeshSampler {
         head_(head),
         sector_(region.sector),
         region_(region),
-        ids_(share_out_ids(mesh)),
-        seed_(options.seed),
+        parts_(mesh, options.seed),
         threads_(options.threads),
         cells_(fan, region.gate, options),
         elevation_width_(fan.elevation_width) {
@@ -99,44 +61,6 @@ class MeshSampler {
   }
 
  private:
-  Part root(std::size_t t) const {
-    const auto random = random_uniform(seed_, RandomStage::mesh_points, {t, 0, 1});
-    Part part;
-    part.corner = corners_of(mesh_, t);
-    part.place = uniform_weights(random[0], random[1]);
-    part.area = area_of(part.corner);
-    part.id = ids_[t].first;
-    return part;
-  }
-
-  std::array<Part, 2> bisect(const Part& whole, std::size_t t) const {
-    // The edge is chosen in scene coordinates, so that the tree does not depend on the head.
-    const auto edge2 = [&](int e) { return (whole.corner[(e + 2) % 3] - whole.corner[(e + 1) % 3]).squaredNorm(); };
-    const int e = edge2(0) >= edge2(1) && edge2(0) >= edge2(2) ? 0 : edge2(1) >= edge2(2) ? 1 : 2;
-    const int ends[] = {(e + 1) % 3, (e + 2) % 3};
-    const Vector3d middle = 0.5 * (whole.corner[ends[0]] + whole.corner[ends[1]]);
-    const Vector3d weights = 0.5 * (whole.weights.col(ends[0]) + whole.weights.col(ends[1]));
-    const int keeper = whole.place[ends[0]] >= whole.place[ends[1]] ? 0 : 1;  // the half with the surfel
-    std::array<Part, 2> halves = {whole, whole};
-    for (int h = 0; h < 2; ++h) {
-      Part& half = halves[h];
-      half.corner[ends[1 - h]] = middle;
-      half.weights.col(ends[1 - h]) = weights;
-      half.area = 0.5 * whole.area;
-      half.node = 2 * whole.node + static_cast<std::uint64_t>(h);
-      ++half.depth;
-      if (h == keeper) {
-        half.place[ends[h]] = whole.place[ends[h]] - whole.place[ends[1 - h]];
-        half.place[ends[1 - h]] = 2 * whole.place[ends[1 - h]];
-      } else {
-        const auto random = random_uniform(seed_, RandomStage::mesh_points, {t, whole.node, 1});
-        half.place = uniform_weights(random[0], random[1]);
-        half.id = ids_[t].first + static_cast<std::uint32_t>(whole.node);
-      }
-    }
-    return halves;
-  }
-
   /// What of a part decides: where it is, and how large.
   struct Extent {
     Vector3d centre;               ///< in head axes [m]
@@ -159,7 +83,7 @@ class MeshSampler {
   }
 
   bool small_enough(const Part& part, const Extent& extent, std::size_t t) const {
-    if (part.depth >= ids_[t].depth) return true;
+    if (!parts_.may_bisect(part, t)) return true;
     const double distance = extent.centre.norm();
     const double range = std::max({distance - extent.radius, region_.gate.min_range, nearest_range});
     const Vector3d across = (part.corner[1] - part.corner[0]).cross(part.corner[2] - part.corner[0]).normalized();
@@ -174,7 +98,7 @@ class MeshSampler {
   /// Goes down to the part of a triangle that the task stands for; a larger one belongs to the first task below it.
   void start(std::size_t task, std::vector<MeshSurfel>& found) {
     const std::size_t t = task >> task_depth_;
-    Part part = root(t);
+    Part part = parts_.root(t);
     for (int level = task_depth_ - 1; level >= 0; --level) {
       const Extent extent = extent_of(part);
       if (!extent.reaches) return;
@@ -182,7 +106,7 @@ class MeshSampler {
         if ((task & ((std::size_t{2} << level) - 1)) == 0) add(part, t, found);
         return;
       }
-      part = bisect(part, t)[task >> level & 1];
+      part = parts_.bisect(part, t)[task >> level & 1];
     }
     collect(part, t, found);
   }
@@ -191,20 +115,19 @@ class MeshSampler {
     const Extent extent = extent_of(part);
     if (!extent.reaches || count_ > most_) return;
     if (small_enough(part, extent, t)) return add(part, t, found);
-    for (const Part& half : bisect(part, t)) collect(half, t, found);
+    for (const Part& half : parts_.bisect(part, t)) collect(half, t, found);
   }
 
   void add(const Part& part, std::size_t t, std::vector<MeshSurfel>& found) {
     if (++count_ > most_) return;
-    found.push_back({place_on(mesh_, t, part.weights * part.place), static_cast<float>(part.area), part.id});
+    found.push_back(parts_.surfel_of(part, t));
   }
 
   const SceneMesh& mesh_;
   const HeadFrame& head_;
   const SectorBounds sector_;
   const InsonifiedRegion& region_;
-  const std::vector<IdRange> ids_;
-  const std::uint64_t seed_;
+  const MeshParts parts_;
   const int threads_;
   const SampledCells cells_;
   const double elevation_width_;
@@ -213,17 +136,6 @@ class MeshSampler {
   std::size_t most_ = 0;
   std::atomic<std::size_t> count_{0};
 };
-
-void fill(const std::vector<std::vector<MeshSurfel>>& parts, SceneCloud& scene) {
-  for (const auto& part : parts)
-    for (const MeshSurfel& s : part) {
-      scene.point.push_back(s.place.position.cast<float>());
-      scene.normal.push_back(s.place.normal.cast<float>());
-      scene.area.push_back(s.area);
-      scene.material.push_back(s.place.material);
-      scene.id.push_back(s.id);
-    }
-}
 
 }  // namespace
 
@@ -256,8 +168,45 @@ MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, 
   }
   while (!mesh.triangle.empty() && (found = sampler.sample(result.coarsening, most_surfels)).empty())
     result.coarsening *= 2;
-  fill(found, scene);
+  for (auto& part : found) {
+    append(part, scene);
+    std::vector<MeshSurfel>().swap(part);
+  }
   return result;
+}
+
+EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed, int threads) {
+  require_valid(mesh, "even_surfels");
+  if (!(spacing > 0 && std::isfinite(spacing)))
+    fail(ErrorKind::argument, "even_surfels: spacing = ", spacing, " m, must be > 0");
+  // Halves of areas that are spread evenly over an octave have the mean 1 / (2 ln 2) of the largest.
+  const double largest = 2 * std::numbers::ln2 * spacing * spacing;
+  const MeshParts parts(mesh, seed);
+  constexpr std::size_t at_once = 512;
+  std::vector<std::vector<MeshSurfel>> found((mesh.triangle.size() + at_once - 1) / at_once);
+  parallel_blocks(mesh.triangle.size(), at_once, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Part> open;
+    for (std::size_t t = begin; t < end; ++t)
+      for (open = {parts.root(t)}; !open.empty();) {
+        const Part part = open.back();
+        open.pop_back();
+        if (part.area <= largest || !parts.may_bisect(part, t)) {
+          found[begin / at_once].push_back(parts.surfel_of(part, t));
+          continue;
+        }
+        const auto halves = parts.bisect(part, t);
+        open.push_back(halves[1]), open.push_back(halves[0]);
+      }
+  });
+  EvenSurfels even;
+  even.scene.origin = mesh.origin;
+  even.scene.materials = mesh.materials;
+  even.scene.normals_oriented = mesh.normals_oriented;
+  for (const auto& part : found) {
+    append(part, even.scene);
+    for (const MeshSurfel& s : part) even.corner.push_back(s.place.corner);
+  }
+  return even;
 }
 
 }  // namespace insonify

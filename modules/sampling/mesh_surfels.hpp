@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "sampling/find_scatterers.hpp"
 #include "sampling/insonified_region.hpp"
@@ -7,12 +9,12 @@
 
 namespace insonify {
 
-/// Default of the most surfels that a ping samples from a mesh; with scatterers and echoes about 1.5 GiB.
+/// Default of the most surfels that a ping samples from a mesh; with scatterers and echoes about 2.2 GiB.
 inline constexpr std::size_t default_mesh_surfels = std::size_t{1} << 23;
 
 /// What a ping needs of a mesh.
 struct MeshSurfels {
-  SceneCloud scene;       ///< with SceneCloud::part_of = SceneMesh::whole
+  SceneCloud scene;       ///< with SceneCloud::part_of = SceneMesh::whole, and the parts as facets
   double coarsening = 1;  ///< areas are so many times as large as the head asks for, to keep to the number allowed;
                           ///< infinite: not even one surfel for each triangle was allowed, and there are none
 };
@@ -33,5 +35,16 @@ struct MeshSurfels {
 /// Throws Error for an invalid mesh, fan or gate, or most_surfels = 0.
 MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, const BeamFan& fan,
                          const SamplingOptions& options = {}, std::size_t most_surfels = default_mesh_surfels);
+
+/// Surfels of a whole mesh for any ping, and the corner of the mesh that is nearest to each.
+struct EvenSurfels {
+  SceneCloud scene;  ///< with parts of triangles as facets
+  std::vector<std::uint32_t> corner;
+};
+
+/// Samples all triangles alike: parts of them, as of mesh_surfels, whose area is `spacing`^2 [m^2] in the mean and at most 1.4
+/// times that; a smaller triangle has one surfel. The result does not depend on `threads` (0: all cores). Throws Error for an
+/// invalid mesh or spacing.
+EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed = 1, int threads = 0);
 
 }  // namespace insonify

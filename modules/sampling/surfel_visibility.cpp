@@ -35,7 +35,7 @@ std::vector<Cover> covers_by_index(const GatedSurfels& surfels, const DirectionI
       // A surfel cannot hide itself: it does not lie below its own tangent plane.
       const LineOfSight line(s);
       index.any(line.along, s.range, scratch, [&](std::uint32_t other) {
-        covers[i] |= cover(surfels[other], line);
+        covers[i] |= cover(surfels, other, line);
         return hides(covers[i]);
       });
     }
@@ -49,13 +49,17 @@ std::vector<Cover> covers_by_index(const GatedSurfels& surfels, const DirectionI
 struct HidingDepth {
   float constant, along_x, along_y;  // inverse depth and its slopes [1/m]
 
-  HidingDepth(const GatedSurfel& s, std::uint32_t face) {
+  HidingDepth(const GatedSurfels& surfels, std::uint32_t surfel, std::uint32_t face) {
     constexpr float rounding = 1 + 1e-5f, slack = 2e-6f;
     const int k = static_cast<int>(face / 2);
-    const float scale = rounding / (s.plane_distance + s.spacing + 3 * s.noise);
-    constant = ((face % 2 == 0 ? s.away[k] : -s.away[k]) + slack) * scale;
-    along_x = s.away[(k + 1) % 3] * scale;
-    along_y = s.away[(k + 2) % 3] * scale;
+    const GatedSurfel& s = surfels[surfel];
+    const GatedFacet* const facet = surfels.facet.empty() ? nullptr : &surfels.facet[surfel];
+    const Eigen::Vector3f& away = facet ? facet->away : s.away;
+    const float beyond = facet ? facet->plane_distance + facet->tolerance : s.plane_distance + s.spacing + 3 * s.noise;
+    const float scale = beyond > 0 ? rounding / beyond : 0;
+    constant = ((face % 2 == 0 ? away[k] : -away[k]) + slack) * scale;
+    along_x = away[(k + 1) % 3] * scale;
+    along_y = away[(k + 2) % 3] * scale;
   }
   bool before(const CubePoint& q) const { return q.depth * (constant + along_x * q.x + along_y * q.y) >= 1; }
 };
@@ -73,8 +77,7 @@ class DepthTile {
     sort_open(tile);
     if (open_.empty()) return;
     for (const TileBox& box : tile.boxes) {
-      const GatedSurfel& front = surfels_[box.surfel];
-      const HidingDepth depth(front, tile.face);
+      const HidingDepth depth(surfels_, box.surfel, tile.face);
       for (std::size_t y = box.y0; y <= box.y1; ++y) {
         // Those of a row stand side by side; few of them are behind.
         std::size_t found = 0;
@@ -84,7 +87,7 @@ class DepthTile {
         }
         for (std::size_t k = 0; k < found; ++k) {
           Open& behind = open_[behind_[k]];
-          if (!hides(behind.so_far)) behind.so_far |= cover(front, behind.line);
+          if (!hides(behind.so_far)) behind.so_far |= cover(surfels_, box.surfel, behind.line);
         }
       }
     }
@@ -122,7 +125,7 @@ class DepthTile {
   }
 
   void draw(const DirectionTile& tile, const TileBox& box) {
-    const HidingDepth depth(surfels_[box.surfel], tile.face);
+    const HidingDepth depth(surfels_, box.surfel, tile.face);
     // Maximum over a cell: the value at its centre plus half a cell along the gradient.
     const float step = depth.along_x * tile.cell_x, step_y = depth.along_y * tile.cell_y;
     const float most = 0.5f * (std::abs(step) + std::abs(step_y));
@@ -161,7 +164,7 @@ std::vector<Cover> covers_by_raster(const GatedSurfels& surfels, int threads) {
     parallel_blocks(asked.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         for (const std::uint32_t w : raster.wide())
-          if (!hides(covers[asked[k]])) covers[asked[k]] |= cover(surfels[w], LineOfSight(surfels[asked[k]]));
+          if (!hides(covers[asked[k]])) covers[asked[k]] |= cover(surfels, w, LineOfSight(surfels[asked[k]]));
     });
   return covers;
 }

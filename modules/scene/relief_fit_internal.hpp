@@ -12,6 +12,7 @@ namespace insonify::cells {
 
 struct ReliefFit {
   Vector2d slope = Vector2d::Zero();  // at the point
+  double rise = 0;                    // of the polynomial over the point [m]
   double misfit = 0;                  // [m^2], mean square of what the polynomial leaves, per degree of freedom
   bool found = false;                 // the places determine it
 };
@@ -46,7 +47,7 @@ ReliefFit fit_relief(std::span<const Place> places, const Vector3d& up) {
   if (!(solver.vectorD().minCoeff() > least * solver.vectorD().maxCoeff())) return {};
   const Terms found = solver.solve(right);
   const double left = std::max(0.0, square - found.dot(right));
-  return {found.template segment<2>(1) / reach, left / static_cast<double>(places.size() + 1 - terms), true};
+  return {found.template segment<2>(1) / reach, found[0], left / static_cast<double>(places.size() + 1 - terms), true};
 }
 
 }  // namespace insonify::cells

@@ -31,6 +31,10 @@ void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* wh
     fail(ErrorKind::content, who, ": scene.area[", i, "] = ", scene.area[i], " m^2, must be finite and >= 0");
   if (!scene.noise.empty() && !(scene.noise[i] >= 0 && std::isfinite(scene.noise[i])))
     fail(ErrorKind::content, who, ": scene.noise[", i, "] = ", scene.noise[i], " m, must be finite and >= 0");
+  if (!scene.facet.empty())
+    for (const Eigen::Vector3f& corner : scene.facet[i])
+      if (!corner.allFinite())
+        fail(ErrorKind::content, who, ": scene.facet[", i, "] has a corner ", at(corner), " m, must be finite");
   if (scene.material[i] >= scene.materials.size())
     fail(ErrorKind::content, who, ": scene.material[", i, "] = ", scene.material[i],
          ", must be below the number of materials, ", scene.materials.size());
@@ -49,6 +53,7 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
   scene.material.push_back(material);
   scene.id.push_back(scene.id.empty() ? 0 : scene.id.back() + 1);
   if (!scene.noise.empty()) scene.noise.push_back(0);
+  if (!scene.facet.empty()) scene.facet.push_back({scene.point.back(), scene.point.back(), scene.point.back()});
 }
 
 void require_valid(const SceneCloud& scene, const char* who) {
@@ -57,6 +62,7 @@ void require_valid(const SceneCloud& scene, const char* who) {
   require_length(scene.material.size(), scene.size(), "material", who);
   require_length(scene.id.size(), scene.size(), "id", who);
   if (!scene.noise.empty()) require_length(scene.noise.size(), scene.size(), "noise", who);
+  if (!scene.facet.empty()) require_length(scene.facet.size(), scene.size(), "facet", who);
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
   for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
   for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
@@ -89,6 +95,7 @@ SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& kee
   gather(scene.material, part.material);
   gather(scene.id, part.id);
   if (!scene.noise.empty()) gather(scene.noise, part.noise);
+  if (!scene.facet.empty()) gather(scene.facet, part.facet);
   return part;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,7 +38,9 @@ struct SurfelShapes {
   std::vector<float> area;              ///< [m^2]
   std::size_t strays =
       0;  ///< cells more than 16 times as large as those around, cut down to their median; 0 with a viewpoint
-  std::size_t height_field = 0;  ///< points of height fields that show their relief, not noise
+  std::size_t height_field = 0;       ///< points of height fields that show their relief, not noise
+  std::size_t heights = 0;            ///< points of height fields, noisy ones among them
+  std::vector<std::uint8_t> noisy{};  ///< of each point, 1: of a height field, and shows noise; empty: with a viewpoint
 };
 
 /// Normals and areas of points that have none, fitting each other. `base_normals`, unit vectors, are those of planes

@@ -139,7 +139,8 @@ std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& ba
 void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options, Estimate& e,
                    std::vector<Vector3f>& normals, SurfelShapes& counts) {
   constexpr double far_larger = 16;
-  std::atomic<std::size_t> strays{0}, height_field{0};
+  std::atomic<std::size_t> strays{0}, height_field{0}, heights{0};
+  counts.noisy.assign(looks.size(), 0);
   parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
     std::vector<double> by_relief, by_plane, cells;
@@ -155,6 +156,8 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
       }
       const bool relief = 2 * median_of(by_relief) <= median_of(by_plane);
       height_field += look.charted && relief;
+      heights += look.charted;
+      counts.noisy[i] = look.charted && !relief;
       const Vector3f found = relief ? look.relief : mean.normalized();
       normals[i] = found.dot(normals[i]) < 0 ? Vector3f(-found) : found;
       e.area[i] = look.cell / std::max<double>(least_cosine, std::abs(found.dot(look.frame)));
@@ -166,6 +169,7 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
   });
   counts.strays = strays;
   counts.height_field = height_field;
+  counts.heights = heights;
 }
 
 // Shapes of points whose lines of sight are not known.
@@ -228,6 +232,10 @@ SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<
   limit_cells(e.area);
   shapes.area = shared_areas(e, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) shapes.normal[i] = normals[e.distinct.position[i]];
+  if (shapes.noisy.empty()) return shapes;
+  std::vector<std::uint8_t> noisy;
+  for (const std::uint32_t distinct : e.distinct.position) noisy.push_back(shapes.noisy[distinct]);
+  shapes.noisy = std::move(noisy);
   return shapes;
 }
 

@@ -278,7 +278,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     scene.noise = std::move(raw.noise);
     complete_noise(raw, options, result);
     complete_materials(raw, options, result);
-    if (options.mesh_spacing == 0) add_raster(raw, result);
+    add_surface(raw, options, result);
   } else {
     // The corners have materials, of which the surfels take theirs.
     scene.point = raw.point;
@@ -286,7 +286,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     complete_materials(raw, options, result);
     sample_mesh(raw, options, result);
   }
-  if (options.keep_columns) result.columns = take_columns(raw, options);
+  if (options.keep_columns) take_columns(raw, options, result.columns);
   note_no_area(std::accumulate(scene.area.begin(), scene.area.end(), 0.0), result.report.notes);
   if (!raw.tags.prepared) {
     for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area), options.unit)) {

@@ -79,8 +79,13 @@ void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedS
 /// Drops all points not listed in `keep` (ascending).
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep);
 
-/// Makes the triangles of raw.raster, if there are any, the mesh of a completed cloud.
-void add_raster(const RawCloud& raw, LoadedScene& result);
+/// Sets the surface between the points of a height field: the triangles of a raster, or those of the plan if there are none.
+void set_surface(std::span<const Eigen::Vector3f> points, std::vector<std::array<std::uint32_t, 3>> raster, int threads,
+                 RawCloud& raw);
+
+/// Makes raw.surface, if there is any, the mesh of a completed cloud, or with options.mesh_spacing samples it in place of the
+/// points.
+void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
 /// Samples a mesh: fills points, normals, areas, labels and ids of result.scene, and the report; columns of the corners
 /// become columns of the surfels.

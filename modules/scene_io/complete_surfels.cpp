@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sampling/trust_lines_of_sight.hpp"
+#include "scene/height_triangles.hpp"
 #include "scene/surfel_area.hpp"
 #include "scene/surfel_noise.hpp"
 #include "scene_io/complete_scene_internal.hpp"
@@ -12,10 +14,36 @@ namespace {
 /// An organised cloud with a viewpoint: one view, of which every line of sight is known.
 bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint; }
 
+/// True if all points were seen steeply from above, from within 10 degrees of the vertical: as a height field is.
+bool seen_from_above(const RawCloud& raw) {
+  constexpr double steepest = 0.17633;  // tangent of 10 degrees
+  return raw.viewpoint && std::all_of(raw.point.begin(), raw.point.end(), [&](const Eigen::Vector3f& p) {
+           const Eigen::Vector3d up = *raw.viewpoint - raw.origin - p.cast<double>();
+           return up.z() > 0 && up.head<2>().norm() <= steepest * up.z();
+         });
+}
+
+/// The surface between the points of a height field: of a raster the triangles of its cells, where most points show their
+/// relief or all are noisy; else those of the plan, if nearly all are of one height field.
+void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32_t, 3>> raster, int threads,
+                  RawCloud& raw) {
+  constexpr double nearly_all = 0.98;
+  const bool one_sheet = static_cast<double>(shapes.heights) >= nearly_all * static_cast<double>(raw.point.size());
+  const bool relief = 2 * shapes.height_field >= raw.point.size();
+  if (!one_sheet && !(relief && !raster.empty())) return;
+  const bool is_raster = !raster.empty();
+  const bool noisy = std::find(shapes.noisy.begin(), shapes.noisy.end(), 1) != shapes.noisy.end();
+  if (!noisy || (relief && is_raster)) return set_surface(raw.point, std::move(raster), threads, raw);
+  raw.surface_height = smoothed_heights(raw.point, shapes.noisy, threads);
+  std::vector<Eigen::Vector3f> smooth = raw.point;
+  for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i].z() = raw.surface_height[i];
+  set_surface(smooth, is_raster ? raster_triangles(smooth) : std::move(raster), threads, raw);
+}
+
 /// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
 void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   ShapeOptions shaping{.threads = options.threads, .keep_strays = options.keep_strays};
-  shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raw.raster.empty();
+  shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raw.raster.empty() || seen_from_above(raw);
   if (seen_at_once(raw)) shaping.viewpoint = *raw.viewpoint - raw.origin;
   SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, shaping);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
@@ -27,8 +55,7 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
   raw.area = std::move(shapes.area);
   report.areas_estimated = true;
   report.strays = shapes.strays;
-  // Where most points show no noise, the surface between them is known too.
-  if (2 * shapes.height_field < raw.point.size()) raw.raster.clear();
+  join_heights(shapes, std::exchange(raw.raster, {}), options.threads, raw);
   if (shapes.strays > 0)
     report.notes.push_back(share(shapes.strays, raw.point.size(), "points") + " stand far from all others: " +
                            (options.keep_strays ? "kept with areas as large as their cells"
@@ -36,6 +63,12 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
 }
 
 }  // namespace
+
+void set_surface(std::span<const Eigen::Vector3f> points, std::vector<std::array<std::uint32_t, 3>> raster, int threads,
+                 RawCloud& raw) {
+  raw.surface_name = raster.empty() ? "surface of heights" : "raster of heights";
+  raw.surface = raster.empty() ? height_triangles(points, threads) : std::move(raster);
+}
 
 double largest_area(const RawCloud& raw) {
   if (raw.tags.prepared || raw.points_in_file < 4) return farthest_coordinate * farthest_coordinate;

@@ -18,13 +18,13 @@ namespace insonify {
 struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< where the capture stood [m, world]; orients normals without sides
   int normal_neighbours = 32;                ///< for the planes of estimated normals
-  double mesh_spacing = 0;                   ///< [m] between surfels of a mesh; 0: see LoadedScene::mesh
-  double unit = 1;                           ///< metres per unit of the file, e.g. 0.001 for millimetres
-  std::vector<Material> materials;           ///< by label, or by name if the file names its own and one of these has
-                                             ///< that name; empty: those in the file, else a default one per label
-  std::optional<std::uint16_t> material;     ///< gives every surfel this index into the materials
-  std::uint64_t seed = 1;                    ///< of mesh sampling
-  int threads = 0;                           ///< 0: all cores
+  double mesh_spacing = 0;                ///< [m] between surfels of a mesh or height field; 0: see LoadedScene::mesh
+  double unit = 1;                        ///< metres per unit of the file, e.g. 0.001 for millimetres
+  std::vector<Material> materials;        ///< by label, or by name if the file names its own and one of these has
+                                          ///< that name; empty: those in the file, else a default one per label
+  std::optional<std::uint16_t> material;  ///< gives every surfel this index into the materials
+  std::uint64_t seed = 1;                 ///< of mesh sampling
+  int threads = 0;                        ///< 0: all cores
   /// Standard deviation of the scan across its surfaces [m], of all points of a cloud; a `noise` field of the file
   /// wins. Empty: estimated, unless the file is a prepared one. Meshes and tiles have none.
   std::optional<double> scan_noise{};
@@ -59,12 +59,14 @@ struct LoadReport {
 struct LoadedScene {
   SceneCloud scene;
   LoadReport report;
-  /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or of a raster
-  /// of heights, of which `scene` has the points. A ping samples it by what its head resolves (mesh_surfels). A raster is
-  /// a cloud without normals and areas whose points stand on a grid along x and y and show no noise.
+  /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or the surface
+  /// of a height field, of which `scene` has the points. A ping samples it by what its head resolves (mesh_surfels). A height
+  /// field is a cloud without normals and areas of which 98 % of the points have one height each, or whose points stand on a
+  /// grid along x and y and most show no noise (raster_triangles, height_triangles); noisy points are joined at smoothed_heights.
   std::optional<SceneMesh> mesh{};
   SceneColumns
       columns{};  ///< of the surfels, with options.keep_columns; of a sampled mesh those of the nearest corners
+  SceneColumns corner_columns{};  ///< the same of the corners of a file's mesh
 };
 
 /// Extensions of the files that load_scene reads: ".pcd .ply .obj ...", separated by spaces, for messages and help.

@@ -43,6 +43,8 @@ std::string ply_header(const PackedRows& rows) {
     const char* type = ply_type(column.type);
     header += std::string("property ") + type + " " + column.name + "\n";
   }
+  if (!rows.triangles.empty())
+    header += "element face " + std::to_string(rows.triangles.size()) + "\nproperty list uchar int vertex_indices\n";
   return header + "end_header\n";
 }
 
@@ -109,6 +111,7 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
   rows.comments = tag_lines(scene);
   if (columns.material != "material" || !columns.others.empty())
     rows.comments.push_back("insonify material_field " + columns.material);
+  if (columns.heights) rows.comments.push_back("insonify points heights");
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
   rows.columns.push_back({"area", NumberType::float32});
@@ -129,6 +132,31 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
     if (!scene.noise.empty()) put(out, scene.noise[i]);
   };
   add_columns(rows, columns, format);
+  return rows;
+}
+
+PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns) {
+  const bool wide = !mesh.origin.isZero(0);
+  SceneCloud tagged;
+  tagged.origin = mesh.origin;
+  tagged.materials = mesh.materials;
+  tagged.normals_oriented = mesh.normals_oriented;
+  PackedRows rows;
+  rows.rows = mesh.point.size();
+  rows.comments = tag_lines(tagged);
+  if (columns.material != "material" || !columns.others.empty())
+    rows.comments.push_back("insonify material_field " + columns.material);
+  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  if (!mesh.normal.empty()) add_columns(rows, "n", {"x", "y", "z"}, NumberType::float32);
+  rows.columns.push_back({columns.material, NumberType::uint32});
+  rows.write_row = [&mesh, wide](std::size_t i, char* out) {
+    put_position(out, mesh.origin + mesh.point[i].cast<double>(), wide);
+    if (!mesh.normal.empty())
+      for (const float n : mesh.normal[i]) put(out, n);
+    put(out, std::uint32_t{mesh.material[i]});
+  };
+  rows.triangles = mesh.triangle;
+  add_columns(rows, columns, CloudFormat::ply);
   return rows;
 }
 

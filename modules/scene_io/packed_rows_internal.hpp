@@ -1,12 +1,15 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "returns/insonification.hpp"
 #include "returns/soundings.hpp"
-#include "scene/scene_cloud.hpp"
+#include "scene/scene_mesh.hpp"
 #include "scene_io/number_type_internal.hpp"
 #include "scene_io/scene_columns.hpp"
 
@@ -23,6 +26,7 @@ struct PackedRows {
   std::vector<std::string> comments;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of a PCD, that its VIEWPOINT gives [m]
   std::function<void(std::size_t row, char* out)> write_row;
+  std::span<const std::array<std::uint32_t, 3>> triangles{};  ///< of rows, in a PLY
 
   std::size_t stride() const {
     std::size_t bytes = 0;
@@ -57,6 +61,9 @@ PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin
 /// (float32) if the scene has it, then the other columns.
 enum class CloudFormat { ply, pcd };
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns = {});
+/// The corners of a mesh for a PLY: x y z (double if its origin is not zero), normal (float32) if it has normals, material,
+/// then the other columns, one number a corner; and its triangles. Keeps references to both arguments.
+PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns);
 /// Its x y z alone.
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 
@@ -64,7 +71,7 @@ PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 /// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
 PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
 
-/// Header of a binary little-endian PLY of points: columns of uint32 are "int", which every reader takes.
+/// Header of a binary little-endian PLY of points or triangles: columns of uint32 are "int", which every reader takes.
 std::string ply_header(const PackedRows& rows);
 
 /// Header of a binary PCD, including its DATA line (written by PCL); comments become "# " lines.

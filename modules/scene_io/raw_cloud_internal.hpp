@@ -24,6 +24,7 @@ struct SceneTags {
   std::optional<Eigen::Vector3d> origin;
   std::vector<Material> materials;
   std::string material_field;  ///< name of the column of materials, if it is said
+  bool heights = false;        ///< points of a height field, with the surface between them
 };
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
@@ -51,7 +52,10 @@ struct RawCloud {
   std::vector<SceneColumn> columns;        ///< with ReadOptions::keep_columns: the others, and that of the labels
   std::vector<std::string> other_columns;  ///< names of the others
   std::vector<std::array<std::uint32_t, 3>> triangle;
-  std::vector<std::array<std::uint32_t, 3>> raster;  ///< triangles between the points, if they are a raster of heights
+  std::vector<std::array<std::uint32_t, 3>> raster;   ///< triangles between the points, if they are a raster of heights
+  std::vector<std::array<std::uint32_t, 3>> surface;  ///< triangles between the points of a height field
+  std::vector<float> surface_height;  ///< z on it [m], of points that stray from it by noise; empty: theirs
+  std::string surface_name;           ///< what it is, for the report
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
   std::size_t not_finite = 0;                            ///< too far ones among them
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "sampling/mesh_surfels.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/scene_columns_internal.hpp"
 
@@ -150,7 +151,8 @@ SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadRepor
     fail(ErrorKind::content, raw.path, ": no usable triangle: all ", raw.triangle.size(),
          " have no area; export the mesh again");
   }
-  mesh.normals_oriented = !mesh.normal.empty() || winding_is_oriented(mesh, report.notes);
+  mesh.normals_oriented =
+      raw.tags.prepared ? raw.tags.oriented : !mesh.normal.empty() || winding_is_oriented(mesh, report.notes);
   if (mesh.normals_oriented || !options.viewpoint) return mesh;
   face_viewpoint(*options.viewpoint - mesh.origin, mesh);
   mesh.normals_oriented = true;
@@ -160,20 +162,38 @@ SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadRepor
 
 }  // namespace
 
-void add_raster(const RawCloud& raw, LoadedScene& result) {
-  if (raw.raster.empty()) return;
-  const SceneCloud& scene = result.scene;
+void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
+  SceneCloud& scene = result.scene;
+  if (raw.tags.prepared && raw.tags.heights)
+    set_surface(scene.point, raster_triangles(scene.point), options.threads, raw);
+  std::erase_if(raw.surface, [&](const auto& t) {
+    const auto at = [&](int corner) { return scene.point[t[corner]].template cast<double>(); };
+    return area_of({at(0), at(1), at(2)}) == 0;
+  });
+  if (raw.surface.empty()) return;
   SceneMesh mesh{.origin = scene.origin,
                  .point = scene.point,
                  .normal = {},
                  .material = scene.material,
-                 .triangle = raw.raster,
+                 .triangle = std::move(raw.surface),
                  .materials = scene.materials,
                  .normals_oriented = scene.normals_oriented,
                  .whole = whole_of(scene)};
-  if (raw.viewpoint) face_viewpoint(*raw.viewpoint - mesh.origin, mesh);
-  result.report.format += ", raster of heights";
-  result.mesh = std::move(mesh);
+  for (std::size_t i = 0; i < raw.surface_height.size(); ++i) mesh.point[i].z() = raw.surface_height[i];
+  // A height field looks to one side.
+  double up = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i) up += double{scene.area[i]} * double{scene.normal[i].z()};
+  if (scene.normals_oriented && up < 0)
+    for (auto& triangle : mesh.triangle) std::swap(triangle[1], triangle[2]);
+  result.report.format += ", " + raw.surface_name;
+  if (options.mesh_spacing == 0) {
+    result.columns.heights = true;
+    result.mesh = std::move(mesh);
+    return;
+  }
+  EvenSurfels even = even_surfels(mesh, options.mesh_spacing, options.seed, options.threads);
+  scene = std::move(even.scene);
+  for (SceneColumn& column : raw.columns) keep_rows(column, even.corner);
 }
 
 void sample_mesh(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
@@ -196,6 +216,11 @@ void sample_mesh(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
   parallel_blocks(count, 1 << 12, options.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) corner[i] = place_surfel(mesh, surface, options.seed, i, scene);
   });
+  if (options.keep_columns && options.mesh_spacing == 0) {
+    RawCloud corners;
+    corners.label_field = raw.label_field, corners.columns = raw.columns;
+    take_columns(corners, options, result.corner_columns);
+  }
   for (SceneColumn& column : raw.columns) keep_rows(column, corner);
 
   if (options.mesh_spacing > 0) return;

@@ -55,6 +55,15 @@ void save_scene(const std::string& path, const SceneCloud& scene, const SceneCol
   write_cloud(path, format, rows_of(scene, format, columns));
 }
 
+void save_scene(const std::string& path, const LoadedScene& loaded) {
+  if (loaded.mesh && !loaded.columns.heights && format_for(path, loaded.scene) == CloudFormat::ply)
+    return write_cloud(path, CloudFormat::ply, rows_of(*loaded.mesh, loaded.corner_columns));
+  if (!loaded.columns.heights || !loaded.mesh) return save_scene(path, loaded.scene, loaded.columns);
+  SceneCloud scene = loaded.scene;
+  scene.point = loaded.mesh->point;
+  save_scene(path, scene, loaded.columns);
+}
+
 void save_bare_points(const std::string& path, const SceneCloud& scene) {
   const CloudFormat format = format_for(path, scene);
   write_cloud(path, format, bare_rows_of(scene, format));

@@ -6,7 +6,7 @@
 #include "returns/insonification.hpp"
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
-#include "scene_io/scene_columns.hpp"
+#include "scene_io/load_scene.hpp"
 
 namespace insonify {
 
@@ -18,6 +18,11 @@ namespace insonify {
 /// temporary name, then renamed. Throws as require_valid; Error(argument) for another extension or a scene too far from
 /// zero for PCD, Error(content) if it is empty, Error(file) if it cannot write.
 void save_scene(const std::string& path, const SceneCloud& scene, const SceneColumns& columns = {});
+
+/// Writes a loaded scene so that it is pinged as before: points of a height field, at their heights on its surface, with a
+/// comment line that says that they are; a mesh as .ply, with its triangles; a mesh as .pcd, which has no place for them, as
+/// the surfels of its overview. Otherwise as above.
+void save_scene(const std::string& path, const LoadedScene& loaded);
 
 /// Writes the points of a scene alone, as a scanner gives them: x y z, as save_scene in all else.
 void save_bare_points(const std::string& path, const SceneCloud& scene);

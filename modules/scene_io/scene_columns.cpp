@@ -66,8 +66,7 @@ SceneColumn copy_of(const RowTable& table, const RowTable::Column& column) {
   return copy;
 }
 
-SceneColumns take_columns(RawCloud& raw, const LoadOptions& options) {
-  SceneColumns columns;
+void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& columns) {
   columns.others = std::move(raw.columns);
   const auto has = [&](const std::string& name) {
     return std::any_of(columns.others.begin(), columns.others.end(),
@@ -79,7 +78,6 @@ SceneColumns take_columns(RawCloud& raw, const LoadOptions& options) {
   } else if (has("material")) {
     columns.material = "material_index";
   }
-  return columns;
 }
 
 void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows) {

@@ -17,6 +17,7 @@ struct SceneColumn {
 struct SceneColumns {
   std::string material = "material";  ///< name of the column of materials
   std::vector<SceneColumn> others{};
+  bool heights = false;  ///< the points are those of a height field, with the surface between them
 };
 
 /// The columns of the surfels with the ids `kept`, which are some of `ids`, those of `columns`.

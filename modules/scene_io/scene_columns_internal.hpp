@@ -15,8 +15,8 @@ SceneColumn copy_of(const RowTable& table, const RowTable::Column& column);
 /// Makes a column of the rows listed, in that order.
 void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows);
 
-/// The columns that go with the surfels. That of the labels goes on as the column of materials if its numbers are theirs.
-SceneColumns take_columns(RawCloud& raw, const LoadOptions& options);
+/// Takes the columns that go with the surfels. That of the labels goes on as the column of materials if its numbers are theirs.
+void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& columns);
 
 /// Adds further columns to the rows of a scene: by their names, "_in_file" behind those that the scene's own columns have,
 /// in PLY as int, uchar, float or double. Throws Error(argument) for a column of another length.

@@ -43,6 +43,8 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
       if (!to_number(take_word(rest), coordinate)) bad();
     }
     tags.origin = origin;
+  } else if (key == "points") {
+    if (take_word(rest) == "heights") tags.heights = true;
   } else if (key == "material_field") {
     if (!rest.empty()) rest.remove_prefix(1);
     tags.material_field = std::string(rest);

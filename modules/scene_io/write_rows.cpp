@@ -21,6 +21,18 @@ void write_rows(const std::string& path, const std::string& header, const Packed
     for (std::size_t i = 0; i < count; ++i) rows.write_row(first + i, bytes.data() + i * stride);
     file.write(bytes.data(), static_cast<std::streamsize>(count * stride));
   }
+  // The faces of a PLY: how many corners, and which.
+  constexpr std::size_t face = 1 + 3 * sizeof(std::uint32_t);
+  bytes.resize(block * face);
+  for (std::size_t first = 0; first < rows.triangles.size() && file; first += block) {
+    char* out = bytes.data();
+    const std::size_t count = std::min(block, rows.triangles.size() - first);
+    for (const auto& triangle : rows.triangles.subspan(first, count)) {
+      put(out, std::uint8_t{3});
+      for (const std::uint32_t corner : triangle) put(out, corner);
+    }
+    file.write(bytes.data(), static_cast<std::streamsize>(count * face));
+  }
   pending.commit(file);
 }
 

@@ -70,13 +70,15 @@ void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& v
   constexpr std::size_t enough = 64;  // adjacent surfels mostly share an occluder
   if (behind.size() > enough) behind.resize(enough);
   float nearest = std::numeric_limits<float>::infinity();
-  for (const GatedSurfel& front : gated)
-    for (const GatedSurfel* s : behind)
-      if (front.range < nearest && front.range < s->range && cover(front, LineOfSight(*s)) != 0) {
+  for (std::size_t i = 0; i < gated.size(); ++i)
+    for (const GatedSurfel* s : behind) {
+      const GatedSurfel& front = gated[i];
+      if (front.range < nearest && front.range < s->range && cover(gated, i, LineOfSight(*s)) != 0) {
         nearest = front.range;
         visibility.occluder_range = static_cast<double>(front.range);
         visibility.occluder_surfel = front.surfel;
       }
+    }
 }
 
 std::string material_name(const ViewerData& data, std::uint16_t material) {

@@ -1,9 +1,11 @@
 #include "support/height_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -36,29 +38,79 @@ Grid<double> group_powers(const SonarHead& head, double wavelength, Eigen::Index
   return powers;
 }
 
-// True if no part of the field stands on the straight line from `head` to a facet at `p`.
-bool in_view(const HeightField& field, const Eigen::Vector3d& head, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d d = p - head;
-  const double across = d.head<2>().norm(), step = 0.4 * field.spacing;
-  for (double s = step; s < across; s += step) {
-    const Eigen::Vector3d q = p - d * (s / across);
-    if (field.at(q.head<2>()) > q.z() + 1e-9) return false;
+// One cell: heights of its corners, counter-clockwise from the one nearest to the grid's origin, and how it is cut.
+struct Cell {
+  double a, b, c, d;
+  bool falling;  // the diagonal runs from b to d
+
+  Cell(const HeightField& f, Eigen::Index row, Eigen::Index column)
+      : a(f.z(row, column)), b(f.z(row, column + 1)), c(f.z(row + 1, column + 1)), d(f.z(row + 1, column)) {
+    falling = std::isnan(a) || std::isnan(c) || std::abs(b - d) < std::abs(a - c);
   }
-  return true;
-}
+  // At x, y in 0 .. 1; NaN in a hole.
+  double at(double x, double y) const {
+    if (falling) return x + y <= 1 ? a + x * (b - a) + y * (d - a) : c + (1 - x) * (d - c) + (1 - y) * (b - c);
+    return x >= y ? a + x * (b - a) + y * (c - b) : a + y * (d - a) + x * (c - d);
+  }
+};
+
+constexpr double rounding = 1e-9;  // [m]
 
 }  // namespace
 
+Eigen::Vector3d HeightField::node(Eigen::Index row, Eigen::Index column) const {
+  return {corner.x() + spacing * static_cast<double>(column), corner.y() + spacing * static_cast<double>(row),
+          z(row, column)};
+}
+
 double HeightField::at(const Eigen::Vector2d& p) const {
+  constexpr double nothing = -std::numeric_limits<double>::infinity();
   const Eigen::Vector2d q = (p - corner) / spacing;
   const double x = std::floor(q.x()), y = std::floor(q.y());
   if (!(x >= 0 && y >= 0 && x + 1 < static_cast<double>(z.cols()) && y + 1 < static_cast<double>(z.rows())))
-    return -std::numeric_limits<double>::infinity();
-  const auto i = static_cast<Eigen::Index>(x), j = static_cast<Eigen::Index>(y);
-  const double a = q.x() - x, b = q.y() - y;
-  // The diagonal runs from node (j, i + 1) to node (j + 1, i).
-  if (a + b <= 1) return z(j, i) + a * (z(j, i + 1) - z(j, i)) + b * (z(j + 1, i) - z(j, i));
-  return z(j + 1, i + 1) + (1 - a) * (z(j + 1, i) - z(j + 1, i + 1)) + (1 - b) * (z(j, i + 1) - z(j + 1, i + 1));
+    return nothing;
+  const double height =
+      Cell(*this, static_cast<Eigen::Index>(y), static_cast<Eigen::Index>(x)).at(q.x() - x, q.y() - y);
+  return std::isnan(height) ? nothing : height;
+}
+
+std::vector<HeightField::Triangle> HeightField::triangles(Eigen::Index row, Eigen::Index column) const {
+  const Eigen::Vector3d a = node(row, column), b = node(row, column + 1), c = node(row + 1, column + 1),
+                        d = node(row + 1, column);
+  std::vector<Triangle> both = Cell(*this, row, column).falling ? std::vector<Triangle>{{a, b, d}, {b, c, d}}
+                                                                : std::vector<Triangle>{{a, b, c}, {a, c, d}};
+  std::erase_if(both, [](const Triangle& t) { return !(t[0] + t[1] + t[2]).allFinite(); });
+  return both;
+}
+
+bool HeightField::in_view(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const Eigen::Vector2d start = (from.head<2>() - corner) / spacing, step = (to.head<2>() - from.head<2>()) / spacing;
+  const double rise = to.z() - from.z();
+  std::array<Eigen::Index, 2> cell = {static_cast<Eigen::Index>(std::floor(start.x())),
+                                      static_cast<Eigen::Index>(std::floor(start.y()))};
+  const std::array<Eigen::Index, 2> cells = {z.cols() - 1, z.rows() - 1};
+  const auto inside = [&](int k) { return cell[k] >= 0 && cell[k] < cells[k]; };
+  // From one grid line to the next, along the line's parameter t.
+  for (double t = 0; t < 1 && inside(0) && inside(1);) {
+    int across = 0;
+    double next = 1;
+    for (int k = 0; k < 2; ++k) {
+      if (step[k] == 0) continue;
+      const double line = static_cast<double>(cell[k] + (step[k] > 0 ? 1 : 0)), reached = (line - start[k]) / step[k];
+      if (reached < next) next = std::max(t, reached), across = k;
+    }
+    const Cell here(*this, cell[1], cell[0]);
+    const auto x = [&](double at) { return start.x() + at * step.x() - static_cast<double>(cell[0]); };
+    const auto y = [&](double at) { return start.y() + at * step.y() - static_cast<double>(cell[1]); };
+    const auto stands = [&](double at) { return here.at(x(at), y(at)) > from.z() + at * rise + rounding; };
+    if (stands(t) || stands(next)) return false;
+    const auto side = [&](double at) { return here.falling ? x(at) + y(at) - 1 : x(at) - y(at); };
+    const double before = side(t), after = side(next);
+    if (before * after < 0 && stands(t + (next - t) * before / (before - after))) return false;
+    t = next;
+    cell[across] += step[across] > 0 ? 1 : -1;
+  }
+  return true;
 }
 
 HeightField height_field(const Eigen::Vector2d& centre, double half, double spacing,
@@ -77,29 +129,36 @@ std::string points_of(const HeightField& field) {
   out.precision(9);
   for (Eigen::Index j = 0; j < field.z.rows(); ++j)
     for (Eigen::Index i = 0; i < field.z.cols(); ++i)
-      out << field.corner.x() + field.spacing * static_cast<double>(i) << ' '
-          << field.corner.y() + field.spacing * static_cast<double>(j) << ' ' << field.z(j, i) << '\n';
+      if (!std::isnan(field.z(j, i)))
+        out << field.corner.x() + field.spacing * static_cast<double>(i) << ' '
+            << field.corner.y() + field.spacing * static_cast<double>(j) << ' ' << field.z(j, i) << '\n';
   return out.str();
 }
 
+double heard_by_definition(const Eigen::Vector3d& p, double cosine, double area, double lambert_mu,
+                           const SonarHead& head, const Medium& medium) {
+  const double r = p.norm(), alpha_db = medium.absorption.a0 / nepers_per_db;
+  const double off_axis = (std::asin(p.z() / r) - head.fan.elevation.front()) / head.fan.elevation_width;
+  const double level = head.pulse.source_level_db - 40 * std::log10(r) - 2 * alpha_db * r +
+                       10 * std::log10(lambert_mu * cosine * cosine * area) - 40 * std::log10(2) * off_axis * off_axis;
+  return std::pow(10, (level - 120) / 10);
+}
+
 Grid<double> energy_by_definition(const HeightField& field, double lambert_mu, const SonarHead& head, const Pose& pose,
-                                  const Medium& medium, int cuts, Eigen::Index groups, Eigen::Index bands) {
+                                  const Medium& medium, int cuts, Eigen::Index groups, Eigen::Index bands,
+                                  bool occlusion) {
   const Eigen::Index steps = 40000, bins = static_cast<Eigen::Index>(head.gate.bins());
   const Grid<double> powers = group_powers(head, medium.sound_speed / head.pulse.centre_frequency, groups, steps);
-  const double alpha_db = medium.absorption.a0 / nepers_per_db;
-  Grid<double> energy = Grid<double>::Zero(groups, bands);
   const Pose head_from_world = pose.inverse();
 
-  const auto add_facet = [&](const Eigen::Vector3d& centre, const Eigen::Vector3d& normal, double area) {
+  const auto add_facet = [&](const Eigen::Vector3d& centre, const Eigen::Vector3d& normal, double area,
+                             Grid<double>& energy) {
     const Eigen::Vector3d p = head_from_world * centre;
     const double r = p.norm(), cosine = normal.dot(pose.translation() - centre) / r;
-    if (!(p.x() > 0 && cosine > 0 && r < head.gate.max_range + 1) || !in_view(field, pose.translation(), centre))
+    if (!(p.x() > 0 && cosine > 0 && r < head.gate.max_range + 1) ||
+        (occlusion && !field.in_view(centre, pose.translation())))
       return;
-    const double off_axis = (std::asin(p.z() / r) - head.fan.elevation.front()) / head.fan.elevation_width;
-    const double level = head.pulse.source_level_db - 40 * std::log10(r) - 2 * alpha_db * r +
-                         10 * std::log10(lambert_mu * cosine * cosine * area) -
-                         40 * std::log10(2) * off_axis * off_axis;
-    const double power = std::pow(10, (level - 120) / 10);
+    const double power = heard_by_definition(p, cosine, area, lambert_mu, head, medium);
     // Samples within the pulse, whose energy has fallen to one half at c / 2B from each other.
     const double middle = (r - head.gate.min_range) / head.gate.bin_size - 0.5;
     const double reach = medium.sound_speed / head.pulse.bandwidth / head.gate.bin_size;
@@ -114,24 +173,24 @@ Grid<double> energy_by_definition(const HeightField& field, double lambert_mu, c
   };
 
   // Both triangles of every square, cut into triangles of equal size.
-  const auto add_triangle = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-    const Eigen::Vector3d e = (b - a) / cuts, f = (c - a) / cuts, cross = e.cross(f);
+  const auto add_triangle = [&](const HeightField::Triangle& t, Grid<double>& energy) {
+    const Eigen::Vector3d e = (t[1] - t[0]) / cuts, f = (t[2] - t[0]) / cuts, cross = e.cross(f);
     const double area = cross.norm() / 2;
     for (int i = 0; i < cuts; ++i)
       for (int j = 0; i + j < cuts; ++j) {
-        add_facet(a + (i + 1 / 3.0) * e + (j + 1 / 3.0) * f, cross / (2 * area), area);
-        if (i + j + 1 < cuts) add_facet(a + (i + 2 / 3.0) * e + (j + 2 / 3.0) * f, cross / (2 * area), area);
+        add_facet(t[0] + (i + 1 / 3.0) * e + (j + 1 / 3.0) * f, cross / (2 * area), area, energy);
+        if (i + j + 1 < cuts) add_facet(t[0] + (i + 2 / 3.0) * e + (j + 2 / 3.0) * f, cross / (2 * area), area, energy);
       }
   };
-  const auto node = [&](Eigen::Index j, Eigen::Index i) {
-    return Eigen::Vector3d(field.corner.x() + field.spacing * static_cast<double>(i),
-                           field.corner.y() + field.spacing * static_cast<double>(j), field.z(j, i));
-  };
-  for (Eigen::Index j = 0; j + 1 < field.z.rows(); ++j)
-    for (Eigen::Index i = 0; i + 1 < field.z.cols(); ++i) {
-      add_triangle(node(j, i), node(j, i + 1), node(j + 1, i));
-      add_triangle(node(j + 1, i + 1), node(j + 1, i), node(j, i + 1));
-    }
+  const auto rows = static_cast<std::size_t>(field.z.rows() - 1);
+  std::vector<Grid<double>> of_row(rows, Grid<double>::Zero(groups, bands));
+  parallel_for(rows, 0, [&](std::size_t row) {
+    for (Eigen::Index column = 0; column + 1 < field.z.cols(); ++column)
+      for (const auto& triangle : field.triangles(static_cast<Eigen::Index>(row), column))
+        add_triangle(triangle, of_row[row]);
+  });
+  Grid<double> energy = Grid<double>::Zero(groups, bands);
+  for (const Grid<double>& part : of_row) energy += part;
   return energy;
 }
 

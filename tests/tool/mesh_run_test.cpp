@@ -45,10 +45,10 @@ TEST_F(MeshRun, a_spacing_asked_for_is_kept_and_its_gaps_are_noted) {
 }
 
 TEST_F(MeshRun, a_memory_limit_coarsens_and_is_noted) {
-  succeed(swath + " --memory-limit 0.0001 -o small");  // 559 surfels
+  succeed(swath + " --memory-limit 0.0001 -o small");  // 384 surfels
   const nlohmann::json small = manifest("small");
-  EXPECT_LE(small["scene"]["surfels"], 560);
-  EXPECT_NE(small["notes"].dump().find("560 surfels at most are sampled from the mesh"), std::string::npos);
+  EXPECT_LE(small["scene"]["surfels"], 384);
+  EXPECT_NE(small["notes"].dump().find("384 surfels at most are sampled from the mesh"), std::string::npos);
 }
 
 TEST_F(MeshRun, contributors_belong_to_the_surfels_of_the_ping) {

@@ -116,6 +116,18 @@ TEST_F(PingRun, returned_points_open_elsewhere_and_lie_on_the_scene) {
   EXPECT_EQ(pcd.width * pcd.height, z.size());
 }
 
+TEST_F(PingRun, notes_a_head_below_the_ground) {
+  have("plane.ply", "make-scene plane --points 15000 --size 18,18");
+  const std::string head = " --sonar p900-45 --set sonar.beams=8 --range 2:12 --no-picture -q";
+  const auto notes = [&](const std::string& run) {
+    return nlohmann::json::parse(read(run + "/manifest.json"))["notes"].dump();
+  };
+  succeed("ping plane.ply --pose=0,0,-2,0,-15,0 -o below" + head);
+  EXPECT_THAT(notes("below"), HasSubstr("face away from the head and give no echo: is it below the ground"));
+  succeed("ping plane.ply --pose=0,0,2,0,15,0 -o above" + head);
+  EXPECT_THAT(notes("above"), testing::Not(HasSubstr("face away")));
+}
+
 TEST_F(PingRun, moving_scene_and_head_by_a_million_metres_changes_nothing) {
   // Coordinates in steps of 1/64 m are exact in double even at 10^6 m.
   std::string near = "x y z\n", far = "x y z\n";

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +42,27 @@ TEST_F(Prepare, finds_normals_and_areas_of_bare_points) {
   EXPECT_NEAR(from_points["area_m2"].get<double>(), exact["area_m2"].get<double>(),
               0.15 * exact["area_m2"].get<double>());
   expect_refused("make-scene reef --bare -o reef.tiles", 2, {"--bare", "reef.tiles", ".ply or .pcd"});
+}
+
+TEST_F(Prepare, keeps_the_surface_of_a_height_field_and_of_a_mesh) {
+  std::string points, mesh;
+  for (int i = 0; i < 900; ++i)
+    points +=
+        fmt::format("{} {} {}\n", 0.1 * (i % 30), 0.1 * (i / 30), 0.1 * std::sin(0.5 * (i % 30) + 0.2 * (i / 30)));
+  write("bed.xyz", points);
+  write("bed.obj", "v 0 0 0\nv 3 0 0\nv 3 3 0.5\nv 0 3 0\nf 1 2 3 4\n");
+  for (const std::string file : {"bed.xyz --viewpoint 1.5,1.5,9", "bed.obj"}) {
+    const std::string kind = file.substr(4, 3);
+    succeed("prepare " + file + " -q -o " + kind + ".ply");
+    const std::string head = " --sonar p900-45 --set sonar.beams=16 --pose=-1,1.5,1,0,20,0 --range 1:5 --no-picture -q";
+    succeed("ping " + file + head + " -o " + kind + "_read");
+    succeed("ping " + kind + ".ply" + head + " -o " + kind + "_prepared");
+    EXPECT_TRUE(read(kind + "_read/cube.h5") == read(kind + "_prepared/cube.h5")) << file;
+    succeed("prepare " + kind + ".ply -q -o " + kind + "_again.ply");
+    EXPECT_TRUE(read(kind + "_again.ply") == read(kind + ".ply")) << file;
+  }
+  EXPECT_THAT(prepared("bed.obj -o bed.pcd")["notes"].dump(), HasSubstr("has no place for triangles"));
+  EXPECT_EQ(prepared("bed.obj -o bed.ply")["notes"].size(), 0u);
 }
 
 // A table of materials fits the cloud and what was prepared of it, by the field that it names, by numbers and by names;

@@ -1,0 +1,215 @@
+// Rough ground at grazing angles: pings of clouds drawn from generated beds against their triangles, facet by facet with an
+// exact walk of every line of sight. tests/benchmarks/accuracy/exact_height_field.cpp prints the same for larger ones.
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "core/units.hpp"
+#include "sampling/find_scatterers.hpp"
+#include "scene_io/load_scene.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "simulate/simulate_ping.hpp"
+#include "support/files.hpp"
+#include "support/heads.hpp"
+#include "support/rough_field.hpp"
+#include "support/scene_for_ping.hpp"
+
+using namespace insonify;
+
+namespace {
+
+constexpr Eigen::Index groups = 4, bands = 5;
+
+SonarHead head() { return small_head({.beams = 96, .min_range = 0.6, .max_range = 3.1}); }
+// 0.5 m above the bed; about 10 degrees of grazing at the far end.
+Pose pose() { return pose_from_yaw_pitch_roll({-1.6, 0, 0.75}, 0, radians(12), 0); }
+
+const HeightField& bed() {
+  static const HeightField field = rough_field({.half = 1.5, .shortest = 0.12, .boulders = 2, .terraces = false});
+  return field;
+}
+
+LoadOptions from_above() {
+  LoadOptions load;
+  load.viewpoint = Eigen::Vector3d(0, 0, 1000);
+  return load;
+}
+LoadedScene drawn(const DrawOptions& draw, const LoadOptions& load = from_above()) {
+  return load_scene(own_file("bed.xyz", text_of(draw_points(bed(), draw))), load);
+}
+
+Grid<double> truth(const HeightField& field, bool occlusion = true, const Pose& from = pose()) {
+  return energy_by_definition(field, Material{}.lambert_mu, head(), from, medium_of(Water{}, 450e3), 2, groups, bands,
+                              occlusion);
+}
+const Grid<double>& truth_of_bed() {
+  static const Grid<double> energy = truth(bed());
+  return energy;
+}
+
+Grid<double> energy(const LoadedScene& loaded, SamplingKind kind = SamplingKind::surfels, const Pose& from = pose()) {
+  SimulationOptions options;
+  options.synthesis.method = SynthesisMethod::incoherent;
+  options.sampling.kind = kind;
+  options.sampling.rays_per_beam = 2048;
+  const SceneCloud scene = scene_for_ping(loaded, head(), from, options);
+  return energy_of(simulate_ping(scene, head(), from, {}, options).ping.pressure, groups, bands);
+}
+
+double ratio_db(double a, double b) { return db_from_power(a / b); }
+
+void expect_levels(const Grid<double>& found, const Grid<double>& wanted, double total, double band) {
+  EXPECT_NEAR(ratio_db(found.sum(), wanted.sum()), 0, total);
+  const double strongest = wanted.colwise().sum().maxCoeff();
+  for (Eigen::Index n = 0; n < bands; ++n) {
+    if (wanted.col(n).sum() < 1e-3 * strongest) continue;
+    EXPECT_NEAR(ratio_db(found.col(n).sum(), wanted.col(n).sum()), 0, band) << "band " << n;
+  }
+}
+
+// Energy of surfels wrongly hidden less that of those wrongly shown, by bands, as shares of what is to be seen.
+Grid<double> net_hidden(const LoadedScene& loaded) {
+  SimulationOptions options;
+  options.sampling.scatterers_per_cell = 0;
+  const SceneCloud scene = scene_for_ping(loaded, head(), pose(), options);
+  SamplingOptions sampling = resolve_ping(whole_of(scene), head(), pose(), {}, options).view.sampling;
+  const Scatterers seen = find_scatterers(scene, pose(), head().fan, head().gate, sampling).scatterers;
+  sampling.occlusion = false;
+  const Scatterers all = find_scatterers(scene, pose(), head().fan, head().gate, sampling).scatterers;
+  std::vector<double> shown(scene.size(), 0);
+  for (std::size_t i = 0; i < seen.size(); ++i) shown[seen.surfel[i]] = 1;
+  Grid<double> net = Grid<double>::Zero(1, bands), to_see = net;
+  for (std::size_t i = 0; i < all.size(); i += 5) {
+    Eigen::Vector3d place = scene.origin + scene.point[all.surfel[i]].cast<double>();
+    place.z() = bed().at(place.head<2>());
+    if (!std::isfinite(place.z()) || !(all.projected_area[i] > 0)) continue;
+    const double heard =
+        heard_by_definition(all.range[i] * unit_vector({all.azimuth[i], all.elevation[i]}), all.cos_incidence[i],
+                            all.projected_area[i] / all.cos_incidence[i], 1, head(), medium_of(Water{}, 450e3));
+    const auto band = std::min(bands - 1, static_cast<Eigen::Index>((all.range[i] - 0.6) / 2.5 * bands));
+    const bool open = bed().in_view(place, pose().translation());
+    to_see(band) += open ? heard : 0;
+    net(band) += heard * ((open ? 1 : 0) - shown[all.surfel[i]]);
+  }
+  return net / to_see;
+}
+
+// The triangles of the bed as a file, which is no raster.
+std::string mesh_file(const HeightField& field) {
+  std::ostringstream text;
+  text.precision(9);
+  std::size_t corners = 0;
+  for (Eigen::Index j = 0; j + 1 < field.z.rows(); ++j)
+    for (Eigen::Index i = 0; i + 1 < field.z.cols(); ++i)
+      for (const HeightField::Triangle& t : field.triangles(j, i)) {
+        for (const Eigen::Vector3d& corner : t) text << "v " << corner.transpose() << '\n';
+        text << "f " << corners + 1 << ' ' << corners + 2 << ' ' << corners + 3 << '\n';
+        corners += 3;
+      }
+  return own_file("bed.obj", text.str());
+}
+
+}  // namespace
+
+TEST(RoughGround, hides_much_of_what_would_be_heard) {
+  EXPECT_LT(ratio_db(truth_of_bed().rightCols(2).sum(), truth(bed(), false).rightCols(2).sum()), -0.5);
+}
+
+TEST(RoughGround, is_heard_as_it_is_from_a_raster_a_mesh_and_points_anywhere) {
+  const LoadedScene raster = drawn({}), mesh = load_scene(mesh_file(bed())), jittered = drawn({.jitter = 0.35});
+  expect_levels(energy(raster), truth_of_bed(), 0.05, 0.15);
+  expect_levels(energy(mesh), truth_of_bed(), 0.05, 0.15);
+  expect_levels(energy(jittered), truth_of_bed(), 0.1, 0.3);
+  expect_levels(energy(drawn({.stretch = 5})), truth_of_bed(), 0.1, 0.3);
+}
+
+TEST(RoughGround, is_hidden_wrongly_no_more_than_it_is_shown_wrongly) {
+  EXPECT_LT(net_hidden(drawn({})).abs().maxCoeff(), 0.001);
+  EXPECT_LT(net_hidden(load_scene(mesh_file(bed()))).abs().maxCoeff(), 0.001);
+  EXPECT_LT(net_hidden(drawn({.jitter = 0.35})).abs().maxCoeff(), 0.03);
+}
+
+TEST(RoughGround, with_noise_is_heard_as_the_surface_behind_it) {
+  expect_levels(energy(drawn({.noise = 0.25})), truth_of_bed(), 0.1, 0.3);
+  expect_levels(energy(drawn({.jitter = 0.35, .noise = 0.25})), truth_of_bed(), 0.1, 0.3);
+}
+
+// What is left: the surface of noisy points is that of smoothed heights, which lose what is as fine as the noise.
+TEST(RoughGround, with_noise_of_a_spacing_is_heard_within_a_decibel) {
+  expect_levels(energy(drawn({.noise = 1})), truth_of_bed(), 0.3, 1);
+}
+
+TEST(RoughGround, is_heard_as_it_is_by_a_head_5_cm_above_it_at_a_degree_of_grazing) {
+  const HeightField smooth = rough_field({.half = 1.5, .shortest = 0.5, .boulders = 0, .terraces = false});
+  const Eigen::Vector2d place(-1.3, 0.2);
+  const Pose low = pose_from_yaw_pitch_roll({place.x(), place.y(), smooth.at(place) + 0.05}, 0, radians(1), 0);
+  const LoadedScene raster = load_scene(own_file("low.xyz", text_of(draw_points(smooth))), from_above());
+  const LoadedScene points =
+      load_scene(own_file("low.xyz", text_of(draw_points(smooth, {.jitter = 0.35}))), from_above());
+  const Grid<double> wanted = truth(smooth, true, low);
+  expect_levels(energy(raster, SamplingKind::surfels, low), wanted, 0.1, 0.3);
+  expect_levels(energy(points, SamplingKind::surfels, low), wanted, 0.1, 0.3);
+}
+
+TEST(RoughGround, finer_than_the_spacing_of_its_points_is_heard_as_what_they_show) {
+  const DrawOptions coarse{.spacing = 0.1};
+  const LoadedScene loaded = drawn(coarse);
+  HeightField shown = rough_field({.half = 1.5, .spacing = 0.1, .boulders = 2, .terraces = false});
+  expect_levels(energy(loaded), truth(shown), 0.1, 0.3);
+}
+
+TEST(RoughGround, with_holes_is_heard_without_them) {
+  const HeightField open = with_holes(bed(), 0.12, 2);
+  for (const double jitter : {0.0, 0.35}) {
+    const std::string points = text_of(draw_points(open, {.jitter = jitter}));
+    expect_levels(energy(load_scene(own_file("open.xyz", points), from_above())), truth(open), 0.1, 0.3);
+  }
+}
+
+TEST(RoughGround, is_met_by_rays_where_it_is) {
+  expect_levels(energy(drawn({}), SamplingKind::rays), truth_of_bed(), 0.05, 0.2);
+}
+
+TEST(RoughGround, sampled_evenly_is_heard_as_it_is) {
+  LoadOptions even = from_above();
+  even.mesh_spacing = 0.01;
+  const LoadedScene loaded = drawn({}, even);
+  EXPECT_FALSE(loaded.mesh);
+  const double wanted = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0) / 1e-4;
+  EXPECT_NEAR(static_cast<double>(loaded.scene.size()) / wanted, 1, 0.3);
+  expect_levels(energy(loaded), truth_of_bed(), 0.05, 0.15);
+}
+
+// What prepare writes is pinged as the file that it read, to the last bit.
+TEST(RoughGround, is_the_same_after_it_was_prepared) {
+  const std::pair<DrawOptions, std::string> cases[] = {
+      {{}, "raster.ply"}, {{}, "raster.pcd"}, {{.jitter = 0.35}, "points.ply"}, {{.noise = 0.25}, "noisy.ply"}};
+  for (const auto& [draw, name] : cases) {
+    const LoadedScene loaded = drawn(draw);
+    save_scene(own_path(name), loaded);
+    const LoadedScene again = load_scene(own_path(name));
+    ASSERT_TRUE(again.mesh) << name;
+    EXPECT_EQ(again.mesh->triangle, loaded.mesh->triangle) << name;
+    EXPECT_EQ((energy(again) == energy(loaded)).all(), true) << name;
+  }
+  const LoadedScene mesh = load_scene(mesh_file(bed()));
+  save_scene(own_path("mesh.ply"), mesh);
+  const LoadedScene again = load_scene(own_path("mesh.ply"));
+  ASSERT_TRUE(again.mesh);
+  EXPECT_EQ(again.mesh->triangle, mesh.mesh->triangle);
+  EXPECT_EQ((energy(again) == energy(mesh)).all(), true);
+  save_scene(own_path("mesh.pcd"), mesh);
+  EXPECT_FALSE(load_scene(own_path("mesh.pcd")).mesh);
+}
+
+TEST(RoughGround, is_no_height_field_where_walls_stand_on_it_or_surfaces_lie_above_each_other) {
+  std::vector<Eigen::Vector3d> points = draw_points(bed(), {.jitter = 0.35});
+  const std::size_t one = points.size();
+  for (std::size_t i = 0; i < one; ++i) points.push_back(points[i] + Eigen::Vector3d(0.004, 0.003, 0.8));
+  EXPECT_FALSE(load_scene(own_file("twice.xyz", text_of(points)), from_above()).mesh);
+  LoadOptions from_a_side;
+  from_a_side.viewpoint = Eigen::Vector3d(-3, 0, 1);
+  EXPECT_FALSE(drawn({.jitter = 0.35}, from_a_side).mesh);
+}

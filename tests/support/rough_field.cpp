@@ -1,0 +1,113 @@
+#include "support/rough_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "core/units.hpp"
+
+namespace insonify {
+
+namespace {
+
+struct Wave {
+  double kx, ky, phase, height;
+};
+
+std::vector<Wave> waves(double shortest) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Wave> all(80);
+  for (Wave& w : all) {
+    const double length = 0.1 * std::pow(20, uniform(random)), angle = 2 * pi * uniform(random);
+    w = {2 * pi / length * std::cos(angle), 2 * pi / length * std::sin(angle), 2 * pi * uniform(random), 0.02 * length};
+    if (length < shortest) w.height = 0;
+  }
+  return all;
+}
+
+// A step of `height` about x = 0 with a slope of 70 degrees.
+double step(double x, double height) {
+  const double half = 0.5 * height / std::tan(radians(70));
+  return height * std::clamp(0.5 * (x / half + 1), 0.0, 1.0);
+}
+
+// Caps of spheres of which 70 degrees stand out, one in each square of `side`, anywhere in it.
+double boulder(double x, double y, double side) {
+  double highest = 0;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j) {
+      const double column = std::floor(x / side) + i, row = std::floor(y / side) + j;
+      std::seed_seq seed{static_cast<int>(column) + 1000, static_cast<int>(row) + 1000};
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<double> uniform;
+      const double cx = (column + uniform(random)) * side, cy = (row + uniform(random)) * side;
+      const double radius = 0.08 + 0.2 * std::pow(uniform(random), 3),
+                   squared = std::pow(x - cx, 2) + std::pow(y - cy, 2);
+      const double base = radius * std::cos(radians(70));
+      if (squared < radius * radius) highest = std::max(highest, std::sqrt(radius * radius - squared) - base);
+    }
+  return highest;
+}
+
+Eigen::Vector2d size_of(const HeightField& field) {
+  return field.spacing *
+         Eigen::Vector2d(static_cast<double>(field.z.cols() - 1), static_cast<double>(field.z.rows() - 1));
+}
+
+}  // namespace
+
+HeightField rough_field(const RoughFieldOptions& o) {
+  const std::vector<Wave> all = waves(o.shortest);
+  return height_field(o.centre, o.half, o.spacing, [&](double x, double y) {
+    double z = 0;
+    for (const Wave& w : all) z += w.height * std::cos(w.kx * x + w.ky * y + w.phase);
+    if (o.boulders > 0) z += boulder(x, y, 1 / std::sqrt(o.boulders));
+    if (o.terraces) z += step(y - 1.1 - 0.3 * std::sin(2 * x), 0.2) + step(x - 0.8 - 0.2 * std::sin(3 * y), 0.2);
+    return z;
+  });
+}
+
+HeightField with_holes(HeightField field, double across, double per_square_metre) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit;
+  const Eigen::Vector2d size = size_of(field);
+  for (int left = static_cast<int>(per_square_metre * size.prod()); left > 0; --left) {
+    const Eigen::Vector2d middle = field.corner + Eigen::Vector2d(unit(random), unit(random)).cwiseProduct(size);
+    for (Eigen::Index j = 0; j < field.z.rows(); ++j)
+      for (Eigen::Index i = 0; i < field.z.cols(); ++i)
+        if ((field.node(j, i).head<2>() - middle).norm() < across / 2)
+          field.z(j, i) = std::numeric_limits<double>::quiet_NaN();
+  }
+  return field;
+}
+
+std::vector<Eigen::Vector3d> draw_points(const HeightField& field, const DrawOptions& o) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> off(-o.jitter, o.jitter);
+  std::normal_distribution<double> noise;
+  const double dx = o.spacing / std::sqrt(o.stretch), dy = o.spacing * std::sqrt(o.stretch);
+  const Eigen::Vector2d size = size_of(field);
+  std::vector<Eigen::Vector3d> points;
+  const auto columns = std::lround(size.x() / dx), rows = std::lround(size.y() / dy);
+  for (long j = 0; j <= rows; ++j)
+    for (long i = 0; i <= columns; ++i) {
+      const Eigen::Vector2d place = field.corner + Eigen::Vector2d((static_cast<double>(i) + off(random)) * dx,
+                                                                   (static_cast<double>(j) + off(random)) * dy);
+      double z = field.at(place.cwiseMin(field.corner + size * (1 - 1e-9)).cwiseMax(field.corner));
+      if (o.noise > 0) z += o.noise * o.spacing * noise(random);
+      if (std::isfinite(z)) points.emplace_back(place.x(), place.y(), z);
+    }
+  return points;
+}
+
+std::string text_of(const std::vector<Eigen::Vector3d>& points) {
+  std::ostringstream out;
+  out.precision(9);
+  for (const Eigen::Vector3d& p : points) out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  return out.str();
+}
+
+}  // namespace insonify
