@@ -274,12 +274,12 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
           beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range + echo.lengthening : find.range);
       const bool by_phase = phase.deviation < amplitude.deviation;
       BottomEstimate best = by_phase ? phase : amplitude;
-      if (!std::isfinite(best.deviation)) best.deviation = std::max(echo.half_power_reach, ping.gate.bin_size);
+      if (!std::isfinite(best.deviation) || !(best.range > ping.gate.min_range))
+        best = {find.range, std::max(echo.half_power_reach, ping.gate.bin_size)};
       soundings[b].push_back({best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
                               prepared.level_db_near(b, best.range, echo.half_power_reach), echo});
     }
   });
-
   BottomSoundings all;
   std::vector<BottomEcho> echoes;
   for (std::size_t b = 0; b < beams; ++b)

@@ -183,8 +183,10 @@ BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double s
   BottomEcho echo{pulse_deviation, std::sqrt(spread), 0.5 * std::abs(slope) * width};
   echo.along_deviation = away * along * along / std::sqrt(2.0);
   echo.lengthening_along = 0.5 * away * along * along;
-  echo.lengthening = 0.5 * second * across * across + echo.lengthening_along;
-  echo.bend = slope != 0 ? 0.5 * second / (slope * slope) : 0;
+  // The second order in direction, as far as it is the smaller one: neighbours over an edge show no plane.
+  const double bent = std::min(0.5 * second * across * across, echo.footprint_deviation);
+  echo.lengthening = bent + echo.lengthening_along;
+  echo.bend = slope != 0 ? bent / (slope * slope * across * across) : 0;
   return echo;
 }
 

@@ -2,6 +2,7 @@
 
 #include "acoustics/bend_paths.hpp"
 #include "core/random.hpp"
+#include "returns/bottom_fits_internal.hpp"
 #include "support/test.hpp"
 
 using testing::HasSubstr;
@@ -223,4 +224,15 @@ TEST(DetectBottom, refuses_what_it_cannot_judge) {
   Ping cut = ping;
   cut.split_phase = Grid<float>::Zero(2, 3);
   EXPECT_THAT(error_of([&] { detect_bottom(cut, {}); }), HasSubstr("split_phase has 2 x 3 cells"));
+}
+
+// Neighbours of a beam that looks over an edge have ranges of another surface.
+TEST(DetectBottom, a_slope_of_no_plane_moves_a_range_by_less_than_its_footprint) {
+  BeamFan fan;
+  fan.azimuth = {0}, fan.elevation = {0}, fan.beam_width = radians(1), fan.elevation_width = radians(1);
+  for (const double sine : {-0.99, -0.5, 0.0, 0.5, 0.99})
+    for (const double slope : {-1000.0, -10.0, 0.0, 10.0, 1000.0}) {
+      const BottomEcho echo = echo_of_plane(fan, sine, 3, slope, 0.01);
+      EXPECT_LE(std::abs(echo.lengthening - echo.lengthening_along), echo.footprint_deviation) << sine << ' ' << slope;
+    }
 }
