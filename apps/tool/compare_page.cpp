@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "view/grey_file.hpp"
 #include "view/line_chart_internal.hpp"
 #include "view/show_image.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 #include "store/survey_run.hpp"
 #include "tool/image.hpp"
 #include "tool/ping_setup.hpp"

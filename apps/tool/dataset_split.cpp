@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "files/sha256.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "tool/run_pings.hpp"

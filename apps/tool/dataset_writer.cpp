@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
-#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "files/pending_file.hpp"
+#include "files/sha256.hpp"
 #include "returns/looks.hpp"
 #include "store/run_manifest.hpp"
 #include "tool/label_pictures.hpp"

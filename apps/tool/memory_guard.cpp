@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/memory_limit.hpp"
+#include "files/memory_limit.hpp"
 
 namespace insonify::tool {
 namespace {

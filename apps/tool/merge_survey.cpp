@@ -7,9 +7,9 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/pending_file.hpp"
-#include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "files/pending_file.hpp"
+#include "files/sha256.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/join_cubes.hpp"

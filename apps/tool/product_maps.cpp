@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "core/units.hpp"
+#include "files/pending_file.hpp"
 #include "formats/geotiff_file.hpp"
 #include "formats/las_file.hpp"
 #include "tool/product_run.hpp"

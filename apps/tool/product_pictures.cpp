@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "formats/grey_fan.hpp"
 #include "returns/looks.hpp"
 #include "tool/product_run.hpp"

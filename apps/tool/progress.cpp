@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "core/pending_path.hpp"
 #include "core/work_progress.hpp"
+#include "files/pending_path.hpp"
 
 namespace insonify::tool {
 namespace {

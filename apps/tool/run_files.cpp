@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/peak_memory.hpp"
-#include "core/sha256.hpp"
 #include "core/units.hpp"
+#include "files/peak_memory.hpp"
+#include "files/sha256.hpp"
 #include "returns/insonification.hpp"
 #include "returns/label_objects.hpp"
 #include "returns/looks.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "core/utc.hpp"
+#include "files/utc.hpp"
 #include "store/cube.hpp"
 
 namespace insonify::tool {

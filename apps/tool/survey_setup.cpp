@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 #include "store/environment_file.hpp"
 #include "tool/run_settings.hpp"
 #include "tool/scene_files.hpp"

@@ -6,7 +6,7 @@
 #include "accuracy/accuracy_sweep.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/peak_memory.hpp"
+#include "files/peak_memory.hpp"
 #include "store/run_directory.hpp"
 #include "tool/accuracy_files.hpp"
 #include "tool/parse_values.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/peak_memory.hpp"
+#include "files/peak_memory.hpp"
 #include "tool/compared_files.hpp"
 #include "tool/dataset_writer.hpp"
 #include "tool/label_pictures.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "core/units.hpp"
+#include "files/pending_file.hpp"
 #include "scene_io/describe_file.hpp"
 #include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"

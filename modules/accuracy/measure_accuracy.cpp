@@ -6,8 +6,8 @@
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
-#include "core/peak_memory.hpp"
 #include "core/stop_watch.hpp"
+#include "files/peak_memory.hpp"
 #include "returns/compare.hpp"
 
 namespace insonify {

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "core/input_file.hpp"
 #include "core/units.hpp"
+#include "files/input_file.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {

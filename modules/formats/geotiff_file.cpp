@@ -4,8 +4,8 @@
 #include <fstream>
 #include <utility>
 
-#include "core/pending_file.hpp"
 #include "core/require.hpp"
+#include "files/pending_file.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {

@@ -9,7 +9,7 @@
 
 #include "acoustics/sound_speed_profile.hpp"
 #include "core/geodesy.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 
 namespace insonify {
 

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "core/utc.hpp"
+#include "files/utc.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/geodesy.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 
 namespace insonify {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 
 namespace insonify {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/input_file.hpp"
-#include "core/pending_file.hpp"
 #include "core/text.hpp"
+#include "files/input_file.hpp"
+#include "files/pending_file.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {

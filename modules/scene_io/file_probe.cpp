@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"

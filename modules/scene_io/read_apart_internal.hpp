@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/child_process.hpp"
+#include "files/child_process.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
 // Private to scene_io: clouds that a library reads in a child process.

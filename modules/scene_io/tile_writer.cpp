@@ -18,7 +18,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/tile_areas_internal.hpp"
 #include "scene_io/tile_file_internal.hpp"

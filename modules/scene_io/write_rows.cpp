@@ -3,7 +3,7 @@
 #include <fstream>
 #include <vector>
 
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "scene_io/write_rows_internal.hpp"
 
 namespace insonify {

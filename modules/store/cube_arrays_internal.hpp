@@ -1,5 +1,5 @@
 #pragma once
-#include "core/child_arrays.hpp"
+#include "files/child_arrays.hpp"
 #include "store/cube.hpp"
 #include "store/hdf5_internal.hpp"
 

@@ -8,9 +8,9 @@
 
 #include <hdf5.h>
 
-#include "core/child_process.hpp"
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
+#include "files/child_process.hpp"
+#include "files/pending_file.hpp"
 #include "store/cube_layout_internal.hpp"
 
 namespace insonify::hdf5 {

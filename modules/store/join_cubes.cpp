@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "files/input_file.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "core/utc.hpp"
+#include "files/utc.hpp"
 #include "simulate/navigation_errors.hpp"
 #include "simulate/waypoint_trajectory.hpp"
 #include "store/csv_tables.hpp"

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/child_process.hpp"
-#include "core/input_file.hpp"
+#include "files/child_process.hpp"
+#include "files/input_file.hpp"
 #include "store/hdf5_internal.hpp"
 
 // What is read of files that others may have made: checked before HDF5 trusts it.

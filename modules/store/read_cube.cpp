@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/child_process.hpp"
 #include "core/error.hpp"
+#include "files/child_process.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/hdf5_internal.hpp"

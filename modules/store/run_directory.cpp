@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "files/input_file.hpp"
 
 namespace insonify {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "core/pending_file.hpp"
-#include "core/pending_path.hpp"
+#include "files/pending_file.hpp"
+#include "files/pending_path.hpp"
 #include "store/output_rules.hpp"
 
 namespace insonify {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 #include "store/run_directory.hpp"
 
 namespace insonify {

@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
-#include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "files/pending_file.hpp"
+#include "files/sha256.hpp"
 #include "store/sonar_keys_internal.hpp"
 #include "store/toml_tree_internal.hpp"
 

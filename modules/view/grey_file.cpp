@@ -8,9 +8,9 @@
 #include <vtkPNGReader.h>
 #include <vtkPNGWriter.h>
 
-#include "core/child_process.hpp"
 #include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "files/child_process.hpp"
+#include "files/input_file.hpp"
 #include "view/label_colours.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_colours_internal.hpp"

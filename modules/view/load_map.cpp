@@ -7,9 +7,9 @@
 #include <vtkNew.h>
 #include <vtkXMLImageDataReader.h>
 
-#include "core/child_process.hpp"
 #include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "files/child_process.hpp"
+#include "files/input_file.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/save_vtk.hpp"
 

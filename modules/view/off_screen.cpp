@@ -15,11 +15,11 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include "core/child_process.hpp"
 #include "core/error.hpp"
-#include "core/memory_limit.hpp"
-#include "core/pending_file.hpp"
 #include "core/text.hpp"
+#include "files/child_process.hpp"
+#include "files/memory_limit.hpp"
+#include "files/pending_file.hpp"
 
 namespace insonify {
 namespace {

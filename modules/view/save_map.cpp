@@ -9,7 +9,7 @@
 #include <vtkXMLImageDataWriter.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/save_vtk.hpp"
 #include "view/xml_file_internal.hpp"

@@ -25,8 +25,8 @@
 #include <vtkXMLWriter.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "core/text.hpp"
+#include "files/pending_file.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_lines_internal.hpp"

@@ -8,8 +8,8 @@
 #include <vtkPNGWriter.h>
 
 #include "core/error.hpp"
-#include "core/pending_file.hpp"
 #include "core/text.hpp"
+#include "files/pending_file.hpp"
 #include "returns/picture_grid.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/show_image.hpp"

@@ -1,6 +1,6 @@
 #include "core/parallel.hpp"
 
-#include "core/child_process.hpp"
+#include "files/child_process.hpp"
 #include "support/test.hpp"
 
 TEST(ParallelFor, calls_every_index_once_for_any_thread_count) {

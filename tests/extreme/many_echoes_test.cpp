@@ -1,8 +1,8 @@
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/parallel.hpp"
-#include "core/peak_memory.hpp"
 #include "extreme_cases.hpp"
+#include "files/peak_memory.hpp"
 #include "support/sanitizers.hpp"
 
 using namespace insonify::extreme;

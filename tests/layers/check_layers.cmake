@@ -3,7 +3,9 @@
 # (scene_io/pcl_bridge.hpp is the exception: it is the in-memory door for users of PCL).
 cmake_minimum_required(VERSION 3.25)
 
-set(WALK core scene sampling acoustics beamforming returns compare simulate accuracy)
+set(WALK core files scene sampling acoustics beamforming returns compare simulate accuracy)
+# Modules of the walk that may use files and processes.
+set(OPENS_FILES files accuracy)
 set(SIDE_DOORS scene_io store formats view viewer)
 
 set(door_flann scene)
@@ -36,6 +38,9 @@ foreach(file IN LISTS files)
     if(line MATCHES "\"([a-z_]+)/")
       set(other ${CMAKE_MATCH_1})
       list(FIND WALK "${other}" theirs)
+      if(other STREQUAL "files" AND mine GREATER -1 AND NOT module IN_LIST OPENS_FILES)
+        message(SEND_ERROR "${here}: ${line}\n  only ${OPENS_FILES} and the side doors may include files")
+      endif()
       set(here_other "${module} ${other}")  # the viewer is built from the parts of still pictures
       if(mine GREATER -1 AND (theirs GREATER mine OR other IN_LIST SIDE_DOORS))
         message(SEND_ERROR "${here}: ${line}\n  ${module} may include only modules before it in: ${WALK}")

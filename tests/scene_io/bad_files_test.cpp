@@ -2,8 +2,8 @@
 #include <vtkSphereSource.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include "core/peak_memory.hpp"
 #include "core/random.hpp"
+#include "files/peak_memory.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/test_files.hpp"

@@ -2,7 +2,7 @@
 #include <hdf5.h>
 #include <nlohmann/json.hpp>
 
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 #include "support/test.hpp"
 #include "tool/dataset_split.hpp"
 #include "tool/tool_runner.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 #include "tool/survey_fixture.hpp"
 #include "view/grey_file.hpp"
 #include "view/test_pictures.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 #include "tool/tool_runner.hpp"
 
 /// A mission of two heads, 13 pings each, over the built-in harbour.

@@ -1,4 +1,4 @@
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "support/test.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/fan_layout_internal.hpp"

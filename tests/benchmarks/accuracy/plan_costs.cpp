@@ -2,8 +2,8 @@
 
 #include <ctime>
 
-#include "core/peak_memory.hpp"
 #include "core/units.hpp"
+#include "files/peak_memory.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "store/sonar_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/child_process.hpp"
+#include "files/child_process.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "core/memory_limit.hpp"
+#include "files/memory_limit.hpp"
 
 namespace insonify {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/memory_limit.hpp"
+#include "files/memory_limit.hpp"
 
 #include <fstream>
 

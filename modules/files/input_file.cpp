@@ -1,4 +1,4 @@
-#include "core/input_file.hpp"
+#include "files/input_file.hpp"
 
 #include <filesystem>
 #include <system_error>

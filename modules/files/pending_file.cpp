@@ -1,4 +1,4 @@
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 
 #include <cerrno>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "core/sha256.hpp"
+#include "files/sha256.hpp"
 
 #include <array>
 #include <cerrno>

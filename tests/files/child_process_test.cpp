@@ -1,4 +1,4 @@
-#include "core/child_process.hpp"
+#include "files/child_process.hpp"
 
 #include <atomic>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include "core/pending_path.hpp"
+#include "files/pending_path.hpp"
 
 #include <csignal>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "support/test.hpp"
 
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/pending_path.hpp"
+#include "files/pending_path.hpp"
 
 namespace insonify {
 

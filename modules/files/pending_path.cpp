@@ -1,4 +1,4 @@
-#include "core/pending_path.hpp"
+#include "files/pending_path.hpp"
 
 #include <algorithm>
 #include <cerrno>

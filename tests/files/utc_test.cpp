@@ -1,4 +1,4 @@
-#include "core/utc.hpp"
+#include "files/utc.hpp"
 
 #include "support/test.hpp"
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "core/child_arrays.hpp"
+#include "files/child_arrays.hpp"
 
 namespace insonify {
 

@@ -1,4 +1,4 @@
-#include "core/peak_memory.hpp"
+#include "files/peak_memory.hpp"
 
 #include <fstream>
 #include <sstream>

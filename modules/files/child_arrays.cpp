@@ -1,4 +1,4 @@
-#include "core/child_arrays.hpp"
+#include "files/child_arrays.hpp"
 
 #include <algorithm>
 #include <new>
@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "core/memory_limit.hpp"
+#include "files/memory_limit.hpp"
 
 namespace insonify {
 namespace {
