@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "returns/label_objects.hpp"
-#include "simulate/randomise.hpp"
 #include "store/cube.hpp"
 #include "store/mission_file.hpp"
+#include "survey/randomise.hpp"
 
 /// What `dataset` reads.
 namespace insonify::tool {

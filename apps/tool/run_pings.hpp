@@ -8,9 +8,9 @@
 #include "acoustics/motion.hpp"
 #include "core/geodesy.hpp"
 #include "returns/bottom_detection.hpp"
-#include "simulate/mission.hpp"
 #include "store/cube.hpp"
 #include "store/mission_file.hpp"
+#include "survey/mission.hpp"
 
 namespace insonify::tool {
 

@@ -9,9 +9,9 @@
 #include "beamforming/kept_synthesizers.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "simulate/plan_ping.hpp"
-#include "simulate/simulate_survey.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
+#include "survey/simulate_survey.hpp"
 #include "tool/ping_setup.hpp"
 #include "tool/progress.hpp"
 

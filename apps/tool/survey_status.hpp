@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/stop_watch.hpp"
-#include "simulate/simulate_survey.hpp"
+#include "survey/simulate_survey.hpp"
 #include "tool/progress.hpp"
 
 namespace insonify::tool {

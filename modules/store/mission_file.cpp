@@ -7,13 +7,13 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "files/utc.hpp"
-#include "simulate/navigation_errors.hpp"
-#include "simulate/waypoint_trajectory.hpp"
 #include "store/csv_tables.hpp"
 #include "store/mission_table_internal.hpp"
 #include "store/run_directory.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree_internal.hpp"
+#include "survey/navigation_errors.hpp"
+#include "survey/waypoint_trajectory.hpp"
 
 namespace insonify {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/geodesy.hpp"
-#include "simulate/mission.hpp"
-#include "simulate/randomise.hpp"
+#include "survey/mission.hpp"
+#include "survey/randomise.hpp"
 
 namespace insonify {
 

@@ -3,9 +3,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "simulate/survey_pings.hpp"
 #include "store/mission_file.hpp"
 #include "support/test.hpp"
+#include "survey/survey_pings.hpp"
 #include "tool/tool_runner.hpp"
 
 using namespace insonify::tool;

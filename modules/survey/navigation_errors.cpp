@@ -1,4 +1,4 @@
-#include "simulate/navigation_errors.hpp"
+#include "survey/navigation_errors.hpp"
 
 #include <algorithm>
 #include <cmath>

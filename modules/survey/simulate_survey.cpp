@@ -1,4 +1,4 @@
-#include "simulate/simulate_survey.hpp"
+#include "survey/simulate_survey.hpp"
 
 #include <algorithm>
 #include <atomic>

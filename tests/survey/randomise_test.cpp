@@ -1,5 +1,5 @@
 // What differs from ping to ping of a survey (E126).
-#include "simulate/randomise.hpp"
+#include "survey/randomise.hpp"
 
 #include "support/test.hpp"
 

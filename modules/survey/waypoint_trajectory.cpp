@@ -1,4 +1,4 @@
-#include "simulate/waypoint_trajectory.hpp"
+#include "survey/waypoint_trajectory.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // The engine of a survey: what is made, kept, left and resumed, with pings that cost nothing.
-#include "simulate/simulate_survey.hpp"
+#include "survey/simulate_survey.hpp"
 
 #include <atomic>
 #include <mutex>
 
 #include "scene/built_in_scenes.hpp"
-#include "simulate/waypoint_trajectory.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
+#include "survey/waypoint_trajectory.hpp"
 
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;

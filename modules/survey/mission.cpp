@@ -1,4 +1,4 @@
-#include "simulate/mission.hpp"
+#include "survey/mission.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "acoustics/environment.hpp"
 #include "beamforming/sonar_head.hpp"
 #include "core/pose.hpp"
-#include "simulate/survey_pings.hpp"
+#include "survey/survey_pings.hpp"
 
 namespace insonify {
 

@@ -1,4 +1,4 @@
-#include "simulate/navigation_errors.hpp"
+#include "survey/navigation_errors.hpp"
 
 #include "core/head_place.hpp"
 #include "core/units.hpp"

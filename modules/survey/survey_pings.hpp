@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulate/mission.hpp"
+#include "survey/mission.hpp"
 
 namespace insonify {
 

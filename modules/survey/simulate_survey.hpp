@@ -6,7 +6,7 @@
 
 #include "returns/coverage.hpp"
 #include "simulate/simulate_ping.hpp"
-#include "simulate/survey_pings.hpp"
+#include "survey/survey_pings.hpp"
 
 namespace insonify {
 

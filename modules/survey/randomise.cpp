@@ -1,4 +1,4 @@
-#include "simulate/randomise.hpp"
+#include "survey/randomise.hpp"
 
 #include <algorithm>
 #include <array>

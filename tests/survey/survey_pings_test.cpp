@@ -1,9 +1,9 @@
 // A mission becomes a list of pings, and each ping a place.
-#include "simulate/survey_pings.hpp"
+#include "survey/survey_pings.hpp"
 
 #include "core/head_place.hpp"
-#include "simulate/waypoint_trajectory.hpp"
 #include "support/test.hpp"
+#include "survey/waypoint_trajectory.hpp"
 
 using testing::ElementsAre;
 

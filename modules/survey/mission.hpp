@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "acoustics/motion.hpp"
-#include "simulate/navigation_errors.hpp"
+#include "survey/navigation_errors.hpp"
 
 namespace insonify {
 

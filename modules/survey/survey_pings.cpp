@@ -1,4 +1,4 @@
-#include "simulate/survey_pings.hpp"
+#include "survey/survey_pings.hpp"
 
 #include <algorithm>
 #include <cmath>
