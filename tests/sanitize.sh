@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 runs="EnvironmentRun|PingRun|Tiles|SideScan|MergedRuns|ExportProducts|SurveyStops|Missions|survey_killed_.*"
 declare -A parts=(
-  [core]="core_test files_test scene_test sampling_test:core|files|scene|sampling"
+  [core]="core_test files_test sonar_test scene_test sampling_test:core|files|sonar|scene|sampling"
   [sound]="acoustics_test beamforming_test returns_test:acoustics|beamforming|returns"
   [files]="scene_io_test store_test formats_test:scene_io|store|formats"
   [pings]="simulate_test survey_test compare_test accuracy_test:simulate|survey|compare|accuracy"

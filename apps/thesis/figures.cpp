@@ -4,10 +4,10 @@
 
 #include <fmt/core.h>
 
-#include "beamforming/beam_pattern.hpp"
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
+#include "sonar/beam_pattern.hpp"
+#include "sonar/shading.hpp"
 #include "thesis/thesis.hpp"
 #include "view/line_chart_internal.hpp"
 #include "view/show_image.hpp"

@@ -2,9 +2,9 @@
 #include <complex>
 #include <numbers>
 
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/units.hpp"
+#include "sonar/shading.hpp"
 #include "thesis/thesis.hpp"
 
 namespace insonify::thesis {

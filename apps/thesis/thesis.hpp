@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
 #include "sampling/scatterers.hpp"
+#include "sonar/sonar_head.hpp"
 
 // The simulation of chapter IV of A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval
 // Postgraduate School). The thesis describes its object in one sentence, "a matrix of diagonal lines in range-angle

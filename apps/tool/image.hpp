@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "beamforming/sonar_head.hpp"
+#include "sonar/sonar_head.hpp"
 #include "store/cube.hpp"
 #include "tool/options.hpp"
 #include "tool/parse_values.hpp"

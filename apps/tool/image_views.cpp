@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "beamforming/beam_pattern.hpp"
 #include "beamforming/beam_spectrum.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/pending_file.hpp"
 #include "returns/picture_grid.hpp"
+#include "sonar/beam_pattern.hpp"
 #include "tool/image.hpp"
 #include "tool/label_pictures.hpp"
 #include "tool/run_files.hpp"

@@ -5,11 +5,11 @@
 
 #include <Eigen/Core>
 
-#include "beamforming/sonar_spec.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/options.hpp"
 

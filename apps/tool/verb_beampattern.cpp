@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "beamforming/beam_pattern.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "sonar/beam_pattern.hpp"
 #include "store/output_rules.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/ping_setup.hpp"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beamforming/sonar_spec.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "simulate/resolve_ping.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace insonify {
 namespace {

@@ -5,10 +5,10 @@
 #include <complex>
 #include <numbers>
 
-#include "acoustics/pulse.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 namespace {

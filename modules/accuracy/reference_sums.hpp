@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "acoustics/echoes.hpp"
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "acoustics/scattering.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "core/parallel.hpp"
 #include "core/pose.hpp"
 #include "core/random.hpp"
@@ -12,6 +11,7 @@
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace insonify {
 namespace {

@@ -4,11 +4,11 @@
 #include <span>
 
 #include "acoustics/echoes.hpp"
-#include "acoustics/elevation_pattern.hpp"
-#include "acoustics/pulse.hpp"
-#include "acoustics/water.hpp"
 #include "sampling/scatterers.hpp"
 #include "scene/material.hpp"
+#include "sonar/elevation_pattern.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
 
-#include "acoustics/pulse.hpp"
 #include "acoustics/sound_speed_profile.hpp"
-#include "acoustics/water.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/elevation_pattern.hpp"
 #include "acoustics/find_legs_internal.hpp"
 #include "core/units.hpp"
 #include "sampling/seen_surfels.hpp"
+#include "sonar/elevation_pattern.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-#include "acoustics/pulse.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 

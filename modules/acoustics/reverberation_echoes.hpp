@@ -3,8 +3,8 @@
 #include "acoustics/environment.hpp"
 #include "acoustics/transmission.hpp"
 #include "core/pose.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

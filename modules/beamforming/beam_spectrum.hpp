@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "acoustics/pulse.hpp"
 #include "core/grid.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "acoustics/echoes.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beamforming/element_kernels_internal.hpp"
 #include "core/units.hpp"
+#include "sonar/element_kernels_internal.hpp"
 
 namespace insonify {
 namespace {

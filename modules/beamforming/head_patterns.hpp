@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/sonar_head.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

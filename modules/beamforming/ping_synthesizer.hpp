@@ -3,8 +3,8 @@
 #include <string>
 
 #include "acoustics/echo_source.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "beamforming/synthesize.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

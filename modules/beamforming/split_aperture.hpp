@@ -1,9 +1,9 @@
 #pragma once
 #include "acoustics/echo_source.hpp"
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/grid.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

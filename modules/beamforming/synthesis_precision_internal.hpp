@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "beamforming/line_array.hpp"
+#include "sonar/line_array.hpp"
 
 namespace insonify {
 

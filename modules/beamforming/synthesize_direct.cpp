@@ -2,11 +2,11 @@
 #include <complex>
 #include <vector>
 
-#include "acoustics/pulse.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
 #include "core/work_progress.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 namespace {

@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "beamforming/element_kernels_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sonar/element_kernels_internal.hpp"
 
 namespace insonify {
 namespace {

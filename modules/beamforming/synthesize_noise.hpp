@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

@@ -5,13 +5,13 @@
 #include <numbers>
 #include <vector>
 
-#include "acoustics/pulse.hpp"
 #include "beamforming/forward_fft_internal.hpp"
 #include "beamforming/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "acoustics/echoes.hpp"
-#include "acoustics/water.hpp"
 #include "beamforming/time_axis_internal.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "acoustics/pulse.hpp"
 #include "core/vector_functions.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "acoustics/echoes.hpp"
-#include "acoustics/pulse.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "beamforming/time_axis_internal.hpp"
 #include "core/grid.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sampling/beam_fan.hpp"
+#include "sonar/beam_fan.hpp"
 
 namespace insonify {
 

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "acoustics/pulse.hpp"
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/response_table.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
@@ -14,6 +12,8 @@
 #include "core/work_progress.hpp"
 #include "returns/chebyshev_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/response_table.hpp"
 
 // Finds the strongest contributors of every pixel (E63), a contributor being a surfel by one pair of legs:
 //   1. sort the echoes that reach the gate by surfel and legs into groups (surfel_arrivals);

@@ -4,10 +4,10 @@
 
 #include "acoustics/echoes.hpp"
 #include "acoustics/multipath_echoes.hpp"
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "returns/contributors.hpp"
 #include "scene/scene_cloud.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
-#include "acoustics/elevation_pattern.hpp"
 #include "core/grid.hpp"
 #include "returns/bed_surface.hpp"
 #include "returns/ping.hpp"
+#include "sonar/elevation_pattern.hpp"
 
 namespace insonify {
 

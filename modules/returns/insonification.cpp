@@ -7,10 +7,10 @@
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/response_table.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
+#include "sonar/response_table.hpp"
 
 namespace insonify {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "sampling/scatterers.hpp"
 #include "scene/scene_cloud.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

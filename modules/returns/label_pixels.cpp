@@ -6,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
-#include "acoustics/pulse.hpp"
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/response_table.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/response_table.hpp"
 
 // Labels pixels by what lies in their cells (E125):
 //   1. order the visible parts by direction cosine, with the energy of their pulses in the bins around;

@@ -1,14 +1,14 @@
 #pragma once
 #include <vector>
 
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/pose.hpp"
 #include "returns/contributors.hpp"
 #include "returns/find_contributors.hpp"
 #include "returns/pixel_labels.hpp"
 #include "sampling/seen_surfels.hpp"
 #include "scene/scene_cloud.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

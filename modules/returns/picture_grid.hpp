@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/grid.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/water.hpp"
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "returns/pixel_labels.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

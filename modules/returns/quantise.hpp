@@ -3,7 +3,7 @@
 
 #include "core/grid.hpp"
 #include "returns/ping.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/pulse.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 

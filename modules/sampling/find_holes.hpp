@@ -7,10 +7,10 @@
 
 #include "core/grid.hpp"
 #include "core/pose.hpp"
-#include "sampling/beam_fan.hpp"
 #include "sampling/find_scatterers.hpp"
-#include "sampling/range_gate.hpp"
 #include "scene/prepared_scene.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

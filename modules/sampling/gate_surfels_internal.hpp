@@ -6,11 +6,11 @@
 #include <Eigen/Core>
 
 #include "core/pose.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
 #include "sampling/unset_vector_internal.hpp"
 #include "scene/prepared_scene.hpp"
 #include "scene/scene_cloud.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sampling/range_gate.hpp"
 #include "sampling/sampled_cells.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 
 #include "core/pose.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -8,9 +8,6 @@
 
 namespace insonify {
 
-/// How far a main lobe reaches from its axis, in beam widths: the first null of a Taylor pattern is at 1.25.
-inline constexpr double main_lobe_reach = 1.5;
-
 /// The cells on a surface that a sampling resolves (E17). Between the ends of the main lobes, 1.5 widths and the options'
 /// lobe_margin from the axis of a beam, they are resolution cells:
 ///

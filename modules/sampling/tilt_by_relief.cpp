@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "sampling/beam_fan.hpp"
 #include "sampling/tilt_by_relief_internal.hpp"
+#include "sonar/beam_fan.hpp"
 
 namespace insonify {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "acoustics/pulse.hpp"
+#include "sonar/pulse.hpp"
 
 namespace insonify {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include "acoustics/environment.hpp"
 #include "acoustics/multipath_echoes.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "sampling/insonified_region.hpp"
 #include "simulate/simulation_options.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

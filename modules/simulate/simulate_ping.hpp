@@ -8,11 +8,11 @@
 #include "acoustics/sound_paths.hpp"
 #include "beamforming/element_series.hpp"
 #include "beamforming/kept_synthesizers.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "returns/contributors.hpp"
 #include "returns/ping.hpp"
 #include "scene/prepared_scene.hpp"
 #include "simulate/simulation_options.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

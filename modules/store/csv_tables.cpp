@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "acoustics/water.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "sonar/water.hpp"
 #include "store/csv_rows_internal.hpp"
 
 namespace insonify {

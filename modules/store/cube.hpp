@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "beamforming/sonar_head.hpp"
 #include "core/geodesy.hpp"
 #include "returns/ping.hpp"
 #include "simulate/simulation_options.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "beamforming/element_series.hpp"
-#include "beamforming/sonar_head.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "beamforming/sonar_spec.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace insonify {
 

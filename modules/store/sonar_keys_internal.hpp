@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "beamforming/sonar_spec.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace insonify {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "acoustics/environment.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/pose.hpp"
+#include "sonar/sonar_head.hpp"
 #include "survey/survey_pings.hpp"
 
 namespace insonify {

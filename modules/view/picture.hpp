@@ -8,8 +8,8 @@
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "returns/ping.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 

@@ -8,10 +8,10 @@
 
 #include "core/pose.hpp"
 #include "returns/soundings.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
 #include "sampling/seen_surfels.hpp"
 #include "scene/scene_cloud.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 #include "view/picture.hpp"
 
 namespace insonify {

@@ -6,9 +6,9 @@
 #include "acoustics/multipath_echoes.hpp"
 #include "returns/contributors.hpp"
 #include "returns/soundings.hpp"
-#include "sampling/beam_fan.hpp"
-#include "sampling/range_gate.hpp"
 #include "scene/scene_cloud.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 #include "viewer/ping_reel.hpp"
 #include "viewer/viewer_state.hpp"
 

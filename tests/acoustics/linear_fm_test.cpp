@@ -1,5 +1,5 @@
 #include "acoustics/noise.hpp"
-#include "acoustics/pulse.hpp"
+#include "sonar/pulse.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

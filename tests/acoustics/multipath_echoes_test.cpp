@@ -38,8 +38,9 @@ TEST(MultipathEchoes, follows_its_formula_in_size_and_phase) {
   const double k = 2 * pi * pulse_900k.centre_frequency / 1500;
   const std::complex<double> r_b = bottom_reflection(FlatBottom{-10}, std::asin(15 / r_bottom));
   const auto path = [&](double out, double back, std::complex<double> reflections) {
-    return source_pressure(pulse_900k) * std::sqrt(mu * (20 / out) * (20 / back) * static_cast<double>(float(area))) *
-           reflections * std::polar(1.0, k * (out + back)) / (out * back);
+    return source_pressure(pulse_900k) *
+           std::sqrt(mu * (20 / out) * (20 / back) * static_cast<double>(float(target_area))) * reflections *
+           std::polar(1.0, k * (out + back)) / (out * back);
   };
   const auto expect = [&](double out, double back, std::complex<double> wanted) {
     EXPECT_LT(std::abs(sum_at(m.echoes, 0.5 * (out + back)) - wanted), 1e-5 * std::abs(wanted)) << out + back;
@@ -130,7 +131,7 @@ TEST(MultipathEchoes, finds_patches_that_only_a_boundary_shows) {
   const Multipath m = s.compute();
   EXPECT_EQ(m.one_bounce, 0u);
   ASSERT_EQ(m.two_bounces, 1u);
-  const double r = std::hypot(20, 3), sigma = mu * area * (3 / r) * (3 / r);
+  const double r = std::hypot(20, 3), sigma = mu * target_area * (3 / r) * (3 / r);
   EXPECT_NEAR(pressure_level_db(std::abs(m.echoes.amplitude[0])), 220 + db_from_power(sigma) - 40 * std::log10(r),
               1e-5);
 }

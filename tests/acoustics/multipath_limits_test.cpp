@@ -136,8 +136,8 @@ TEST(MultipathEchoes, refuses_invalid_arguments) {
 TEST(MultipathEchoes, reports_surfel_and_legs_of_every_echo) {
   Setting s;
   s.scene.materials = {{"m", mu}};
-  add_surfel(s.scene, {40, 0, -3}, {-1, 0, 0}, area);
-  add_surfel(s.scene, target, {-1, 0, 0}, area);
+  add_surfel(s.scene, {40, 0, -3}, {-1, 0, 0}, target_area);
+  add_surfel(s.scene, target, {-1, 0, 0}, target_area);
   const Multipath m = s.compute();
   ASSERT_EQ(m.echoes.size(), 16u);
   ASSERT_EQ(m.surfel.size(), 16u);

@@ -1,9 +1,9 @@
 #include "beamforming/element_series.hpp"
 
-#include "acoustics/pulse.hpp"
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

@@ -1,8 +1,8 @@
 // Series computed independently of this project; tests/data/golden/README.md states their conventions.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

@@ -1,7 +1,7 @@
 // Gridding for every kind of pulse and absorption, with more echoes than would be summed directly.
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/shading.hpp"
 #include "core/random.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

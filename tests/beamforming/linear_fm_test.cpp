@@ -1,9 +1,9 @@
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/shading.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/random.hpp"
+#include "sonar/shading.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

@@ -1,7 +1,7 @@
 #include "beamforming/ping_synthesizer.hpp"
 
-#include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

@@ -1,8 +1,8 @@
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/random.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

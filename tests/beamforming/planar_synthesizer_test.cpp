@@ -1,7 +1,7 @@
 // A planar array gridded in time, u and v at once, against the sum over echoes.
 #include "beamforming/planar_synthesizer_internal.hpp"
-#include "beamforming/shading.hpp"
 #include "core/random.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

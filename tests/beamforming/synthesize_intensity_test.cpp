@@ -1,8 +1,8 @@
 #include "beamforming/synthesize_intensity.hpp"
 
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

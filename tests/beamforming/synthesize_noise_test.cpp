@@ -1,7 +1,7 @@
 #include "beamforming/synthesize_noise.hpp"
 
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

@@ -1,8 +1,8 @@
 #include "beamforming/synthesize.hpp"
 
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/shading.hpp"
 #include "core/random.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "beamforming/element_series.hpp"
-#include "beamforming/shading.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "sonar/shading.hpp"
 #include "support/errors.hpp"
 #include "support/heads.hpp"
 

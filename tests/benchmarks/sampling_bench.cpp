@@ -2,11 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "core/pose.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "sonar/sonar_spec.hpp"
 
 using namespace insonify;
 

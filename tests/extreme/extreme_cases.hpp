@@ -1,10 +1,10 @@
 #pragma once
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
 #include "scene/scene_cloud.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
 #include "support/test.hpp"

@@ -3,9 +3,9 @@
 #include "thesis/thesis.hpp"
 
 #include "acoustics/scattering.hpp"
-#include "beamforming/beam_pattern.hpp"
-#include "beamforming/shading.hpp"
 #include "beamforming/synthesize.hpp"
+#include "sonar/beam_pattern.hpp"
+#include "sonar/shading.hpp"
 #include "support/test.hpp"
 
 using namespace insonify::thesis;

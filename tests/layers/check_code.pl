@@ -21,6 +21,7 @@ my %lent = (
   'store/toml_tree_internal.hpp' => 'apps',          # the tool reads run.toml
   'sampling/gate_surfels_internal.hpp' => 'viewer',  # the viewer explains why a surfel is not seen
   'sampling/hit_rule_internal.hpp' => 'viewer',      #
+  'sonar/element_kernels_internal.hpp' => 'beamforming',
   'simulate/stage_options_internal.hpp' => 'accuracy',
 );
 my %long_file = ();      # path => why it may be longer

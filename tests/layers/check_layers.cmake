@@ -3,7 +3,7 @@
 # (scene_io/pcl_bridge.hpp is the exception: it is the in-memory door for users of PCL).
 cmake_minimum_required(VERSION 3.25)
 
-set(WALK core files scene sampling acoustics beamforming returns compare simulate survey accuracy)
+set(WALK core files sonar scene sampling acoustics beamforming returns compare simulate survey accuracy)
 # Modules of the walk that may use files and processes.
 set(OPENS_FILES files accuracy)
 set(SIDE_DOORS scene_io store formats view viewer)

@@ -1,9 +1,9 @@
 #include "returns/insonification.hpp"
 
-#include "beamforming/response_table.hpp"
 #include "core/units.hpp"
 #include "returns/coverage.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "sonar/response_table.hpp"
 #include "support/scenes.hpp"
 #include "support/test.hpp"
 

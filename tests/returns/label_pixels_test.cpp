@@ -1,7 +1,7 @@
 // What surface a pixel shows, and what is shadow (E125).
 #include "returns/label_pixels.hpp"
 
-#include "acoustics/pulse.hpp"
+#include "sonar/pulse.hpp"
 #include "support/test.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "sampling/beam_fan.hpp"
+#include "sonar/beam_fan.hpp"
 
 #include "sampling/cast_rays_internal.hpp"
 #include "sampling_scenes.hpp"

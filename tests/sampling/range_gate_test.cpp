@@ -1,4 +1,4 @@
-#include "sampling/range_gate.hpp"
+#include "sonar/range_gate.hpp"
 
 #include "sampling_scenes.hpp"
 #include "support/test.hpp"

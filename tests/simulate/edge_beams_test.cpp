@@ -2,11 +2,11 @@
 // cones, which reach far below the axis there.
 #include "acoustics/reverberation_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/response_table.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "sonar/response_table.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "support/test.hpp"
 
 namespace {

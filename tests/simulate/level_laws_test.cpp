@@ -1,10 +1,10 @@
 // Mean levels against closed forms. Random amplitudes make single levels scatter; every tolerance states how much.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"
-#include "beamforming/shading.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "sonar/shading.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "support/test.hpp"
 
 namespace {

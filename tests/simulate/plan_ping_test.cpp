@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "beamforming/sonar_spec.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "sonar/sonar_spec.hpp"
 #include "support/errors.hpp"
 #include "support/heads.hpp"
 

@@ -1,4 +1,4 @@
-#include "acoustics/water.hpp"
+#include "sonar/water.hpp"
 #include "store/csv_tables.hpp"
 #include "support/test.hpp"
 

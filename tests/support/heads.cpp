@@ -1,7 +1,7 @@
 #include "support/heads.hpp"
 
-#include "beamforming/shading.hpp"
 #include "core/units.hpp"
+#include "sonar/shading.hpp"
 
 namespace insonify {
 

@@ -1,8 +1,8 @@
 #pragma once
-#include "acoustics/pulse.hpp"
-#include "beamforming/line_array.hpp"
-#include "beamforming/shading.hpp"
-#include "beamforming/sonar_spec.hpp"
+#include "sonar/line_array.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/shading.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace insonify {
 

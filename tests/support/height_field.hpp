@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/water.hpp"
-#include "beamforming/sonar_head.hpp"
 #include "core/grid.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
 
 namespace insonify {
 

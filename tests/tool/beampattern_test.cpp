@@ -1,7 +1,7 @@
 // insonify beampattern: what it prints is what the beam of a ping is.
 #include <nlohmann/json.hpp>
 
-#include "beamforming/beam_pattern.hpp"
+#include "sonar/beam_pattern.hpp"
 #include "store/sonar_file.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "acoustics/sound_speed_profile.hpp"
-#include "acoustics/water.hpp"
 #include "formats/gsf_decoder.hpp"
 #include "formats/ros_decoder.hpp"
+#include "sonar/water.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"

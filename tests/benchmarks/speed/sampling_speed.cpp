@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "acoustics/direct_echoes.hpp"
-#include "acoustics/elevation_pattern.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/sonar_spec.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
+#include "sonar/elevation_pattern.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace {
 

@@ -1,1 +1,1 @@
-#include "acoustics/water.hpp"
+#include "sonar/water.hpp"

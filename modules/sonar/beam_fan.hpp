@@ -1,0 +1,99 @@
+#pragma once
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pose.hpp"
+
+namespace insonify {
+
+/// How far a main lobe reaches from its axis, in beam widths: the first null of a Taylor pattern is at 1.25.
+inline constexpr double main_lobe_reach = 1.5;
+
+/// Listening directions and widths of the beams of a head, in head axes, one entry per beam.
+struct BeamFan {
+  std::vector<double> azimuth;    ///< [rad], positive to port; in any order and spacing
+  std::vector<double> elevation;  ///< [rad], positive up
+  double beam_width = 0;          ///< full -3 dB width in azimuth at broadside [rad]
+  double elevation_width = 0;     ///< full -3 dB width in elevation [rad]; for a planar array that of the transmitter
+  double row_width = 0;           ///< full -3 dB width in elevation of the beams of a planar array [rad]; 0: line array
+
+  /// Returns the number of beams.
+  std::size_t beams() const { return azimuth.size(); }
+  bool operator==(const BeamFan&) const = default;
+};
+
+/// Returns a fan of `beams` directions equally spaced in azimuth over `field_of_view` [rad], centred on azimuth 0, at
+/// elevation `elevation` [rad]; the outermost beams are half a spacing inside the edges. A single beam points straight
+/// ahead and may have field_of_view 0. Throws Error for beams = 0 or invalid angles and widths.
+BeamFan make_fan(std::size_t beams, double field_of_view, double beam_width, double elevation_width,
+                 double elevation = 0);
+
+/// Throws Error unless there is at least one beam, all angles are finite, |azimuth| <= pi, |elevation| <= pi/2, widths
+/// are > 0, and row_width is finite and >= 0. `who` names the caller.
+void require_valid(const BeamFan& fan, const char* who);
+
+/// The beams of one elevation.
+struct FanRow {
+  double elevation = 0;            ///< [rad]
+  std::vector<std::size_t> beams;  ///< indices into the fan, ascending
+};
+
+/// Returns the rows of a fan by ascending elevation. Elevations must be equal to the last bit to form one row, so a fan
+/// with all elevations different has as many rows as beams.
+std::vector<FanRow> fan_rows(const BeamFan& fan);
+
+/// The beam in the middle: of the beams of the middle row the one of middle bearing.
+std::size_t middle_beam(const BeamFan& fan);
+
+/// A line array resolves u = cos(elevation) sin(azimuth) alone: what it hears in a beam is a cone about
+/// its own axis. This is the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the
+/// array, pi - asin(u) astern (x < 0) [rad].
+double cone_azimuth(const Eigen::Vector3d& p);
+
+/// The direction in the cone of this azimuth that is turned by `turn` [rad] about the array's axis, positive upwards; all of
+/// a cone lies within +-pi/2. Solid angle: |cos(cone)| dcone dturn.
+Direction direction_in_cone(double cone, double turn);
+
+/// Turns between which a cone runs through these elevations [rad], ascending; equal if it does not reach them.
+std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation);
+
+/// The insonified sector: directions in which beams have their main lobes.
+struct Sector {
+  double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad], see cone_azimuth
+  double min_elevation = 0, max_elevation = 0;  ///< [rad]
+};
+/// Cones of all beams and, on either side, as much of u as a main lobe fills; ahead only (x > 0), unless a beam looks
+/// astern. Elevations of all beams and the half extent.
+///
+/// margin   beyond the outermost beams, in u; 0: 1.5 beam widths, within which a shaded array has its main lobe
+Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin = 0);
+
+/// Azimuths that the directions of a sector fill [rad]: more than its cones', if it reaches far up or down.
+std::pair<double, double> azimuths_of(const Sector& sector);
+
+/// Says which places a sector holds, by signed distances: no trigonometry per place. Everything that looks into a sector
+/// asks here.
+class SectorBounds {
+ public:
+  /// Computes the edges of `sector` once.
+  explicit SectorBounds(const Sector& sector);
+
+  /// True if a sphere of radius `margin` [m] round p (head axes) may reach into the sector; exact for margin 0.
+  bool holds(const Eigen::Vector3d& p, double margin = 0) const {
+    return in_elevations(p, margin) && in_cones(p, margin);
+  }
+  /// The part of holds() that the elevations of the sector decide.
+  bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const;
+  /// The part of holds() that the cones of the sector decide.
+  bool in_cones(const Eigen::Vector3d& p, double margin = 0) const;
+
+ private:
+  bool whole_circle_, convex_;
+  Eigen::Vector2d port_, starboard_;  // inward normals of the edges, in the half-planes through the array's axis
+  Eigen::Vector2d top_, bottom_;      // sine and cosine of the edges in elevation
+};
+
+}  // namespace insonify

@@ -1,0 +1,70 @@
+#include "sonar/line_array.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+
+void require_valid(const LineArray& array, const char* who) {
+  if (array.shading.empty()) fail(ErrorKind::argument, who, ": array has no elements, must have at least one");
+  if (!std::isfinite(array.spacing) || array.spacing <= 0)
+    fail(ErrorKind::argument, who, ": array.spacing = ", array.spacing, " m, must be > 0");
+  const double sum = std::accumulate(array.shading.begin(), array.shading.end(), 0.0);
+  const auto n = static_cast<double>(array.elements());
+  if (!(std::abs(sum - n) <= 1e-9 * n))
+    fail(ErrorKind::argument, who, ": array.shading adds up to ", sum, ", must add up to the ", n, " elements");
+}
+
+double array_response(const LineArray& array, double wavelength, double u, double u_beam) {
+  const std::size_t n = array.elements();
+  const double step = 2 * pi * array.spacing / wavelength * (u - u_beam);
+  double sum = 0;
+  for (std::size_t m = 0; m < n; ++m) sum += array.shading[m] * std::cos(step * element_place(m, n));
+  return sum / static_cast<double>(n);  // (E10)
+}
+
+double half_power_offset(const LineArray& array, double wavelength, double most) {
+  require_valid(array, "half_power_offset");
+  const auto power = [&](double u) {
+    const double b = array_response(array, wavelength, u, 0);
+    return b * b;
+  };
+  if (array.elements() == 1) return most;
+  // Step out of the main lobe much finer than its width, then bisect.
+  const double step = 0.02 * wavelength / (array.spacing * static_cast<double>(array.elements()));
+  double inside = 0, outside = step;
+  while (outside < most && power(outside) > 0.5) inside = outside, outside += step;
+  if (outside >= most && power(most) > 0.5) return most;
+  outside = std::min(outside, most);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (power(middle) > 0.5 ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+double array_beam_width(const LineArray& array, double wavelength) {
+  require_valid(array, "array_beam_width");
+  return 2 * std::asin(half_power_offset(array, wavelength, 1));
+}
+
+double directivity_index_db(const LineArray& array, double wavelength, double u_beam) {
+  require_valid(array, "directivity_index_db");
+  const std::size_t n = array.elements();
+  // Integral of B^2 du over [-1, 1]: pairs of elements whose phase difference at endfire is x contribute 2 cos(x
+  // u_beam) sin(x) / x.
+  double integral = 0;
+  for (std::size_t lag = 0; lag < n; ++lag) {
+    double pairs = 0;
+    for (std::size_t m = 0; m + lag < n; ++m) pairs += array.shading[m] * array.shading[m + lag];
+    const double x = 2 * pi * array.spacing / wavelength * static_cast<double>(lag);
+    integral += lag == 0 ? 2 * pairs : 2 * pairs * 2 * std::cos(x * u_beam) * std::sin(x) / x;
+  }
+  integral /= static_cast<double>(n) * static_cast<double>(n);
+  return db_from_power(2 / integral);  // (E34)
+}
+
+}  // namespace insonify

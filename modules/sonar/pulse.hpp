@@ -1,0 +1,124 @@
+#pragma once
+#include <complex>
+#include <memory>
+
+#include "sonar/water.hpp"
+
+namespace insonify {
+
+/// Kind of the transmitted pulse.
+enum class PulseShape {
+  gaussian,  ///< a short burst, as the receiver's filter passes it
+  linear_fm  ///< a sweep of the bandwidth, compressed by a matched filter
+};
+
+/// Weights of the replica that the matched filter uses: 1, or level + (1 - level) cos(2 pi t / duration) with level
+/// 0.5 (hann) or 0.54 (hamming).
+enum class ReplicaWindow { uniform, hann, hamming };
+
+/// As sonar files spell them: "gaussian", "linear_fm"; "uniform", "hann", "hamming".
+const char* pulse_shape_name(PulseShape shape);
+/// The same of a window.
+const char* replica_window_name(ReplicaWindow window);
+
+/// The transmitted pulse as it leaves the receiver's filter: unit envelope peak, so that the level of an echo's peak is
+/// the sonar equation.
+struct Pulse {
+  double centre_frequency = 0;  ///< [Hz]
+  double bandwidth = 0;         ///< full -3 dB power width, or swept from start to end [Hz]; "range resolution" is c/2B
+  double source_level_db = 0;   ///< dB re 1 uPa rms at 1 m, on axis
+  PulseShape shape = PulseShape::gaussian;
+  double duration = 0;                            ///< of a sweep [s]; a Gaussian's follows from its bandwidth
+  ReplicaWindow window = ReplicaWindow::hamming;  ///< of a sweep's replica
+
+  bool operator==(const Pulse&) const = default;
+};
+
+/// Throws Error unless all is finite, 0 < bandwidth < 2 centre_frequency, -400 <= source_level_db <= 260 and, for a
+/// sweep, 1 <= bandwidth duration <= 1e6.
+void require_valid(const Pulse& pulse, const char* who);
+
+/// Peak pressure at 1 m on axis [Pa]: sqrt(2) 10^(SL/20) 1 uPa (E5).
+double source_pressure(const Pulse& pulse);
+
+/// Intensity full width at half maximum as range [m]. Gaussian: 0.4413 c / 2B (E8). Sweep: found numerically (E55);
+/// for bandwidth duration of 100 and more within 1 % of 0.886 (uniform), 1.44 (hann) or 1.30 (hamming) c / 2B.
+double range_resolution(const Pulse& pulse, double sound_speed);
+
+/// What datasheets call range resolution [m]: c / 2B.
+double nominal_range_resolution(const Pulse& pulse, double sound_speed);
+
+/// Of the envelope's peak: where a pulse ends for paths and cells.
+inline constexpr double pulse_floor = 1e-4;
+
+/// Half-length [s] beyond which the envelope is below `tolerance` of its peak, without absorption (E8); tolerance in
+/// (0, 1). Of a sweep an upper bound, at most its duration, outside of which there is nothing (E54).
+double pulse_half_length(const Pulse& pulse, double tolerance);
+
+/// Equivalent noise bandwidth of the receive filter [Hz], integral |H(f)|^2 df / |H(0)|^2: of a Gaussian pulse
+/// sqrt(pi / (4 ln 2)) B = 1.0645 B (E18); of a sweep's matched filter integral w^2 / (integral w)^2 (E55), which is
+/// 1 (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
+double noise_bandwidth(const Pulse& pulse);
+
+/// Weight of a sweep's replica at t [s] from its middle, |t| <= duration / 2.
+double replica_weight(const Pulse& pulse, double t);
+
+class LinearFmEcho;
+
+/// Envelope of one echo after a way of `range` there and back, with absorption frequency by frequency.
+///
+/// Gaussian in, Gaussian out (E8):
+///
+///   G(t) = sqrt((2 ln2 / B^2) / a) exp(-2 a0 r) exp((b + 2 pi i t)^2 / 4a),  a = 2 ln2 / B^2 + 2 a2 r,  b = 2 a1 r
+///        = gain exp(-(pi t)^2 / a) exp(i pi b t / a),  gain = sqrt((2 ln2 / B^2) / a) exp(b^2 / 4a - 2 a0 r)
+///
+/// In the second form nothing overflows, however large the absorption.
+/// With a1 = a2 = 0 it is exp(-2 a0 r) exp(-pi^2 B^2 t^2 / (2 ln2)), real. A Doppler shift f_d turns it as
+/// exp(-2 pi i f_d t).
+///
+/// A sweep s(t) = exp(-i pi k t^2), k = B / T, |t| < T/2, rising in frequency, behind its matched filter with the
+/// replica w s (E54):
+///
+///   G(t) = (1 / integral w) integral s_r(tau) exp(-2 pi i f_d tau) conj(w s)(tau - t) dtau
+///
+/// s_r is the sweep after its way: s exp(-2 a0 r) without slope and curvature of the absorption, else what the filter
+/// exp(-2 (a0 + a1 f + a2 f^2) r) makes of an endless sweep of that rate, cut to |t| < T/2:
+///
+///   s_r(t) = sqrt(k'/k) exp(-2 a0 r + i k' b^2 / 4 pi - k' b t - i pi k' t^2),  k' = k / (1 + 2 i a2 r k / pi)
+///
+/// It differs from the sweep so filtered only at its ends. That raises or lowers far side lobes by at most 0.06 / (B T)
+/// of the peak per dB by which the loss differs over the band (held by a test up to 11 dB). Zero for |t| >= T. The peak of a shifted echo stands at t = -f_d / k
+/// (range-Doppler coupling). That the sweep itself is stretched by motion is left out: an error of about B T f_d / f_c
+/// cycles at its ends.
+/// Accurate to 1e-12 of the peak.
+struct EchoEnvelope {
+  double gain = 0;                              ///< at the peak of a Gaussian, at most 1
+  double a = 0;                                 ///< [s^2]
+  double b = 0;                                 ///< [s]
+  double doppler = 0;                           ///< of a Gaussian [Hz]
+  std::shared_ptr<const LinearFmEcho> sweep{};  ///< instead of all these, for a sweep
+
+  std::complex<double> at(double t) const;  ///< t [s] from the echo's delay
+};
+
+/// Throws Error if slope or curvature of the absorption would make the pulse grow on its way.
+EchoEnvelope echo_envelope(const Pulse& pulse, const Absorption& absorption, double range);
+
+struct HermiteRules;
+
+/// The envelopes of all echoes of one ping: what they have in common is worked out once.
+class EchoShapes {
+ public:
+  /// Throws Error for an invalid pulse.
+  EchoShapes(const Pulse& pulse, const Medium& medium);
+
+  /// Envelope of the echo with this two-way delay [s] and Doppler shift [Hz]. Throws as echo_envelope does.
+  EchoEnvelope of(double delay, double doppler = 0) const;
+
+ private:
+  Pulse pulse_;
+  Medium medium_;
+  std::shared_ptr<const HermiteRules> rules_;
+};
+
+}  // namespace insonify
