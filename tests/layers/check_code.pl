@@ -47,7 +47,7 @@ for my $path (sort @files) {
   open(my $in, '<', $path) or die "$path: $!\n";
   my @lines = <$in>;
   my ($module) = $path =~ m{^modules/([^/]+)/};
-  my ($here) = $path =~ m{([^/]+)/[^/]+$};
+  my ($here) = $path =~ m{^\w+/([^/]+)/};
   my $user = $module // 'apps';
   my $internal = $path =~ /_internal\.hpp$/;
   if ($module) {
@@ -60,7 +60,7 @@ for my $path (sort @files) {
   my $in_type = 0;
   for my $i (0 .. $#lines) {
     local $_ = $lines[$i];
-    if (m{^#include "((?:([a-z_]+)/)?[a-z_0-9]+_internal\.hpp)"}) {
+    if (m{^#include "((?:([a-z_]+)/)?(?:[a-z_0-9]+/)*[a-z_0-9]+_internal\.hpp)"}) {
       my ($header, $other) = ($1, $2 // $here);
       complain("$path: a public header includes $header") if $public{$path};
       complain("$path: includes $header, which is internal to $other")

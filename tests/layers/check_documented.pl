@@ -7,7 +7,7 @@ use warnings;
 my $root = shift or die "usage: check_documented.pl ROOT\n";
 chdir $root or die "$root: $!\n";
 my $failed = 0;
-my @headers = grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp';
+my @headers = grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp modules/*/*/*.hpp';
 die "no headers under $root\n" unless @headers;
 
 for my $path (@headers) {

@@ -1,0 +1,1 @@
+#include "core/deep/hidden_internal.hpp"
