@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "beamforming/beam_spectrum.hpp"
+#include "beamforming/numerics/beam_spectrum.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/pending_file.hpp"

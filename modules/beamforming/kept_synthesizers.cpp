@@ -6,9 +6,9 @@
 #include <list>
 #include <mutex>
 
+#include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/planar_synthesizer_internal.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 
 namespace insonify {
 

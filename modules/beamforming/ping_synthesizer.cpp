@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "beamforming/gridded_synthesis_internal.hpp"
-#include "beamforming/require_synthesis_internal.hpp"
-#include "beamforming/synthesis_precision_internal.hpp"
-#include "beamforming/windowed_sum_internal.hpp"
+#include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
+#include "beamforming/narrow_band/windowed_sum_internal.hpp"
+#include "beamforming/numerics/require_synthesis_internal.hpp"
+#include "beamforming/numerics/synthesis_precision_internal.hpp"
 #include "core/error.hpp"
 
 namespace insonify {

@@ -1,13 +1,13 @@
 #include "beamforming/synthesize.hpp"
 
-#include "beamforming/element_series.hpp"
 #include "beamforming/kept_synthesizers.hpp"
+#include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
+#include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/planar_synthesizer_internal.hpp"
-#include "beamforming/require_synthesis_internal.hpp"
+#include "beamforming/reference/element_series.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "beamforming/synthesize_intensity.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 
 namespace insonify {
 namespace {

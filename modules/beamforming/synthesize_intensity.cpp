@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/require_synthesis_internal.hpp"
+#include "beamforming/pulses/time_axis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
-#include "beamforming/time_axis_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "beamforming/require_synthesis_internal.hpp"
+#include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/pose.hpp"
 #include "sampling/scatterers.hpp"
-#include "scene/micro_relief.hpp"
+#include "scene/estimate/micro_relief.hpp"
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sampling/find_scatterers.hpp"
-#include "scene/micro_relief.hpp"
+#include "scene/estimate/micro_relief.hpp"
 
 namespace insonify {
 

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "sampling/trust_lines_of_sight.hpp"
-#include "scene/height_triangles.hpp"
-#include "scene/surfel_area.hpp"
-#include "scene/surfel_noise.hpp"
+#include "scene/estimate/height_triangles.hpp"
+#include "scene/estimate/surfel_area.hpp"
+#include "scene/estimate/surfel_noise.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {

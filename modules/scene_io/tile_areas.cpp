@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/units.hpp"
-#include "scene/surfel_area.hpp"
+#include "scene/estimate/surfel_area.hpp"
 #include "scene_io/tile_areas_internal.hpp"
 
 namespace insonify {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "beamforming/element_series.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
+#include "beamforming/reference/element_series.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 #include "simulate/ping_cost_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "beamforming/element_series.hpp"
+#include "beamforming/reference/element_series.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "simulate/narrow_band_loops_internal.hpp"

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "beamforming/element_series.hpp"
 #include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/reference/element_series.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "beamforming/element_series.hpp"
+#include "beamforming/reference/element_series.hpp"
 #include "sonar/sonar_head.hpp"
 
 namespace insonify {

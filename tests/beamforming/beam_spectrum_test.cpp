@@ -1,4 +1,4 @@
-#include "beamforming/beam_spectrum.hpp"
+#include "beamforming/numerics/beam_spectrum.hpp"
 
 #include "core/random.hpp"
 #include "support/test.hpp"

@@ -1,4 +1,4 @@
-#include "beamforming/element_series.hpp"
+#include "beamforming/reference/element_series.hpp"
 
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"

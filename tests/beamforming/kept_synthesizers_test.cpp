@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "support/heads.hpp"

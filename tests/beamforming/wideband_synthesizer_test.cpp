@@ -1,11 +1,11 @@
-#include "beamforming/wideband_synthesizer.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "beamforming/element_series.hpp"
+#include "beamforming/reference/element_series.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "sonar/shading.hpp"

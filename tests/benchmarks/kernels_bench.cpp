@@ -3,9 +3,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "beamforming/fft_along_rows_internal.hpp"
-#include "beamforming/gridding_kernel_internal.hpp"
-#include "beamforming/gridding_loops_internal.hpp"
+#include "beamforming/narrow_band/gridding_loops_internal.hpp"
+#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/gridding_kernel_internal.hpp"
 #include "core/random.hpp"
 
 using namespace insonify;

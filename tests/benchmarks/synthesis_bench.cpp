@@ -5,10 +5,10 @@
 
 #include "accuracy/accuracy_task.hpp"
 #include "accuracy/reference_sums.hpp"
-#include "beamforming/gridded_synthesis_internal.hpp"
+#include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
+#include "beamforming/narrow_band/windowed_sum_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
-#include "beamforming/windowed_sum_internal.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 
 using namespace insonify;
 

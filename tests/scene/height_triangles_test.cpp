@@ -1,5 +1,5 @@
 // Surfaces between the points of height fields.
-#include "scene/height_triangles.hpp"
+#include "scene/estimate/height_triangles.hpp"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "scene/micro_relief.hpp"
+#include "scene/estimate/micro_relief.hpp"
 
 #include "support/test.hpp"
 

@@ -1,4 +1,4 @@
-#include "scene/surfel_area.hpp"
+#include "scene/estimate/surfel_area.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/surfel_noise.hpp"
+#include "scene/estimate/surfel_noise.hpp"
 
 #include "support/test.hpp"
 

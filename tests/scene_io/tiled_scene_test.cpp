@@ -2,7 +2,7 @@
 
 #include "core/random.hpp"
 #include "scene/built_in_scenes.hpp"
-#include "scene/surfel_area.hpp"
+#include "scene/estimate/surfel_area.hpp"
 #include "scene_io/tile_file_internal.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "support/test.hpp"

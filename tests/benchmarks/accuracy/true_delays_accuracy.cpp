@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "accuracy/accuracy_task.hpp"
-#include "beamforming/element_series.hpp"
 #include "beamforming/ping_synthesizer.hpp"
-#include "beamforming/wideband_synthesizer.hpp"
+#include "beamforming/reference/element_series.hpp"
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"

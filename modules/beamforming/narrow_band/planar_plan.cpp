@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "beamforming/narrow_band/planar_plan_internal.hpp"
+#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+
+template <typename Real>
+PlanarPlan<Real>::PlanarPlan(const SonarHead& head, const Medium& medium, double tolerance, PlanarTolerance kernels)
+    : across(head, medium, tolerance, kernels.u),
+      kernel(kernels.v),
+      lines_of(PolynomialPieces<Real>::fit([this](double x) { return kernel.at(x); },
+                                           -0.5 * static_cast<double>(kernel.width()), kernel.width(),
+                                           0.1 * kernels.v)),
+      cycle(fft_length(std::max(2 * head.column->elements(), 2 * kernel.width()))),
+      lines(cycle + 2 * grid_pad),
+      cycles_per_v(head.column->spacing * head.pulse.centre_frequency / medium.sound_speed),
+      element_offset(head.column->elements() % 2 == 0 ? 0.5 : 0.0),
+      rows(fan_rows(head.fan)) {
+  plan_rows(*head.column);
+}
+
+/// The weight of a line at v in a row at v_b is the response of a column with deconvolved shading to v - v_b.
+template <typename Real>
+void PlanarPlan<Real>::plan_rows(const LineArray& column) {
+  const std::size_t n = column.elements();
+  const auto steps = static_cast<double>(cycle);
+  AlignedArray<std::complex<double>, double> response(cycle * rows.size());  // cycle x rows
+  for (std::size_t m = 0; m < n; ++m) {
+    const double place = element_place(m, n);
+    const auto frequency = static_cast<std::ptrdiff_t>(std::floor(place)), wrap = static_cast<std::ptrdiff_t>(cycle);
+    const auto at = static_cast<std::size_t>(frequency < 0 ? frequency + wrap : frequency);
+    const double factor = column.shading[m] / (static_cast<double>(n) * kernel.transform(place / steps));
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      response[at * rows.size() + r] = std::polar(factor, -2 * pi * place * cycles_per_v * std::sin(rows[r].elevation));
+  }
+  FftAlongRows<double>(cycle, rows.size(), FFTW_BACKWARD).run(response.data());
+  weight.resize(rows.size() * lines);
+  for (std::size_t l = 0; l < lines; ++l) {
+    const double step = static_cast<double>(l) - static_cast<double>(grid_pad), wraps = std::floor(step / steps);
+    const std::complex<double> offset = std::polar(1.0, 2 * pi * element_offset * step / steps);
+    const auto at = static_cast<std::size_t>(step - wraps * steps);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      weight[r * lines + l] = static_cast<Real>((offset * response[at * rows.size() + r]).real());
+  }
+}
+
+template struct PlanarPlan<float>;
+template struct PlanarPlan<double>;
+
+}  // namespace insonify

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstddef>
+
+#include "beamforming/narrow_band/gridding_loops_internal.hpp"
+
+namespace insonify::kernels {
+
+/// A register, or as many narrower ones as the instruction set needs. Compilers turn loops over eight numbers that stay
+/// the same from row to row into single ones; of these types they cannot.
+template <typename Real, std::size_t bytes = 32>
+struct Register {
+  typedef Real Type __attribute__((vector_size(bytes)));
+};
+
+/// Kernel of one echo across `lanes` columns, kept in registers.
+template <std::size_t lanes, typename Real>
+struct KernelLanes {
+  using Part = typename Register<Real>::Type;
+  static constexpr std::size_t at_once = sizeof(Part) / sizeof(Real), parts = lanes / at_once;
+  Part part[parts];
+
+  /// The polynomials of all lanes at t, by Horner's rule.
+  [[gnu::always_inline]] KernelLanes(const Pieces<Real>& p, Real t) {
+    const Real* coefficient = p.coefficient;
+    __builtin_memcpy(part, coefficient, sizeof part);
+    for (std::size_t k = 1; k <= p.degree; ++k) {
+      coefficient += lanes;
+      for (std::size_t l = 0; l < parts; ++l) {
+        Part next;
+        __builtin_memcpy(&next, coefficient + l * at_once, sizeof next);
+        part[l] = part[l] * t + next;
+      }
+    }
+  }
+  [[gnu::always_inline]] void store(Real* to) const { __builtin_memcpy(to, part, sizeof part); }
+  /// to(l) += factor kernel(l).
+  [[gnu::always_inline]] void add(Real factor, Real* to) const {
+    for (std::size_t l = 0; l < parts; ++l) {
+      Part sum;
+      __builtin_memcpy(&sum, to + l * at_once, sizeof sum);
+      sum += factor * part[l];
+      __builtin_memcpy(to + l * at_once, &sum, sizeof sum);
+    }
+  }
+};
+
+}  // namespace insonify::kernels

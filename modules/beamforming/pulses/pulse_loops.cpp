@@ -1,0 +1,135 @@
+#include <cmath>
+
+#include "beamforming/numerics/kernel_lanes_internal.hpp"
+#include "beamforming/pulses/pulse_loops_internal.hpp"
+#include "core/target_clones.hpp"
+#include "core/vector_functions.hpp"
+
+namespace insonify::kernels {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+template <typename Real>
+INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid,
+                                      GaussianState s, GaussianPlaces<Real> at) {
+  const GaussianGrid g = grid;
+  const double turn_step = 2 * pi * g.step, first = g.start + g.half, sign = g.half_places ? 1 : 0;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i) {
+    // Where: between grid steps, with the sign of whole cycles, and between bins.
+    const double cycles = g.cycles_per_u * echoes.u[i], whole = vec::floor(cycles);
+    const double odd = whole - 2 * vec::floor(0.5 * whole);
+    const double low_column = (cycles - whole) * g.grid - g.half_width, column = vec::ceil(low_column);
+    const double row = vec::ceil((echoes.delay[i] - first) / g.step);
+    at.column[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(column + g.pad));
+    at.column_offset[i] = static_cast<Real>(2 * (column - low_column) - 1);
+    at.row[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(row - g.first_row));
+
+    // The pulse at its first sample, and from one sample to the next. (E8)
+    const double range = g.range_per_delay * echoes.delay[i];
+    const double a = g.a_sent + 2 * g.a2 * range, b = 2 * g.a1 * range, per_4a = 0.25 / a;
+    const double t = g.start + row * g.step - echoes.delay[i], w = 2 * pi * t;
+    const double gain =
+        (1 - 2 * sign * odd) * std::sqrt(g.a_sent / a) * vec::exp((b * b - w * w) * per_4a - 2 * g.a0 * range);
+    const double shift = 2 * b * per_4a - echoes.doppler[i];  // of the carrier [Hz]
+    double sine, cosine;
+    vec::sine_cosine(shift * t, sine, cosine);
+    s.re[i] = gain * (echoes.re[i] * cosine - echoes.im[i] * sine);  // (E13)
+    s.im[i] = gain * (echoes.re[i] * sine + echoes.im[i] * cosine);
+    vec::sine_cosine(shift * g.step, s.turn_im[i], s.turn_re[i]);
+    s.power[i] = (echoes.re[i] * echoes.re[i] + echoes.im[i] * echoes.im[i]) * vec::exp(-4 * g.a0 * range);
+    s.ratio[i] = vec::exp(-(2 * w + turn_step) * turn_step * per_4a);
+    s.change[i] = vec::exp(-2 * turn_step * turn_step * per_4a);
+  }
+}
+
+template <typename Real>
+INSONIFY_ALWAYS_INLINE void sample_all(GaussianState s, std::size_t count, std::size_t rows, Real* pulse_re,
+                                       Real* pulse_im) {
+  for (std::size_t n = 0; n < rows; ++n) {
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i) {
+      const double re = s.re[i], im = s.im[i], ratio = s.ratio[i];
+      pulse_re[n * count + i] = static_cast<Real>(re);
+      pulse_im[n * count + i] = static_cast<Real>(im);
+      s.re[i] = ratio * (re * s.turn_re[i] - im * s.turn_im[i]);
+      s.im[i] = ratio * (re * s.turn_im[i] + im * s.turn_re[i]);
+      s.ratio[i] = ratio * s.change[i];
+    }
+  }
+}
+
+template <std::size_t lanes, typename Real>
+INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPlaces<Real> at, std::size_t count, const Real* pulse_re,
+                                       const Real* pulse_im, std::size_t rows, Pieces<Real> p, Real* x_re, Real* x_im,
+                                       std::size_t stride) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const KernelLanes<lanes, Real> kernel(p, at.column_offset[i]);
+    Real* to_re = x_re + at.row[i] * stride + at.column[i];
+    Real* to_im = x_im + at.row[i] * stride + at.column[i];
+    for (std::size_t n = 0; n < rows; ++n, to_re += stride, to_im += stride) {
+      kernel.add(pulse_re[n * count + i], to_re);
+      kernel.add(pulse_im[n * count + i], to_im);
+    }
+  }
+}
+
+}  // namespace
+
+INSONIFY_CLONES
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
+                     GaussianPlaces<float> places) {
+  place_all(echoes, count, grid, state, places);
+}
+
+INSONIFY_CLONES
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
+                     GaussianPlaces<double> places) {
+  place_all(echoes, count, grid, state, places);
+}
+
+INSONIFY_CLONES
+void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im) {
+  sample_all(state, count, rows, pulse_re, pulse_im);
+}
+
+INSONIFY_CLONES
+void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im) {
+  sample_all(state, count, rows, pulse_re, pulse_im);
+}
+
+INSONIFY_CLONES
+void grid_samples(GaussianPlaces<float> places, std::size_t count, const float* pulse_re, const float* pulse_im,
+                  std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    grid_lanes<8>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+  else
+    grid_lanes<16>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void grid_samples(GaussianPlaces<double> places, std::size_t count, const double* pulse_re, const double* pulse_im,
+                  std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride) {
+  if (columns_of.lanes == 8)
+    grid_lanes<8>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+  else
+    grid_lanes<16>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+}
+
+INSONIFY_CLONES
+void reached_bins(const double* delay, std::size_t count, const PulseAxis& axis, std::uint32_t* begin,
+                  std::uint32_t* end) {
+  const PulseAxis a = axis;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i) {
+    const double grown = 1 + a.growth * delay[i], half = a.half * std::sqrt(grown > 1 ? grown : 1);
+    const double low = vec::ceil((delay[i] - half - a.start) / a.step);
+    const double high = vec::floor((delay[i] + half - a.start) / a.step) + 1;
+    const double from = low > a.first ? low : a.first, past = high < a.last ? high : a.last;
+    begin[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(from < a.last ? from : a.last));
+    end[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(past > a.first ? past : a.first));
+  }
+}
+
+}  // namespace insonify::kernels

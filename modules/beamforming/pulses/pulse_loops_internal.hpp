@@ -1,0 +1,59 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "beamforming/narrow_band/gridding_loops_internal.hpp"
+
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
+// each. They do not include Eigen, so wide registers are safe.
+namespace insonify::kernels {
+
+/// Echoes: delay, direction cosine, amplitude over the unit of gridding, Doppler shift.
+struct EchoArrays {
+  const double *delay, *u, *re, *im, *doppler;
+};
+
+/// What all echoes of a tile of the grid have in common.
+struct GaussianGrid {
+  double start, step, half, first_row;         ///< time axis [s], half length of pulses [s], first row of the tile
+  double cycles_per_u, grid, half_width, pad;  ///< as GriddingPlan
+  bool half_places;                            ///< elements stand at half-integers: whole cycles have signs
+  double a_sent, range_per_delay, a0, a1, a2;  ///< of EchoEnvelope; absorption
+};
+
+/// Working numbers of `count` echoes, an array each; power: of the peak after absorption at the carrier.
+struct GaussianState {
+  double *re, *im, *turn_re, *turn_im, *ratio, *change, *power;
+};
+
+/// Places Gaussian pulses, attenuated and shifted in frequency by absorption and Doppler (E8, E13, E54), on the grid; the
+/// state is that of their first sample.
+template <typename Real>
+struct GaussianPlaces {
+  std::uint32_t *row, *column;
+  Real* column_offset;
+};
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
+                     GaussianPlaces<float> places);
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
+                     GaussianPlaces<double> places);
+
+/// Samples of the pulses, row by row: sample n of echo i at n count + i. Uses up the state.
+void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im);
+void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im);
+
+/// Adds pulses so sampled, times the kernel of their columns, to the planes (rows x stride).
+void grid_samples(GaussianPlaces<float> places, std::size_t count, const float* pulse_re, const float* pulse_im,
+                  std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);
+void grid_samples(GaussianPlaces<double> places, std::size_t count, const double* pulse_re, const double* pulse_im,
+                  std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride);
+
+/// Samples of a time axis that pulses reach: those within half sqrt(max(1, 1 + growth delay)) of the delay, clipped to
+/// [first, last); begin >= end: none.
+struct PulseAxis {
+  double start, step, half, growth, first, last;
+};
+void reached_bins(const double* delay, std::size_t count, const PulseAxis& axis, std::uint32_t* begin,
+                  std::uint32_t* end);
+
+}  // namespace insonify::kernels

@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "beamforming/numerics/forward_fft_internal.hpp"
+#include "beamforming/numerics/require_synthesis_internal.hpp"
+#include "beamforming/synthesize.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "sonar/pulse.hpp"
+
+namespace insonify {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Frequencies f_k of a discrete Fourier transform, of both signs, and its sampling interval [s].
+struct FrequencyGrid {
+  std::size_t samples = 0;
+  double step_time = 0;
+
+  double step() const { return 1 / (static_cast<double>(samples) * step_time); }
+  double at(std::size_t k) const {
+    const auto n = static_cast<std::ptrdiff_t>(samples), i = static_cast<std::ptrdiff_t>(k);
+    return static_cast<double>(i < (n + 1) / 2 ? i : i - n) / (static_cast<double>(samples) * step_time);
+  }
+};
+
+/// Computes spectra of single echoes after the receive filter [1/Hz]: by FFT of the samples of sweep and replica, or in
+/// closed form for a Gaussian. A Doppler shift moves the transmitted spectrum, after its absorption. Outside its swept
+/// band a sweep is absorbed as at the band edge, since the expansion of the absorption about the centre frequency does
+/// not hold there.
+class EchoSpectrum {
+ public:
+  EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid);
+
+  /// Returns one value per frequency of the grid, for an echo at delay 0 from one-way range `range` [m] with Doppler
+  /// shift `doppler` [Hz].
+  std::vector<Complex> of(double range, double doppler) const;
+
+ private:
+  std::vector<Complex> sweep_spectrum(bool weighted, double doppler) const;
+
+  Pulse pulse_;
+  Absorption absorption_;
+  FrequencyGrid grid_;
+  ForwardFft fft_;
+  std::vector<Complex> sent_, replica_;
+  double replica_area_ = 0;  ///< integral of the replica's weights [s]
+};
+
+/// Returns the baseband spectrum of a Gaussian pulse [1/Hz] with integral 1, i.e. envelope peak 1 (E8).
+double gaussian_spectrum(double f, double bandwidth) {
+  const double x = f / bandwidth;
+  return std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / bandwidth;
+}
+
+EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid)
+    : pulse_(pulse), absorption_(medium.absorption), grid_(grid), fft_(grid.samples) {
+  if (pulse.shape != PulseShape::linear_fm) return;
+  sent_ = sweep_spectrum(false, 0);
+  replica_ = sweep_spectrum(true, 0);
+  replica_area_ = pulse.duration * replica_weight(pulse, 0.25 * pulse.duration);  // the weight at T/4 equals its mean
+}
+
+std::vector<Complex> EchoSpectrum::sweep_spectrum(bool weighted, double doppler) const {
+  // Samples of the sweep in reversed time: its time dependence is exp(-i omega t), the opposite sign of the forward
+  // FFT.
+  std::vector<Complex> x(grid_.samples, 0);
+  const double half = 0.5 * pulse_.duration, rate = pulse_.bandwidth / pulse_.duration;
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(half / grid_.step_time));
+  for (std::ptrdiff_t n = -reach; n <= reach; ++n) {
+    const double t = static_cast<double>(n) * grid_.step_time;
+    const double covered = std::clamp((half - std::abs(t)) / grid_.step_time + 0.5, 0.0, 1.0);
+    const double weight = weighted ? replica_weight(pulse_, t) : 1;
+    x[static_cast<std::size_t>(n > 0 ? static_cast<std::ptrdiff_t>(grid_.samples) - n : -n)] =
+        std::polar(covered * weight * grid_.step_time, -pi * rate * t * t - 2 * pi * doppler * t);
+  }
+  fft_.run(x);
+  return x;
+}
+
+std::vector<Complex> EchoSpectrum::of(double range, double doppler) const {
+  const bool sweep = pulse_.shape == PulseShape::linear_fm;
+  std::vector<Complex> x(grid_.samples);
+  if (sweep) x = doppler == 0 ? sent_ : sweep_spectrum(false, doppler);
+  const double edge = sweep ? 0.5 * pulse_.bandwidth : std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double sent = grid_.at(k) - doppler, f = std::clamp(sent, -edge, edge);
+    const double alpha = absorption_.a0 + f * (absorption_.a1 + f * absorption_.a2);
+    const double loss = std::exp(-2 * alpha * range);
+    x[k] =
+        sweep ? loss / replica_area_ * x[k] * std::conj(replica_[k]) : loss * gaussian_spectrum(sent, pulse_.bandwidth);
+  }
+  return x;
+}
+
+/// Frequency grid of the sum: M equally spaced frequencies over `oversampling` times the sampling rate of the output,
+/// wide enough for the pulse, with a time window that contains every echo and its pulse, so nothing wraps around.
+struct SpectrumGrid {
+  std::size_t oversampling = 1, samples = 0;
+  std::size_t skipped = 0;  ///< output bins before the first of the gate
+  double step_time = 0, start_time = 0;
+
+  SpectrumGrid(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
+    const double bin_time = 2 * head.gate.bin_size / medium.sound_speed;
+    // At +-5 B the spectrum of a Gaussian is down to e^-34, 1e-15 of its peak; that of a sweep decays more slowly.
+    const double band = (head.pulse.shape == PulseShape::linear_fm ? 64 : 10) * head.pulse.bandwidth;
+    oversampling = static_cast<std::size_t>(std::ceil(band * bin_time));
+    step_time = bin_time / static_cast<double>(oversampling);
+    const double guard = 2 * pulse_half_length(head.pulse, 1e-16);
+    const double first_time = 2 * head.gate.centre(0) / medium.sound_speed;
+    double earliest = first_time, latest = 2 * head.gate.max_range / medium.sound_speed;
+    for (const double delay : echoes.delay) earliest = std::min(earliest, delay), latest = std::max(latest, delay);
+    skipped = static_cast<std::size_t>(std::ceil((first_time - earliest + guard) / bin_time));
+    start_time = first_time - static_cast<double>(skipped) * bin_time;
+    const double wanted = std::ceil((latest + guard - start_time) / step_time) + 1;
+    if (!(wanted <= 0x1p26))
+      fail(ErrorKind::argument, "synthesize_spectrum: echoes between ", earliest, " and ", latest, " s and a pulse of ",
+           guard, " s need ", wanted, " samples, must be at most 2^26; use another method");
+    samples = static_cast<std::size_t>(wanted);
+  }
+
+  FrequencyGrid frequencies() const { return {samples, step_time}; }
+};
+
+/// Spectrum of one beam [1/Hz] for echoes that are all the same Gaussian pulse:
+///   S(f) sum_i A_i B(u_i) exp(+2 pi i f (delay - start)) exp(-2 alpha(f) r).
+std::vector<Complex> gaussian_beam_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                            const SpectrumGrid& grid, double u_beam) {
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  std::vector<Complex> weight(echoes.size()), spectrum(grid.samples);
+  for (std::size_t i = 0; i < echoes.size(); ++i)
+    weight[i] = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam);
+  const FrequencyGrid frequencies = grid.frequencies();
+  const Absorption& a = medium.absorption;
+  for (std::size_t k = 0; k < grid.samples; ++k) {
+    const double f = frequencies.at(k), alpha = a.a0 + a.a1 * f + a.a2 * f * f;
+    Complex sum = 0;
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const double r = 0.5 * medium.sound_speed * echoes.delay[i];
+      const double phase = 2 * pi * reduced_cycles(f * (echoes.delay[i] - grid.start_time));
+      sum += weight[i] * std::polar(std::exp(-2 * alpha * r), phase);
+    }
+    spectrum[k] = gaussian_spectrum(f, head.pulse.bandwidth) * frequencies.step() * sum;
+  }
+  return spectrum;
+}
+
+/// Spectra of all beams, beams x frequencies, for echoes with individual spectra: sweeps, or Doppler shifts.
+ComplexGrid beam_spectra(const Echoes& echoes, const SonarHead& head, const Medium& medium, const SpectrumGrid& grid,
+                         const std::vector<double>& u_beam, int threads) {
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+  const FrequencyGrid frequencies = grid.frequencies();
+  const EchoSpectrum shapes(head.pulse, medium, frequencies);
+  ComplexGrid spectra = ComplexGrid::Zero(u_beam.size(), grid.samples);
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    std::vector<Complex> echo = shapes.of(0.5 * medium.sound_speed * echoes.delay[i], echoes.doppler_of(i));
+    for (std::size_t k = 0; k < grid.samples; ++k)
+      echo[k] *= std::polar(frequencies.step(),
+                            2 * pi * reduced_cycles(frequencies.at(k) * (echoes.delay[i] - grid.start_time)));
+    parallel_for(u_beam.size(), threads, [&](std::size_t b) {
+      const Complex weight = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam[b]);
+      for (std::size_t k = 0; k < grid.samples; ++k) spectra(b, k) += weight * echo[k];
+    });
+  }
+  return spectra;
+}
+
+}  // namespace
+
+ComplexGrid synthesize_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                const SynthesisOptions& options) {
+  require_synthesis(echoes, head, medium, options, "synthesize_spectrum");
+  require_one_row(head, "synthesize_spectrum");
+  const SpectrumGrid grid(echoes, head, medium);
+  const std::vector<double> u_beam = beam_cosines(head.fan);
+  const bool alike = head.pulse.shape == PulseShape::gaussian && echoes.doppler.empty();
+  ComplexGrid spectra;
+  if (!alike) spectra = beam_spectra(echoes, head, medium, grid, u_beam, options.threads);
+  ComplexGrid pressure(u_beam.size(), head.gate.bins());
+
+  const ForwardFft fft(grid.samples);
+  parallel_for(u_beam.size(), options.threads, [&](std::size_t b) {
+    std::vector<Complex> spectrum;
+    if (alike)
+      spectrum = gaussian_beam_spectrum(echoes, head, medium, grid, u_beam[b]);
+    else
+      spectrum.assign(spectra.row(b).data(), spectra.row(b).data() + grid.samples);
+    fft.run(spectrum);  // p(t) = sum_k P(f_k) exp(-2 pi i f_k t)
+    for (std::size_t n = 0; n < head.gate.bins(); ++n)
+      pressure(b, n) = spectrum[(n + grid.skipped) * grid.oversampling];
+  });
+  return pressure;
+}
+
+}  // namespace insonify

@@ -1,0 +1,57 @@
+#pragma once
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "beamforming/true_delays/wideband_plan_internal.hpp"
+
+namespace insonify {
+
+/// Which bend: what echoes or beams of a block need.
+struct BendSpan {
+  bool echoes;
+  double first_time, last_time;  ///< [s]
+  double widest;                 ///< |u|
+  double mean_range, mean_u;     ///< of the part b0 that is left out
+};
+
+/// exp(2 pi i F (b - b0) / c), as rows of harmonics need it, at Chebyshev nodes of direction, range, place on the array
+/// and frequency.
+struct BendSamples {
+  using Complex = std::complex<double>;
+  using RowMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  std::vector<double> u, r;    ///< nodes
+  double middle, half;         ///< of time [s]
+  std::size_t places;          ///< nodes on the array, to RowPlaces::reach
+  RowMatrix value;             ///< u x r by node of frequency and place
+  std::vector<double> weight;  ///< of the columns: shading, spectrum, and nodes
+
+  BendSamples(const WidebandPlan& plan, const BendSpan& span);
+
+  /// Shading at y; 0 beyond the array.
+  static double shading_at(const WidebandPlan& plan, double y);
+
+ private:
+  void place_nodes(const WidebandPlan& plan, const BendSpan& span);
+  void sample(const WidebandPlan& plan, const BendSpan& span);
+  void undo_rows(const WidebandPlan& plan);
+  /// The other directions: at (-u, -y) the bend is that at (u, y).
+  void mirror();
+  std::size_t half_of_u() const { return (u.size() + 1) / 2; }
+};
+
+/// Where rows of harmonics lie on the array at a frequency `off` below the carrier.
+struct RowPlaces {
+  double row;    ///< from one to the next [m]
+  double reach;  ///< to so far off the middle nodes reach: as far as rows that give elements [m]
+
+  RowPlaces(const WidebandPlan& plan, double off);
+};
+
+/// Reciprocal of the power series sum of moment[j] / (j! moment[0]) z^j.
+std::vector<std::complex<double>> inverse_series(const WidebandPlan& plan, double frequency);
+
+}  // namespace insonify

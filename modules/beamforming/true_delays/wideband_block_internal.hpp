@@ -1,0 +1,92 @@
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "acoustics/echoes.hpp"
+#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/true_delays/wideband_bend_internal.hpp"
+#include "beamforming/true_delays/wideband_loops_internal.hpp"
+#include "beamforming/true_delays/wideband_plan_internal.hpp"
+#include "core/grid.hpp"
+
+namespace insonify {
+
+constexpr std::size_t wideband_tile =
+    kernels::times_at_once;  ///< samples whose directions are turned into harmonics at once
+
+/// The transforms of a plan.
+struct WidebandTransforms {
+  FftOfRows<float> to_harmonics, to_frequencies, to_bins, to_directions;
+
+  explicit WidebandTransforms(const WidebandPlan& plan);
+};
+
+/// A block of time.
+struct WidebandBlock {
+  double first, last;           ///< bins of the gate; they may begin before it
+  BendSeries received, undone;  ///< by echoes, and for beams
+
+  WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first, double last);
+};
+
+/// Room of one thread for one block.
+class WidebandRoom {
+ public:
+  WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms);
+
+  using List = std::span<const std::uint32_t>;
+
+  /// Begins a block without echoes.
+  void begin(const WidebandBlock& block);
+  /// Adds echoes of the block, those of `list`; calls may follow one another, with the same bits as one of all echoes.
+  void add(const Echoes& echoes, List list);
+  /// Adds the beams of the block to `pressure`, within a guard of it.
+  void add_image(const WidebandBlock& block, ComplexGrid& pressure);
+
+ private:
+  using Complex = std::complex<float>;
+  using Numbers = std::vector<Complex, LineAllocator<Complex>>;
+
+  // Gaussian pulses that are alike, those that are not, and sweeps, sample by sample.
+  void grid_alike(const Echoes& echoes, List list);
+  void grid_gaussians(const Echoes& echoes, List list);
+  void grid_sweeps(const Echoes& echoes, List list);
+  /// Fine samples that hold something.
+  void touch(std::size_t row, std::size_t rows);
+  /// What harmonics receive, by power of frequency and fine sample.
+  void receive(const BendSeries& bend);
+  /// The same by chunk of frequencies.
+  void to_chunks(const BendSeries& bend);
+  /// What elements make of chunks, by harmonic.
+  void through_elements();
+  /// The same by power of frequency and bin.
+  void to_bins(const BendSeries& bend);
+  void add_beams(const WidebandBlock& block, ComplexGrid& pressure);
+  /// The grid of directions at the bins from n0 on, the bend undone, in across_; `first` is the bin of n0.
+  void form_directions(const BendSeries& bend, std::size_t n0, double first);
+  /// A tile by direction or harmonic, and rows of harmonics from time `n0` on.
+  kernels::TimePlanes planes_of(Numbers& numbers) const;
+  kernels::PlaceRows rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const;
+
+  const WidebandPlan& plan_;
+  const WidebandTransforms& transforms_;
+  AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride; 0 between images
+  Numbers tile_;                        ///< some samples by direction
+  Numbers harmonics_, directions_;      ///< some samples by harmonic or direction, of each term
+  Numbers spectrum_, row_;              ///< powers x harmonics x fine samples, and one harmonic by frequency
+  Numbers bins_, bin_row_;              ///< powers x harmonics x bins, and one harmonic
+  AlignedFloats lines_, chunk_;         ///< by chunk, harmonic and line; of one chunk, or one harmonic
+  AlignedFloats across_, mixed_;        ///< by grid step and bin; room of mixes
+  std::vector<std::uint32_t> place_;    ///< rows of harmonics of a transform
+  std::vector<std::uint32_t> bin_;      ///< first of each chunk
+  std::vector<float> scratch_, samples_, beam_;
+  std::vector<double> pulse_re_, pulse_im_;
+  std::vector<char> touched_;  ///< tiles of fine samples that hold anything
+  std::size_t bins_row_;
+  double start_time_ = 0, unit_ = 0;  // unit: a power of two, of the first echoes; 0: none yet
+};
+
+}  // namespace insonify

@@ -1,0 +1,251 @@
+#include "beamforming/true_delays/wideband_synthesizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <latch>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "beamforming/numerics/flush_denormals_internal.hpp"
+#include "beamforming/reference/element_series.hpp"
+#include "beamforming/true_delays/wideband_block_internal.hpp"
+#include "beamforming/true_delays/wideband_feed_internal.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double finest = 1e-5, coarsest = 0.1;
+constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
+constexpr std::size_t beams_at_once = 8;
+
+/// Rooms that no thread works in.
+class Rooms {
+ public:
+  std::unique_ptr<WidebandRoom> take(const WidebandPlan& plan, const WidebandTransforms& transforms) {
+    const std::scoped_lock lock(guard_);
+    if (free_.empty()) return std::make_unique<WidebandRoom>(plan, transforms);
+    auto room = std::move(free_.back());
+    free_.pop_back();
+    return room;
+  }
+  void give(std::unique_ptr<WidebandRoom> room) {
+    const std::scoped_lock lock(guard_);
+    free_.push_back(std::move(room));
+  }
+
+ private:
+  std::mutex guard_;
+  std::vector<std::unique_ptr<WidebandRoom>> free_;
+};
+
+/// A plan and its transforms, for blocks of one length.
+struct LevelTables {
+  WidebandPlan plan;
+  RowFits fits;
+  WidebandTransforms transforms;
+  mutable Rooms rooms;
+
+  LevelTables(const SonarHead& head, const Medium& medium, const WidebandSizes& sizes)
+      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.block), fits(plan), transforms(plan) {}
+};
+
+/// Made when it is first used.
+template <typename Thing>
+class Lazy {
+ public:
+  template <typename Make>
+  const Thing& get(const Make& make) const {
+    std::call_once(made_, [&] { thing_ = make(); });
+    return *thing_;
+  }
+
+ private:
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<Thing> thing_;
+};
+
+/// Opens a latch when it is left, by an exception too.
+struct CountDown {
+  std::latch& latch;
+  ~CountDown() { latch.count_down(); }
+};
+
+void append(const Echoes& from, std::uint32_t i, Echoes& to) {
+  to.delay.push_back(from.delay[i]);
+  to.u.push_back(from.u[i]);
+  to.amplitude.push_back(from.amplitude[i]);
+  if (!from.doppler.empty()) to.doppler.push_back(from.doppler[i]);
+}
+
+}  // namespace
+
+struct WidebandSynthesizer::Plan {
+  SonarHead head;
+  Medium medium;
+  SynthesisOptions options;
+  double widest;  ///< |u| of echoes
+  WidebandLayout layout;
+  WidebandStretches stretches;  ///< what is nearer than blocks reach, then the blocks
+  std::deque<Lazy<LevelTables>> levels;
+  std::deque<Lazy<WidebandBlock>> blocks;
+  Lazy<Plan> all_around;  ///< for echoes farther out: of all directions
+
+  Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
+  const LevelTables& tables_of(std::size_t level) const;
+  const WidebandBlock& block(std::size_t number) const;
+  ComplexGrid pressure(const WidebandFeed& feed) const;
+  /// Adds the image of a block once wait() returns.
+  void add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure,
+                 const std::function<void()>& wait) const;
+  /// Adds echoes nearer than blocks reach, element by element.
+  void add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const;
+  /// Calls use(plan) with this plan, or with one for all directions if `far_out` is beyond it.
+  template <typename Use>
+  ComplexGrid with(double far_out, const Use& use) const {
+    if (far_out <= widest) return use(*this);
+    if (far_out > 1) return use(Plan(head, medium, options, far_out));
+    return use(all_around.get([&] { return std::make_unique<Plan>(head, medium, options, 1); }));
+  }
+};
+
+WidebandSynthesizer::WidebandSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
+  require_synthesis({}, head, medium, options, "WidebandSynthesizer");
+  require_one_row(head, "WidebandSynthesizer");
+  if (!(options.tolerance >= finest && options.tolerance <= coarsest))
+    fail(ErrorKind::argument, "WidebandSynthesizer: tolerance = ", options.tolerance, ", must be within ", finest,
+         " and ", coarsest, "; below that use the element-exact method");
+  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{wideband_share * options.tolerance, options.threads},
+                                 usual_extent(head));
+}
+WidebandSynthesizer::~WidebandSynthesizer() = default;
+WidebandSynthesizer::WidebandSynthesizer(WidebandSynthesizer&&) noexcept = default;
+WidebandSynthesizer& WidebandSynthesizer::operator=(WidebandSynthesizer&&) noexcept = default;
+
+ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
+  require_synthesis(echoes, plan_->head, plan_->medium, plan_->options, "WidebandSynthesizer");
+  double widest = 0;
+  for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
+  return plan_->with(widest, [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches)); });
+}
+
+ComplexGrid WidebandSynthesizer::pressure_of(const EchoSource& source) const {
+  if (source.stored) return pressure(*source.stored);
+  return plan_->with(widest_of(source, plan_->widest), [&](const Plan& plan) {
+    return plan.pressure(feed_of(source, plan.stretches, plan.medium.sound_speed));
+  });
+}
+
+WidebandSynthesizer::Plan::Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in,
+                                double widest_in)
+    : head(head_in),
+      medium(medium_in),
+      options(options_in),
+      widest(widest_in),
+      layout(head, medium, options.tolerance, widest),
+      stretches(stretches_of(layout, head, medium)),
+      levels(layout.levels.size()),
+      blocks(layout.blocks.size()) {}
+
+const LevelTables& WidebandSynthesizer::Plan::tables_of(std::size_t level) const {
+  return levels[level].get([&] { return std::make_unique<LevelTables>(head, medium, layout.levels[level]); });
+}
+
+const WidebandBlock& WidebandSynthesizer::Plan::block(std::size_t number) const {
+  const WidebandLayout::Block& span = layout.blocks[number];
+  return blocks[number].get([&] {
+    const LevelTables& tables = tables_of(span.level);
+    return std::make_unique<WidebandBlock>(tables.plan, tables.fits, span.first, span.last);
+  });
+}
+
+ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed) const {
+  ComplexGrid pressure(head.fan.beams(), stretches.axis.bins);
+  // By all threads: memory that the system clears only when it is added to costs each page two faults.
+  parallel_blocks(head.fan.beams(), beams_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    pressure.middleRows(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin)).setZero();
+  });
+  // Neighbouring blocks share bins: those of even numbers add to them first. Far blocks, which have most echoes, begin.
+  const std::size_t odd = blocks.size() / 2, even = blocks.size() - odd;
+  std::deque<std::latch> added;
+  for (std::size_t number = 0; number < blocks.size(); ++number) added.emplace_back(1);
+  parallel_for(blocks.size(), options.threads, [&](std::size_t k) {
+    const std::size_t number = k < even ? 2 * (even - 1 - k) : 2 * (even + odd - 1 - k) + 1;
+    const CountDown when_left{added[number]};
+    add_block(number, feed, pressure, [&] {
+      if (number % 2 == 0) return;
+      added[number - 1].wait();
+      if (number + 1 < added.size()) added[number + 1].wait();
+    });
+  });
+  add_nearest(feed, pressure);
+  return pressure;
+}
+
+void WidebandSynthesizer::Plan::add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure,
+                                          const std::function<void()>& wait) const {
+  const FlushDenormals flush;
+  const LevelTables* tables = nullptr;
+  std::unique_ptr<WidebandRoom> room;
+  feed.visit(number + 1, [&](const Echoes& echoes, WidebandRoom::List list) {
+    if (!room) {
+      tables = &tables_of(layout.blocks[number].level);
+      room = tables->rooms.take(tables->plan, tables->transforms);
+      room->begin(block(number));
+    }
+    room->add(echoes, list);
+  });
+  if (!room) return;
+  wait();
+  room->add_image(block(number), pressure);
+  tables->rooms.give(std::move(room));
+}
+
+void WidebandSynthesizer::Plan::add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const {
+  double last = -1;
+  feed.visit(0, [&](const Echoes& echoes, WidebandRoom::List list) {
+    for (const std::uint32_t i : list) last = std::max(last, echoes.delay[i]);
+  });
+  if (last < 0) return;
+  const PulseReach reach(head.pulse, medium.absorption, medium.sound_speed, true, pulse_cut(options.tolerance));
+  const double beyond = layout.levels[0].aperture + 0.5 * medium.sound_speed * reach.at(last);
+  SonarHead near = head;
+  near.gate.max_range = std::min(near.gate.max_range, 0.5 * medium.sound_speed * last + beyond);
+  if (near.gate.max_range <= near.gate.min_range) return;
+  const ElementOptions exact{0.5 * options.tolerance, Wavefront::spherical, options.threads};
+  // As many at once, however they come.
+  ElementSeries all;
+  Echoes some;
+  const auto sum = [&] {
+    ElementSeries series = element_series(some, near, medium, exact);
+    if (all.pressure.size() > 0) series.pressure += all.pressure;
+    all = std::move(series);
+    some = {};
+  };
+  feed.visit(0, [&](const Echoes& echoes, WidebandRoom::List list) {
+    for (const std::uint32_t i : list) {
+      append(echoes, i, some);
+      if (some.size() == exact_at_once) sum();
+    }
+  });
+  if (some.size() > 0) sum();
+  const ComplexGrid image = beam_from_elements(all, near, medium, exact);
+  pressure.leftCols(image.cols()) += image;
+}
+
+double WidebandSynthesizer::usual_extent(const SonarHead& head) {
+  double widest = 0;
+  for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
+  return std::min(1.0, 1.1 * widest + 0.05);
+}
+
+ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                   const SynthesisOptions& options) {
+  return WidebandSynthesizer(head, medium, options).pressure(echoes);
+}
+
+}  // namespace insonify

@@ -1,0 +1,157 @@
+#include "scene/estimate/height_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "scene/estimate/relief_fit_internal.hpp"
+#include "scene/estimate/surfel_cell_internal.hpp"
+#include "scene/scene_index.hpp"
+
+// Each point finds its own triangles: between two neighbouring sides of its Voronoi cell stands the middle of the circle
+// through the point and the two neighbours across, which holds no other point. All who could lie in a circle of radius R
+// through a point are within 2 R of it, so a cell is exact as far as neighbours were sought. A triangle is listed by its first
+// corner. Where four points lie on a circle, as on a grid, their cells must agree: places are moved by a ten-thousandth of a
+// spacing, by a hash of their index.
+namespace insonify {
+namespace {
+
+using namespace cells;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t first_look = 24, most_looked_at = 1024;  // neighbours
+constexpr double widest_circle = 2;                            // radius, in spacings
+constexpr double moved = 1e-4;                                 // spacings
+
+double hashed(std::uint64_t n) {  // in [-0.5, 0.5) (splitmix64)
+  n = (n + 1) * 0x9e3779b97f4a7c15u;
+  n = (n ^ n >> 30) * 0xbf58476d1ce4e5b9u;
+  n = (n ^ n >> 27) * 0x94d049bb133111ebu;
+  return static_cast<double>((n ^ n >> 31) >> 11) * 0x1p-53 - 0.5;
+}
+
+std::vector<Vector3f> plan_of(std::span<const Vector3f> points) {
+  std::vector<Vector3f> flat;
+  flat.reserve(points.size());
+  for (const Vector3f& p : points) flat.emplace_back(p.x(), p.y(), 0.0f);
+  return flat;
+}
+
+class Stars {
+ public:
+  explicit Stars(std::vector<Vector3f> flat) : flat_(std::move(flat)), index_(flat_) {
+    Vector3f low = flat_[0], high = flat_[0];
+    for (const Vector3f& p : flat_) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const double plan = static_cast<double>(high.x() - low.x()) * static_cast<double>(high.y() - low.y());
+    const double most = moved * std::sqrt(plan / static_cast<double>(flat_.size()));
+    places_.reserve(flat_.size());
+    for (std::size_t i = 0; i < flat_.size(); ++i)
+      places_.emplace_back(flat_[i].x() + most * hashed(2 * i), flat_[i].y() + most * hashed(2 * i + 1));
+  }
+
+  /// Appends the triangles of which point i is the first corner.
+  void add(std::uint32_t i, Workspace& work, std::vector<Triangle>& triangles) const {
+    const double widest = find_cell(i, work);
+    const Polygon& cell = work.cell;
+    for (std::size_t a = 0, b = cell.size() - 1; a < cell.size(); b = a++) {
+      // The corner at which the side of one neighbour ends and that of the next begins.
+      if (cell[b].place == no_place || cell[a].place == no_place || cell[a].at.norm() > widest) continue;
+      const std::uint32_t j = work.found[cell[b].place].index, k = work.found[cell[a].place].index;
+      if (i < j && i < k) triangles.push_back({i, j, k});
+    }
+  }
+
+ private:
+  /// Cuts the cell of a point out of a square that holds the widest circle, by as many neighbours as can change a corner within
+  /// it; returns the radius of that circle.
+  double find_cell(std::uint32_t i, Workspace& work) const {
+    double widest = 0;
+    for (std::size_t looked_at = first_look;; looked_at *= 2) {
+      index_.find_nearest(flat_[i], looked_at + 1, work.found);
+      const double farthest = std::sqrt(static_cast<double>(work.found.back().squared_distance));
+      if (looked_at == first_look)
+        widest = widest_circle * farthest * std::sqrt(pi / static_cast<double>(work.found.size()));
+      clip(i, widest, work);
+      const double decided_within = 2 * std::min(widest, reach_of(work.cell));
+      if (farthest >= decided_within || work.found.size() <= looked_at || looked_at >= most_looked_at) return widest;
+    }
+  }
+
+  /// Distance of the farthest corner, with room for how far places were moved.
+  static double reach_of(const Polygon& cell) {
+    double squared = 0;
+    for (const Corner& c : cell) squared = std::max(squared, c.at.squaredNorm());
+    return 1.01 * std::sqrt(squared);
+  }
+
+  void clip(std::uint32_t i, double widest, Workspace& work) const {
+    const double half = 2 * widest;
+    work.cell = {
+        {{-half, -half}, no_place}, {{half, -half}, no_place}, {{half, half}, no_place}, {{-half, half}, no_place}};
+    double reach = reach_of(work.cell);
+    for (std::uint32_t n = 0; n < work.found.size(); ++n) {
+      if (static_cast<double>(work.found[n].squared_distance) > 4 * reach * reach) return;
+      if (work.found[n].index == i) continue;
+      clip_by_bisector(work.cell, places_[work.found[n].index] - places_[i], n, work.scratch);
+      reach = reach_of(work.cell);
+    }
+  }
+
+  std::vector<Vector3f> flat_;
+  SceneIndex index_;
+  std::vector<Vector2d> places_;
+};
+
+}  // namespace
+
+std::vector<Triangle> height_triangles(std::span<const Vector3f> points, int threads) {
+  if (points.size() < 3) return {};
+  const Stars stars(plan_of(points));
+  constexpr std::size_t at_once = 1024;
+  std::vector<std::vector<Triangle>> parts((points.size() + at_once - 1) / at_once);
+  parallel_blocks(points.size(), at_once, threads, [&](std::size_t begin, std::size_t end) {
+    Workspace work;
+    for (std::size_t i = begin; i < end; ++i) stars.add(static_cast<std::uint32_t>(i), work, parts[begin / at_once]);
+  });
+  std::vector<Triangle> triangles;
+  for (const auto& part : parts) triangles.insert(triangles.end(), part.begin(), part.end());
+  return triangles;
+}
+
+std::vector<float> smoothed_heights(std::span<const Vector3f> points, std::span<const std::uint8_t> noisy,
+                                    int threads) {
+  std::vector<float> heights;
+  for (const Vector3f& p : points) heights.push_back(p.z());
+  if (points.size() <= first_look) return heights;
+  const std::vector<Vector3f> flat = plan_of(points);
+  const SceneIndex index(flat);
+  // A slope of a cubic through n points in a circle, one to each square spacing, has the deviation 6 sqrt(pi) / n of noise of
+  // one spacing.
+  constexpr double slope = 0.05, least = 16, most = 192;
+  const double points_per_noise = 6 * std::sqrt(pi) / slope;
+  parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+    Workspace work;
+    const auto fit_to = [&](std::size_t i, std::size_t neighbours) {
+      index.find_nearest(flat[i], neighbours + 1, work.found);
+      work.places.clear();
+      for (const Neighbour& n : work.found)
+        if (n.index != i) {
+          const Vector3d offset = (points[n.index] - points[i]).cast<double>();
+          work.places.push_back({offset.head<2>(), offset});
+        }
+      return fit_relief<3>(work.places, Vector3d::UnitZ());
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!noisy[i]) continue;
+      const ReliefFit first = fit_to(i, first_look);
+      const double reach = std::sqrt(static_cast<double>(work.found.back().squared_distance));
+      const double spacing = reach * std::sqrt(pi / static_cast<double>(work.found.size()));
+      const double wanted = points_per_noise * std::sqrt(first.misfit) / spacing;
+      const ReliefFit fit = fit_to(i, static_cast<std::size_t>(std::clamp(wanted, least, most)));
+      if (fit.found) heights[i] += static_cast<float>(fit.rise);
+    }
+  });
+  return heights;
+}
+
+}  // namespace insonify

@@ -1,0 +1,272 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "scene/estimate/surfel_area.hpp"
+#include "scene/scene_index.hpp"
+
+// Private to scene: the cell of a point among its neighbours (E15).
+namespace insonify::cells {
+
+using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
+
+inline constexpr double border_gap = radians(120);  // wider gaps between neighbours are borders
+inline constexpr double isolation = 4;         // farther from the nearest point, in spacings of that point: an outlier
+inline constexpr double largest_spacing = 16;  // of a cell, in median spacings of the cloud
+inline constexpr double same_sheet = 1;        // a neighbour rises over the tangent plane by no more than it is away
+inline constexpr double same_rough_sheet = 3;  // and over the base plane of a rough surface
+
+// A neighbour in the tangent plane, and where it is from the point.
+struct Place {
+  Vector2d flat;
+  Vector3d offset;
+};
+
+// A convex polygon with the point itself at (0, 0); from each corner to the next runs the bisector to a place.
+struct Corner {
+  Vector2d at;
+  std::uint32_t place;
+};
+using Polygon = std::vector<Corner>;
+inline constexpr std::uint32_t no_place = ~0u;
+
+inline double area_of(const Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t a = 0, b = polygon.size() - 1; a < polygon.size(); b = a++)
+    twice += polygon[b].at.x() * polygon[a].at.y() - polygon[b].at.y() * polygon[a].at.x();
+  return std::abs(twice) / 2;
+}
+
+// Keeps the side of the bisector between (0, 0) and `neighbour`, places[place], on which (0, 0) lies.
+inline void clip_by_bisector(Polygon& polygon, const Vector2d& neighbour, std::uint32_t place, Polygon& scratch) {
+  const double half = neighbour.squaredNorm() / 2;
+  scratch.clear();
+  for (std::size_t a = 0, b = polygon.size() - 1; a < polygon.size(); b = a++) {
+    const double beyond_b = polygon[b].at.dot(neighbour) - half, beyond_a = polygon[a].at.dot(neighbour) - half;
+    if ((beyond_a > 0) != (beyond_b > 0)) {
+      const Vector2d cut = polygon[b].at + (polygon[a].at - polygon[b].at) * (beyond_b / (beyond_b - beyond_a));
+      scratch.push_back({cut, beyond_a > 0 ? place : polygon[b].place});
+    }
+    if (beyond_a <= 0) scratch.push_back(polygon[a]);
+  }
+  polygon.swap(scratch);
+}
+
+// An interval of directions without neighbours, counter-clockwise from `begin`.
+struct Gap {
+  double begin = 0, width = 0;
+  double middle() const { return begin + width / 2; }
+  bool holds(double angle) const {
+    return std::remainder(angle - middle(), 2 * pi) * 2 < width && std::remainder(middle() - angle, 2 * pi) * 2 < width;
+  }
+};
+
+// Everything one thread needs for one point after another.
+struct Workspace {
+  std::vector<Neighbour> found;
+  std::vector<Place> places;  // neighbours, nearest first
+  std::vector<double> angle;
+  std::vector<Gap> gaps;
+  Polygon cell, scratch;
+};
+
+// Distinct points of a cloud and how often each occurs.
+struct DistinctPoints {
+  std::vector<std::uint32_t> first;     // one point of the cloud for each distinct position
+  std::vector<std::uint32_t> position;  // of each point of the cloud, index into `first`
+  std::vector<std::uint32_t> copies;    // at each distinct position
+};
+
+inline DistinctPoints find_distinct(std::span<const Vector3f> points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t i) { return std::array{points[i].x(), points[i].y(), points[i].z()}; };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  DistinctPoints distinct;
+  distinct.position.resize(points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || points[order[k]] != points[order[k - 1]]) {
+      distinct.first.push_back(order[k]);
+      distinct.copies.push_back(0);
+    }
+    distinct.position[order[k]] = static_cast<std::uint32_t>(distinct.first.size() - 1);
+    ++distinct.copies.back();
+  }
+  return distinct;
+}
+
+class AreaEstimator {
+ public:
+  AreaEstimator(std::span<const Vector3f> points, int neighbours, double steepest)
+      : AreaEstimator(points, points, neighbours, steepest) {}
+  // Neighbours are sought, and cells lie, among `charted`: where the points stand on a plane, or in which directions.
+  AreaEstimator(std::span<const Vector3f> charted, std::span<const Vector3f> points, int neighbours, double steepest)
+      : charted_(charted),
+        points_(points),
+        index_(charted),
+        neighbours_(static_cast<std::size_t>(neighbours)),
+        steepest_(steepest) {}
+
+  double area(std::size_t i, const Vector3f& normal, Workspace& work) const {
+    // A neighbourhood that is a line (one scan line of a lidar) is widened until the next lines come into it.
+    std::size_t k = neighbours_;
+    find_flat_neighbours(i, normal, k, work);
+    if (work.gaps.size() > 1) find_flat_neighbours(i, normal, k *= 4, work);
+    work.cell.clear();
+    if (work.places.empty()) return 0;
+    const double nearest = work.places.front().flat.norm();
+    if (!work.gaps.empty()) {
+      const double spacing_there = spacing_at_nearest(i, work);
+      if (nearest > isolation * spacing_there) return spacing_there * spacing_there;
+      close_gaps(nearest, work);
+    }
+    return clipped_area(work);
+  }
+
+  // The direction of the facets between the point and the neighbours whose bisectors bound its cell, as `area` left them;
+  // zero if there are none.
+  static Vector3d facet_normal(const Workspace& work) {
+    Vector3d sum = Vector3d::Zero();
+    if (work.cell.size() < 3) return sum;
+    for (std::size_t a = 0, b = work.cell.size() - 1; a < work.cell.size(); b = a++) {
+      const std::uint32_t from = work.cell[b].place, to = work.cell[a].place;
+      if (from != no_place && to != no_place) sum += work.places[from].offset.cross(work.places[to].offset);
+    }
+    return sum.norm() > 0 ? Vector3d(sum.normalized()) : Vector3d::Zero();
+  }
+
+  const SceneIndex& index() const { return index_; }
+
+ private:
+  // Neighbours on the same sheet of surface, in the tangent plane, and the gaps between their directions.
+  void find_flat_neighbours(std::size_t i, const Vector3f& normal, std::size_t k, Workspace& work) const {
+    const Vector3d n = normal.cast<double>();
+    const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
+    index_.find_nearest(charted_[i], k + 1, work.found);
+    work.places.clear();
+    for (const Neighbour& neighbour : work.found) {
+      if (neighbour.index == i) continue;
+      const Vector3d d = (charted_[neighbour.index] - charted_[i]).cast<double>();
+      const Vector2d flat(t1.dot(d), t2.dot(d));
+      if (std::abs(n.dot(d)) <= steepest_ * flat.norm())
+        work.places.push_back({flat, (points_[neighbour.index] - points_[i]).cast<double>()});
+    }
+    find_gaps(work);
+  }
+
+  static void find_gaps(Workspace& work) {
+    work.gaps.clear();
+    work.angle.clear();
+    for (const Place& p : work.places) work.angle.push_back(std::atan2(p.flat.y(), p.flat.x()));
+    std::sort(work.angle.begin(), work.angle.end());
+    for (std::size_t a = 0; a < work.angle.size(); ++a) {
+      const double next = a + 1 < work.angle.size() ? work.angle[a + 1] : work.angle[0] + 2 * pi;
+      if (next - work.angle[a] > border_gap) work.gaps.push_back({work.angle[a], next - work.angle[a]});
+    }
+  }
+
+  // Distance from the nearest neighbour to its own third nearest point.
+  double spacing_at_nearest(std::size_t i, Workspace& work) const {
+    std::uint32_t nearest = static_cast<std::uint32_t>(i);
+    for (auto n = work.found.rbegin(); n != work.found.rend(); ++n)
+      if (n->index != i) nearest = n->index;
+    index_.find_nearest(charted_[nearest], 4, work.found);
+    return std::sqrt(static_cast<double>(work.found.back().squared_distance));
+  }
+
+  // Fills borders with mirror images of the neighbours opposite, so that a cell ends as far beyond its point
+  // as it does inside; where a gap stays wider than the limit, with points at the distance of the nearest
+  // neighbour.
+  static void close_gaps(double nearest, Workspace& work) {
+    const std::size_t real = work.places.size();
+    const std::vector<Gap> gaps = work.gaps;
+    for (std::size_t j = 0; j < real; ++j) {
+      const Place mirrored = {-work.places[j].flat, -work.places[j].offset};
+      const double angle = std::atan2(mirrored.flat.y(), mirrored.flat.x());
+      for (const Gap& gap : gaps)
+        if (gap.holds(angle)) work.places.push_back(mirrored);
+    }
+    find_gaps(work);
+    for (const Gap& gap : work.gaps) {
+      const int parts = static_cast<int>(std::ceil(gap.width / border_gap));
+      for (int p = 1; p < parts; ++p) {
+        const double angle = gap.begin + gap.width * p / parts;
+        const Vector2d flat(nearest * std::cos(angle), nearest * std::sin(angle));
+        work.places.push_back({flat, Vector3d::Zero()});
+      }
+    }
+    std::sort(work.places.begin(), work.places.end(),
+              [](const Place& a, const Place& b) { return a.flat.squaredNorm() < b.flat.squaredNorm(); });
+  }
+
+  static double clipped_area(Workspace& work) {
+    double farthest = 0;
+    for (const Place& p : work.places) farthest = std::max(farthest, p.flat.norm());
+    work.cell = {{{-farthest, -farthest}, no_place},
+                 {{farthest, -farthest}, no_place},
+                 {{farthest, farthest}, no_place},
+                 {{-farthest, farthest}, no_place}};
+    for (std::uint32_t p = 0; p < work.places.size(); ++p)
+      clip_by_bisector(work.cell, work.places[p].flat, p, work.scratch);  // (E15)
+    return work.cell.size() < 3 ? 0 : area_of(work.cell);
+  }
+
+  std::span<const Vector3f> charted_, points_;
+  SceneIndex index_;
+  std::size_t neighbours_;
+  double steepest_;  // a neighbour may rise by so much of its distance
+};
+
+// No cell may be absurdly large: an outlier's disc would hide whole scenes.
+inline void limit_cells(std::vector<double>& areas) {
+  std::vector<double> sorted = areas;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (*middle > 0)
+    for (double& a : areas) a = std::min(a, *middle * largest_spacing * largest_spacing);
+}
+
+// Distinct positions, and what is estimated of them.
+struct Estimate {
+  DistinctPoints distinct;
+  std::vector<Vector3f> position;
+  std::vector<double> area;
+};
+
+inline void require_valid(std::span<const Vector3f> points, std::span<const Vector3f> normals,
+                          const AreaOptions& options, const char* who) {
+  if (points.size() != normals.size())
+    fail(ErrorKind::argument, who, ": ", normals.size(), " normals for ", points.size(), " points, must be one each");
+  if (options.neighbours < 6)
+    fail(ErrorKind::argument, who, ": neighbours = ", options.neighbours, ", must be at least 6");
+}
+
+// Coincident points count as one; its cell is shared among them at the end.
+inline Estimate distinct_points(std::span<const Vector3f> points) {
+  Estimate e;
+  e.distinct = find_distinct(points);
+  for (const std::uint32_t first : e.distinct.first) e.position.push_back(points[first]);
+  e.area.assign(e.position.size(), 0.0);
+  return e;
+}
+
+inline std::vector<float> shared_areas(const Estimate& e, std::size_t points) {
+  std::vector<float> areas(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const std::uint32_t d = e.distinct.position[i];
+    areas[i] = static_cast<float>(e.area[d] / e.distinct.copies[d]);
+  }
+  return areas;
+}
+
+}  // namespace insonify::cells

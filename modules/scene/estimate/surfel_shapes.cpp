@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "scene/estimate/relief_fit_internal.hpp"
+#include "scene/estimate/surfel_area.hpp"
+#include "scene/estimate/surfel_cell_internal.hpp"
+#include "scene/scene_index.hpp"
+
+namespace insonify {
+
+using namespace cells;
+
+namespace {
+
+constexpr double least_cosine = 0.1;           // between a surface and the plane on which its cells lie
+constexpr double least_seen_cosine = 0.1;      // and between a surface and the direction in which it was seen
+constexpr std::size_t neighbours_fitted = 16;  // by a cubic, which has ten terms
+constexpr std::size_t around = 17;             // points that decide together
+constexpr double flat_chart = 100;             // rise of a neighbour on a chart, which has none but for rounding
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Vector3f on_plan(const Vector3f& point) { return {point.x(), point.y(), 0}; }
+
+// Points seen from above.
+struct Plan {
+  std::vector<std::uint32_t> points;  // all but those that hang alone over the others
+  std::vector<std::uint8_t> single;   // of each point of the cloud: of a height field
+};
+
+// Height fields have one height each: none of the four links of a point to its neighbours is steeper than five to one,
+// or at most a third of those around are. Between surfaces one above the other more are.
+Plan find_height_fields(std::span<const Vector3f> points, int threads) {
+  constexpr std::size_t links = 4;
+  std::vector<Vector3f> flat;
+  for (const Vector3f& p : points) flat.push_back(on_plan(p));
+  const SceneIndex index(flat);
+  Plan plan;
+  plan.single.resize(points.size());
+  std::vector<std::uint8_t> steep(points.size()), hangs(points.size());
+  parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> nearest;
+    for (std::size_t i = begin; i < end; ++i) {
+      index.find_nearest(flat[i], links + 1, nearest);
+      const auto steeper_than = [&](float slope) {
+        return static_cast<std::size_t>(std::count_if(nearest.begin(), nearest.end(), [&](const Neighbour& n) {
+          const float rise = points[n.index].z() - points[i].z();
+          return rise * rise > slope * slope * n.squared_distance;
+        }));
+      };
+      steep[i] = static_cast<std::uint8_t>(steeper_than(5));
+      hangs[i] = steeper_than(16) >= links;
+    }
+  });
+  parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> nearest;
+    for (std::size_t i = begin; i < end; ++i) {
+      plan.single[i] = steep[i] == 0;
+      if (plan.single[i] || hangs[i]) continue;
+      index.find_nearest(flat[i], around, nearest);
+      std::size_t sum = 0;
+      for (const Neighbour& n : nearest) sum += steep[n.index];
+      plan.single[i] = 3 * sum <= links * nearest.size();
+    }
+  });
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (!hangs[i]) plan.points.push_back(i);
+  return plan;
+}
+
+// What the neighbours of a point show of its surface.
+struct Look {
+  Vector3f frame;          // normal of the plane on which the cell lies
+  Vector3f relief, plane;  // normals that follow the neighbours one by one, or all of them together
+  double cell = 0;         // [m^2] on that plane
+  double left_by_relief = 0, left_by_plane = 0;  // [m^2], mean squares
+  bool charted = false;                          // on the plan of a height field
+};
+
+Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& frame, bool charted, Workspace& work) {
+  Look look{frame, frame, frame};
+  look.charted = charted;
+  look.cell = estimator.area(i, frame, work);
+  const Vector3d up = frame.cast<double>(), right = up.unitOrthogonal(), ahead = up.cross(right);
+  const auto tilted = [&](const Vector2d& slope) -> Vector3f {
+    return (up - slope.x() * right - slope.y() * ahead).normalized().cast<float>();
+  };
+  const Vector3d facet = AreaEstimator::facet_normal(work);
+  if (facet.dot(up) >= least_cosine) look.relief = facet.cast<float>();
+  if (work.places.size() < neighbours_fitted) return look;
+  const std::span<const Place> all(work.places), near = all.first(neighbours_fitted);
+  const ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
+  if (!cubic.found) return look;
+  look.left_by_relief = cubic.misfit;
+  look.left_by_plane = flat.misfit;
+  if (!charted) return look;
+  if (work.gaps.empty()) look.relief = tilted(cubic.slope);
+  look.plane = tilted(fit_relief<1>(all, up).slope);
+  return look;
+}
+
+// Height fields on their plan; elsewhere on the base planes.
+std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
+                              const ShapeOptions& options) {
+  std::vector<Look> looks(e.position.size());
+  Plan plan{{}, std::vector<std::uint8_t>(looks.size())};
+  if (options.height_fields) plan = find_height_fields(e.position, options.threads);
+  std::vector<Vector3f> flat, raised;
+  for (const std::uint32_t p : plan.points) {
+    raised.push_back(e.position[p]);
+    flat.push_back(on_plan(e.position[p]));
+  }
+  const AreaEstimator chart(flat, raised, 2 * options.neighbours, flat_chart);
+  const auto each = [&](std::size_t count, auto&& body) {
+    parallel_blocks(count, 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+      Workspace work;
+      for (std::size_t k = begin; k < end; ++k) body(k, work);
+    });
+  };
+  each(plan.points.size(), [&](std::size_t k, Workspace& work) {
+    const std::uint32_t i = plan.points[k];
+    if (plan.single[i]) looks[i] = look_at(chart, k, Vector3f::UnitZ(), true, work);
+  });
+  each(looks.size(), [&](std::size_t i, Workspace& work) {
+    if (!plan.single[i]) looks[i] = look_at(estimator, i, base[i], false, work);
+  });
+  return looks;
+}
+
+// Relief where a cubic leaves at most half of what a plane leaves, as it does not of noise; else the mean plane around.
+// The cell on its plane becomes one on the surface (E69). Strays, cells far larger than those around, take the area that
+// is typical there unless `keep_strays`.
+void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options, Estimate& e,
+                   std::vector<Vector3f>& normals, SurfelShapes& counts) {
+  constexpr double far_larger = 16;
+  std::atomic<std::size_t> strays{0}, height_field{0}, heights{0};
+  counts.noisy.assign(looks.size(), 0);
+  parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> nearest;
+    std::vector<double> by_relief, by_plane, cells;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Look& look = looks[i];
+      index.find_nearest(e.position[i], around, nearest);
+      by_relief.clear(), by_plane.clear(), cells.clear();
+      Vector3f mean = Vector3f::Zero();
+      for (const Neighbour& n : nearest) {
+        const Look& other = looks[n.index];
+        by_relief.push_back(other.left_by_relief), by_plane.push_back(other.left_by_plane), cells.push_back(other.cell);
+        mean += other.plane.dot(look.plane) < 0 ? Vector3f(-other.plane) : other.plane;
+      }
+      const bool relief = 2 * median_of(by_relief) <= median_of(by_plane);
+      height_field += look.charted && relief;
+      heights += look.charted;
+      counts.noisy[i] = look.charted && !relief;
+      const Vector3f found = relief ? look.relief : mean.normalized();
+      normals[i] = found.dot(normals[i]) < 0 ? Vector3f(-found) : found;
+      e.area[i] = look.cell / std::max<double>(least_cosine, std::abs(found.dot(look.frame)));
+      const double typical = median_of(cells);
+      if (!(look.cell > far_larger * typical)) continue;
+      ++strays;
+      if (!options.keep_strays) e.area[i] = typical;
+    }
+  });
+  counts.strays = strays;
+  counts.height_field = height_field;
+  counts.heights = heights;
+}
+
+// Shapes of points whose lines of sight are not known.
+void estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vector3f>& normals, SurfelShapes& counts) {
+  const AreaEstimator estimator(e.position, 2 * options.neighbours, same_rough_sheet);
+  choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals, counts);
+}
+
+// Voronoi cells among `places`, unit vectors or points of a plan, whose tangent planes have the normals `up`.
+std::vector<double> cells_among(const std::vector<Vector3f>& places, const std::vector<Vector3f>& up,
+                                const AreaOptions& options) {
+  const AreaEstimator estimator(places, places, options.neighbours, flat_chart);
+  std::vector<double> cells(places.size());
+  parallel_blocks(cells.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+    Workspace work;
+    for (std::size_t i = begin; i < end; ++i) cells[i] = estimator.area(i, up[i], work);
+  });
+  return cells;
+}
+
+// Median deviation from the median, as a part of it.
+double spread_of(std::vector<double> cells) {
+  const double typical = median_of(cells);
+  for (double& cell : cells) cell = std::abs(cell - typical);
+  return typical > 0 ? median_of(cells) / typical : 0;
+}
+
+// Areas of points that were all seen from one place: their cells among the directions in which they were seen (E73).
+// False if the cells are more alike on the plan: then the cloud is a raster of heights, whatever `viewpoint` is.
+bool estimate_seen(const Vector3d& viewpoint, const std::vector<Vector3f>& normals, const AreaOptions& options,
+                   Estimate& e) {
+  std::vector<Vector3f> direction, flat;
+  for (const Vector3f& p : e.position) {
+    direction.push_back((p.cast<double>() - viewpoint).normalized().cast<float>());
+    flat.push_back(on_plan(p));
+  }
+  const std::vector<double> solid_angles = cells_among(direction, direction, options);
+  const std::vector<Vector3f> up(flat.size(), Vector3f::UnitZ());
+  if (spread_of(cells_among(flat, up, options)) < spread_of(solid_angles)) return false;
+  for (std::size_t i = 0; i < e.area.size(); ++i) {
+    const double cosine = std::max<double>(least_seen_cosine, std::abs(normals[i].dot(direction[i])));
+    e.area[i] = solid_angles[i] * (e.position[i].cast<double>() - viewpoint).squaredNorm() / cosine;
+  }
+  return true;
+}
+
+}  // namespace
+
+SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<const Vector3f> base_normals,
+                                    const ShapeOptions& options) {
+  const AreaOptions area_options{options.neighbours, options.threads};
+  require_valid(points, base_normals, area_options, "estimate_surfel_shapes");
+  SurfelShapes shapes{{base_normals.begin(), base_normals.end()}, std::vector<float>(points.size(), 0.0f)};
+  if (points.size() < 4) return shapes;
+  Estimate e = distinct_points(points);
+  std::vector<Vector3f> normals;
+  for (const std::uint32_t first : e.distinct.first) normals.push_back(base_normals[first]);
+  if (!options.viewpoint || !estimate_seen(*options.viewpoint, normals, area_options, e))
+    estimate_around(options, e, normals, shapes);
+  limit_cells(e.area);
+  shapes.area = shared_areas(e, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) shapes.normal[i] = normals[e.distinct.position[i]];
+  if (shapes.noisy.empty()) return shapes;
+  std::vector<std::uint8_t> noisy;
+  for (const std::uint32_t distinct : e.distinct.position) noisy.push_back(shapes.noisy[distinct]);
+  shapes.noisy = std::move(noisy);
+  return shapes;
+}
+
+}  // namespace insonify
