@@ -4,9 +4,7 @@
 
 #include "files/sha256.hpp"
 #include "support/test.hpp"
-#include "tool/dataset_split.hpp"
-#include "tool/tool_runner.hpp"
-#include "view/grey_file.hpp"
+#include "tool/dataset_fixture.hpp"
 
 namespace {
 
@@ -35,29 +33,6 @@ std::vector<std::uint32_t> raw_labels(const std::string& path, const char* name)
 }
 
 }  // namespace
-
-class DatasetRun : public ToolTest {
- protected:
-  void SetUp() override {
-    have("harbour.ply", "make-scene harbour --points 30000");
-    write("mission.toml", mission());
-    have("survey", "survey mission.toml");
-  }
-  static std::string mission(const std::string& keep = "keep = [\"contributors\"]\n") {
-    return "schema = 1\n[survey]\nscene = \"harbour.ply\"\nseed = 4\n[trajectory]\nwaypoints_m = [[0, 0, -3], [4, 0, "
-           "-3]]\n"
-           "speed_m_s = 1\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=48\"]\nrange = "
-           "\"2:15\"\n"
-           "angles_deg = [0, 10, 0]\nrate_hz = 1\n[randomise]\nsource_level_db = 3\ntemperature_c = 4\nposition_m = "
-           "0.2\n"
-           "heading_deg = 5\n[ping]\n" +
-           keep;
-  }
-  nlohmann::json coco(const std::string& form) const {
-    return nlohmann::json::parse(read("set/" + form + "/annotations/instances_train.json"));
-  }
-  GreyPicture png(const std::string& name) const { return load_grey_png(path("set/" + name)); }
-};
 
 TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
   succeed("dataset survey -o set --stuff sand");
@@ -145,6 +120,7 @@ TEST_F(DatasetRun, of_a_head_with_several_rows_of_beams_is_of_its_rows) {
   EXPECT_EQ(coco("polar")["images"].size(), 1U);
   EXPECT_EQ(coco("polar")["images"][0]["file_name"], "000_000000_row01.png");
   EXPECT_THAT(read("set/meta.jsonl"), HasSubstr("\"row\":1,\"row_elevation_deg\":-4"));
+  EXPECT_THAT(read("set/meta.jsonl"), testing::Not(HasSubstr("\"absorption_db_per_m\":0.0")));
   EXPECT_EQ(png("polar/images/000_000000_row01.png").value.cols(), 32);
   succeed("dataset head -o set --row all --force");
   EXPECT_EQ(coco("fan")["images"].size(), 3U);
@@ -288,76 +264,6 @@ TEST_F(DatasetRun, sums_check_every_file_and_repeat) {
   succeed("dataset again -o other");
   EXPECT_EQ(read("other/SHA256SUMS").substr(0, 64), before.substr(0, 64));
   EXPECT_EQ(read("other/polar/images/000_000003.png"), read("set/polar/images/000_000003.png"));
-}
-
-TEST_F(DatasetRun, splits_by_scene) {
-  have("plane.ply", "make-scene plane --size 20,20 --points 20000");
-  for (const std::string scene : {"plane", "harbour"})
-    succeed("ping " + scene +
-            ".ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,3,0,15,0 --range 2:15 --no-picture -q --keep "
-            "contributors -o " +
-            scene);
-  succeed("dataset plane harbour survey -o set --split 50:50:0");
-  std::map<std::string, std::set<std::string>> splits_of;
-  std::istringstream lines(read("set/meta.jsonl"));
-  for (std::string line; std::getline(lines, line);) {
-    const nlohmann::json meta = nlohmann::json::parse(line);
-    splits_of[meta["scene"]].insert(meta["split"].get<std::string>());
-  }
-  EXPECT_EQ(splits_of.size(), 2U);
-  EXPECT_EQ(splits_of["plane.ply"].size(), 1U);
-  // Each share above 0 has a scene, if there are enough.
-  EXPECT_THAT(succeed("dataset plane harbour -o uneven --split 75:25:0"), HasSubstr("(1 train, 1 val, 0 test)"));
-  for (const std::string form : {"polar", "fan"}) {
-    EXPECT_THAT(read("set/" + form + "/data.yaml"), testing::StartsWith("train: train.txt\nval: val.txt\nnames:\n"));
-    for (const std::string split : {"train", "val"}) {
-      std::istringstream names(read("set/" + form + "/" + split + ".txt"));
-      for (std::string name; std::getline(names, name);)
-        EXPECT_TRUE(file_exists(path("set/" + form + "/" + name))) << name;
-    }
-  }
-  EXPECT_NE(splits_of["plane.ply"], splits_of["harbour.ply"]);
-}
-
-// A scene has one part; legs, stretches of track and pings divide it, and what they share is said.
-TEST_F(DatasetRun, splits_by_legs_regions_and_pings_and_says_what_they_share) {
-  const auto split_of = [&](const std::string& options) {
-    succeed("dataset survey -o set --force " + options);
-    std::string parts;
-    std::istringstream lines(read("set/meta.jsonl"));
-    for (std::string line; std::getline(lines, line);)
-      parts += nlohmann::json::parse(line)["split"].get<std::string>().front();
-    return parts;
-  };
-  ToolResult one = run("dataset survey -o set --split 50:50:0");
-  EXPECT_EQ(one.exit_code, 0);
-  EXPECT_THAT(one.err, testing::AllOf(HasSubstr("no image is in val: --split 50:50:0 needs more scenes"),
-                                      HasSubstr("--split-by leg, region or ping")));
-  EXPECT_THAT(one.out, HasSubstr("4 images (4 train, 0 val, 0 test)"));
-
-  EXPECT_EQ(split_of("--split-by region --split 50:25:25"), "ttvt");  // train, train, val, test
-  EXPECT_THAT(read("set/README.md"), HasSubstr("| val | 1 | 1 |"));
-  EXPECT_THAT(read("set/polar/val.txt"), HasSubstr("000_000002.png"));
-  EXPECT_THAT(read("set/polar/test.txt"), HasSubstr("000_000003.png"));
-  const std::string drawn = split_of("--split-by ping --split 50:50:0");
-  EXPECT_EQ(std::count(drawn.begin(), drawn.end(), 't'), 2);
-  EXPECT_EQ(split_of("--split-by ping --split 50:50:0"), drawn);
-
-  // Legs of a mission: from 2 s on the second one.
-  write("legs.toml",
-        replaced(mission(), "[randomise]", "[[leg]]\nname = \"out\"\nto_s = 2\n[[leg]]\nname = \"on\"\n[randomise]"));
-  succeed("survey legs.toml -o legs -q");
-  const ToolResult by_leg = run("dataset legs -o of_legs --split-by leg --split 50:50:0");
-  EXPECT_EQ(by_leg.exit_code, 0);
-  EXPECT_THAT(by_leg.err, HasSubstr("2 of 2 images of val were taken within their range of an image of train"));
-  EXPECT_THAT(read("of_legs/fan/train.txt"), testing::AllOf(HasSubstr("000_000000.png"), HasSubstr("000_000001.png")));
-  EXPECT_THAT(read("of_legs/fan/val.txt"), testing::AllOf(HasSubstr("000_000002.png"), HasSubstr("000_000003.png")));
-  const auto said = nlohmann::json::parse(succeed("dataset legs -o of_legs --split-by leg --json --force -q"));
-  EXPECT_EQ(said["splits"]["val"]["near_train"], 2);
-  for (const tool::SplitUnit& unit : tool::split_units())
-    EXPECT_THAT(file_bytes(INSONIFY_FORMATS_PAGE),
-                HasSubstr(std::string("| `") + unit.name + "` | " + unit.means + " |"));
-  expect_refused("dataset survey -o none --split-by beam", 2, {"--split-by", "beam"});
 }
 
 TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
