@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include <boost/sort/spreadsort/float_sort.hpp>
+
 #include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
@@ -23,7 +25,7 @@ struct GridAxis {
 GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
   std::vector<float> values;
   for (const Vector3f& p : points) values.push_back(p[axis]);
-  std::sort(values.begin(), values.end());
+  boost::sort::spreadsort::float_sort(values.begin(), values.end());
   const double extent = values.back() - values.front(), least = extent / (2 * static_cast<double>(values.size()));
   std::vector<double> gaps;
   for (std::size_t i = 1; i < values.size(); ++i)
@@ -44,8 +46,10 @@ GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
 
 std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vector3f> points) {
   if (points.size() < 3) return {};
-  const GridAxis x = grid_axis(points, 0), y = grid_axis(points, 1);
-  if (x.nodes < 2 || y.nodes < 2 || x.nodes > 16 * points.size() / y.nodes) return {};
+  const GridAxis x = grid_axis(points, 0);
+  if (x.nodes < 2) return {};
+  const GridAxis y = grid_axis(points, 1);
+  if (y.nodes < 2 || x.nodes > 16 * points.size() / y.nodes) return {};
   std::vector<std::uint32_t> at(x.nodes * y.nodes, no_node);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::uint32_t& node = at[y.node(points[i].y()) * x.nodes + x.node(points[i].x())];
