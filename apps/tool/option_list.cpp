@@ -1,6 +1,7 @@
 #include "tool/option_list.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -44,10 +45,11 @@ std::string sign_check(const std::string& text) {
   return text.starts_with("-") ? text + " must be 0 or more" : std::string();
 }
 
-/// The value that an option has if it is not given; empty if there is none.
+/// The value that an option has if it is not given; empty if there is none, or an infinite one, which is no limit.
 std::string default_of(const OptionValue& value) {
   if (const auto* text = std::get_if<std::string*>(&value)) return **text;
-  if (const auto* number = std::get_if<double*>(&value)) return fmt::format("{}", **number);
+  if (const auto* number = std::get_if<double*>(&value))
+    return std::isfinite(**number) ? fmt::format("{}", **number) : "";
   if (const auto* number = std::get_if<int*>(&value)) return fmt::format("{}", **number);
   if (const auto* number = std::get_if<std::uint64_t*>(&value)) return fmt::format("{}", **number);
   return "";

@@ -56,8 +56,7 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
   if (sampling.in_gate > 0)
     return fmt::format(
         "the ping is silent: of {} surfels inside fan and range gate {} face away from the head and {} are hidden; "
-        "move "
-        "the head to the side to which the normals point, or orient them by --viewpoint",
+        "move the head to the side to which the normals point, or orient them by --viewpoint",
         sampling.in_gate, sampling.back_facing, sampling.hidden);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& p : places) centre += p / static_cast<double>(places.size());
