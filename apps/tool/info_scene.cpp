@@ -50,22 +50,10 @@ std::vector<std::string> next_of_scene(const std::string& path, const Bounds& bo
   return next;
 }
 
-/// Materials by name with surfels and area, as a ping has them; none for a file without materials or surfels.
-ordered_json shares_of(const CommonOptions& common, FileDescription& file) {
-  if (!file.has_materials) return ordered_json::array();
-  try {
-    return material_shares(load_scene(file.path, load_options(common, {})).scene);
-  } catch (const Error& error) {
-    file.problems.push_back(std::string("no shares of its materials: ") + error.what());
-    return ordered_json::array();
-  }
-}
-
-ordered_json cloud_info(const CommonOptions& common, const std::string& path) {
-  FileDescription d = describe_file(path);
+ordered_json cloud_info(const std::string& path) {
+  const FileDescription d = describe_file(path);
   ordered_json fields = ordered_json::array();
   for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
-  const ordered_json shares = shares_of(common, d);
   std::vector<std::string> next = next_of_scene(path, {d.min, d.max});
   if (!d.has_normals && d.triangles == 0 && !d.viewpoint)
     next.insert(next.begin(), "insonify prepare " + shell_word(path) +
@@ -85,11 +73,15 @@ ordered_json cloud_info(const CommonOptions& common, const std::string& path) {
                        {"normals", d.has_normals},
                        {"area", d.has_area},
                        {"materials", d.has_materials},
-                       {"material_shares", shares},
+                       {"material_shares", shares_json(d.materials)},
                        {"problems", d.problems}};
   if (d.viewpoint) json["viewpoint"] = point(*d.viewpoint);
   json["next"] = next;
   return json;
+}
+
+std::vector<MaterialShare> shares_of(const SceneCloud& scene) {
+  return material_shares(scene.materials, scene.material, scene.area);
 }
 
 ordered_json tiles_info(const std::string& path) {
@@ -110,7 +102,7 @@ ordered_json tiles_info(const std::string& path) {
                        {"materials", materials}};
   if (info.surfels == 0) return json;
   if (tiled.select_all().bytes_to_load() < 0.5 * available_memory())
-    json["material_shares"] = material_shares(tiled.load(tiled.select_all()));
+    json["material_shares"] = shares_json(shares_of(tiled.load(tiled.select_all())));
   json["bounds"] = {{"min", point(info.box.min)}, {"max", point(info.box.max)}};
   json["next"] = next_of_scene(path, info.box);
   return json;
@@ -118,9 +110,7 @@ ordered_json tiles_info(const std::string& path) {
 
 }  // namespace
 
-ordered_json info_of_scene(const CommonOptions& common, const std::string& path) {
-  return is_tiles(path) ? tiles_info(path) : cloud_info(common, path);
-}
+ordered_json info_of_scene(const std::string& path) { return is_tiles(path) ? tiles_info(path) : cloud_info(path); }
 
 void print_scene(const ordered_json& d) {
   const auto text = [](const ordered_json& value) { return value.get<std::string>(); };
@@ -147,8 +137,9 @@ void print_scene(const ordered_json& d) {
   fmt::print("  spacing    {:.4g} (median)\n  normals    {}\n  area       {}\n  materials  {}\n", spacing,
              yes("normals"), yes("area"), yes("materials"));
   for (const auto& m : d["material_shares"])
-    fmt::print("  material   {}: {} surfels, {:.4g} m2, {:.3g} %\n", text(m["name"]), m["surfels"].get<std::size_t>(),
-               m["area_m2"].get<double>(), 100 * m["share"].get<double>());
+    fmt::print("  material   {}: {} points, {}{:.3g} %\n", text(m["name"]), m["points"].get<std::size_t>(),
+               m.contains("area_m2") ? fmt::format("{:.4g} m2, ", m["area_m2"].get<double>()) : "",
+               100 * m["share"].get<double>());
   if (d.contains("viewpoint"))
     fmt::print("  viewpoint  {:g}, {:g}, {:g}\n", d["viewpoint"][0].get<double>(), d["viewpoint"][1].get<double>(),
                d["viewpoint"][2].get<double>());

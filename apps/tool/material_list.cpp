@@ -48,22 +48,13 @@ void print_materials(const std::vector<SourcedMaterial>& materials) {
       "coherent_fraction of the intensity has no speckle (E53), relief_slope: rms slope of finer relief (E52)\n");
 }
 
-ordered_json material_shares(const SceneCloud& scene) {
-  std::vector<std::size_t> surfels(scene.materials.size());
-  std::vector<double> area(scene.materials.size());
-  double whole = 0;
-  for (std::size_t i = 0; i < scene.size(); ++i) {
-    ++surfels[scene.material[i]];
-    area[scene.material[i]] += static_cast<double>(scene.area[i]);
-    whole += static_cast<double>(scene.area[i]);
-  }
+ordered_json shares_json(const std::vector<MaterialShare>& shares) {
   ordered_json all = ordered_json::array();
-  for (std::size_t m = 0; m < scene.materials.size(); ++m)
-    if (surfels[m] > 0)
-      all.push_back({{"name", scene.materials[m].name},
-                     {"surfels", surfels[m]},
-                     {"area_m2", area[m]},
-                     {"share", whole > 0 ? area[m] / whole : 0}});
+  for (const MaterialShare& share : shares) {
+    ordered_json row = {{"name", share.name}, {"points", share.points}, {"share", share.share}};
+    if (share.area) row["area_m2"] = *share.area;
+    all.push_back(row);
+  }
   return all;
 }
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "scene/scene_cloud.hpp"
+#include "scene/material_shares.hpp"
 #include "store/materials_file.hpp"
 
 /// Materials as the tool lists them: names, numbers and sources of a table, shares of a scene.
@@ -19,7 +19,7 @@ nlohmann::ordered_json materials_json(const std::vector<SourcedMaterial>& materi
 /// Prints a table of them, and the law that the numbers belong to.
 void print_materials(const std::vector<SourcedMaterial>& materials);
 
-/// For each material of the surfels of a scene: name, surfels, area_m2 and share, of the whole area.
-nlohmann::ordered_json material_shares(const SceneCloud& scene);
+/// For each material of a scene: name, points, share and, where areas are known, area_m2.
+nlohmann::ordered_json shares_json(const std::vector<MaterialShare>& shares);
 
 }  // namespace insonify::tool

@@ -73,7 +73,7 @@ void info(const InfoOptions& o) {
     const bool is_scene =
         !std::filesystem::is_directory(file) && file.extension() != ".h5" && file.extension() != ".toml";
     if (is_scene)
-      all.push_back(info_of_scene(o.common, path));
+      all.push_back(info_of_scene(path));
     else if (file.extension() == ".toml")
       all.push_back(info_of_toml(path));
     else

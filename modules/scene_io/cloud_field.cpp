@@ -30,8 +30,8 @@ CloudField load_cloud_field(const std::string& path, const std::string& field) {
 }
 
 bool has_cloud_field(const std::string& path, const std::string& field) {
-  const FileDescription file = describe_file(path);
-  return std::any_of(file.fields.begin(), file.fields.end(), [&](const auto& f) { return f.name == field; });
+  const RawCloud raw = read_cloud(path, {});
+  return std::any_of(raw.fields.begin(), raw.fields.end(), [&](const auto& f) { return f.name == field; });
 }
 
 }  // namespace insonify

@@ -216,6 +216,17 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
   return first;
 }
 
+std::string label_problem(const RawCloud& raw, const std::vector<Material>& table, std::uint16_t largest) {
+  if (largest == no_label)
+    return "a label is negative, above 65534 or not an integer; labels are indices of materials from 0: correct them, "
+           "give one material for all, or map intervals of field '" +
+           raw.label_field + "' to materials";
+  if (!table.empty() && largest >= table.size())
+    return "label " + std::to_string(largest) + " found, but there are " + std::to_string(table.size()) +
+           " materials (labels from 0); give a material for every label";
+  return {};
+}
+
 void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneCloud& scene = result.scene;
   const std::vector<std::uint16_t>& labels = scene.material;
@@ -225,22 +236,14 @@ void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedS
   result.report.material_field = raw.label_field;
   if (!options.material_field.intervals.empty()) return place_outsiders(options, raw, result);
   const std::uint16_t largest = *std::max_element(labels.begin(), labels.end());
-  if (largest == no_label) {
-    fail(ErrorKind::content, raw.path,
-         ": a label is negative, above 65534 or not an integer; labels are indices of "
-         "materials from 0: correct them, give one material for all, or map intervals of field '",
-         raw.label_field, "' to materials");
-  }
+  if (const std::string problem = label_problem(raw, scene.materials, largest); !problem.empty())
+    fail(ErrorKind::content, raw.path, ": ", problem);
   if (scene.materials.empty()) {
     for (std::size_t m = 0; m <= largest; ++m) scene.materials.push_back({.name = "label " + std::to_string(m)});
     if (largest > 0) {
       result.report.notes.push_back("labels 0 to " + std::to_string(largest) +
                                     " found, but no materials given: all have the default Lambert coefficient");
     }
-  }
-  if (largest >= scene.materials.size()) {
-    fail(ErrorKind::content, raw.path, ": label ", largest, " found, but there are ", scene.materials.size(),
-         " materials (labels from 0); give a material for every label");
   }
 }
 

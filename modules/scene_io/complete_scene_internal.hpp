@@ -72,6 +72,10 @@ void turn_up(std::vector<Eigen::Vector3f>& normals);
 /// True if the normal is finite and not zero.
 bool usable_normal(const Eigen::Vector3f& normal);
 
+/// Why the labels of a cloud cannot stand for materials of the table, or for "label 0", "label 1", ... without one, and the
+/// remedy; empty if they can. `largest` is the largest label.
+std::string label_problem(const RawCloud& raw, const std::vector<Material>& table, std::uint16_t largest);
+
 /// Sets the table of materials: the caller's, the file's, or a default material per label. Converts the labels in
 /// result.scene.material to indices into it.
 void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);

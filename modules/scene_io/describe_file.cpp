@@ -45,6 +45,48 @@ double median_spacing(const std::vector<Eigen::Vector3f>& points) {
   return distance[queries / 2];
 }
 
+/// The areas by which materials are weighed [m^2]: those of the file if all are usable, of a mesh a third of each corner's
+/// triangles; empty if there are none.
+std::vector<float> areas_of_points(RawCloud& raw) {
+  if (raw.triangle.empty()) {
+    const bool usable =
+        std::all_of(raw.area.begin(), raw.area.end(), [](float a) { return std::isfinite(a) && a >= 0; });
+    return usable ? std::move(raw.area) : std::vector<float>();
+  }
+  std::vector<float> area(raw.point.size(), 0.0f);
+  for (const auto& [a, b, c] : raw.triangle) {
+    const float third = (raw.point[b] - raw.point[a]).cross(raw.point[c] - raw.point[a]).norm() / 6;
+    if (!std::isfinite(third)) continue;
+    for (const std::uint32_t corner : {a, b, c}) area[corner] += third;
+  }
+  return area;
+}
+
+/// Shares of the materials, or a problem if the labels cannot stand for materials. Takes labels and areas.
+void add_materials(RawCloud& raw, FileDescription& file) {
+  if (!file.has_materials) return;
+  std::vector<std::uint16_t> label = std::move(raw.label);
+  label.resize(raw.point.size(), 0);
+  std::vector<float> area = areas_of_points(raw);
+  if (raw.triangle.empty() && (file.duplicates > 0 || raw.not_finite > 0)) {
+    const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
+    std::size_t kept = 0;
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+      if (first[i] != i || !raw.point[i].allFinite()) continue;
+      label[kept] = label[i];
+      if (!area.empty()) area[kept] = area[i];
+      ++kept;
+    }
+    label.resize(kept);
+    if (!area.empty()) area.resize(kept);
+  }
+  const std::uint16_t largest = label.empty() ? 0 : *std::max_element(label.begin(), label.end());
+  if (std::string problem = label_problem(raw, raw.tags.materials, largest); !problem.empty())
+    file.problems.push_back(std::move(problem));
+  else
+    file.materials = material_shares(raw.tags.materials, label, area);
+}
+
 /// Lists what load_scene would drop, repair or assume.
 void add_problems(const RawCloud& raw, bool fans_out, FileDescription& file) {
   std::vector<std::string>& problems = file.problems;
@@ -93,6 +135,7 @@ FileDescription describe_file(const std::string& path) {
   file.viewpoint = raw.viewpoint ? raw.viewpoint : seen_from;
   if (!file.has_normals && !file.viewpoint && raw.triangle.empty()) raw.raster = raster_triangles(distinct);
   add_problems(raw, seen_from.has_value(), file);
+  add_materials(raw, file);
   return file;
 }
 

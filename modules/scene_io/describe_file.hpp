@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "scene/material_shares.hpp"
+
 namespace insonify {
 
 /// Contents of a cloud or mesh file before preparation.
@@ -21,6 +23,9 @@ struct FileDescription {
   double median_spacing = 0;                                                     ///< of nearest neighbours [file units]
   bool has_normals = false, has_area = false, has_materials = false;
   std::optional<Eigen::Vector3d> viewpoint;
+  /// Of the points that load_scene keeps, of a mesh those of its corners: by the file's labels and areas, of which it
+  /// estimates none. Empty without materials.
+  std::vector<MaterialShare> materials;
   std::vector<std::string> problems;  ///< defects and doubts, each with a remedy
 };
 

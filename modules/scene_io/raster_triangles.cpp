@@ -21,20 +21,48 @@ struct GridAxis {
   std::size_t node(float value) const { return static_cast<std::size_t>(std::lround((value - first) / step)); }
 };
 
-/// The step is the typical gap between values, of those that are more than rounding.
-GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
+/// The coordinates along an axis of every step-th point, ascending.
+std::vector<float> sorted_values(std::span<const Vector3f> points, int axis, std::size_t step = 1) {
   std::vector<float> values;
-  for (const Vector3f& p : points) values.push_back(p[axis]);
+  values.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][axis]);
   boost::sort::spreadsort::float_sort(values.begin(), values.end());
-  const double extent = values.back() - values.front(), least = extent / (2 * static_cast<double>(values.size()));
+  return values;
+}
+
+/// A quantile of the gaps between sorted values, of those that are more than rounding; 0 if there are none.
+double gap_between(const std::vector<float>& values, double quantile) {
+  const double least = (values.back() - values.front()) / (2 * static_cast<double>(values.size()));
   std::vector<double> gaps;
   for (std::size_t i = 1; i < values.size(); ++i)
     if (values[i] - values[i - 1] > least) gaps.push_back(values[i] - values[i - 1]);
-  if (gaps.empty()) return {};
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
+  if (gaps.empty()) return 0;
+  const auto at = gaps.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(gaps.size()));
+  std::nth_element(gaps.begin(), at, gaps.end());
+  return *at;
+}
 
-  GridAxis grid{values.front(), 0, static_cast<std::size_t>(std::lround(extent / *middle)) + 1};
+/// False if a few of the points already lie so close along x and y that a grid through them has more than twenty nodes a
+/// point, which no raster has.
+bool may_be_grid(std::span<const Vector3f> points) {
+  const auto few = static_cast<std::size_t>(8 * std::sqrt(static_cast<double>(points.size())));
+  const std::size_t step = std::max<std::size_t>(1, points.size() / few);
+  double nodes = 1;
+  for (const int axis : {0, 1}) {
+    const std::vector<float> values = sorted_values(points, axis, step);
+    const double gap = gap_between(values, 0.25);
+    if (gap > 0) nodes *= (values.back() - values.front()) / gap;
+  }
+  return nodes <= 20 * static_cast<double>(points.size());
+}
+
+/// The step is the typical gap between values.
+GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
+  const std::vector<float> values = sorted_values(points, axis);
+  const double extent = values.back() - values.front(), gap = gap_between(values, 0.5);
+  if (!(gap > 0)) return {};
+
+  GridAxis grid{values.front(), 0, static_cast<std::size_t>(std::lround(extent / gap)) + 1};
   grid.step = extent / static_cast<double>(grid.nodes - 1);
   const bool even = std::all_of(values.begin(), values.end(), [&](float v) {
     return std::abs(v - grid.first - static_cast<double>(grid.node(v)) * grid.step) <= 0.02 * grid.step;
@@ -45,7 +73,7 @@ GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vector3f> points) {
-  if (points.size() < 3) return {};
+  if (points.size() < 3 || !may_be_grid(points)) return {};
   const GridAxis x = grid_axis(points, 0);
   if (x.nodes < 2) return {};
   const GridAxis y = grid_axis(points, 1);

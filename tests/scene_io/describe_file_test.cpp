@@ -67,6 +67,38 @@ TEST(DescribeFile, a_mesh_has_triangles) {
   EXPECT_TRUE(has_problem(file, "1 of 3 polygons"));
 }
 
+TEST(DescribeFile, materials_of_a_cloud_by_its_areas_and_without_areas_by_its_points) {
+  const std::string rows = "0 0 0 1 1\n1 0 0 1 2\n0 1 0 3 9\n0 1 0 3 9\nnan 0 0 0 1\n";
+  const FileDescription file = describe_file(own_file("a.xyz", "x y z label area\n" + rows));
+  ASSERT_EQ(file.materials.size(), 2u);
+  EXPECT_EQ(file.materials[0].name, "label 1");
+  EXPECT_EQ(file.materials[0].points, 2u);
+  EXPECT_DOUBLE_EQ(*file.materials[0].area, 3);
+  EXPECT_DOUBLE_EQ(file.materials[1].share, 0.75);
+  const FileDescription bare = describe_file(own_file("b.xyz", "x y z label other\n" + rows));
+  EXPECT_FALSE(bare.materials[1].area);
+  EXPECT_DOUBLE_EQ(bare.materials[1].share, 1.0 / 3);
+}
+
+TEST(DescribeFile, materials_of_a_mesh_by_its_triangles) {
+  const FileDescription file =
+      describe_file(own_file("a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+                             "float z\nproperty int label\n"
+                             "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0\n3 0 0 0\n3 "
+                             "4 0 1\n0 4 0 1\n3 0 1 2\n3 0 2 "
+                             "3\n"));
+  ASSERT_EQ(file.materials.size(), 2u);
+  EXPECT_NEAR(*file.materials[0].area, 6, 1e-6);  // 2 + 2 of the first corner, 2 of the second
+  EXPECT_NEAR(*file.materials[1].area, 6, 1e-6);
+}
+
+TEST(DescribeFile, labels_that_are_no_materials_are_a_problem) {
+  const FileDescription file = describe_file(own_file("a.xyz", "x y z label\n0 0 0 -1\n1 0 0 0\n0 1 0 0\n1 2 0 0\n"));
+  EXPECT_TRUE(file.materials.empty());
+  EXPECT_TRUE(has_problem(file, "a label is negative"));
+}
+
 TEST(DescribeFile, millimetres_are_suspected) {
   std::string text = plate_text(50, 20);
   for (int i = 1; i < 50; ++i) text += "0 " + std::to_string(20 * i) + " " + std::to_string(15 * i) + "\n";

@@ -112,15 +112,15 @@ TEST_F(FirstHour, fan_png_is_as_high_as_its_fan) {
 
 TEST_F(FirstHour, info_names_materials_with_their_shares) {
   have("harbour.ply", "make-scene harbour --points 6000");
-  double share = 0, surfels = 0;
+  double share = 0, points = 0;
   std::map<std::string, double> of;
   const json harbour = info("harbour.ply");
   for (const json& m : harbour["material_shares"]) {
-    share += m["share"].get<double>(), surfels += m["surfels"].get<double>();
+    share += m["share"].get<double>(), points += m["points"].get<double>();
     of[m["name"]] = m["share"].get<double>();
   }
   EXPECT_NEAR(share, 1, 1e-6);
-  EXPECT_EQ(surfels, harbour["points"].get<double>());
+  EXPECT_EQ(points, harbour["points"].get<double>());
   EXPECT_GT(of.at("sand"), 0.7);
   EXPECT_LT(of.at("rubber"), 0.01);
   EXPECT_THAT(succeed("info harbour.ply"), HasSubstr("material   sand: "));

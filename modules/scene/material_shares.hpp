@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/scene_cloud.hpp"
+
+namespace insonify {
+
+/// How much of a scene is of one material.
+struct MaterialShare {
+  std::string name;
+  std::size_t points = 0;
+  std::optional<double> area;  ///< [m^2]; empty where the areas of the points are not known
+  double share = 0;            ///< of the whole area; of all points where areas are not known
+};
+
+/// The shares of the materials that occur, in the order of the table. `material` holds an index for each point; an index
+/// k beyond the table has the name "label k". `area` [m^2] has the size of `material`, or is empty.
+std::vector<MaterialShare> material_shares(std::span<const Material> table, std::span<const std::uint16_t> material,
+                                           std::span<const float> area);
+
+}  // namespace insonify
