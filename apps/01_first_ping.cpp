@@ -23,6 +23,6 @@ int main() {
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
 
   const SimulatedPing result = simulate_ping(scene, head, pose, {water});
-  std::cout << result.sampling.scatterers << " scatterers, " << result.soundings.size() << " soundings, mean level "
-            << mean_level_db(result.ping, 5, 20) << " dB re 1 uPa\n";
+  std::cout << result.report.sampling.scatterers << " scatterers, " << result.soundings.size()
+            << " soundings, mean level " << mean_level_db(result.ping, 5, 20) << " dB re 1 uPa\n";
 }

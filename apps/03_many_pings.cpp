@@ -4,7 +4,7 @@
 #include <insonify/core/units.hpp>
 #include <insonify/returns/insonification.hpp>
 #include <insonify/scene/built_in_scenes.hpp>
-#include <insonify/simulate/simulate_ping.hpp>
+#include <insonify/simulate/ping_simulator.hpp>
 #include <insonify/store/cube.hpp>
 #include <insonify/store/sonar_file.hpp>
 
@@ -21,19 +21,16 @@ int main(int argc, char** argv) {
   spec.beams = 64;
   const SonarHead head = make_head(spec, sound_speed(environment.water));
 
-  // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel. What forms the
-  // beams of the head is made once and kept.
+  // A simulator is one head in one environment: what forms its beams is made in the first ping and used by all.
+  const PingSimulator simulator(head, environment, {.outputs = {.scatterers = true}});
+
+  // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel.
   Cube cube = make_cube(head, medium_of(environment, head.pulse.centre_frequency));
   Insonification insonified;
-  KeptSynthesizers kept;
   for (int k = 0; k < 8; ++k) {
-    SimulationOptions options;
-    options.ping = k;
-    options.time = 0.5 * k;
-    options.outputs.scatterers = true;
     const Pose pose = pose_from_yaw_pitch_roll({1.5 * k, 2, -3}, radians(20), radians(15), 0);
-    const SimulatedPing result = simulate_ping(prepared, head, pose, environment, options, &kept);
-    add_ping(insonified, scene, result.scatterers, head, result.medium);
+    const SimulatedPing result = simulator.ping(prepared, {.world_from_head = pose, .time = 0.5 * k, .number = k});
+    add_ping(insonified, scene, result.outputs.scatterers, head, result.report.medium);
     std::cout << "ping " << k << ": " << result.soundings.size() << " soundings\n";
     cube.pings.push_back(result.ping);
   }

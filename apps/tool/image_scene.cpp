@@ -120,7 +120,8 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
     end_range_with_scene(*setup, bounds(drawing.scene), drawing.look.head->world_from_head);
     drawing.look.head->gate = setup->head.gate;
     drawing.view =
-        resolve_ping(whole_of(drawing.scene), setup->head, drawing.look.head->world_from_head, setup->environment).view;
+        resolve_ping(whole_of(drawing.scene), setup->head, {drawing.look.head->world_from_head}, setup->environment)
+            .view;
   }
   return drawing;
 }

@@ -26,8 +26,8 @@ ordered_json mission_info(const std::string& path) {
   ordered_json heads = ordered_json::array(), legs = ordered_json::array();
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
     const HeadSetup& head = survey.heads[h].setup.head;
-    const auto pings =
-        std::count_if(survey.pings.begin(), survey.pings.end(), [h](const SurveyPing& p) { return p.head == h; });
+    const std::vector<SurveyPing>& all = survey.survey->pings();
+    const auto pings = std::count_if(all.begin(), all.end(), [h](const SurveyPing& p) { return p.head == h; });
     heads.push_back({{"name", mission.heads[h].name},
                      {"sonar", head.spec.name},
                      {"range_m", range_text(head.spec.min_range, head.spec.max_range)},

@@ -67,7 +67,7 @@ struct PingOptions {
   bool layers = false;
   bool split = false;
   int looks_range = library_options.outputs.looks_range, looks_pings = library_options.outputs.looks_pings;
-  int absorption_order = library_options.effects.absorption_order;
+  int absorption_order = -1;  ///< as needed
   double accuracy_db = library_options.accuracy_db;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
   double time = 0;         ///< of transmission [s]

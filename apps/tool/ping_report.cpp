@@ -37,7 +37,8 @@ std::string no_multipath_note(const Environment& environment) {
 /// The options with which a head that hears nothing looks at the scene.
 std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& centre,
                               const PingSetup& setup, bool mounted) {
-  const Eigen::Vector3d way = setup.pose.linear() * centre, at = setup.pose.translation();
+  const Eigen::Vector3d way = setup.event.world_from_head.linear() * centre,
+                        at = setup.event.world_from_head.translation();
   std::string remedy =
       mounted ? "move or turn the vehicle by --pose, or the head on it by --mount"
               : fmt::format("--pose={} looks at it", pose_text(at, std::atan2(way.y(), way.x()),
@@ -118,7 +119,7 @@ ordered_json layers_json(const std::vector<LayerReport>& layers) {
 }
 
 ordered_json sampling_json(const SimulatedPing& p) {
-  const SamplingReport& s = p.sampling;
+  const SamplingReport& s = p.report.sampling;
   return {{"surfels", s.surfels},
           {"in_fan_and_gate", s.in_gate},
           {"back_facing", s.back_facing},
@@ -128,7 +129,7 @@ ordered_json sampling_json(const SimulatedPing& p) {
           {"sparse_beams", s.sparse_beams},
           {"scatterers", s.scatterers},
           {"soundings", p.soundings.size()},
-          {"noise_floor_db", p.noise_floor_db}};
+          {"noise_floor_db", p.report.noise_floor_db}};
 }
 
 ordered_json level_error_json(const ConvergenceReport& c) {
@@ -155,9 +156,9 @@ ordered_json motion_json(const Motion& motion) {
 
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
                                     const std::vector<Eigen::Vector3d>& places, bool mounted) {
-  std::vector<std::string> notes = ping.notes;
+  std::vector<std::string> notes = ping.report.notes;
   const Environment& environment = setup.head.environment;
-  const SamplingReport& sampling = ping.sampling;
+  const SamplingReport& sampling = ping.report.sampling;
   constexpr double nearly_all = 0.95;
   const bool backs = sampling.in_gate > 0 &&
                      static_cast<double>(sampling.back_facing) >= nearly_all * static_cast<double>(sampling.in_gate);
@@ -165,9 +166,9 @@ std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& 
     notes.push_back(backs_note(sampling));
   else if (sampling.scatterers == 0)
     notes.push_back(silence_note(places, sampling, setup, mounted));
-  for (const LayerReport& layer : ping.layers)
+  for (const LayerReport& layer : ping.report.layers)
     if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
-  if (environment.profile) notes.push_back(refraction_note(ping.refraction, setup.head.head.gate));
+  if (environment.profile) notes.push_back(refraction_note(ping.report.refraction, setup.head.head.gate));
   return notes;
 }
 

@@ -45,10 +45,7 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.outputs.mask = keeps(o, "mask");
   s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
   s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
-  s.effects.absorption_order = o.absorption_order;
-  if (!o.velocity.empty()) s.effects.motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
-  if (!o.turn_rate.empty())
-    s.effects.motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
+  if (o.absorption_order >= 0) s.effects.absorption_order = o.absorption_order;
   s.detection.threshold_db = o.threshold_db;
   s.detection.false_alarm_rate = o.false_alarm_rate;
   if (!o.all_bins_above.empty()) {
@@ -105,29 +102,41 @@ std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
       spec.max_range, most, device.spec.name, spec.min_range, most);
 }
 
+/// The motion that --velocity and --turn-rate ask for.
+Motion asked_motion(const PingOptions& o) {
+  Motion motion;
+  if (!o.velocity.empty()) motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
+  if (!o.turn_rate.empty()) motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
+  return motion;
+}
+
 /// The setup of a ping at the pose of the options, or of one that has another.
 PingSetup set_up(const PingOptions& o, bool at_pose) {
   const Track track = track_of(o);
   const bool mounted = !o.mount.empty();
   const Pose mount = mounted ? parse_pose(o.mount, "z-up", "--mount") : Pose::Identity();
   PingSetup setup;
-  setup.pose = mounted ? track.pose * mount : track.pose;
-  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(setup.pose.translation().z()) : std::nullopt);
+  PingEvent& event = setup.event;
+  event.world_from_head = mounted ? track.pose * mount : track.pose;
+  const double z = event.world_from_head.translation().z();
+  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(z) : std::nullopt);
   setup.simulation = simulation_options(o.common, o);
-  Motion& motion = setup.simulation.effects.motion;
+  Motion& motion = event.motion;
+  motion = asked_motion(o);
   if (!o.trajectory.empty()) {
     motion = track.motion;
     for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
   }
   // A head away from the vehicle's centre moves as the vehicle turns.
   if (mounted) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
-  setup.simulation.time = o.time;
-  setup.simulation.ping = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
-  for (const std::string& stage : o.with) force_stage(stage, true, setup.head.environment, setup.simulation);
-  for (const std::string& stage : o.without) force_stage(stage, false, setup.head.environment, setup.simulation);
+  event.time = o.time;
+  event.number = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
+  for (const std::string& stage : o.with) force_stage(stage, true, event, setup.head.environment, setup.simulation);
+  for (const std::string& stage : o.without) force_stage(stage, false, event, setup.head.environment, setup.simulation);
   require_boundaries(o, setup.head.environment);
   require_depths_known(setup.head.environment, "environment");
-  require_valid(setup.simulation, "simulate_ping");
+  require_valid(setup.simulation, "PingSimulator");
+  require_valid(event, "PingSimulator");
   return setup;
 }
 
@@ -250,25 +259,34 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
     e.profile = SoundSpeedProfile{{0}, {setup.medium.sound_speed}};  // of older versions
   if (const auto surface = surface_height(e))
     somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
-  return resolve_ping(scene, setup.head, somewhere, e, {.threads = threads}).view;
+  return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;
 }
 
-void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {
-  if (!loaded.mesh) return;
+MeshSample mesh_sample_for(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,
+                           const LoadedScene& loaded) {
   const ResolvedPing ping =
-      resolve_ping(loaded.mesh->whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation);
+      resolve_ping(loaded.mesh->whole, simulator.head(), event, simulator.environment(), simulator.options());
   constexpr double bytes = bytes_to_ping + bytes_of_facet;
   const auto most =
       o.memory_limit > 0 ? static_cast<std::size_t>(std::ceil(o.memory_limit * 0x1p30 / bytes)) : default_mesh_surfels;
   MeshSurfels fine = mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling, most);
+  MeshSample sample;
   if (fine.coarsening > 1)
-    loaded.report.notes.push_back(fmt::format(
+    sample.note = fmt::format(
         "{} surfels at most are sampled from the mesh ({:.2g} GiB), {}: raise --memory-limit, or narrow the range",
         most, static_cast<double>(most) * bytes / 0x1p30,
         std::isinf(fine.coarsening)
             ? fmt::format("fewer than its triangles within reach: {} in all are taken", loaded.scene.size())
-            : fmt::format("{} times as large as the beams ask for", fine.coarsening)));
-  if (!std::isinf(fine.coarsening)) loaded.scene = std::move(fine.scene);
+            : fmt::format("{} times as large as the beams ask for", fine.coarsening));
+  if (!std::isinf(fine.coarsening)) sample.scene = std::move(fine.scene);
+  return sample;
+}
+
+void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {
+  if (!loaded.mesh) return;
+  MeshSample sample = mesh_sample_for(o, setup.simulator(), setup.event, loaded);
+  if (!sample.note.empty()) loaded.report.notes.push_back(std::move(sample.note));
+  if (sample.scene) loaded.scene = std::move(*sample.scene);
 }
 
 }  // namespace insonify::tool

@@ -7,8 +7,7 @@
 
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
-#include "simulate/resolve_ping.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/ping_simulator.hpp"
 #include "sonar/sonar_spec.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/options.hpp"
@@ -22,7 +21,7 @@ struct HeadSetup {
   SonarSpec spec;
   SonarHead head;
   Environment environment;
-  Medium medium;                      ///< of the water as given; SimulatedPing::medium is that at the head's depth
+  Medium medium;                      ///< of the water as given; PingReport::medium is that at the head's depth
   Pose mount = Pose::Identity();      ///< on a vehicle, as the sonar's file says
   std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
   bool range_is_own = false;          ///< the sonar's: neither options nor a run say another
@@ -48,9 +47,11 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
 
 /// Everything that a ping needs except the scene.
 struct PingSetup {
-  Pose pose = Pose::Identity();  ///< of the head
+  PingEvent event;
   HeadSetup head;
   SimulationOptions simulation;
+
+  PingSimulator simulator() const { return {head.head, head.environment, simulation}; }
 };
 
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
@@ -75,8 +76,15 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
 constexpr double bytes_to_ping = 192;  ///< per surfel read: surfel, index, scatterers and echoes
 constexpr double bytes_of_facet = 88;  ///< besides, per surfel of a mesh: its triangle, in the scene and in head axes
 
-/// Replaces the overview of a mesh by the surfels that the ping needs (E70), within --memory-limit, and notes what could
-/// not be kept; leaves other scenes as they are.
+/// Surfels of a mesh that a ping needs (E70), within --memory-limit.
+struct MeshSample {
+  std::optional<SceneCloud> scene;  ///< empty: the overview of the mesh
+  std::string note;                 ///< what could not be kept; empty: all is
+};
+MeshSample mesh_sample_for(const PingOptions& options, const PingSimulator& simulator, const PingEvent& event,
+                           const LoadedScene& loaded);
+
+/// Replaces the overview of a mesh by them, with the note; leaves other scenes as they are.
 void sample_for_ping(const PingOptions& options, const PingSetup& setup, LoadedScene& loaded);
 
 }  // namespace insonify::tool

@@ -138,7 +138,7 @@ ordered_json write_insonification(const RunDirectory& directory, const SceneClou
   Insonification map;
   InsonificationOptions options;
   options.threads = setup.simulation.threads;
-  add_ping(map, scene, ping.scatterers, setup.head.head, ping.medium, options);
+  add_ping(map, scene, ping.outputs.scatterers, setup.head.head, ping.report.medium, options);
   save_insonification(directory.file("insonification.ply"), scene, map);
   save_insonification(directory.file("insonification.pcd"), scene, map);
   const auto insonified = map.size() - static_cast<std::size_t>(std::count(map.hits.begin(), map.hits.end(), 0U));
@@ -162,13 +162,15 @@ ContributorWriter::ContributorWriter(const RunDirectory& directory, const SceneC
   for (const Material& material : scene.materials) materials.push_back(material.name);
   file_ = std::make_unique<ContributorFile>(directory.file("contributors.h5"), head.fan.beams(), head.gate.bins(),
                                             static_cast<std::size_t>(per_pixel_), materials);
-  outputs.take_contributors = [this](const Contributors& band, std::size_t first_beam) {
-    file_->write(band, first_beam);
-    for (std::size_t i = 0; i < band.share.size(); ++i) {
-      pixels_ += i % band.per_pixel == 0 && band.share[i] > 0;
-      share_ += static_cast<double>(band.share[i]);
-    }
-  };
+  outputs.contributor_sink = this;
+}
+
+void ContributorWriter::take(const Contributors& band, std::size_t first_beam) {
+  file_->write(band, first_beam);
+  for (std::size_t i = 0; i < band.share.size(); ++i) {
+    pixels_ += i % band.per_pixel == 0 && band.share[i] > 0;
+    share_ += static_cast<double>(band.share[i]);
+  }
 }
 
 void ContributorWriter::finish(const PixelLabels& labels, const std::string& scene, ordered_json& manifest) {
@@ -181,7 +183,7 @@ void ContributorWriter::finish(const PixelLabels& labels, const std::string& sce
 
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
                 const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {
-  if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.paths);
+  if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.outputs.paths);
   if (keeps(options, "insonification"))
     manifest["insonification"] = write_insonification(directory, scene, setup, ping);
 }

@@ -8,7 +8,7 @@
 
 #include "returns/ping.hpp"
 #include "returns/quantise.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/simulated_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
@@ -38,13 +38,15 @@ LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 std::string picture_title(const std::string& sonar, const Ping& ping);
 
 /// Writes contributors.h5 of a ping while they are found, band by band of beams.
-class ContributorWriter {
+class ContributorWriter : public ContributorSink {
  public:
   /// Has `outputs` hand over the contributors, if it asks for any, to this writer, which must outlive the ping.
   ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
                     OutputSettings& outputs);
   ContributorWriter(const ContributorWriter&) = delete;
   ContributorWriter& operator=(const ContributorWriter&) = delete;
+
+  void take(const Contributors& band, std::size_t first_beam) override;
 
   /// Completes the file with the label images of the ping, whose objects are the instances of the scene's file if it has
   /// them; `manifest` gets a summary.

@@ -44,11 +44,11 @@ SceneInstances instances_of_scene(const std::string& path) {
   return instances;
 }
 
-PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup, const TiledScene& tiled) {
+PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,
+                          const TiledScene& tiled) {
   require_no_loading_options(o.scene);
   const TiledSceneInfo& info = tiled.info();
-  const TileSelection near = tiled.select(
-      resolve_ping(info.whole, setup.head.head, setup.pose, setup.head.environment, setup.simulation).region);
+  const TileSelection near = tiled.select(simulator.reach(info.whole, event));
   const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
   require_memory(near, bytes_to_ping, memory, o.scene.path);
 
@@ -61,7 +61,7 @@ PingScene load_ping_scene(const PingOptions& o, const PingSetup& setup, const Ti
   report.notes.push_back(fmt::format("{} of {} surfels read, in {} of {} tiles", near.surfels, info.surfels,
                                      near.tiles.size(), info.tiles));
   for (const Eigen::Vector3d& place : tiled.places())
-    result.places.push_back(setup.pose.linear().transpose() * (place - setup.pose.translation()));
+    result.places.push_back(event.world_from_head.linear().transpose() * (place - event.world_from_head.translation()));
   result.json = scene_json(result.loaded);
   result.json["tiles"] = {{"surfels", info.surfels},
                           {"surfels_read", near.surfels},
@@ -77,16 +77,16 @@ PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
   };
   if (is_tiles(o.scene.path)) {
     const TiledScene tiled(o.scene.path);
-    end_range_with_scene(setup.head, tiled.info().box, setup.pose);
-    PingScene result = load_ping_scene(o, setup, tiled);
+    end_range_with_scene(setup.head, tiled.info().box, setup.event.world_from_head);
+    PingScene result = load_ping_scene(o, setup.simulator(), setup.event, tiled);
     add_notes(result.loaded.scene, tiled.info().box);
     return result;
   }
   PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
   const Bounds box = bounds(result.loaded.scene);
-  end_range_with_scene(setup.head, box, setup.pose);
+  end_range_with_scene(setup.head, box, setup.event.world_from_head);
   add_notes(result.loaded.scene, box);
-  result.places = sampled_places(result.loaded.scene, setup.pose);
+  result.places = sampled_places(result.loaded.scene, setup.event.world_from_head);
   require_in_reach(result.places, setup.head.head.gate, o.scene.path);
   sample_for_ping(o, setup, result.loaded);
   result.json = scene_json(result.loaded);

@@ -29,6 +29,7 @@ struct PingScene {
 /// Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).
 PingScene load_ping_scene(const PingOptions& options, PingSetup& setup);
 /// Loads from tiles that are open already, within the range as it is.
-PingScene load_ping_scene(const PingOptions& options, const PingSetup& setup, const TiledScene& tiles);
+PingScene load_ping_scene(const PingOptions& options, const PingSimulator& simulator, const PingEvent& event,
+                          const TiledScene& tiles);
 
 }  // namespace insonify::tool

@@ -96,7 +96,7 @@ std::string far_range_note(const HeadSetup& setup, double reach) {
 }
 
 std::vector<std::string> fit_notes(const SceneCloud& cloud, const Bounds& box, const PingSetup& setup) {
-  const Vector3d head = setup.pose.translation();
+  const Vector3d head = setup.event.world_from_head.translation();
   std::vector<std::string> notes;
   for (const std::string& note :
        {far_range_note(setup.head, reach_of(box, head, setup.head.environment)), buried_note(cloud, head)})

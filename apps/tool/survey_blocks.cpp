@@ -45,26 +45,26 @@ bool SurveyBlocks::is_done(const SurveyBlock& block) const {
   return find_mark(files_of(block), setup_.run.mission_sha256).has_value();
 }
 
-BlockReturns SurveyBlocks::resume(const SurveyBlock& block) const {
+BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
   const BlockFiles files = files_of(block);
   remove_leftovers(files);
   for (const std::string& unmarked : {files.cube, files.returns, files.coverage}) fs::remove(unmarked);
-  BlockReturns returns(block.end - block.begin);
+  BlockOutcomes outcomes(block.end - block.begin);
   if (fs::exists(files.partial_cube) && fs::exists(files.partial_returns)) try {
       Cube cube = read_cube(files.partial_cube);
       const Soundings soundings = load_soundings(files.partial_returns);
       for (Ping& ping : cube.pings) {
-        SurveyReturn& returned = returns.at(ping.number - setup_.pings[block.begin].number).emplace();
-        append(returned.soundings, soundings, static_cast<std::uint32_t>(ping.number));
-        returned.ping = std::move(ping);
+        PingOutcome& outcome = outcomes.at(ping.number - setup_.survey->pings()[block.begin].number).emplace();
+        append(outcome.soundings, soundings, static_cast<std::uint32_t>(ping.number));
+        outcome.ping = std::move(ping);
       }
     } catch (const std::exception&) {  // cut short or damaged: made again
-      returns.assign(returns.size(), std::nullopt);
+      outcomes.assign(outcomes.size(), std::nullopt);
     }
-  return returns;
+  return outcomes;
 }
 
-void SurveyBlocks::keep(const SurveyBlock& block, BlockReturns& returns) const {
+void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const {
   const BlockFiles files = files_of(block);
   const SurveyHead& head = setup_.heads[block.head];
   std::vector<Ping> pings;
@@ -73,18 +73,18 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockReturns& returns) const {
   Soundings soundings;
   std::vector<CoveredSurfel> covered;
   bool whole = true;
-  for (std::optional<SurveyReturn>& returned : returns) {
-    whole &= returned.has_value();
-    if (!returned) continue;
-    if (!returned->failure.empty()) {
-      failed.push_back({returned->ping.number, returned->failure});
+  for (std::optional<PingOutcome>& outcome : outcomes) {
+    whole &= outcome.has_value();
+    if (!outcome) continue;
+    if (!outcome->failure.empty()) {
+      failed.push_back({outcome->ping.number, outcome->failure});
       continue;
     }
-    append(soundings, returned->soundings, static_cast<std::uint32_t>(returned->ping.number));
-    time.resize(soundings.size(), returned->ping.time);
-    add(covered, returned->covered);
-    returned->covered = {};
-    pings.push_back(std::move(returned->ping));
+    append(soundings, outcome->soundings, static_cast<std::uint32_t>(outcome->ping.number));
+    time.resize(soundings.size(), outcome->ping.time);
+    add(covered, outcome->covered);
+    outcome->covered = {};
+    pings.push_back(std::move(outcome->ping));
   }
   if (!whole && setup_.file.coverage) return;  // of some pings alone it cannot go on
   if (!pings.empty()) {

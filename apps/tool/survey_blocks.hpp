@@ -12,9 +12,9 @@ class SurveyBlocks {
 
   bool is_done(const SurveyBlock& block) const;
   /// Pings that an interrupted run left; a damaged file counts as none.
-  BlockReturns resume(const SurveyBlock& block) const;
+  BlockOutcomes resume(const SurveyBlock& block) const;
   /// Writes a whole block with its mark, or what is done of one that is not whole for `resume`.
-  void keep(const SurveyBlock& block, BlockReturns& returns) const;
+  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) const;
 
  private:
   BlockFiles files_of(const SurveyBlock& block) const;

@@ -19,6 +19,11 @@ constexpr std::size_t kept_tile_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
 constexpr std::size_t most_covering_pings = 16;  // each lists every surfel that it insonifies
 
+/// Drops the contributors of pings: surveys keep the labels that follow from them.
+struct DroppedContributors : ContributorSink {
+  void take(const Contributors&, std::size_t) override {}
+};
+
 SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, std::size_t h) {
   PingOptions options = load_mission_settings(file.path);
   options.common = o.common;
@@ -32,9 +37,8 @@ SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, s
   options.run.profile = file.profile;
   options.pose = "0,0,0,0,0,0";  // every ping has its own
   SurveyHead head{options, set_up_any_ping(options)};
-  OutputSettings& outputs = head.setup.simulation.outputs;
-  outputs.scatterers |= file.coverage;
-  outputs.take_contributors = [](const Contributors&, std::size_t) {};  // the labels that follow from them are kept
+  static DroppedContributors labels_alone;
+  head.setup.simulation.outputs.contributor_sink = &labels_alone;
   return head;
 }
 
@@ -55,9 +59,9 @@ template <typename... Parts>
 }
 
 void require_in_water(const SurveySetup& s) {
-  for (const SurveyPing& ping : s.pings) {
+  for (const SurveyPing& ping : s.survey->pings()) {
     const Environment& environment = s.heads[ping.head].setup.head.environment;
-    const double z = place_of(s.file.mission, ping).world_from_head.translation().z();
+    const double z = event_of(s.file.mission, ping).world_from_head.translation().z();
     if (const auto surface = surface_height(environment); surface && z >= *surface)
       refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", *surface,
                   " m; lower the trajectory, or give surface.height_m in the frame of the scene");
@@ -111,8 +115,10 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
     mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
     per_block.push_back(block_size(o, begun, mission.heads[h].name, pressure_bytes(head.head), s.file.coverage));
   }
+  std::vector<PingSimulator> simulators;
+  for (const SurveyHead& head : s.heads) simulators.push_back(head.setup.simulator());
   try {
-    s.pings = survey_pings(mission);
+    s.survey.emplace(mission, simulators, SurveySettings{s.file.randomise, s.file.seed, s.file.coverage});
   } catch (const Error& error) {
     fail(ErrorKind::content, s.file.path, ": ", error.what());
   }
@@ -122,16 +128,19 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
       fail(ErrorKind::content, s.file.path,
            ": [randomise] noise_db changes the noise of platform and electronics: give ",
            "noise = true in [ping] and self_noise_db in the environment, or leave it out");
-  s.blocks = survey_blocks(s.pings, per_block);
+  const std::vector<SurveyPing>& pings = s.survey->pings();
+  s.blocks = survey_blocks(pings, per_block);
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
-    const auto count = std::count_if(s.pings.begin(), s.pings.end(), [h](const SurveyPing& p) { return p.head == h; });
+    const auto count = std::count_if(pings.begin(), pings.end(), [h](const SurveyPing& p) { return p.head == h; });
     if (count > 0) s.run.heads.push_back({mission.heads[h].name, static_cast<std::size_t>(count), per_block[h]});
   }
   s.run.mission_sha256 = digest_of(s);
   return s;
 }
 
-SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress) {
+SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress)
+    : options_(setup.heads.front().options) {
+  options_.common.threads = 1;
   const SurveyHead& first = setup.heads.front();
   Bounds box;
   if (is_tiles(setup.file.scene)) {
@@ -148,12 +157,12 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
       fail(ErrorKind::content, setup.file.path,
            ": coverage counts the pings of each surfel, but a mesh has other ones in ", "every ping; make surfels of ",
            setup.file.scene, " by insonify prepare --mesh-spacing METRES, or leave coverage out");
-    if (!loaded_.mesh) prepared_.emplace(loaded_.scene, common.threads);
+    if (!loaded_.mesh) prepared_ = std::make_shared<PreparedScene>(loaded_.scene, common.threads);
     box = bounds(loaded_.scene);
   }
   std::vector<double> farthest(setup.heads.size());
-  for (const SurveyPing& ping : setup.pings) {
-    const Eigen::Vector3d at = place_of(setup.file.mission, ping).world_from_head.translation();
+  for (const SurveyPing& ping : setup.survey->pings()) {
+    const Eigen::Vector3d at = event_of(setup.file.mission, ping).world_from_head.translation();
     const double away = (at - at.cwiseMax(box.min).cwiseMin(box.max)).norm();
     const double reach = setup.heads[ping.head].setup.head.head.gate.max_range;
     if (away > reach)
@@ -167,40 +176,16 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
       progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
-std::optional<PingPlan> SurveyScene::plan(const SurveySetup& setup, const SurveyPing& ping) const {
-  if (!prepared_) return {};
-  const PingSetup& head = setup.heads[ping.head].setup;
-  const PingPlace place = place_of(setup.file.mission, ping);
-  return plan_ping(prepared_->scene(), head.head.head, place.world_from_head, head.head.environment,
-                   options_of(head.simulation, ping, place));
-}
-
-SurveyScene::Made SurveyScene::make(const SurveySetup& setup, const SurveyPing& ping) const {
-  const SurveyHead& head = setup.heads[ping.head];
-  PingPlace place = place_of(setup.file.mission, ping);
-  const RandomisedPing by = randomised(setup.file.randomise, setup.file.seed, ping);
-  if (setup.file.randomise.any()) place.world_from_head = moved_by(by, place.world_from_head);
-  const SimulationOptions options = options_of(head.setup.simulation, ping, place);
-  HeadSetup h = head.setup.head;
-  apply(by, h.head, h.environment);
-  const auto simulate = [&](const auto& scene, const SceneCloud& cloud) {
-    Made made{simulate_ping(scene, h.head, place.world_from_head, h.environment, options, &kept_), {}};
-    if (setup.file.coverage)
-      made.covered = coverage_of(cloud, made.ping.scatterers, h.head, made.ping.medium, {.threads = options.threads});
-    return made;
-  };
-  if (prepared_) return simulate(*prepared_, prepared_->scene());
-
-  PingOptions alone = head.options;
-  alone.common.threads = 1;
-  const PingSetup here{place.world_from_head, h, options};
+std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator& simulator,
+                                                            const PingEvent& event) const {
+  if (prepared_) return prepared_;
   if (tiles_) {
-    const PingScene part = load_ping_scene(alone, here, *tiles_);
-    return simulate(part.loaded.scene, part.loaded.scene);
+    PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
+    return std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(part.loaded.scene)), 1);
   }
-  LoadedScene fine = loaded_;
-  sample_for_ping(alone, here, fine);
-  return simulate(fine.scene, fine.scene);
+  MeshSample fine = mesh_sample_for(options_, simulator, event, loaded_);
+  if (!fine.scene) return std::make_shared<PreparedScene>(loaded_.scene, 1);
+  return std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(*fine.scene)), 1);
 }
 
 }  // namespace insonify::tool

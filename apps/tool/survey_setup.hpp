@@ -6,9 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "beamforming/kept_synthesizers.hpp"
 #include "scene_io/tiled_scene.hpp"
-#include "simulate/plan_ping.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "survey/simulate_survey.hpp"
@@ -36,7 +34,7 @@ struct SurveyHead {
 struct SurveySetup {
   MissionFile file;
   std::vector<SurveyHead> heads;
-  std::vector<SurveyPing> pings;
+  std::optional<Survey> survey;
   std::vector<SurveyBlock> blocks;
   SurveyRun run;
 };
@@ -50,28 +48,22 @@ std::size_t pressure_bytes(const SonarHead& head);
 
 /// The scene of a survey: loaded and prepared once. Of a mesh or tiles every ping takes what it needs; tiles are kept
 /// for the pings after, 256 MiB of them at most.
-class SurveyScene {
+class SurveyScene : public SceneSource {
  public:
   /// Throws as load_scene, and Error(content) for a head that is farther from the scene than it can listen.
   SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress);
   SurveyScene(const SurveyScene&) = delete;
   SurveyScene& operator=(const SurveyScene&) = delete;
 
-  /// A ping of the survey, and what it did to each surfel if the mission asks for coverage.
-  struct Made {
-    SimulatedPing ping;
-    std::vector<CoveredSurfel> covered;
-  };
-  /// What a ping would compute, of a scene that all pings share; nothing of a mesh or tiles.
-  std::optional<PingPlan> plan(const SurveySetup& setup, const SurveyPing& ping) const;
-  /// Simulates a ping; may be called by several threads at once.
-  Made make(const SurveySetup& setup, const SurveyPing& ping) const;
+  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
+  /// Whether all pings have the same scene.
+  bool is_shared() const { return prepared_ != nullptr; }
 
  private:
+  PingOptions options_;  // of a ping
   LoadedScene loaded_;
   std::optional<TiledScene> tiles_;
-  std::optional<PreparedScene> prepared_;  ///< absent: every ping has a scene of its own
-  mutable KeptSynthesizers kept_;          // of all heads, for the pings that follow
+  std::shared_ptr<const PreparedScene> prepared_;  // absent: every ping has a scene of its own
 };
 
 }  // namespace insonify::tool

@@ -12,7 +12,7 @@ namespace insonify::tool {
 SurveyStatus::SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done)
     : progress_(progress), path_(std::move(path)), shard_(std::move(shard)), pings_(pings), done_before_(done) {}
 
-void SurveyStatus::ping_done(const SurveyReturn* made) {
+void SurveyStatus::ping_done(const PingOutcome* made) {
   const std::scoped_lock lock(guard_);
   ++(made ? made_ : done_before_);
   failed_ += made && !made->failure.empty();

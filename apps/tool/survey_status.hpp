@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/stop_watch.hpp"
-#include "survey/simulate_survey.hpp"
+#include "survey/survey_store.hpp"
 #include "tool/progress.hpp"
 
 namespace insonify::tool {
@@ -16,7 +16,7 @@ class SurveyStatus {
   SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done);
 
   /// `made`: null for a ping that was there already.
-  void ping_done(const SurveyReturn* made);
+  void ping_done(const PingOutcome* made);
   /// Writes the file: running, done, interrupted or failed.
   void write(const std::string& state);
 

@@ -82,8 +82,8 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
   }
   if (o.run.sonar.empty() || o.pose.empty())
     fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
-  PingSetup setup{parse_pose(o.pose, o.world), set_up_head(o.common, o.run), {}};
-  setup.pose = setup.pose * setup.head.mount;
+  PingSetup setup{{parse_pose(o.pose, o.world)}, set_up_head(o.common, o.run), {}};
+  setup.event.world_from_head = setup.event.world_from_head * setup.head.mount;
   setup.simulation.seed = o.common.seed;
   setup.simulation.threads = o.common.threads;
   const LoadOptions loading = load_options(o.common, o.scene);
@@ -91,8 +91,9 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
   LoadedScene loaded = load_scene(o.scene.path, loading);
   sample_for_ping({}, setup, loaded);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
-  const auto& [pose, head, simulation] = setup;
-  return accuracy_sweep_of(task_of(loaded.scene, head.head, pose, head.environment, simulation), sweep);
+  return accuracy_sweep_of(
+      task_of(loaded.scene, setup.head.head, setup.event.world_from_head, setup.head.environment, setup.simulation),
+      sweep);
 }
 
 std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,

@@ -9,7 +9,7 @@
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/ping_simulator.hpp"
 #include "store/element_file.hpp"
 #include "tool/ping_report.hpp"
 #include "tool/ping_setup.hpp"
@@ -53,13 +53,24 @@ std::string origin_note(const Eigen::Vector3d& origin) {
 }
 
 /// Adds what the ping was made of to the manifest.
-void describe(const SimulatedPing& result, const SimulationOptions& simulation, ordered_json& manifest) {
+void describe(const SimulatedPing& result, const SimulationOptions& simulation, const Motion& motion,
+              ordered_json& manifest) {
   manifest["sampling"] = sampling_json(result);
-  if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.convergence);
-  if (simulation.outputs.mask) manifest["holes"] = holes_json(result.holes);
-  manifest["layers"] = layers_json(result.layers);
-  if (!simulation.effects.motion.none()) manifest["motion"] = motion_json(simulation.effects.motion);
+  if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.report.convergence);
+  if (simulation.outputs.mask) manifest["holes"] = holes_json(result.report.holes);
+  manifest["layers"] = layers_json(result.report.layers);
+  if (!motion.none()) manifest["motion"] = motion_json(motion);
   manifest["peak_level_db"] = peak_level_db(result.ping);
+}
+
+ordered_json seconds_json(double load, const StageSeconds& of, double output) {
+  return {{"load", load},
+          {"sampling", of.sampling},
+          {"acoustics", of.acoustics},
+          {"synthesis", of.synthesis},
+          {"detection", of.detection},
+          {"contributors", of.contributors},
+          {"output", output}};
 }
 
 void ping(const PingCommand& command) {
@@ -91,12 +102,13 @@ void ping(const PingCommand& command) {
   for (const std::string& note : setup.notes) note_to_user(note);
   for (const std::string& note : loading_notes(loaded.report)) note_to_user(note);
 
-  PingPlan plan = plan_ping(loaded.scene, setup.head, ready.pose, setup.environment, simulation);
+  const PreparedScene scene(loaded.scene, simulation.threads);
+  PingPlan plan = ready.simulator().plan(scene, ready.event);
   manifest["plan"] = plan_json(plan);
 
   progress.step("pinging");
   ContributorWriter contributors(directory, loaded.scene, setup.head, plan.options.outputs);
-  SimulatedPing result = simulate_ping(loaded.scene, setup.head, ready.pose, setup.environment, plan.options);
+  SimulatedPing result = PingSimulator(setup.head, setup.environment, plan.options).ping(scene, ready.event);
   for (const std::string& note : ping_notes(result, ready, in_reach.places, !o.mount.empty())) note_to_user(note);
 
   progress.step("writing " + o.run.output);
@@ -104,19 +116,14 @@ void ping(const PingCommand& command) {
   const Eigen::Vector3d origin = save_returns(directory, result.soundings, manifest);
   if (!origin.isZero(0)) note_to_user(origin_note(origin));
   if (simulation.outputs.elements)
-    write_element_file(directory.file("elements.h5"), result.elements, setup.head, result.medium.sound_speed);
+    write_element_file(directory.file("elements.h5"), result.outputs.elements, setup.head,
+                       result.report.medium.sound_speed);
   contributors.finish(result.ping.labels, o.scene.path, manifest);
   write_kept(directory, o, loaded.scene, ready, result, manifest);
-  describe(result, simulation, manifest);
+  describe(result, simulation, ready.event.motion, manifest);
   write_run(directory, common, o.run, setup, std::move(result.ping), settings_as_toml(all_settings(o)), manifest,
             progress);
-  manifest["seconds"] = {{"load", load_seconds},
-                         {"sampling", result.seconds.sampling},
-                         {"acoustics", result.seconds.acoustics},
-                         {"synthesis", result.seconds.synthesis},
-                         {"detection", result.seconds.detection},
-                         {"contributors", result.seconds.contributors},
-                         {"output", watch.lap()}};
+  manifest["seconds"] = seconds_json(load_seconds, result.report.seconds, watch.lap());
   write_manifest(directory, manifest);
   progress.step("done");
   directory.commit();

@@ -22,7 +22,7 @@ void plan(const PingCommand& command) {
   for (const std::string& note : ready.head.notes) progress.note(note);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   progress.step("planning");
-  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.pose, ready.head.environment, ready.simulation);
+  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.event, ready.head.environment, ready.simulation);
   print_result(o.common, plan_json(plan), [&] { print_plan(plan); });
 }
 

@@ -102,14 +102,19 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
   for (std::size_t h = 0; h < trials.size(); ++h) {
     HeadTrial& trial = trials[h];
     std::vector<SurveyPing> pings;
-    std::copy_if(s.pings.begin(), s.pings.end(), std::back_inserter(pings), [h](const auto& p) { return p.head == h; });
+    std::copy_if(s.survey->pings().begin(), s.survey->pings().end(), std::back_inserter(pings),
+                 [h](const auto& p) { return p.head == h; });
     trial.pings = pings.size();
     const std::size_t places = std::min(most, pings.size());
     double mean = 0;
     for (std::size_t k = 0; k < places; ++k) {
       PlannedPing planned{pings[(2 * k + 1) * pings.size() / (2 * places)]};
-      if (const auto plan = scene.plan(s, planned.ping))
-        planned.seconds = plan->seconds, planned.scatterers = plan->scatterers;
+      if (scene.is_shared()) {
+        const PingSimulator simulator = s.survey->simulator_of(planned.ping);
+        const PingEvent event = s.survey->event_of(planned.ping);
+        const PingPlan plan = simulator.plan(*scene.scene_for(simulator, event), event);
+        planned.seconds = plan.seconds, planned.scatterers = plan.scatterers;
+      }
       mean += planned.seconds / static_cast<double>(places);
       trial.planned.push_back(planned);
     }
@@ -135,11 +140,11 @@ void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double
     for (HeadTrial& trial : trials) {
       if (trial.tried >= trial.planned.size() || (!first && !is_cheap(trial))) continue;
       const double begin = cpu_seconds();
-      const SimulatedPing result = scene.make(s, trial.planned[trial.tried].ping).ping;
+      const PingOutcome made = s.survey->simulate(trial.planned[trial.tried].ping, scene);
       trial.cpu += cpu_seconds() - begin;
       if (trial.tried == 0) trial.first_cpu = trial.cpu;
-      trial.scatterers += static_cast<double>(result.sampling.scatterers);
-      trial.soundings += static_cast<double>(result.soundings.size());
+      trial.scatterers += static_cast<double>(made.scatterers);
+      trial.soundings += static_cast<double>(made.soundings.size());
       ++trial.tried, more = true;
     }
 }
@@ -190,6 +195,27 @@ void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene
   print_result(o.common, plan, [&] { print_plan(plan); });
 }
 
+/// Writes the blocks of a survey into its folder, and says how far it is.
+class FolderStore : public SurveyStore {
+ public:
+  FolderStore(const SurveyBlocks& blocks, SurveyStatus& status) : blocks_(blocks), status_(status) {}
+
+  BlockOutcomes resume(const SurveyBlock& block) override { return blocks_.resume(block); }
+  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override { blocks_.keep(block, outcomes); }
+  void ping_done(const PingOutcome* made) override {
+    silent_ += made && made->failure.empty() && made->scatterers == 0;
+    status_.ping_done(made);
+  }
+  bool stopped() override { return is_interrupted(); }
+  /// Pings made that hear nothing.
+  std::size_t silent() const { return silent_; }
+
+ private:
+  const SurveyBlocks& blocks_;
+  SurveyStatus& status_;
+  std::atomic<std::size_t> silent_ = 0;
+};
+
 /// What is still to be made by a shard.
 struct Todo {
   std::vector<SurveyBlock> blocks;
@@ -237,24 +263,14 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   SurveyStatus status(progress, (std::filesystem::path(o.output) / name).string(), o.shard, todo.pings, todo.done);
 
   bool whole = true;
-  std::atomic<std::size_t> silent = 0;
+  std::size_t silent = 0;
   if (!todo.blocks.empty()) {
     if (!scene) load();
     progress.step("pinging");
-    SurveyWork work;
-    work.simulate = [&](const SurveyPing& ping) {
-      SurveyScene::Made made = scene->make(s, ping);
-      silent += made.ping.sampling.scatterers == 0;
-      SurveyReturn returned = return_of(std::move(made.ping), s.file.mission, ping);
-      returned.covered = std::move(made.covered);
-      return returned;
-    };
-    work.resume = [&](const SurveyBlock& block) { return store.resume(block); };
-    work.keep = [&](const SurveyBlock& block, BlockReturns& returns) { store.keep(block, returns); };
-    work.done = [&](const SurveyReturn* made) { status.ping_done(made); };
-    work.stop = is_interrupted;
+    FolderStore folder(store, status);
     finish_on_interrupt("finished pings are kept; the same command goes on from there");
-    whole = simulate_survey(s.pings, todo.blocks, o.common.threads, work);
+    whole = simulate_survey(*s.survey, todo.blocks, *scene, folder, o.common.threads);
+    silent = folder.silent();
   }
   const std::vector<std::string> failures = failures_of(o, s, shard);
   status.write(whole ? "done" : "interrupted");
@@ -267,9 +283,9 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
         fmt::format("{} of {} pings made are silent: nothing of the scene is inside fan and range; `insonify image {} "
                     "--ping N` shows "
                     "one; turn the head, lengthen its range, or make those parts of the way a transit (active = false)",
-                    silent.load(), status.made(), o.output));
-  const ordered_json result = {{"folder", o.output},      {"pings", todo.pings}, {"made", status.made()},
-                               {"silent", silent.load()}, {"failed", failures},  {"seconds", status.seconds()}};
+                    silent, status.made(), o.output));
+  const ordered_json result = {{"folder", o.output}, {"pings", todo.pings}, {"made", status.made()},
+                               {"silent", silent},   {"failed", failures},  {"seconds", status.seconds()}};
   print_summary(o.common, result,
                 fmt::format("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}", o.output,
                             status.made(), todo.pings, status.seconds(), o.output));

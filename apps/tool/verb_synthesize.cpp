@@ -26,7 +26,7 @@ struct SynthesizeOptions {
   RunOptions run;
   std::string scatterers;
   double accuracy_db = library_options.accuracy_db;
-  int absorption_order = library_options.effects.absorption_order;
+  int absorption_order = -1;  ///< as needed
 };
 
 /// The settings that run.toml records at its top level.
@@ -56,7 +56,7 @@ SimulationOptions asked_of(const SynthesizeOptions& o) {
   options.threads = o.common.threads;
   options.accuracy_db = o.accuracy_db;
   options.synthesis = asked_synthesis(o.run);
-  options.effects.absorption_order = o.absorption_order;
+  if (o.absorption_order >= 0) options.effects.absorption_order = o.absorption_order;
   return options;
 }
 
@@ -78,7 +78,7 @@ void synthesize(const SynthesizeOptions& o) {
   const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
   const SimulationOptions settled = settled_synthesis(table.scatterers, echoes, head, setup.environment, asked_of(o));
   const auto& [method, tolerance, true_delays] = settled.synthesis;
-  const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, settled.effects.absorption_order);
+  const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *settled.effects.absorption_order);
   const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = method == SynthesisMethod::incoherent;
@@ -92,7 +92,7 @@ void synthesize(const SynthesizeOptions& o) {
       {"seed", common.seed},
       {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
       {"synthesis",
-       {{"method", name_of(method_words, method)}, {"absorption_order", settled.effects.absorption_order}}},
+       {{"method", name_of(method_words, method)}, {"absorption_order", *settled.effects.absorption_order}}},
       {"notes", nlohmann::ordered_json::array()}};
   for (const std::string& note : setup.notes) {
     progress.note(note);

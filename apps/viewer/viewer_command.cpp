@@ -235,7 +235,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
   tool::end_range_with_scene(setup, bounds(view.data.scene), pose_of(view.start.head));
   view.data.gate = setup.head.gate;
   view.data.view =
-      resolve_ping(whole_of(view.data.scene), setup.head, pose_of(view.start.head), setup.environment).view;
+      resolve_ping(whole_of(view.data.scene), setup.head, {pose_of(view.start.head)}, setup.environment).view;
   return view;
 }
 

@@ -19,8 +19,6 @@ struct SynthesisOptions {
   bool operator==(const SynthesisOptions&) const = default;
 };
 
-class KeptSynthesizers;
-
 /// Returns the complex baseband pressure per beam and range bin, beams x bins [Pa], of any head. Beams of one elevation
 /// form a row, and each row is synthesized by `method` from echoes weighted by the row's response to their elevation:
 ///
@@ -40,15 +38,13 @@ class KeptSynthesizers;
 /// real pressure: levels and detections apply to it, but such images add up by their squares, and phases have no
 /// meaning. Cost: that of the method for each row. The result does not depend on options.threads. Throws Error as the
 /// methods do, and if there are several rows or a column, but not one echoes.v per echo.
-///
-/// kept   what methods `gridded` and `true_delays` of one row, and `gridded` of a planar array, have in common from image
-///        to image: taken from there, or made and left there; same bytes
+/// For many images of one head use a Synthesizer.
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
-                       const SynthesisOptions& options = {}, KeptSynthesizers* kept = nullptr);
+                       const SynthesisOptions& options = {});
 
 /// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made first.
 ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium, SynthesisMethod method,
-                       const SynthesisOptions& options = {}, KeptSynthesizers* kept = nullptr);
+                       const SynthesisOptions& options = {});
 /// Whether the pressure of `head` is formed without all echoes at once: methods `gridded` and `true_delays` of one row of
 /// beams, and `gridded` of a planar array with Gaussian pulses.
 bool streamed(const SonarHead& head, SynthesisMethod method);

@@ -97,7 +97,11 @@ void enclose(const SceneCloud& scene, std::span<const std::uint32_t> members, Su
 
 }  // namespace
 
-PreparedScene::PreparedScene(const SceneCloud& scene, int threads) : scene_(&scene) {
+PreparedScene::PreparedScene(const SceneCloud& scene, int threads)
+    : PreparedScene(std::shared_ptr<const SceneCloud>(std::shared_ptr<void>(), &scene), threads) {}
+
+PreparedScene::PreparedScene(std::shared_ptr<const SceneCloud> shared, int threads) : scene_(std::move(shared)) {
+  const SceneCloud& scene = *scene_;
   require_valid(scene, "PreparedScene");
   if (scene.size() > std::numeric_limits<std::uint32_t>::max())
     fail(ErrorKind::argument, "PreparedScene: ", scene.size(), " surfels, must be below 2^32; divide the scene");

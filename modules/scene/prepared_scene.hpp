@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -41,12 +42,13 @@ struct SurfelMarks {
 };
 
 /// A scene that is validated and divided into blocks once, for many pings: each ping then only visits the blocks within
-/// its insonified region. Construction takes O(n) time and 4 bytes per surfel. Keeps a reference to `scene`, which must
-/// outlive it unchanged.
+/// its insonified region. Construction takes O(n) time and 4 bytes per surfel.
 class PreparedScene {
  public:
   /// Throws Error for an invalid scene or one of 2^32 surfels or more. The blocks do not depend on `threads` (0: all
   /// cores).
+  explicit PreparedScene(std::shared_ptr<const SceneCloud> scene, int threads = 0);
+  /// The same of a scene that must outlive it unchanged.
   explicit PreparedScene(const SceneCloud& scene, int threads = 0);
   PreparedScene(SceneCloud&& temporary, int threads = 0) = delete;
 
@@ -62,7 +64,7 @@ class PreparedScene {
   const WholeScene& whole() const { return whole_; }
 
  private:
-  const SceneCloud* scene_;
+  std::shared_ptr<const SceneCloud> scene_;
   std::vector<SurfelBlock> blocks_;
   std::vector<std::uint32_t> order_;
   WholeScene whole_;

@@ -42,7 +42,7 @@ struct TileSelection {
 ///             whole scene with the others left out; tiles may be kept in memory for the next load
 ///
 ///   const TiledScene tiled("bay.tiles");
-///   const InsonifiedRegion region = resolve_ping(tiled.info().whole, head, pose, environment, options).region;
+///   const InsonifiedRegion region = simulator.reach(tiled.info().whole, event);
 ///   const SceneCloud part = tiled.load(tiled.select(region));
 ///   simulate_ping(part, head, pose, environment, options);  // the same bytes as of the whole scene
 class TiledScene {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "simulate/resolve_ping.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/simulated_ping.hpp"
 
 namespace insonify {
 

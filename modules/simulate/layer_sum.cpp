@@ -11,21 +11,34 @@
 
 namespace insonify {
 
-LayerSum::LayerSum(const ResolvedPing& ping, KeptSynthesizers* kept)
-    : ping_(ping), kept_(kept), incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
-  if (ping.options.outputs.split_phase) split_ = split_aperture(ping.head, "simulate_ping");
+LayerSum::LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers)
+    : ping_(ping),
+      synthesizers_(synthesizers),
+      incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
+  if (ping.options.outputs.split_phase) split_ = split_aperture(ping.head, "PingSimulator");
+}
+
+Synthesizer LayerSum::whole() const {
+  const SimulationOptions& o = ping_.options;
+  return synthesizers_.of(SynthesizerTable::Part::whole, ping_.head, ping_.sent.medium, o.synthesis.method,
+                          {o.synthesis.tolerance, o.threads});
+}
+
+Synthesizer LayerSum::half(ApertureSide side) const {
+  const SimulationOptions& o = ping_.options;
+  const auto part =
+      side == ApertureSide::port ? SynthesizerTable::Part::port_half : SynthesizerTable::Part::starboard_half;
+  return synthesizers_.of(part, with_one_half(ping_.head, *split_, side), ping_.sent.medium, o.synthesis.method,
+                          {o.synthesis.tolerance, o.threads});
 }
 
 void LayerSum::add(const std::string& name, const Echoes& echoes) {
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
   const double tolerance = o.synthesis.tolerance;
-  add_pressure(name, echoes.size(),
-               synthesize(echoes, ping_.head, medium, o.synthesis.method, {tolerance, o.threads}, kept_));
+  add_pressure(name, echoes.size(), whole().pressure(echoes));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
-    if (o.synthesis.method == SynthesisMethod::true_delays)
-      return synthesize(echoes, with_one_half(ping_.head, split, side), medium, o.synthesis.method,
-                        {tolerance, o.threads}, kept_);
+    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side).pressure(echoes);
     return half_pressure(echoes, split, side, medium, {std::max(tolerance, min_gridding_tolerance), o.threads});
   });
   if (!o.outputs.elements) return;
@@ -38,12 +51,10 @@ void LayerSum::add(const std::string& name, const EchoSource& source) {
   if (source.stored) return add(name, *source.stored);
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
-  const SynthesisOptions synthesis{o.synthesis.tolerance, o.threads};
-  add_pressure(name, source.size(), synthesize(source, ping_.head, medium, o.synthesis.method, synthesis, kept_));
+  add_pressure(name, source.size(), whole().pressure(source));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
-    if (o.synthesis.method == SynthesisMethod::true_delays)
-      return synthesize(source, with_one_half(ping_.head, split, side), medium, o.synthesis.method, synthesis, kept_);
-    return half_pressure(source, split, side, medium, synthesis);
+    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side).pressure(source);
+    return half_pressure(source, split, side, medium, {o.synthesis.tolerance, o.threads});
   });
 }
 
@@ -52,12 +63,12 @@ void LayerSum::add_noise() {
   const SimulationOptions& o = ping_.options;
   const double root_mean_square = std::numbers::sqrt2 * amplitude_from_db(ping_.beam_noise_db) * micropascal;
   add_pressure("noise", 0,
-               incoherent_
-                   ? ComplexGrid(ComplexGrid::Constant(head.fan.beams(), head.gate.bins(), root_mean_square))
-                   : synthesize_noise(head, ping_.sent.medium, ping_.element_noise_db, {o.seed, o.ping, o.threads}));
+               incoherent_ ? ComplexGrid(ComplexGrid::Constant(head.fan.beams(), head.gate.bins(), root_mean_square))
+                           : synthesize_noise(head, ping_.sent.medium, ping_.element_noise_db,
+                                              {o.seed, ping_.event.number, o.threads}));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
     return synthesize_noise(with_one_half(head, split, side), ping_.sent.medium, ping_.element_noise_db,
-                            {o.seed, o.ping, o.threads});
+                            {o.seed, ping_.event.number, o.threads});
   });
 }
 
@@ -75,7 +86,7 @@ void LayerSum::add_halves(const std::function<ComplexGrid(const SplitAperture&, 
 
 void LayerSum::add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure) {
   report_.push_back({name, echoes});
-  if (ping_.options.outputs.layers) layers_.push_back({name, stored_pressure(pressure, "simulate_ping")});
+  if (ping_.options.outputs.layers) layers_.push_back({name, stored_pressure(pressure, "PingSimulator")});
   if (sum_.size() == 0)
     sum_ = std::move(pressure);
   else if (incoherent_)
@@ -85,14 +96,14 @@ void LayerSum::add_pressure(const std::string& name, std::size_t echoes, Complex
 }
 
 void LayerSum::finish(SimulatedPing& result) {
-  result.ping = {ping_.options.ping, ping_.options.time, ping_.view.world_from_head,
-                 ping_.head.fan,     ping_.head.gate,    stored_pressure(sum_, "simulate_ping"),
+  result.ping = {ping_.event.number, ping_.event.time, ping_.event.world_from_head,
+                 ping_.head.fan,     ping_.head.gate,  stored_pressure(sum_, "PingSimulator"),
                  std::move(layers_)};
   result.ping.expected_level = incoherent_;
   note_water(ping_.sent.medium, result.ping);
   if (split_) result.ping.split_phase = phase_between(port_, starboard_);
-  result.layers = std::move(report_);
-  result.elements = std::move(elements_);
+  result.report.layers = std::move(report_);
+  result.outputs.elements = std::move(elements_);
 }
 
 }  // namespace insonify

@@ -7,15 +7,16 @@
 #include "acoustics/echo_source.hpp"
 #include "beamforming/split_aperture.hpp"
 #include "simulate/resolve_ping.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/simulated_ping.hpp"
+#include "simulate/synthesizer_table_internal.hpp"
 
 namespace insonify {
 
 /// Forms beams of one kind of echo after another and adds them up; for SynthesisMethod::incoherent, by their squares.
 class LayerSum {
  public:
-  /// Refers to `ping` and `kept`, which must outlive it; kept: see synthesize.
-  explicit LayerSum(const ResolvedPing& ping, KeptSynthesizers* kept = nullptr);
+  /// Refers to both arguments, which must outlive it.
+  LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers);
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
@@ -30,11 +31,14 @@ class LayerSum {
 
  private:
   void add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure);
+  /// Forms beams of all the array, or of one half of it.
+  Synthesizer whole() const;
+  Synthesizer half(ApertureSide side) const;
   /// Adds what `image` gives of either half of a split aperture, if its phase is asked for.
   void add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image);
 
   const ResolvedPing& ping_;
-  KeptSynthesizers* kept_;
+  SynthesizerTable& synthesizers_;
   bool incoherent_;
   ComplexGrid sum_;
   std::optional<SplitAperture> split_;

@@ -32,7 +32,7 @@ Load load_of(const PlanFacts& facts, const SimulationOptions& options, double ec
           static_cast<double>(head.array.elements()),
           static_cast<double>(head.gate.bins()),
           static_cast<double>(facts.synthesis.pulse_samples),
-          options.effects.absorption_order > 0 || head.pulse.shape != PulseShape::gaussian,
+          options.effects.absorption_order.value_or(0) > 0 || head.pulse.shape != PulseShape::gaussian,
           head.column && head.pulse.shape == PulseShape::gaussian};
 }
 
@@ -131,7 +131,7 @@ PingCost cost_of(const PlanFacts& facts, const SimulationOptions& options) {
   if (options.effects.multipath == Choice::always) cost.seconds += seconds_of_multipath(facts);
   if (options.effects.refraction == Choice::always && facts.ping.environment.profile)
     cost.seconds += seconds_of_bent_rays(facts);
-  if (options.effects.moving == Choice::always && !options.effects.motion.none())
+  if (options.effects.moving == Choice::always && !facts.ping.event.motion.none())
     cost.seconds += seconds_of_moved_echoes(facts);
   // What is stored of all patches stays; else what sampling takes is given back before the image is made. Few echoes are
   // summed directly, and stored for that.

@@ -6,6 +6,7 @@
 
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/heard_energy_internal.hpp"
+#include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 
 namespace insonify {
@@ -39,7 +40,7 @@ RefractionBound change_in_view(const ResolvedPing& ping, const Scatterers& all) 
   return most;
 }
 
-/// Bends the rays to the patches if the options, settled, say so. Without a profile nothing is done.
+/// Bends the rays to the patches if the options say so. Without a profile nothing is done.
 RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
   RefractionReport report;
   if (!ping.environment.profile) return report;
@@ -54,12 +55,12 @@ RefractionReport refract(const ResolvedPing& ping, Scatterers& scatterers) {
 
 /// Makes the places of surfels so wide that they hold what their echoes seem to be to a moving head.
 void widen_places(const ResolvedPing& ping, std::vector<PatchPlace>& places) {
-  const EffectSettings& effects = ping.options.effects;
-  if (effects.moving != Choice::always) return;
-  const double c = ping.sent.medium.sound_speed, part = most_displacement(effects.motion, c);
+  if (ping.options.effects.moving != Choice::always) return;
+  const Motion& motion = ping.event.motion;
+  const double c = ping.sent.medium.sound_speed, part = most_displacement(motion, c);
   for (PatchPlace& p : places) {
     p.reach += part * (p.range + p.reach);
-    p.reach_u += 3 * part + effects.motion.turn_rate.norm() * 2 * (p.range + p.reach) / c;
+    p.reach_u += 3 * part + motion.turn_rate.norm() * 2 * (p.range + p.reach) / c;
   }
 }
 
@@ -103,14 +104,14 @@ bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
          !streamed(ping.head, o.synthesis.method);
 }
 
-PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result) {
+PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report) {
   View& view = ping.view;
   PingParts parts;
   view.sampling.heard = heard_energy(ping, prepared.scene().materials);
   parts.stored = needs_all_patches(ping, ping.options);
   if (parts.stored) {
-    parts.sampling = sample_view(prepared, ping, result.convergence);
-    result.refraction = refract(ping, parts.sampling.scatterers);
+    parts.sampling = sample_view(prepared, ping, report.convergence);
+    report.refraction = refract(ping, parts.sampling.scatterers);
   } else {
     parts.visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
     widen_places(ping, parts.visible.place);
@@ -121,18 +122,17 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, Simula
 
 EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts) {
   const Transmission& sent = ping.sent;
-  const EffectSettings& effects = ping.options.effects;
-  const bool moving = effects.moving == Choice::always && !effects.motion.none();
+  const bool moving = ping.options.effects.moving == Choice::always && !ping.event.motion.none();
   const auto echoes_of = [&scene, &ping, &sent, moving](const Scatterers& patches, const EchoOptions& options) {
     Echoes echoes = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, options);
     if (moving)
-      move_echoes(ping.options.effects.motion, ping.view.world_from_head, patches, sent.pulse.centre_frequency,
+      move_echoes(ping.event.motion, ping.view.world_from_head, patches, sent.pulse.centre_frequency,
                   sent.medium.sound_speed, echoes);
     return echoes;
   };
   if (parts.stored) {
     parts.direct = echoes_of(parts.sampling.scatterers, sent.echo_options);
-    return stored_source(parts.sampling.scatterers, parts.direct, "simulate_ping");
+    return stored_source(parts.sampling.scatterers, parts.direct, "PingSimulator");
   }
   EchoSource source;
   source.moving = moving;
@@ -152,7 +152,8 @@ EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, Ping
   return source;
 }
 
-Multipath bounced_echoes(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts) {
+void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {
+  if (ping.options.effects.multipath != Choice::always) return;
   View view = ping.view;
   view.sampling.lobe_margin = lobes_everywhere;
   view.sampling.heard = nullptr;
@@ -164,7 +165,8 @@ Multipath bounced_echoes(const PreparedScene& prepared, const ResolvedPing& ping
     seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
     refract(ping, seen);
   }
-  return multipath_echoes(prepared.scene(), seen, ping.environment, view, ping.sent);
+  parts.bounced = multipath_echoes(prepared.scene(), seen, ping.environment, view, ping.sent);
+  layers.add("multipath", parts.bounced.echoes);
 }
 
 }  // namespace insonify

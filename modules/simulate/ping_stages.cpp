@@ -21,7 +21,7 @@ void mark_holes(const PreparedScene& prepared, const ResolvedPing& ping, Simulat
   SamplingOptions looks = view.sampling;
   looks.rays_per_beam = ping.options.sampling.rays_per_beam;
   const Holes holes = find_holes(prepared, view.world_from_head, view.fan, view.gate, looks);
-  result.holes = {holes.directions, holes.holes.size()};
+  result.report.holes = {holes.directions, holes.holes.size()};
   result.ping.unknown = mask_holes(holes, view.fan, ping.head.gate);
 }
 
@@ -101,18 +101,18 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
   ContributorOptions options;
   options.per_pixel = wanted.contributors;
   options.threads = ping.options.threads;
-  const Bands bands = wanted.take_contributors ? beam_bands(ping.head, options.per_pixel, wanted.contributor_band_mib)
-                                               : Bands{{0, ping.head.fan.beams()}};
+  const Bands bands = wanted.contributor_sink ? beam_bands(ping.head, options.per_pixel, wanted.contributor_band_mib)
+                                              : Bands{{0, ping.head.fan.beams()}};
   for (const auto& [first, end] : bands) {
     const SonarHead head = with_beams(ping.head, first, end);
     Contributors found = find_contributors(scene, echoes, head, ping.sent.medium, options);
     put_labels(label_pixels(scene, {echoes[0], others, found}, head, ping.view.world_from_head, ping.sent.medium,
                             options.threads),
                first, ping.head.fan.beams(), result.ping.labels);
-    if (wanted.take_contributors)
-      wanted.take_contributors(found, first);
+    if (wanted.contributor_sink)
+      wanted.contributor_sink->take(found, first);
     else
-      result.contributors = std::move(found);
+      result.outputs.contributors = std::move(found);
   }
 }
 
@@ -158,7 +158,7 @@ std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping) {
   const Environment& e = ping.environment;
   const auto& [pose, fan, gate, sampling] = ping.view;
   ReverberationOptions options;
-  options.ping = ping.options.ping;
+  options.ping = ping.event.number;
   options.azimuth_margin = hears_all_ahead(ping) ? pi : 0;
   std::vector<Reverberation> parts;
   if (e.volume_scattering_db) parts.push_back({"volume", volume_echoes(e, fan, gate, ping.sent, options)});
@@ -172,25 +172,27 @@ std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping) {
 void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, PingParts parts, SimulatedPing& result) {
   const SceneCloud& scene = prepared.scene();
   const OutputSettings& wanted = ping.options.outputs;
-  result.medium = ping.sent.medium;
-  result.noise_floor_db = ping.detection.noise_floor_db;
-  result.sampling = parts.sampling.report;
+  PingReport& report = result.report;
+  report.options = ping.options;
+  report.medium = ping.sent.medium;
+  report.noise_floor_db = ping.detection.noise_floor_db;
+  report.sampling = parts.sampling.report;
   const Scatterers& patches = parts.sampling.scatterers;
 
-  result.ping.level_error_db = std::move(result.convergence.level_error_db);
+  result.ping.level_error_db = std::move(report.convergence.level_error_db);
   if (wanted.mask) mark_holes(prepared, ping, result);
   if (wanted.contributors > 0) {
     StopWatch watch;
     add_contributors(prepared, ping, parts, result);
-    result.seconds.contributors = watch.lap();
+    report.seconds.contributors = watch.lap();
   }
-  if (wanted.paths > 0) result.paths = paths_of(scene, ping, parts, patches);
+  if (wanted.paths > 0) result.outputs.paths = paths_of(scene, ping, parts, patches);
 
-  if (ping.view.sampling.kind == SamplingKind::rays) result.notes = gap_notes(scene, ping.view, patches);
-  for (std::string& note : sparse_notes(result.sampling, ping.view.fan.beams()))
-    result.notes.push_back(std::move(note));
-  for (std::string& note : convergence_notes(result.convergence)) result.notes.push_back(std::move(note));
-  if (wanted.scatterers) result.scatterers = std::move(parts.sampling.scatterers);
+  if (ping.view.sampling.kind == SamplingKind::rays) report.notes = gap_notes(scene, ping.view, patches);
+  for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
+    report.notes.push_back(std::move(note));
+  for (std::string& note : convergence_notes(report.convergence)) report.notes.push_back(std::move(note));
+  if (wanted.scatterers) result.outputs.scatterers = std::move(parts.sampling.scatterers);
 }
 
 }  // namespace insonify

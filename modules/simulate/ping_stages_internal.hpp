@@ -5,10 +5,12 @@
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/visible_surfels.hpp"
 #include "simulate/resolve_ping.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/simulated_ping.hpp"
 
-/// The stages of simulate_ping that are more than one call.
+/// The stages of a ping that are more than one call.
 namespace insonify {
+
+class LayerSum;
 
 /// Patches of surface and their direct echoes: stored if a later stage asks for all of them, else counted and made when
 /// they are used.
@@ -23,18 +25,17 @@ struct PingParts {
 /// Whether, with these options, some stage asks for all patches or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& options);
 
-/// Samples the view, where rays are bent if the options, settled, say so; reports refraction and convergence in
-/// `result`.
-PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, SimulatedPing& result);
+/// Samples the view, where rays are bent if the options say so; reports refraction and convergence.
+PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report);
 
 /// Returns the direct echoes of all patches, moved if the options say so. Refers to all arguments, of which it changes
 /// parts.direct.
 EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
-/// Returns the echoes by way of the boundaries. Sound by a boundary may come by a main lobe from what a side lobe hears
+/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.bounced. Sound by a boundary may come by a main lobe from what a side lobe hears
 /// directly, so all that is seen is split for that as in main lobes, apart from the direct echoes: theirs are the same with
 /// and without these.
-Multipath bounced_echoes(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts);
+void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {

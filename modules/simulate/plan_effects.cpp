@@ -92,7 +92,7 @@ StageVerdict judge_refraction(const PlanFacts& facts) {
 
 StageVerdict judge_motion(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  const Motion& motion = ping.options.effects.motion;
+  const Motion& motion = ping.event.motion;
   if (motion.none()) return {false, "the head is at rest", 0};
   const Echoes still = echoes_of(facts, facts.sample.places);
   Echoes moved = still;
@@ -166,32 +166,40 @@ constexpr PlanStage effects[] = {
     {"absorption-slope", DecidedBy::budget, judge_absorption_slope,
      [](bool in, E&, O& o) { o.effects.absorption_order = in ? 2 : 0; }, nullptr,
      [](const O& o) {
-       return o.effects.absorption_order < 0 ? Choice::as_needed : chosen(o.effects.absorption_order > 0);
+       return o.effects.absorption_order ? chosen(*o.effects.absorption_order > 0) : Choice::as_needed;
      }},
     {"refraction", DecidedBy::budget, judge_refraction, [](bool in, E&, O& o) { o.effects.refraction = chosen(in); },
-     [](const E& e, const O&) { return e.profile ? nullptr : "there is no sound-speed profile"; },
+     [](const E& e, const O&, const PingEvent&) { return e.profile ? nullptr : "there is no sound-speed profile"; },
      [](const O& o) { return o.effects.refraction; }},
     {"motion", DecidedBy::budget, judge_motion, [](bool in, E&, O& o) { o.effects.moving = chosen(in); },
-     [](const E&, const O& o) { return o.effects.motion.none() ? "the head is at rest" : nullptr; },
+     [](const E&, const O&, const PingEvent& event) { return event.motion.none() ? "the head is at rest" : nullptr; },
      [](const O& o) { return o.effects.moving; }},
     {"multipath", DecidedBy::budget, judge_multipath, [](bool in, E&, O& o) { o.effects.multipath = chosen(in); },
-     [](const E& e, const O&) { return has_boundary(e) ? nullptr : "there is neither surface nor bottom"; },
+     [](const E& e, const O&, const PingEvent&) {
+       return has_boundary(e) ? nullptr : "there is neither surface nor bottom";
+     },
      [](const O& o) { return o.effects.multipath; }},
     {"volume", DecidedBy::choice, judge_volume,
      [](bool in, E& e, O&) {
        if (!in) e.volume_scattering_db.reset();
      },
-     [](const E& e, const O&) { return volume_scatters(e) ? nullptr : "volume.scattering_db is not given"; }},
+     [](const E& e, const O&, const PingEvent&) {
+       return volume_scatters(e) ? nullptr : "volume.scattering_db is not given";
+     }},
     {"surface", DecidedBy::choice, judge_surface,
      [](bool in, E& e, O&) {
        if (!in && e.surface) e.surface->scattering_strength_db.reset();
      },
-     [](const E& e, const O&) { return surface_scatters(e) ? nullptr : "surface.scattering_db is not given"; }},
+     [](const E& e, const O&, const PingEvent&) {
+       return surface_scatters(e) ? nullptr : "surface.scattering_db is not given";
+     }},
     {"bottom", DecidedBy::choice, judge_bottom,
      [](bool in, E& e, O&) {
        if (!in && e.bottom) e.bottom->lambert_mu.reset();
      },
-     [](const E& e, const O&) { return bottom_scatters(e) ? nullptr : "bottom.lambert_mu_db is not given"; }},
+     [](const E& e, const O&, const PingEvent&) {
+       return bottom_scatters(e) ? nullptr : "bottom.lambert_mu_db is not given";
+     }},
     {"noise", DecidedBy::choice, judge_noise, [](bool in, E&, O& o) { o.effects.noise = in; }},
     {"micro-relief", DecidedBy::scene, judge_micro_relief},
     {"coherent-part", DecidedBy::scene, judge_coherent_part}};

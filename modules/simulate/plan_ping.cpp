@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
+#include "simulate/resolve_ping_internal.hpp"
 
 namespace insonify {
 
@@ -77,13 +78,9 @@ PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double s
 
 }  // namespace
 
-PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
-                   const Environment& environment, const SimulationOptions& options) {
-  require_valid(options, "plan_ping");
-  require_valid(scene, "plan_ping");
-  const WholeScene whole = whole_of(scene);
-  const ResolvedPing ping = resolve_ping(whole, head, world_from_head, environment, options, "plan_ping");
-  const PlanFacts facts{scene, ping, sample_scene(scene, nullptr, ping), gridding_of_a_row(ping)};
+PingPlan plan_of(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
+  const SimulationOptions& options = ping.options;
+  const PlanFacts facts{scene, ping, sample_scene(scene, prepared, ping), gridding_of_a_row(ping)};
   const std::vector<PlanStage> stages = all_stages();
   PingPlan plan;
   plan.options = options;
@@ -104,6 +101,12 @@ PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& w
   return plan;
 }
 
+PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
+                   const Environment& environment, const SimulationOptions& options) {
+  require_valid(scene, "plan_ping");
+  return plan_of(scene, nullptr, resolve_ping(whole_of(scene), head, event, environment, options, "plan_ping"));
+}
+
 namespace {
 
 /// The options with their open stages judged.
@@ -119,13 +122,12 @@ SimulationOptions settled_by(const PlanFacts& facts) {
 
 }  // namespace
 
-SimulationOptions settled_options(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
-                                  const Environment& environment, const SimulationOptions& options, const char* who) {
-  const SceneCloud& scene = prepared.scene();
-  const ResolvedPing ping = resolve_ping(prepared.whole(), head, world_from_head, environment, options, who);
+void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {
   const std::vector<PlanStage> stages = all_stages();
-  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, options); })) return options;
-  return settled_by({scene, ping, sample_scene(scene, &prepared, ping), {}});
+  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, ping.options); })) return;
+  const SceneCloud& scene = prepared.scene();
+  ping.options = settled_by({scene, ping, sample_scene(scene, &prepared, ping), {}});
+  derive(prepared.whole(), ping);
 }
 
 SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
@@ -138,7 +140,7 @@ SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echo
   SimulationOptions synthesis = options;
   synthesis.sampling.outer_elevations = synthesis.sampling.outer_azimuths = Choice::never;
   synthesis.effects.multipath = synthesis.effects.refraction = synthesis.effects.moving = Choice::never;
-  const ResolvedPing ping = resolve_ping({}, head, Pose::Identity(), water, synthesis, me);
+  const ResolvedPing ping = resolve_ping({}, head, {}, water, synthesis, me);
   const SimulationOptions settled = settled_by({SceneCloud{}, ping, sample_of(places, echoes, ping), {}});
   SimulationOptions result = options;
   result.effects.absorption_order = settled.effects.absorption_order;
@@ -146,13 +148,14 @@ SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echo
   return result;
 }
 
-void force_stage(const std::string& name, bool included, Environment& environment, SimulationOptions& options) {
+void force_stage(const std::string& name, bool included, const PingEvent& event, Environment& environment,
+                 SimulationOptions& options) {
   std::string names;
   for (const PlanStage& stage : all_stages()) {
     if (!stage.force) continue;
     names += (names.empty() ? "" : ", ") + std::string(stage.name);
     if (name != stage.name) continue;
-    if (const char* obstacle = included && stage.obstacle ? stage.obstacle(environment, options) : nullptr)
+    if (const char* obstacle = included && stage.obstacle ? stage.obstacle(environment, options, event) : nullptr)
       fail(ErrorKind::argument, "force_stage: ", name, " cannot be forced in: ", obstacle);
     return stage.force(included, environment, options);
   }

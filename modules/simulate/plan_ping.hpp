@@ -3,8 +3,9 @@
 
 #include "acoustics/echoes.hpp"
 #include "sampling/scatterers.hpp"
+#include "simulate/ping_event.hpp"
 #include "simulate/ping_plan.hpp"
-#include "simulate/simulate_ping.hpp"
+#include "simulate/simulated_ping.hpp"
 
 namespace insonify {
 
@@ -21,7 +22,7 @@ namespace insonify {
 /// exceed 1: then the stage changes the image altogether. docs/plan.md compares bounds with effects.
 ///
 /// The time is that of one core of the machine named in docs/plan.md. Throws Error as simulate_ping does.
-PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
+PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options = {});
 
 /// The options for synthesizing these echoes, of patches or targets at `places`, with what is open decided as plan_ping
@@ -32,7 +33,8 @@ SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echo
 
 /// Forces a stage in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another method
 /// changes nothing. Throws Error(argument) for a stage that is unknown or cannot be forced, naming those that can, and
-/// for one that cannot be forced in, naming what is missing.
-void force_stage(const std::string& name, bool included, Environment& environment, SimulationOptions& options);
+/// for one that cannot be forced in for this event, naming what is missing.
+void force_stage(const std::string& name, bool included, const PingEvent& event, Environment& environment,
+                 SimulationOptions& options);
 
 }  // namespace insonify

@@ -55,7 +55,7 @@ struct PlanStage {
   /// Sets the options, or takes the cause out of the environment, so that the stage is in or out; nullptr: it cannot.
   void (*force)(bool included, Environment&, SimulationOptions&) = nullptr;
   /// What keeps it from being forced in; nullptr if nothing does.
-  const char* (*obstacle)(const Environment&, const SimulationOptions&) = nullptr;
+  const char* (*obstacle)(const Environment&, const SimulationOptions&, const PingEvent&) = nullptr;
   /// What the options say of a stage that the budget decides where they leave it open.
   Choice (*asked)(const SimulationOptions&) = nullptr;
 };
@@ -66,9 +66,11 @@ std::span<const PlanStage> synthesis_stages();
 
 constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 
-/// The options with all that they leave as needed decided by the plan: as plan_ping, but only open stages are judged,
-/// at a cost that grows with what the head may reach. `who` names the caller in errors.
-SimulationOptions settled_options(const PreparedScene& prepared, const SonarHead& head, const Pose& world_from_head,
-                                  const Environment& environment, const SimulationOptions& options, const char* who);
+/// Decides all that the options of a ping leave as needed, as plan_ping does, and derives again what follows from them. Only
+/// what is open is judged, at a cost that grows with what the head may reach.
+void decide_effects(const PreparedScene& prepared, ResolvedPing& ping);
+
+/// The plan of a ping of a valid scene; `prepared`: the same scene, or nullptr.
+PingPlan plan_of(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping);
 
 }  // namespace insonify

@@ -28,7 +28,7 @@ void force_direct_sum(bool included, Environment&, SimulationOptions& options) {
     method = SynthesisMethod::gridded;
 }
 
-const char* sums_intensities(const Environment&, const SimulationOptions& options) {
+const char* sums_intensities(const Environment&, const SimulationOptions& options, const PingEvent&) {
   return options.synthesis.method == SynthesisMethod::incoherent ? "method incoherent adds intensities, not pressures"
                                                                  : nullptr;
 }

@@ -1,11 +1,10 @@
-#include "simulate/resolve_ping.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "simulate/resolve_ping_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -35,19 +34,20 @@ double most_turned(const SoundSpeedProfile& profile, double range) {
 
 /// How far beside their main lobes beams may receive echoes as loud as inside, in u and v: by what profile and motion do,
 /// whether their stages are in or out, so that the scatterers are the same.
-double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment,
-                   const SimulationOptions& o) {
+double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment, const Motion& motion) {
   if (has_further_lobes(head, medium.sound_speed / head.pulse.centre_frequency)) return lobes_everywhere;
   double margin = environment.profile ? most_turned(*environment.profile, head.gate.max_range) : 0;
   // A moving head has turned when it receives.
-  if (const Motion& motion = o.effects.motion; !motion.none())
+  if (!motion.none())
     margin += 3 * most_displacement(motion, medium.sound_speed) +
               motion.turn_rate.norm() * 2 * head.gate.max_range / medium.sound_speed;
   return std::min(margin, lobes_everywhere);
 }
 
-SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, const Medium& medium,
-                            const Environment& environment, const SimulationOptions& o) {
+SamplingOptions sampling_of(const WholeScene& scene, const ResolvedPing& ping) {
+  const SonarHead& head = ping.head;
+  const SimulationOptions& o = ping.options;
+  const Medium& medium = ping.sent.medium;
   SamplingOptions s;
   s.kind = o.sampling.kind;
   s.scatterers_per_cell = o.sampling.scatterers_per_cell;
@@ -56,7 +56,7 @@ SamplingOptions sampling_of(const WholeScene& scene, const SonarHead& head, cons
   const bool all_elevations = o.sampling.outer_elevations == Choice::always;
   s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
   s.azimuth_margin = o.sampling.outer_azimuths == Choice::always ? pi : o.sampling.azimuth_margin;
-  s.lobe_margin = lobe_margin(head, medium, environment, o);
+  s.lobe_margin = lobe_margin(head, medium, ping.environment, ping.event.motion);
   s.occlusion = o.sampling.occlusion;
   s.relief_outer_scale = scene.mean_spacing;
   s.seed = o.seed;
@@ -127,28 +127,43 @@ SamplingOptions sampling_in_view(const ResolvedPing& ping) {
 
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
 
-ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
-                          const Environment& surroundings, const SimulationOptions& options, const char* who) {
+void derive(const WholeScene& scene, ResolvedPing& ping) {
+  const SonarHead& head = ping.head;
+  const SimulationOptions& options = ping.options;
+  const Medium medium =
+      medium_of(ping.environment, head.pulse.centre_frequency, options.effects.absorption_order.value_or(0));
+  ping.sent = {head.pulse, medium, echo_options_of(head, options)};
+  ping.view = {ping.event.world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
+               sampling_of(scene, ping)};
+  ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
+  ping.sector = insonified_sector(head.fan, ping.view.sampling);
+  ping.region = region_of(ping);
+  ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
+}
+
+ResolvedPing resolve_valid_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
+                                const Environment& surroundings, const SimulationOptions& options, const char* who) {
+  require_valid(event, who);
+  ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
+  ping.element_noise_db = element_noise_level_db(ping.environment, head.pulse);
+  ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
+  derive(scene, ping);
+  return ping;
+}
+
+void require_valid(const SonarHead& head, const Environment& environment, const SimulationOptions& options,
+                   const char* who) {
   require_valid(head, who);
-  const Environment environment = environment_at(surroundings, world_from_head.translation().z(), who);
   require_valid(options, who);
   if (options.effects.multipath == Choice::always && !has_boundary(environment))
     fail(ErrorKind::argument, who, ": options.effects.multipath = always, but the environment has neither surface nor ",
          "bottom, must have one of them");
+}
 
-  ResolvedPing ping{head, environment, options, {}, {}, {}, {}, {}, {}, {}};
-  const Medium medium =
-      medium_of(environment, head.pulse.centre_frequency, std::max(0, options.effects.absorption_order));
-  ping.sent = {head.pulse, medium, echo_options_of(head, options)};
-  ping.view = {world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
-               sampling_of(scene, head, medium, environment, options)};
-  ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
-  ping.sector = insonified_sector(head.fan, ping.view.sampling);
-  ping.region = region_of(ping);
-  ping.element_noise_db = element_noise_level_db(environment, head.pulse);
-  ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
-  ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
-  return ping;
+ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
+                          const Environment& environment, const SimulationOptions& options, const char* who) {
+  require_valid(head, environment, options, who);
+  return resolve_valid_ping(scene, head, event, environment, options, who);
 }
 
 }  // namespace insonify

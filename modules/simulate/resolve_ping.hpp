@@ -2,24 +2,26 @@
 #include "acoustics/environment.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/insonified_region.hpp"
+#include "simulate/ping_event.hpp"
 #include "simulate/simulation_options.hpp"
 #include "sonar/sonar_head.hpp"
 
 namespace insonify {
 
-/// A ping and all that follows from its head, pose, environment and options, derived once for every stage.
+/// A ping and all that follows from its head, event, environment and options, derived once for every stage.
 struct ResolvedPing {
   SonarHead head;
+  PingEvent event;
   Environment environment;  ///< its water is that at the head's own depth (environment_at)
   SimulationOptions options;
-  Transmission sent;            ///< pulse, medium and the patterns that echoes are weighted by
-  View view;                    ///< pose, fan, sampled ranges and sampling
-  Sector sector;                ///< that is sampled
-  InsonifiedRegion region;      ///< all that can be received or block sound; with multipath a ball about the head. What
+  Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by
+  View view{};                  ///< pose, fan, sampled ranges and sampling
+  Sector sector{};              ///< that is sampled
+  InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. What
                                 ///< is left as needed counts as in here, and as out elsewhere
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
   double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
-  DetectionOptions detection;   ///< with that noise floor and the pulse's resolution, if the options leave them open
+  DetectionOptions detection{};  ///< with that noise floor and the pulse's resolution, if the options leave them open
 };
 
 /// Whether a beam has another main lobe in a direction that there is: elements are too far apart for this wavelength [m].
@@ -41,9 +43,9 @@ bool has_boundary(const Environment& environment);
 /// The sampled ranges go beyond the head's gate as far as pulses reach into it (down to half the tolerance) and as
 /// parts of the largest surfel stand off its middle; never below 0.1 m, or the gate's own beginning if that is nearer.
 ///
-/// Throws Error for an invalid head, environment or option, for a head at or above the surface and what else
+/// Throws Error for an invalid head, event, environment or option, for a head at or above the surface and what else
 /// environment_at refuses, and for multipath without a boundary; `who` names the caller.
-ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const Pose& world_from_head,
+ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
                           const Environment& environment, const SimulationOptions& options = {},
                           const char* who = "resolve_ping");
 

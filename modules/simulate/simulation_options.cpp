@@ -72,9 +72,8 @@ void require_valid(const SimulationOptions& o, const char* who) {
   require_valid(o.sampling, who);
   require_valid(o.synthesis, o.outputs.elements, who);
   require_valid(o.detection, who);
-  require_valid(o.effects.motion, who);
-  const int order = o.effects.absorption_order;
-  Checker{who, "effects."}.require(order >= -1 && order <= 2, "absorption_order", order, "0, 1 or 2; -1: as needed");
+  const int order = o.effects.absorption_order.value_or(0);
+  Checker{who, "effects."}.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");
   const Checker outputs{who, "outputs."};
   outputs.require(o.outputs.paths >= 0, "paths", o.outputs.paths, "at least 0");
   outputs.require(o.outputs.contributors >= 0 && o.outputs.contributors <= most_contributors, "contributors",
@@ -91,7 +90,6 @@ void require_valid(const SimulationOptions& o, const char* who) {
   const Checker top{who, ""};
   top.require(o.accuracy_db > 0 && o.accuracy_db <= most_accuracy_db, "accuracy_db", o.accuracy_db,
               "above 0 and at most 20 dB");
-  top.require(std::isfinite(o.time), "time", o.time, "finite");
   top.require(o.threads >= 0, "threads", o.threads, "at least 0; 0: all cores");
 }
 

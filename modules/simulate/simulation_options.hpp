@@ -1,10 +1,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <optional>
 
 #include "acoustics/direct_echoes.hpp"
-#include "acoustics/motion.hpp"
 #include "beamforming/synthesize.hpp"
 #include "returns/contributors.hpp"
 #include "returns/detect_soundings.hpp"
@@ -51,13 +50,21 @@ struct SynthesisSettings {
 
 /// What is computed beside direct echoes along straight rays from a head at rest. Noise is a choice: no plan adds it.
 struct EffectSettings {
-  Choice multipath = Choice::as_needed;   ///< echoes by way of the environment's surface and bottom (E48)
-  bool noise = false;                     ///< thermal, wind and self noise of independent elements (E18, E25, E41)
-  Motion motion{};                        ///< of the head during the ping (E44); only direct echoes are shifted by it
-  int absorption_order = -1;              ///< 0: absorption of the centre frequency for the whole pulse; 1: its slope
-                                          ///< too; 2: its curvature too; -1: 0 or 2, as needed
+  Choice multipath = Choice::as_needed;  ///< echoes by way of the environment's surface and bottom (E48)
+  bool noise = false;                    ///< thermal, wind and self noise of independent elements (E18, E25, E41)
+  /// 0: absorption of the centre frequency for the whole pulse; 1: its slope too; 2: its curvature too; empty: 0 or 2, as
+  /// needed.
+  std::optional<int> absorption_order{};
   Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
-  Choice moving = Choice::as_needed;      ///< whether `motion` counts
+  Choice moving = Choice::as_needed;      ///< whether the motion of the head counts (E44)
+};
+
+/// Takes the contributors of a ping in bands of beams.
+class ContributorSink {
+ public:
+  virtual ~ContributorSink() = default;
+  /// `band` holds the contributors of rows of beams, the first of which is `first_beam`.
+  virtual void take(const Contributors& band, std::size_t first_beam) = 0;
 };
 
 /// What the result holds beside ping and soundings.
@@ -74,9 +81,9 @@ struct OutputSettings {
   int looks_range = 1, looks_pings = 1;
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
   int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255
-  /// Takes the contributors band by band, rows of beams from `first_beam` on, instead of SimulatedPing::contributors:
-  /// memory holds one band, of at most so many MiB, or of two rows.
-  std::function<void(const Contributors& band, std::size_t first_beam)> take_contributors{};
+  /// Takes the contributors band by band instead of PingOutputs::contributors: memory holds one band, of at most so many
+  /// MiB, or of two rows. Must outlive the ping; nullptr: none.
+  ContributorSink* contributor_sink = nullptr;
   double contributor_band_mib = 512;
 };
 
@@ -91,8 +98,6 @@ struct SimulationOptions {
   EffectSettings effects{};
   OutputSettings outputs{};
   DetectionOptions detection{};  ///< noise floor -inf: all noise in the band, less the array's gain
-  std::int64_t ping = 0;         ///< number of the ping: noise, water and waves are new in every one
-  double time = 0;               ///< of transmission [s]
   int threads = 0;               ///< 0: all cores; the result does not depend on it
 };
 

@@ -1,129 +1,102 @@
 #include "survey/simulate_survey.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <map>
-#include <mutex>
-#include <new>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
+#include "survey/make_blocks_internal.hpp"
 
 namespace insonify {
-namespace {
 
-/// Blocks that were begun: those that are not whole yet hold their returns.
-class OpenBlocks {
- public:
-  explicit OpenBlocks(const SurveyWork& work) : work_(work) {}
-
-  /// Whether a ping is still to be made.
-  bool is_left(const SurveyBlock& block, std::size_t ping) {
-    const std::scoped_lock lock(guard_);
-    const auto [at, is_new] = open_.try_emplace({block.head, block.number}, Open{block, {}});
-    Open& open = at->second;
-    if (is_new) {
-      const std::scoped_lock io(io_guard_);
-      open.returns = work_.resume(block);
-      open.returns.resize(block.end - block.begin);
-    }
-    return !open.kept && !open.returns[ping - block.begin];
+Survey::Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveySettings settings)
+    : mission_(std::move(mission)), settings_(settings) {
+  if (heads.size() != mission_.heads.size())
+    fail(ErrorKind::argument, "Survey: ", heads.size(), " simulators for ", mission_.heads.size(),
+         " heads of the mission, must be one for each");
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    SimulationOptions of_ping = heads[h].options();
+    of_ping.threads = 1;
+    of_ping.outputs.scatterers |= settings_.coverage;
+    heads_.emplace_back(heads[h].head(), heads[h].environment(), of_ping);
+    double& listening = mission_.heads[h].listening_time;
+    if (listening == 0) listening = 2 * heads[h].head().gate.max_range / slowest_sound(heads[h].environment());
   }
-
-  /// Notes what a ping gave, if it was made now, and passes its block on if that is whole.
-  void add(const SurveyBlock& block, std::size_t ping, std::optional<SurveyReturn> made) {
-    BlockReturns whole;
-    {
-      const std::scoped_lock lock(guard_);
-      Open& open = open_.at({block.head, block.number});
-      if (made) open.returns[ping - block.begin] = std::move(made);
-      if (open.kept || !std::all_of(open.returns.begin(), open.returns.end(), is_there)) return;
-      open.kept = true;
-      whole = std::move(open.returns);
-    }
-    const std::scoped_lock io(io_guard_);
-    work_.keep(block, whole);
-  }
-
-  /// Passes on what is done of blocks that are not whole.
-  void leave() {
-    for (auto& [key, open] : open_)
-      if (!open.kept && std::any_of(open.returns.begin(), open.returns.end(), is_there))
-        work_.keep(open.block, open.returns);
-  }
-
- private:
-  struct Open {
-    SurveyBlock block;
-    BlockReturns returns;
-    bool kept = false;
-  };
-  static bool is_there(const std::optional<SurveyReturn>& returned) { return returned.has_value(); }
-
-  const SurveyWork& work_;
-  std::mutex guard_, io_guard_;
-  std::map<std::pair<std::size_t, std::int64_t>, Open> open_;
-};
-
-SurveyReturn try_ping(const SurveyWork& work, const SurveyPing& ping) {
-  SurveyReturn failed;
-  try {
-    return work.simulate(ping);
-  } catch (const Error& error) {
-    failed.failure = error.what();
-  } catch (const std::bad_alloc&) {
-    failed.failure = "out of memory";
-  }
-  failed.ping.number = ping.number;
-  return failed;
+  pings_ = survey_pings(mission_);
 }
 
-}  // namespace
-
-SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing& ping, const PingPlace& place) {
-  SimulationOptions options = of_head;
-  options.ping = random_number_of(ping);
-  options.time = ping.time;
-  options.effects.motion = place.motion;
-  options.threads = 1;
-  return options;
+std::vector<SurveyBlock> Survey::blocks(std::size_t most) const {
+  return survey_blocks(pings_, std::vector<std::size_t>(mission_.heads.size(), most));
 }
 
-SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping) {
-  SurveyReturn kept{std::move(simulated.ping), std::move(simulated.soundings), {}, {}};
-  kept.ping.number = ping.number;
+PingSimulator Survey::simulator_of(const SurveyPing& ping) const {
+  const PingSimulator& simulator = heads_.at(ping.head);
+  if (!settings_.randomisation.any()) return simulator;
+  SonarHead head = simulator.head();
+  Environment environment = simulator.environment();
+  apply(randomised(settings_.randomisation, settings_.seed, ping), head, environment);
+  return PingSimulator(std::move(head), std::move(environment), simulator.options());
+}
+
+PingEvent Survey::event_of(const SurveyPing& ping) const {
+  PingEvent event = insonify::event_of(mission_, ping);
+  if (settings_.randomisation.any())
+    event.world_from_head = moved_by(randomised(settings_.randomisation, settings_.seed, ping), event.world_from_head);
+  return event;
+}
+
+PingOutcome Survey::simulate(const SurveyPing& ping, const SceneSource& scene) const {
+  const PingSimulator simulator = simulator_of(ping);
+  const PingEvent event = event_of(ping);
+  const std::shared_ptr<const PreparedScene> prepared = scene.scene_for(simulator, event);
+  SimulatedPing simulated = simulator.ping(*prepared, event);
+  std::vector<CoveredSurfel> covered;
+  if (settings_.coverage)
+    covered = coverage_of(prepared->scene(), simulated.outputs.scatterers, simulator.head(), simulated.report.medium,
+                          {.threads = 1});
+  PingOutcome outcome = outcome_of(std::move(simulated), mission_, ping);
+  outcome.covered = std::move(covered);
+  return outcome;
+}
+
+PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping) {
+  PingOutcome outcome{std::move(simulated.ping), std::move(simulated.soundings)};
+  outcome.scatterers = simulated.report.sampling.scatterers;
+  outcome.ping.number = ping.number;
   if (!mission.navigation.nodes.empty()) {
-    const Pose believed = believed_place_of(mission, ping);
-    const Pose moved = believed * kept.ping.world_from_head.inverse();
-    for (Eigen::Vector3d& position : kept.soundings.position) position = moved * position;
-    kept.ping.world_from_head = believed;
+    const Pose believed = believed_pose_of(mission, ping);
+    const Pose moved = believed * outcome.ping.world_from_head.inverse();
+    for (Eigen::Vector3d& position : outcome.soundings.position) position = moved * position;
+    outcome.ping.world_from_head = believed;
   }
-  if (mission.heads[ping.head].scan) kept.ping.scan = ScanPlace{ping.sweep, ping.scan_angle};
-  return kept;
+  if (mission.heads[ping.head].scan) outcome.ping.scan = ScanPlace{ping.sweep, ping.scan_angle};
+  return outcome;
 }
 
-bool simulate_survey(const std::vector<SurveyPing>& pings, const std::vector<SurveyBlock>& blocks, int threads,
-                     const SurveyWork& work) {
-  std::vector<std::pair<std::size_t, std::size_t>> items;  // of block and ping
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    for (std::size_t p = blocks[b].begin; p < blocks[b].end; ++p) items.emplace_back(b, p);
+bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
+                     SurveyStore& store, int threads) {
+  return make_blocks(
+      survey.pings(), blocks, threads, [&](const SurveyPing& ping) { return survey.simulate(ping, scene); }, store);
+}
 
-  OpenBlocks open(work);
-  std::atomic<bool> stopped = false;
-  parallel_for(items.size(), threads, [&](std::size_t i) {
-    const auto [b, p] = items[i];
-    if (stopped || work.stop()) {
-      stopped = true;
-      return;
-    }
-    std::optional<SurveyReturn> made;
-    if (open.is_left(blocks[b], p)) made = try_ping(work, pings[p]);
-    work.done(made ? &*made : nullptr);
-    open.add(blocks[b], p, std::move(made));
-  });
-  open.leave();
-  return !stopped;
+SurveyInMemory simulate_survey(const Survey& survey, const SceneSource& scene, int threads) {
+  SurveyInMemory store;
+  simulate_survey(survey, survey.blocks(), scene, store, threads);
+  return store;
+}
+
+void SurveyInMemory::keep(const SurveyBlock& block, BlockOutcomes& outcomes) {
+  blocks_.emplace_back(block, std::move(outcomes));
+}
+
+std::vector<PingOutcome> SurveyInMemory::of_head(std::size_t head) const {
+  std::vector<PingOutcome> all;
+  for (const auto& [block, outcomes] : blocks_)
+    if (block.head == head)
+      for (const std::optional<PingOutcome>& outcome : outcomes)
+        if (outcome) all.push_back(*outcome);
+  std::sort(all.begin(), all.end(),
+            [](const PingOutcome& a, const PingOutcome& b) { return a.ping.number < b.ping.number; });
+  return all;
 }
 
 }  // namespace insonify

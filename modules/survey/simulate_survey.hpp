@@ -1,51 +1,60 @@
 #pragma once
-#include <functional>
-#include <optional>
-#include <string>
+#include <cstdint>
 #include <vector>
 
-#include "returns/coverage.hpp"
-#include "simulate/simulate_ping.hpp"
-#include "survey/survey_pings.hpp"
+#include "survey/randomise.hpp"
+#include "survey/scene_source.hpp"
+#include "survey/survey_store.hpp"
 
 namespace insonify {
 
-/// What a ping of a survey gave, or why it failed.
-struct SurveyReturn {
-  Ping ping;
-  Soundings soundings;
-  std::string failure;                   ///< empty: none
-  std::vector<CoveredSurfel> covered{};  ///< if the survey asks for coverage
+/// What a survey does beside its mission.
+struct SurveySettings {
+  Randomisation randomisation{};
+  std::uint64_t seed = 1;  ///< of the randomisation
+  bool coverage = false;   ///< list the surfels that each ping insonified (PingOutcome::covered)
 };
 
-/// The returns of a block's pings, in their order; absent while a ping is not done.
-using BlockReturns = std::vector<std::optional<SurveyReturn>>;
+/// A mission with a simulator for each of its heads: all pings of a vehicle with sonars along a trajectory.
+class Survey {
+ public:
+  /// `heads` are those of the mission, in its order; every ping runs on one thread. A head of the mission without a
+  /// listening time gets that of its range gate in its slowest water. Throws Error(argument) for an invalid mission, pings
+  /// closer than the listening time, and another number of simulators than heads.
+  Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveySettings settings = {});
 
-/// Options of one ping of a survey: number, time and motion are the ping's, and it runs on one thread.
-SimulationOptions options_of(const SimulationOptions& of_head, const SurveyPing& ping, const PingPlace& place);
+  /// The mission, with the listening times that were left out.
+  const Mission& mission() const { return mission_; }
+  /// All pings, as survey_pings of the mission.
+  const std::vector<SurveyPing>& pings() const { return pings_; }
+  /// The pings in blocks of at most `most`, head after head.
+  std::vector<SurveyBlock> blocks(std::size_t most = 64) const;
+  /// The simulator of a ping: that of its head, but for what is randomised.
+  PingSimulator simulator_of(const SurveyPing& ping) const;
+  /// When and from where it is sent, with what is randomised.
+  PingEvent event_of(const SurveyPing& ping) const;
 
-/// What is kept of a ping: its number is the one among the pings of its head, and of a scanning head it knows the scan.
-/// With navigation errors, its pose and its returns are where the vehicle believes them to be.
-SurveyReturn return_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
+  /// Simulates a ping. With navigation errors, its pose and its soundings are where the vehicle believes them to be. May be
+  /// called by several threads at once. Throws Error as PingSimulator::ping.
+  PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
 
-/// How the pings of a survey are made and what becomes of them. `simulate` and `done` are called by several threads at
-/// once.
-struct SurveyWork {
-  std::function<SurveyReturn(const SurveyPing& ping)> simulate;
-  /// After each ping: null for one that was resumed, not made.
-  std::function<void(const SurveyReturn* made)> done;
-  /// What an interrupted survey left of a block; an empty list for nothing.
-  std::function<BlockReturns(const SurveyBlock& block)> resume;
-  /// Gets each block once: whole, or as far as it is done when the survey stops.
-  std::function<void(const SurveyBlock& block, BlockReturns& returns)> keep;
-  std::function<bool()> stop;  ///< true: no further ping is begun
+ private:
+  Mission mission_;
+  std::vector<PingSimulator> heads_;
+  SurveySettings settings_;
+  std::vector<SurveyPing> pings_;
 };
 
-/// Makes the pings of some blocks, `threads` (0: all cores) of them at once. Pings are begun in the order of the
-/// blocks; no more returns are held than those of the blocks begun and not finished. A ping that throws Error or runs
-/// out of memory has failed, which is its return; what the other functions throw ends the survey. True if no ping is
-/// left.
-bool simulate_survey(const std::vector<SurveyPing>& pings, const std::vector<SurveyBlock>& blocks, int threads,
-                     const SurveyWork& work);
+/// What is stored of a ping of a mission, as Survey::simulate describes it.
+PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
+
+/// Makes the pings of some blocks, `threads` (0: all cores) of them at once. Pings are begun in the order of the blocks; no
+/// more outcomes are held than those of the blocks begun and not finished. A ping that throws Error or runs out of memory
+/// has failed, which is its outcome. True if no ping is left. The outcomes do not depend on `threads`.
+bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
+                     SurveyStore& store, int threads = 0);
+
+/// All pings of a survey, in memory; for long ones give simulate_survey a store of your own.
+SurveyInMemory simulate_survey(const Survey& survey, const SceneSource& scene, int threads = 0);
 
 }  // namespace insonify

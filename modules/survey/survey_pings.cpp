@@ -172,21 +172,21 @@ std::vector<SurveyPing> survey_pings(const Mission& mission) {
   return pings;
 }
 
-PingPlace place_of(const Mission& mission, const SurveyPing& ping) {
+PingEvent event_of(const Mission& mission, const SurveyPing& ping) {
   const Trajectory near = entries_about(mission.trajectory, ping.time);
   const Pose vehicle = pose_at(near, ping.time);
   Motion motion = motion_at(near, ping.time);
   const Pose& mount = mission.heads.at(ping.head).vehicle_from_head;
   motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(vehicle.linear() * mount.translation()));
-  return {on_vehicle(mission, ping, vehicle), motion};
+  return {on_vehicle(mission, ping, vehicle), motion, ping.time, random_stream_of(ping)};
 }
 
-Pose believed_place_of(const Mission& mission, const SurveyPing& ping) {
+Pose believed_pose_of(const Mission& mission, const SurveyPing& ping) {
   const Pose vehicle = pose_at(entries_about(mission.trajectory, ping.time), ping.time);
   return on_vehicle(mission, ping, believed_pose(mission.navigation, ping.time, vehicle));
 }
 
-std::int64_t random_number_of(const SurveyPing& ping) {
+std::int64_t random_stream_of(const SurveyPing& ping) {
   return (static_cast<std::int64_t>(ping.head) << 40) + ping.number;
 }
 

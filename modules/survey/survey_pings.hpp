@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simulate/ping_event.hpp"
 #include "survey/mission.hpp"
 
 namespace insonify {
@@ -20,22 +21,16 @@ struct SurveyPing {
 /// pings of a head closer than its listening time (naming both and the figure), or if there is no ping at all.
 std::vector<SurveyPing> survey_pings(const Mission& mission);
 
-/// Where a head is when it pings, and how it moves then.
-struct PingPlace {
-  Pose world_from_head;
-  Motion motion;  ///< of the head's origin, with the lever arm about the vehicle's
-};
+/// When, from where and in what motion a ping is sent: pose and motion of the vehicle at its time (pose_at, motion_at), with
+/// the mounting of the head, whose lever arm moves as the vehicle turns, and its scan angle. Its number is
+/// random_stream_of(ping). Takes time that grows with the logarithm of the trajectory's length. Throws as pose_at.
+PingEvent event_of(const Mission& mission, const SurveyPing& ping);
 
-/// Pose and motion of a ping: the vehicle's at its time (pose_at, motion_at), the mounting of the head and its scan
-/// angle. Takes time that grows with the logarithm of the trajectory's length. Throws as pose_at.
-PingPlace place_of(const Mission& mission, const SurveyPing& ping);
+/// Where the vehicle believes a head to be when it pings: the pose of event_of with the mission's navigation errors.
+Pose believed_pose_of(const Mission& mission, const SurveyPing& ping);
 
-/// Where the vehicle believes a head to be when it pings: by the mission's navigation errors beside place_of.
-Pose believed_place_of(const Mission& mission, const SurveyPing& ping);
-
-/// Number of the ping by which simulate_ping draws its random numbers: apart for all pings of all heads, and equal to
-/// `number` in its lower 40 bits.
-std::int64_t random_number_of(const SurveyPing& ping);
+/// PingEvent::number of a ping: apart for all pings of all heads, and equal to `number` in its lower 40 bits.
+std::int64_t random_stream_of(const SurveyPing& ping);
 
 /// Consecutive pings of one head that are stored together: the unit of work that is done or not done.
 struct SurveyBlock {

@@ -133,7 +133,7 @@ TEST(ExtremeArrays, n40_cloud_of_identical_points_is_indexed_and_received) {
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
     const SimulatedPing p = ping_of(scene, {.sampling = {.kind = kind, .rays_per_beam = 2000}});
     EXPECT_TRUE(all_finite(p));
-    EXPECT_GT(p.sampling.scatterers, 0U);
+    EXPECT_GT(p.report.sampling.scatterers, 0U);
     EXPECT_GT(p.ping.pressure.abs().maxCoeff(), 0);
   }
 }

@@ -7,6 +7,7 @@
 #include "sonar/shading.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace insonify::extreme {
@@ -60,6 +61,9 @@ inline SimulatedPing ping_of(const SceneCloud& scene, const SimulationOptions& o
                              const SonarSpec& spec = small_sonar(), const Water& water = {}) {
   return simulate_ping(scene, make_head(spec, sound_speed(water)), Pose::Identity(), {water}, options);
 }
+inline SimulatedPing ping_of(const SceneCloud& scene, const SimulationOptions& options, const Motion& motion) {
+  return simulate_event(scene, make_head(small_sonar(), sound_speed(Water{})), {.motion = motion}, {}, options);
+}
 
 inline ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<Complex>(); }
 
@@ -70,11 +74,11 @@ inline bool same(const ComplexGrid& a, const ComplexGrid& b) {
 /// Everything a ping hands out is a number.
 inline bool all_finite(const SimulatedPing& p) {
   bool finite = p.ping.pressure.isFinite().all() && level_db(p.ping).isFinite().all();
-  finite = finite && std::isfinite(p.noise_floor_db) && std::isfinite(p.medium.sound_speed);
-  for (std::size_t i = 0; i < p.scatterers.size(); ++i)
-    finite = finite && std::isfinite(p.scatterers.range[i]) && std::isfinite(p.scatterers.azimuth[i]) &&
-             std::isfinite(p.scatterers.elevation[i]) && std::isfinite(p.scatterers.cos_incidence[i]) &&
-             std::isfinite(p.scatterers.projected_area[i]);
+  finite = finite && std::isfinite(p.report.noise_floor_db) && std::isfinite(p.report.medium.sound_speed);
+  for (std::size_t i = 0; i < p.outputs.scatterers.size(); ++i)
+    finite = finite && std::isfinite(p.outputs.scatterers.range[i]) && std::isfinite(p.outputs.scatterers.azimuth[i]) &&
+             std::isfinite(p.outputs.scatterers.elevation[i]) && std::isfinite(p.outputs.scatterers.cos_incidence[i]) &&
+             std::isfinite(p.outputs.scatterers.projected_area[i]);
   for (std::size_t i = 0; i < p.soundings.size(); ++i)
     finite = finite && p.soundings.position[i].allFinite() && std::isfinite(p.soundings.level_db[i]);
   return finite;

@@ -38,7 +38,7 @@ TEST(ExtremeGeometry, n02_back_of_an_oriented_patch_is_silent_and_of_an_unorient
   SceneCloud scene = one_surfel({5, 0, 0}, {1, 0, 0});
   const SimulatedPing oriented = ping_of(scene, coherent);
   EXPECT_EQ(peak(oriented), 0);
-  EXPECT_EQ(oriented.sampling.back_facing, 1U);
+  EXPECT_EQ(oriented.report.sampling.back_facing, 1U);
   scene.normals_oriented = false;
   EXPECT_EQ(peak(ping_of(scene, coherent)), peak(ping_of(one_surfel({5, 0, 0}, {-1, 0, 0}), coherent)));
 }
@@ -104,7 +104,7 @@ TEST(ExtremeGeometry, n12_scene_without_points_is_silent) {
   EXPECT_EQ(p.soundings.size(), 0U);
   EXPECT_EQ(level_db(p.ping).maxCoeff(), -200);
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays})
-    EXPECT_EQ(ping_of(SceneCloud{}, {.sampling = {.kind = kind}}).sampling.scatterers, 0U);
+    EXPECT_EQ(ping_of(SceneCloud{}, {.sampling = {.kind = kind}}).report.sampling.scatterers, 0U);
 }
 
 // SL 220 dB, 10 m, 0.2994626 dB/m, target strength -20 dB: 220 - 2 (20 + 2.994626) - 20 dB.
@@ -128,8 +128,9 @@ TEST(ExtremeGeometry, n14_one_beam_and_one_ray_meet_the_wall_before_them) {
       ping_of(plate(5, 12, 60),
               {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 1}, .outputs = {.scatterers = true}}, s);
   EXPECT_TRUE(all_finite(p));
-  ASSERT_EQ(p.scatterers.size(), 1U);
-  const double x = p.scatterers.range[0] * std::cos(p.scatterers.azimuth[0]) * std::cos(p.scatterers.elevation[0]);
+  ASSERT_EQ(p.outputs.scatterers.size(), 1U);
+  const double x = p.outputs.scatterers.range[0] * std::cos(p.outputs.scatterers.azimuth[0]) *
+                   std::cos(p.outputs.scatterers.elevation[0]);
   EXPECT_NEAR(x, 5, 1e-5);
   EXPECT_GT(peak(p), 0);
 }
@@ -182,8 +183,8 @@ TEST(ExtremeGeometry, n31_straight_up_and_down_have_no_azimuth_and_a_level) {
     options.outputs.scatterers = true;
     const SimulatedPing p = ping_of(one_surfel(5 * zenith, -zenith), options, s);
     EXPECT_TRUE(all_finite(p));
-    ASSERT_EQ(p.scatterers.size(), 1U);
-    EXPECT_EQ(p.scatterers.azimuth[0], 0);
+    ASSERT_EQ(p.outputs.scatterers.size(), 1U);
+    EXPECT_EQ(p.outputs.scatterers.azimuth[0], 0);
     EXPECT_NEAR(peak(p), peak(ping_of(one_surfel({5, 0, 0}, {-1, 0, 0}), coherent)), 1e-3 * peak(p));
   }
   s.elevation = 1.6;

@@ -29,7 +29,7 @@ TEST(ExtremeLevels, n17_absorption_beyond_double_precision_is_silence) {
   s.centre_frequency = 1e9;
   const SimulatedPing p = ping_of(plate(5, 1, 5), {}, s);
   EXPECT_TRUE(all_finite(p));
-  EXPECT_GT(p.sampling.scatterers, 0U);
+  EXPECT_GT(p.report.sampling.scatterers, 0U);
   EXPECT_EQ(p.ping.pressure.abs().maxCoeff(), 0);
   EXPECT_EQ(p.soundings.size(), 0U);
 }

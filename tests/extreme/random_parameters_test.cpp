@@ -81,7 +81,7 @@ SimulationOptions any_options(Draw& draw) {
   o.sampling.scatterers_per_cell = split ? draw.log_uniform(1e-3, 3) : 0;
   o.synthesis.method = !split && draw.one_in(4) ? SynthesisMethod::direct : SynthesisMethod::gridded;
   o.synthesis.tolerance = draw.log_uniform(1e-12, 0.5);
-  o.effects.absorption_order = static_cast<int>(draw.count(1, 3.999)) - 1;
+  if (const int order = static_cast<int>(draw.count(1, 3.999)) - 1; order >= 0) o.effects.absorption_order = order;
   o.threads = static_cast<int>(draw.count(1, 3.999));
   return o;
 }

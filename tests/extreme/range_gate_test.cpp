@@ -44,7 +44,7 @@ TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_
     const SimulatedPing p =
         ping_of(scene, {.amplitude = SurfaceAmplitude::coherent, .sampling = {.scatterers_per_cell = 0}}, s);
     EXPECT_TRUE(all_finite(p));
-    ASSERT_EQ(p.sampling.scatterers, 1U) << r << " m";
+    ASSERT_EQ(p.report.sampling.scatterers, 1U) << r << " m";
     ASSERT_EQ(p.soundings.size(), 1U) << r << " m";
     EXPECT_NEAR(p.soundings.range[0], r, 0.011);
     // Just outside: the end of its pulse_900k is still received; farther away nothing is.
@@ -53,7 +53,7 @@ TEST(ExtremeGates, n10_n11_points_exactly_at_the_edges_of_the_gate_are_received_
     EXPECT_GT(tail, 0) << r << " m";
     EXPECT_LT(tail, 0.5 * image(p).abs().maxCoeff()) << r << " m";
     scene.point[0].x() = static_cast<float>(r < 2 ? r - 0.15 : r + 0.15);
-    EXPECT_EQ(ping_of(scene, {}, s).sampling.scatterers, 0U) << r << " m";
+    EXPECT_EQ(ping_of(scene, {}, s).report.sampling.scatterers, 0U) << r << " m";
   }
 }
 

@@ -8,12 +8,12 @@ TEST(Reproducibility, n49_one_to_seven_threads_give_the_same_bits) {
   for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
     const SimulatedPing one =
         ping_of(scene, {.sampling = {.kind = kind}, .outputs = {.scatterers = true}, .threads = 1});
-    EXPECT_GT(one.scatterers.size(), 100U);
+    EXPECT_GT(one.outputs.scatterers.size(), 100U);
     for (const int threads : {2, 3, 4, 5, 6, 7}) {
       const SimulatedPing many =
           ping_of(scene, {.sampling = {.kind = kind}, .outputs = {.scatterers = true}, .threads = threads});
       EXPECT_TRUE((one.ping.pressure == many.ping.pressure).all()) << threads;
-      EXPECT_EQ(one.scatterers.id, many.scatterers.id) << threads;
+      EXPECT_EQ(one.outputs.scatterers.id, many.outputs.scatterers.id) << threads;
       EXPECT_EQ(one.soundings.bin, many.soundings.bin) << threads;
       EXPECT_EQ(one.soundings.level_db, many.soundings.level_db) << threads;
     }

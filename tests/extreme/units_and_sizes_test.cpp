@@ -7,6 +7,7 @@
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
 #include "support/sanitizers.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 using namespace insonify::extreme;
@@ -185,8 +186,7 @@ TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_4
     options.amplitude = SurfaceAmplitude::coherent;
     options.synthesis.tolerance = 1e-7;
     options.effects.absorption_order = 0;  // its slope lowers the carrier by 1211 Hz
-    options.effects.motion.velocity = {speed, 0, 0};
-    return simulate_ping(scene, head, Pose::Identity(), water, options);
+    return simulate_event(scene, head, {.motion = {.velocity = {speed, 0, 0}}}, water, options);
   };
   const auto peak_range = [&](const ComplexGrid& p, Eigen::Index& n) {
     p.row(0).abs().maxCoeff(&n);
@@ -211,9 +211,8 @@ TEST(ExtremeSizes, n44_head_approaching_at_2_m_per_s_receives_2403_hz_more_and_4
 
 TEST(ExtremeSizes, n44_head_with_no_velocity_gives_the_image_of_one_at_rest_bit_for_bit) {
   const SceneCloud scene = plate(6, 4, 40);
-  SimulationOptions still;
-  still.effects.motion = {Eigen::Vector3d(0, -0.0, 0), Eigen::Vector3d(-0.0, 0, 0)};
-  EXPECT_TRUE(same(image(ping_of(scene, still)), image(ping_of(scene))));
+  const Motion still{Eigen::Vector3d(0, -0.0, 0), Eigen::Vector3d(-0.0, 0, 0)};
+  EXPECT_TRUE(same(image(ping_of(scene, {}, still)), image(ping_of(scene))));
 }
 
 // A bottom 3 m below, at 10 to 12 m: r^2 dphi / h sets how far apart rays meet it. 64 rays over 40 degrees and more
@@ -223,12 +222,12 @@ TEST(ExtremeSizes, n55_rays_too_few_for_a_grazing_plane_are_noted_with_the_numbe
   for (int i = 0; i < 240; ++i)
     for (int j = 0; j < 200; ++j) add_surfel(scene, {4 + 0.04 * i, 0.04 * j - 4, -3}, {0, 0, 1}, 0.0016);
   const SimulatedPing few = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 64}});
-  ASSERT_EQ(few.notes.size(), 1U);
-  EXPECT_THAT(few.notes[0], HasSubstr("rays are too few"));
-  EXPECT_THAT(few.notes[0], HasSubstr("rays per beam"));
+  ASSERT_EQ(few.report.notes.size(), 1U);
+  EXPECT_THAT(few.report.notes[0], HasSubstr("rays are too few"));
+  EXPECT_THAT(few.report.notes[0], HasSubstr("rays per beam"));
   // 20 000 rays leave 1.2 % of the cells empty, 46 of 3850; above 1 % the ping says so.
   const SimulatedPing enough = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 30000}});
-  EXPECT_TRUE(enough.notes.empty()) << enough.notes[0];
-  EXPECT_TRUE(ping_of(scene).notes.empty());
+  EXPECT_TRUE(enough.report.notes.empty()) << enough.report.notes[0];
+  EXPECT_TRUE(ping_of(scene).report.notes.empty());
   EXPECT_TRUE(all_finite(few));
 }

@@ -2,6 +2,7 @@
 #include "returns/bottom_detection.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -24,20 +25,21 @@ void add_bed(SceneCloud& scene, double begin, double end, const Eigen::Vector3d&
 
 SimulatedPing ping_of(const SceneCloud& scene, const SonarHead& head, std::int64_t ping, bool noise) {
   SimulationOptions o;
-  o.seed = 100 + static_cast<std::uint64_t>(ping), o.ping = ping;
+  o.seed = 100 + static_cast<std::uint64_t>(ping);
   o.outputs.split_phase = true;
   o.effects.noise = noise;
   o.synthesis.tolerance = 1e-3;
   o.sampling.scatterers_per_cell = 3;
-  return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, 0}, 0, pi / 2, 0), Environment{}, o);
+  const Pose down = pose_from_yaw_pitch_roll({0, 0, 0}, 0, pi / 2, 0);
+  return simulate_event(scene, head, {.world_from_head = down, .number = ping}, {}, o);
 }
 
 BottomSoundings soundings_of(const SimulatedPing& result, const SonarHead& head, bool phase = true) {
-  const double c = result.medium.sound_speed;
+  const double c = result.report.medium.sound_speed;
   return detect_bottom(result.ping, {.sound_speed = c,
                                      .centre_frequency = head.pulse.centre_frequency,
                                      .range_resolution = range_resolution(head.pulse, c),
-                                     .absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db,
+                                     .absorption_db_per_m = result.report.medium.absorption.a0 / nepers_per_db,
                                      .phase = phase});
 }
 

@@ -5,6 +5,7 @@
 #include "scene/scene_index.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -20,15 +21,16 @@ SonarHead head_below(const std::string& name, double max_range) {
 BottomSoundings soundings_below(const SceneCloud& scene, const SonarHead& head, const Eigen::Vector3d& at,
                                 std::int64_t number) {
   SimulationOptions o;
-  o.seed = 3, o.ping = number;
+  o.seed = 3;
   o.outputs.split_phase = true;
   o.effects.noise = true;
-  const SimulatedPing result = simulate_ping(scene, head, pose_from_yaw_pitch_roll(at, 0, pi / 2, 0), Environment{}, o);
-  const double c = result.medium.sound_speed;
+  const PingEvent event{.world_from_head = pose_from_yaw_pitch_roll(at, 0, pi / 2, 0), .number = number};
+  const SimulatedPing result = simulate_event(scene, head, event, {}, o);
+  const double c = result.report.medium.sound_speed;
   return detect_bottom(result.ping, {.sound_speed = c,
                                      .centre_frequency = head.pulse.centre_frequency,
                                      .range_resolution = range_resolution(head.pulse, c),
-                                     .absorption_db_per_m = result.medium.absorption.a0 / nepers_per_db});
+                                     .absorption_db_per_m = result.report.medium.absorption.a0 / nepers_per_db});
 }
 
 /// The surface of a scene.

@@ -2,6 +2,7 @@
 // results are reproducible; tolerances are multiples of the standard error stated beside them.
 #include "simulate/simulate_ping.hpp"
 #include "speckle_bench.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 using namespace insonify::laws;
@@ -177,10 +178,9 @@ TEST(SpeckleLaws, a_static_scene_has_the_same_speckle_in_every_ping) {
   const SonarHead head = bottom_head();
   const auto ping = [&](std::int64_t number, std::uint64_t seed) {
     SimulationOptions options;
-    options.ping = number;
-    options.time = 0.1 * static_cast<double>(number);
     options.seed = seed;
-    return simulate_ping(scene, head, Pose::Identity(), {Water{}}, options).ping.pressure;
+    const PingEvent event{.time = 0.1 * static_cast<double>(number), .number = number};
+    return simulate_event(scene, head, event, {Water{}}, options).ping.pressure;
   };
   const ComplexGridF first = ping(0, 1);
   EXPECT_TRUE((first == ping(1, 1)).all());

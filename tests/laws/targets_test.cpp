@@ -130,7 +130,7 @@ TEST(TargetLaws, flat_plate_of_coherent_facets_goes_from_its_image_to_its_area_o
     options.sampling.occlusion = false;
     const SonarHead head = long_pulse_head(c.range);
     const SimulatedPing p = simulate_ping(kirchhoff_plate(c.range), head, Pose::Identity(), water_at_speed(), options);
-    const double absorbed = 2 * c.range * p.medium.absorption.a0 / nepers_per_db;
+    const double absorbed = 2 * c.range * p.report.medium.absorption.a0 / nepers_per_db;
     EXPECT_NEAR(strength_db(p.ping.pressure.cast<Complex>(), head.pulse, c.range) + absorbed, c.strength_db, 0.03)
         << c.range << " m";
   }

@@ -74,7 +74,7 @@ Grid<double> net_hidden(const LoadedScene& loaded) {
   SimulationOptions options;
   options.sampling.scatterers_per_cell = 0;
   const SceneCloud scene = scene_for_ping(loaded, head(), pose(), options);
-  SamplingOptions sampling = resolve_ping(whole_of(scene), head(), pose(), {}, options).view.sampling;
+  SamplingOptions sampling = resolve_ping(whole_of(scene), head(), {pose()}, {}, options).view.sampling;
   const Scatterers seen = find_scatterers(scene, pose(), head().fan, head().gate, sampling).scatterers;
   sampling.occlusion = false;
   const Scatterers all = find_scatterers(scene, pose(), head().fan, head().gate, sampling).scatterers;

@@ -26,17 +26,17 @@ void expect_same_ping(const SceneCloud& whole, const Pose& pose, const Environme
   const TiledScene tiled(path);
   const SonarHead head = small_head({});
   const TileSelection selection =
-      tiled.select(resolve_ping(tiled.info().whole, head, pose, environment, options).region);
+      tiled.select(resolve_ping(tiled.info().whole, head, {pose}, environment, options).region);
   EXPECT_LT(static_cast<double>(selection.surfels), most_of_the_scene * static_cast<double>(whole.size()));
   const SimulatedPing all = simulate_ping(whole, head, pose, environment, options);
   const SimulatedPing part = simulate_ping(tiled.load(selection), head, pose, environment, options);
-  EXPECT_GT(all.scatterers.size(), 100U);
-  EXPECT_EQ(part.scatterers.id, all.scatterers.id);
-  EXPECT_EQ(part.scatterers.range, all.scatterers.range);
-  EXPECT_EQ(part.scatterers.azimuth, all.scatterers.azimuth);
+  EXPECT_GT(all.outputs.scatterers.size(), 100U);
+  EXPECT_EQ(part.outputs.scatterers.id, all.outputs.scatterers.id);
+  EXPECT_EQ(part.outputs.scatterers.range, all.outputs.scatterers.range);
+  EXPECT_EQ(part.outputs.scatterers.azimuth, all.outputs.scatterers.azimuth);
   EXPECT_TRUE((part.ping.pressure == all.ping.pressure).all());
   EXPECT_EQ(part.soundings.position, all.soundings.position);
-  EXPECT_EQ(part.layers.back().echoes, all.layers.back().echoes);
+  EXPECT_EQ(part.report.layers.back().echoes, all.report.layers.back().echoes);
 }
 
 }  // namespace

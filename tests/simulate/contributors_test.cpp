@@ -25,11 +25,11 @@ const Pose over_plane = pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0);
 TEST(SimulatedContributors, are_kept_when_asked_for) {
   const SceneCloud scene = two_materials();
   const SimulatedPing without = simulate_ping(scene, contributing_head, over_plane, {});
-  EXPECT_TRUE(without.contributors.empty());
+  EXPECT_TRUE(without.outputs.contributors.empty());
   const SimulatedPing with = simulate_ping(scene, contributing_head, over_plane, {}, {.outputs = {.contributors = 2}});
-  EXPECT_EQ(with.contributors.beams, contributing_head.fan.beams());
-  EXPECT_EQ(with.contributors.bins, contributing_head.gate.bins());
-  EXPECT_EQ(with.contributors.per_pixel, 2U);
+  EXPECT_EQ(with.outputs.contributors.beams, contributing_head.fan.beams());
+  EXPECT_EQ(with.outputs.contributors.bins, contributing_head.gate.bins());
+  EXPECT_EQ(with.outputs.contributors.per_pixel, 2U);
   EXPECT_TRUE((with.ping.pressure == without.ping.pressure).all());
 }
 
@@ -45,23 +45,27 @@ TEST(SimulatedContributors, in_bands_of_rows_are_those_of_all_rows_at_once) {
     }
   head.fan.beam_width = radians(4), head.fan.elevation_width = radians(6);
   const SimulatedPing whole = simulate_ping(scene, head, over_plane, {}, {.outputs = {.contributors = 2}});
-  Contributors joined;
-  std::size_t bands = 0;
+  struct JoinedBands : ContributorSink {
+    Contributors joined;
+    std::size_t bands = 0;
+    void take(const Contributors& band, std::size_t first_beam) override {
+      EXPECT_EQ(first_beam, joined.beams);
+      joined.beams += band.beams, joined.bins = band.bins, joined.per_pixel = band.per_pixel;
+      joined.surfel.insert(joined.surfel.end(), band.surfel.begin(), band.surfel.end());
+      joined.share.insert(joined.share.end(), band.share.begin(), band.share.end());
+      ++bands;
+    }
+  } sink;
+  const Contributors& joined = sink.joined;
   SimulationOptions options{.outputs = {.contributors = 2}};
   options.outputs.contributor_band_mib = 0.01;  // two rows, and three at last
-  options.outputs.take_contributors = [&](const Contributors& band, std::size_t first_beam) {
-    EXPECT_EQ(first_beam, joined.beams);
-    joined.beams += band.beams, joined.bins = band.bins, joined.per_pixel = band.per_pixel;
-    joined.surfel.insert(joined.surfel.end(), band.surfel.begin(), band.surfel.end());
-    joined.share.insert(joined.share.end(), band.share.begin(), band.share.end());
-    ++bands;
-  };
+  options.outputs.contributor_sink = &sink;
   const SimulatedPing parts = simulate_ping(scene, head, over_plane, {}, options);
-  EXPECT_EQ(bands, 3u);
-  EXPECT_TRUE(parts.contributors.empty());
+  EXPECT_EQ(sink.bands, 3u);
+  EXPECT_TRUE(parts.outputs.contributors.empty());
   EXPECT_EQ(joined.beams, head.fan.beams());
-  EXPECT_EQ(joined.surfel, whole.contributors.surfel);
-  EXPECT_EQ(joined.share, whole.contributors.share);
+  EXPECT_EQ(joined.surfel, whole.outputs.contributors.surfel);
+  EXPECT_EQ(joined.share, whole.outputs.contributors.share);
   EXPECT_TRUE((parts.ping.labels.material == whole.ping.labels.material).all());
   EXPECT_TRUE((parts.ping.labels.id == whole.ping.labels.id).all());
   EXPECT_TRUE((parts.ping.labels.share == whole.ping.labels.share).all());
@@ -72,7 +76,7 @@ TEST(SimulatedContributors, in_bands_of_rows_are_those_of_all_rows_at_once) {
 TEST(SimulatedContributors, show_a_boundary_of_materials_at_its_bearing) {
   const SimulatedPing p =
       simulate_ping(two_materials(), contributing_head, over_plane, {}, {.outputs = {.contributors = 1}});
-  const auto image = material_image(p.contributors);
+  const auto image = material_image(p.outputs.contributors);
   std::size_t right = 0, all = 0;
   for (std::size_t b = 0; b < contributing_head.fan.beams(); ++b) {
     if (std::abs(contributing_head.fan.azimuth[b]) < radians(3)) continue;
@@ -96,7 +100,7 @@ TEST(SimulatedContributors, of_a_plane_stand_at_the_elevation_of_the_plane) {
     const double r = contributing_head.gate.centre(n);
     if (r < 7 || r > 14) continue;
     const double expected = std::asin(-3 / r) + radians(15);
-    ASSERT_NEAR(p.contributors.elevation[p.contributors.at(16, n)], expected, radians(1)) << r;
+    ASSERT_NEAR(p.outputs.contributors.elevation[p.outputs.contributors.at(16, n)], expected, radians(1)) << r;
   }
 }
 
@@ -116,9 +120,9 @@ TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   const double direct = std::hypot(10, 2), bounced = std::hypot(10, 6);
   const auto at_range = [&](double range) {
     const auto bin = static_cast<std::size_t>((range - wide.gate.min_range) / wide.gate.bin_size);
-    return p.contributors.at(16, bin);
+    return p.outputs.contributors.at(16, bin);
   };
-  const Contributors& c = p.contributors;
+  const Contributors& c = p.outputs.contributors;
   EXPECT_EQ(c.path[at_range(direct)], PathKind::direct);
   EXPECT_EQ(c.path[at_range((direct + bounced) / 2)], PathKind::one_bounce);
   EXPECT_EQ(c.path[at_range(bounced)], PathKind::two_bounces);
@@ -144,9 +148,9 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
   for (std::size_t i = 0; i < p.soundings.size(); ++i) {
     if (p.soundings.true_surfel[i] == Soundings::none) continue;
     ++of_surfels;
-    const std::size_t at = p.contributors.at(p.soundings.beam[i], p.soundings.bin[i]);
-    ASSERT_NE(p.contributors.surfel[at], Contributors::none);
-    const std::uint32_t s = p.contributors.surfel[at];
+    const std::size_t at = p.outputs.contributors.at(p.soundings.beam[i], p.soundings.bin[i]);
+    ASSERT_NE(p.outputs.contributors.surfel[at], Contributors::none);
+    const std::uint32_t s = p.outputs.contributors.surfel[at];
     const Eigen::Vector3d place = pose.inverse() * (scene.origin + scene.point[s].cast<double>());
     const double off = direction_of(place).azimuth - contributing_head.fan.azimuth[p.soundings.beam[i]];
     near += std::abs(place.norm() - static_cast<double>(p.soundings.range[i])) < 0.3 && std::abs(off) < radians(4);
@@ -161,15 +165,15 @@ TEST(SimulatedContributors, are_insonified) {
   const SimulatedPing p =
       simulate_ping(scene, contributing_head, over_plane, {}, {.outputs = {.scatterers = true, .contributors = 1}});
   Insonification map;
-  add_ping(map, scene, p.scatterers, contributing_head, p.medium, {.min_response_db = -300});
+  add_ping(map, scene, p.outputs.scatterers, contributing_head, p.report.medium, {.min_response_db = -300});
   std::size_t hits = 0;
   for (const std::uint32_t h : map.hits) hits += h;
-  EXPECT_LE(hits, p.sampling.visible);
-  EXPECT_GT(hits, p.sampling.visible / 2);
+  EXPECT_LE(hits, p.report.sampling.visible);
+  EXPECT_GT(hits, p.report.sampling.visible / 2);
   std::size_t named = 0, covered = 0;
   for (std::size_t b = 4; b < 28; ++b)
     for (std::size_t n = 100; n < contributing_head.gate.bins() - 100; ++n) {
-      const std::uint32_t s = p.contributors.surfel[p.contributors.at(b, n)];
+      const std::uint32_t s = p.outputs.contributors.surfel[p.outputs.contributors.at(b, n)];
       if (s == Contributors::none) continue;
       ++named;
       covered += map.hits[s] > 0;

@@ -4,6 +4,7 @@
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -33,8 +34,9 @@ const SceneCloud& plane() {
 
 const Pose above = pose_from_yaw_pitch_roll({-4, 0, 2.5}, 0, radians(25), 0);
 
-SimulatedPing ping_levels(const SimulationOptions& options, const Environment& environment = {}) {
-  return simulate_ping(plane(), level_head, above, environment, options);
+SimulatedPing ping_levels(const SimulationOptions& options, const Environment& environment = {},
+                          std::int64_t number = 0) {
+  return simulate_event(plane(), level_head, {.world_from_head = above, .number = number}, environment, options);
 }
 
 Grid<double> power(const ComplexGridF& pressure) { return pressure.cast<std::complex<double>>().abs2(); }
@@ -61,8 +63,9 @@ struct Spread {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       options.seed = seed;
       const SimulatedPing p = ping_levels(options);
-      const Transmission sent = resolve_ping(whole_of(plane()), level_head, above, {}, options).sent;
-      const Echoes echoes = direct_echoes(p.scatterers, plane().materials, sent.pulse, sent.medium, sent.echo_options);
+      const Transmission sent = resolve_ping(whole_of(plane()), level_head, {above}, {}, options).sent;
+      const Echoes echoes =
+          direct_echoes(p.outputs.scatterers, plane().materials, sent.pulse, sent.medium, sent.echo_options);
       const Grid<double> error = predict_level_error_db(echoes, level_head, sent.medium).cast<double>();
       judged = judged && error < 1.5;
       const Grid<double> level = 10 * power(p.ping.pressure).log10();
@@ -92,8 +95,7 @@ TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
   constexpr int pings = 30;
   for (std::uint64_t seed = 1; seed <= pings; ++seed) {
     options.seed = seed;
-    options.ping = static_cast<std::int64_t>(seed);
-    const SimulatedPing p = ping_levels(options, loud_sea());
+    const SimulatedPing p = ping_levels(options, loud_sea(), static_cast<std::int64_t>(seed));
     EXPECT_FALSE(p.ping.expected_level);
     for (const Layer& layer : p.ping.layers) mean[layer.name] += power(layer.pressure).sum() / pings;
   }
@@ -153,14 +155,14 @@ TEST(LevelError, asked_for_is_kept_in_99_of_100_cells) {
                                            .outer_elevations = Choice::never,
                                            .outer_azimuths = Choice::never}};
     const SimulatedPing p = ping_levels(options);
-    const ConvergenceReport& report = p.convergence;
+    const ConvergenceReport& report = p.report.convergence;
     EXPECT_TRUE(report.reached);
-    EXPECT_TRUE(p.notes.empty() || kind == SamplingKind::rays);
+    EXPECT_TRUE(p.report.notes.empty() || kind == SamplingKind::rays);
     EXPECT_GT(report.samplings, 1);
     EXPECT_GT(report.judged, 1000u);
     EXPECT_GE(report.share_below, 0.99);
     EXPECT_LT(report.reached_db, 0.7);
-    EXPECT_EQ(p.sampling.scatterers, report.scatterers);
+    EXPECT_EQ(p.report.sampling.scatterers, report.scatterers);
     ASSERT_EQ(p.ping.level_error_db.size(), p.ping.pressure.size());
     EXPECT_EQ(static_cast<std::size_t>((!p.ping.level_error_db.isNaN()).count()), report.judged);
     const auto below = (p.ping.level_error_db < 0.7f).count();
@@ -173,7 +175,7 @@ TEST(LevelError, asked_for_is_kept_in_99_of_100_cells) {
     const SimulatedPing again = ping_levels(options);
     EXPECT_TRUE((again.ping.pressure == p.ping.pressure).all());
     EXPECT_EQ(again.ping.level_error_db.size(), 0);
-    EXPECT_EQ(again.convergence.samplings, 0);
+    EXPECT_EQ(again.report.convergence.samplings, 0);
   }
 }
 
@@ -183,18 +185,18 @@ TEST(LevelError, out_of_reach_is_told) {
   add_surfel(scene, {5, 0, 0}, {-1, 0, 0}, 0.01);
   const SimulatedPing p =
       simulate_ping(scene, level_head, Pose::Identity(), {}, {.sampling = {.level_error_db = 1e-3}});
-  EXPECT_FALSE(p.convergence.reached);
-  EXPECT_LT(p.convergence.share_below, 0.99);
-  ASSERT_FALSE(p.notes.empty());
-  EXPECT_THAT(p.notes.back(), HasSubstr("of the cells are below the 0.001 dB asked for"));
+  EXPECT_FALSE(p.report.convergence.reached);
+  EXPECT_LT(p.report.convergence.share_below, 0.99);
+  ASSERT_FALSE(p.report.notes.empty());
+  EXPECT_THAT(p.report.notes.back(), HasSubstr("of the cells are below the 0.001 dB asked for"));
 }
 
 TEST(LevelError, of_a_silent_ping_is_kept_at_once) {
   const SimulatedPing p =
       simulate_ping(SceneCloud{}, level_head, Pose::Identity(), {}, {.sampling = {.level_error_db = 0.5}});
-  EXPECT_TRUE(p.convergence.reached);
-  EXPECT_EQ(p.convergence.judged, 0u);
-  EXPECT_EQ(p.convergence.samplings, 1);
+  EXPECT_TRUE(p.report.convergence.reached);
+  EXPECT_EQ(p.report.convergence.judged, 0u);
+  EXPECT_EQ(p.report.convergence.samplings, 1);
 }
 
 TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
@@ -210,10 +212,10 @@ TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
   const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, level_head, above, {}, options); };
   const SimulatedPing clean = ping_of(whole), pierced = ping_of(scene);
   ASSERT_EQ(pierced.ping.unknown.size(), pierced.ping.pressure.size());
-  EXPECT_EQ(clean.holes.directions, 12u * 512u);
-  EXPECT_EQ(clean.holes.unknown, 0u);
+  EXPECT_EQ(clean.report.holes.directions, 12u * 512u);
+  EXPECT_EQ(clean.report.holes.unknown, 0u);
   EXPECT_EQ(clean.ping.unknown.cast<int>().sum(), 0);
-  EXPECT_GT(pierced.holes.unknown, 0u);
+  EXPECT_GT(pierced.report.holes.unknown, 0u);
   const double range = std::hypot(4 + middle, 2.5);
   for (Eigen::Index b = 0; b < pierced.ping.unknown.rows(); ++b)
     for (Eigen::Index n = 0; n < pierced.ping.unknown.cols(); ++n)

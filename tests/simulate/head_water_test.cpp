@@ -85,21 +85,21 @@ TEST(HeadWater, is_that_of_its_own_depth_in_every_ping_of_a_dive) {
   const SonarHead head = small_head({});
   for (const double surface : {0.0, 376.5}) {
     const Environment sea = layered_sea(surface);
-    KeptSynthesizers kept;
+    const PingSimulator simulator(head, sea, one_by_one);
     for (const Pose& pose : dive(surface)) {
       const double depth = surface - pose.translation().z(), c = sound_speed_at(*sea.profile, depth);
       const SceneCloud scene = patch_ahead(pose);
-      const SimulatedPing result = simulate_ping(scene, head, pose, sea, one_by_one, &kept);
+      const SimulatedPing result = simulator.ping(PreparedScene(scene), {pose});
       EXPECT_NEAR(result.ping.sound_speed, c, 1e-4) << depth;
-      EXPECT_EQ(result.medium.sound_speed, result.ping.sound_speed);
+      EXPECT_EQ(result.report.medium.sound_speed, result.ping.sound_speed);
       const double absorption = absorption_db_per_m({.depth = depth, .latitude_deg = -33}, head.pulse.centre_frequency);
       EXPECT_NEAR(result.ping.absorption_db_per_m / absorption, 1, 1e-9);
 
       // The travel time is that of a ray traced from the head's depth, and the echo stands in its bin.
-      ASSERT_EQ(result.scatterers.size(), 1U);
+      ASSERT_EQ(result.outputs.scatterers.size(), 1U);
       const Eigen::Vector3d way = pose.linear().col(0) * 12;
       const double time = traced_time(*sea.profile, depth, depth - way.z(), way.head<2>().norm());
-      const double range = result.scatterers.range[0];
+      const double range = result.outputs.scatterers.range[0];
       EXPECT_NEAR(range / c / time, 1, 1e-6) << depth;
       Eigen::Index beam = 0, bin = 0;
       result.ping.pressure.abs().maxCoeff(&beam, &bin);
@@ -117,7 +117,7 @@ TEST(HeadWater, is_the_given_one_without_a_surface_whatever_the_height) {
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, 374}, 0, radians(20), 0);
   const SimulatedPing result = simulate_ping(patch_ahead(pose), small_head({}), pose, lake);
   EXPECT_EQ(result.ping.sound_speed, sound_speed(lake.water));
-  EXPECT_EQ(result.medium, medium_of(lake, small_head({}).pulse.centre_frequency, 2));
+  EXPECT_EQ(result.report.medium, medium_of(lake, small_head({}).pulse.centre_frequency, 2));
 }
 
 TEST(HeadWater, is_one_along_a_level_way_but_for_rounding) {
@@ -153,13 +153,13 @@ TEST(HeadWater, report_of_refraction_speaks_of_what_is_in_view_as_the_plan_does)
   const SceneCloud scene = patch_ahead(pose);
   SimulationOptions options{.effects = {.multipath = Choice::never}};
   const auto bound_of_plan = [&] {
-    const PingPlan plan = plan_ping(scene, small_head({}), pose, sea, options);
+    const PingPlan plan = plan_ping(scene, small_head({}), {pose}, sea, options);
     return std::find_if(plan.stages.begin(), plan.stages.end(),
                         [](const auto& s) { return std::string("refraction") == s.name; })
         ->bound_db;
   };
   EXPECT_LT(bound_of_plan(), 1e-6);
-  const RefractionReport below = simulate_ping(scene, small_head({}), pose, sea, options).refraction;
+  const RefractionReport below = simulate_ping(scene, small_head({}), pose, sea, options).report.refraction;
   EXPECT_FALSE(below.bent);
   EXPECT_LT(below.bound.range, 1e-9);
   EXPECT_LT(below.bound.elevation, 1e-9);
@@ -168,7 +168,7 @@ TEST(HeadWater, report_of_refraction_speaks_of_what_is_in_view_as_the_plan_does)
   sea.surface->height = 3;
   sea.profile->depth = {0, 10, 16, 60};
   EXPECT_GT(bound_of_plan(), 0.1);
-  const RefractionReport within = simulate_ping(scene, small_head({}), pose, sea, options).refraction;
+  const RefractionReport within = simulate_ping(scene, small_head({}), pose, sea, options).report.refraction;
   EXPECT_TRUE(within.bent);
   EXPECT_GT(within.bound.range, 1e-3);
 }

@@ -42,7 +42,7 @@ double energy_of_ping(const OneSurfel& surfel, const SonarHead& head = single_be
 
 double heard_of(const OneSurfel& surfel, const SonarHead& head = single_beam) {
   const SceneCloud scene = scene_of(surfel);
-  const ResolvedPing ping = resolve_ping(PreparedScene(scene).whole(), head, Pose::Identity(), {}, all_directions());
+  const ResolvedPing ping = resolve_ping(PreparedScene(scene).whole(), head, {}, {}, all_directions());
   const HeardEnergy heard = heard_energy(ping, scene.materials);
   return heard(scene.origin + scene.point[0].cast<double>(), std::cos(surfel.tilt), scene.area[0], surfel.material);
 }
@@ -82,7 +82,7 @@ TEST(HeardEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {
   const auto given = [](const SonarHead& head, const SimulationOptions& options, double coherent_fraction = 0) {
     std::vector<Material> materials(1);
     materials[0].coherent_fraction = coherent_fraction;
-    return bool{heard_energy(resolve_ping(WholeScene{}, head, Pose::Identity(), {}, options), materials)};
+    return bool{heard_energy(resolve_ping(WholeScene{}, head, {}, {}, options), materials)};
   };
   EXPECT_TRUE(given(single_beam, {}));
   EXPECT_TRUE(given(small_head({.beams = 2}), {}));
@@ -104,7 +104,7 @@ TEST(HeardEnergy, lets_a_fan_do_with_fewer_parts) {
   add_rectangle(scene, {12, -5, -4}, {0, 10, 0}, {0, 0, 8}, {-1, 0, 0}, 0.4, 0.1);
   add_rectangle(scene, {10, -5, -4}, {2, 0, 0}, {0, 10, 0}, {0, 0, 1}, 0.4, 0.1);
   const SonarHead head = small_head({.min_range = 11.5, .max_range = 13});
-  const ResolvedPing ping = resolve_ping(PreparedScene(scene).whole(), head, Pose::Identity(), {}, {});
+  const ResolvedPing ping = resolve_ping(PreparedScene(scene).whole(), head, {}, {}, {});
   std::size_t parts = 0;
   const auto levels = [&](double per_cell, bool by_shares, std::uint64_t seed) {
     SamplingOptions o = ping.view.sampling;

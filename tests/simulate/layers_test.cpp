@@ -4,6 +4,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -28,12 +29,13 @@ Environment full_environment() {
 struct Case {
   Environment environment = full_environment();
   SonarHead head = small_head(sonar);
+  PingEvent event;
   double lambert_mu = 1e-3;
   SimulationOptions options{.effects = {.multipath = Choice::always, .noise = true}, .outputs = {.layers = true}};
 
   SimulatedPing ping() const {
     const SceneCloud wall = make_built_in_scene("wall", {.points = 3000, .size = {2, 2}, .lambert_mu = lambert_mu});
-    return simulate_ping(wall, head, Pose::Identity(), environment, options);
+    return simulate_event(wall, head, event, environment, options);
   }
 };
 
@@ -84,7 +86,7 @@ TEST(Layers, stand_in_the_order_in_which_they_are_added) {
   ASSERT_EQ(p.ping.layers.size(), all_layers.size());
   for (std::size_t i = 0; i < all_layers.size(); ++i) {
     EXPECT_EQ(p.ping.layers[i].name, all_layers[i]);
-    EXPECT_EQ(p.layers[i].name, all_layers[i]);
+    EXPECT_EQ(p.report.layers[i].name, all_layers[i]);
   }
 }
 
@@ -106,7 +108,7 @@ TEST(Layers, are_kept_only_on_request_and_change_nothing) {
   c.options.outputs.layers = false;
   const SimulatedPing without = c.ping();
   EXPECT_TRUE(without.ping.layers.empty());
-  EXPECT_EQ(without.layers.size(), all_layers.size());
+  EXPECT_EQ(without.report.layers.size(), all_layers.size());
   EXPECT_TRUE(same(without.ping.pressure, reference_ping().ping.pressure));
 }
 
@@ -177,8 +179,8 @@ TEST(Layers, of_two_scenes_are_the_sum_of_both) {
 // not. Correlation of the latter over some 16 beams x 900 bins: about 0.02.
 TEST(Layers, of_scene_and_bottom_are_the_same_in_every_ping_and_those_of_water_waves_and_noise_are_not) {
   Case later;
-  later.options.ping = 17;
-  later.options.time = 3.4;
+  later.event.number = 17;
+  later.event.time = 3.4;
   const Layers layers = layers_of(later.ping());
   for (const char* name : {"direct", "multipath", "bottom"})
     EXPECT_TRUE(same(layers.at(name), reference().at(name))) << name;
@@ -202,10 +204,10 @@ TEST(Layers, do_not_depend_on_the_thread_count) {
 
 TEST(SimulatePing, of_a_head_with_no_velocity_is_that_of_a_head_at_rest_bit_for_bit) {
   Case still;
-  still.options.effects.motion = {{0, -0.0, 0}, {-0.0, 0, 0}};
+  still.event.motion = {{0, -0.0, 0}, {-0.0, 0, 0}};
   EXPECT_TRUE(same(still.ping().ping.pressure, reference_ping().ping.pressure));
   Case moving;
-  moving.options.effects.motion.velocity = {1, 0, 0};
+  moving.event.motion.velocity = {1, 0, 0};
   const Layers layers = layers_of(moving.ping());
   EXPECT_FALSE(same(layers.at("direct"), reference().at("direct")));
   for (const char* name : {"multipath", "volume", "surface", "bottom", "noise"})  // heard as at rest
@@ -217,8 +219,8 @@ TEST(SimulatePing, in_a_profile_of_one_sound_speed_is_that_without_a_profile_bit
   const double c = reference_ping().ping.sound_speed;
   layered.environment.profile = SoundSpeedProfile{{0, 1.5, 10, 4000}, {c, c, c, c}};
   const SimulatedPing p = layered.ping();
-  EXPECT_FALSE(p.refraction.bent);
-  EXPECT_EQ(p.refraction.bound.range, 0);
+  EXPECT_FALSE(p.report.refraction.bent);
+  EXPECT_EQ(p.report.refraction.bound.range, 0);
   EXPECT_TRUE(same(p.ping.pressure, reference_ping().ping.pressure));
 }
 
@@ -231,8 +233,8 @@ TEST(Elements, of_a_ping_beamform_to_the_ping_itself) {
   plain.options.synthesis.method = SynthesisMethod::element_exact;
   plain.options.outputs.elements = true;
   const SimulatedPing p = plain.ping();
-  const ComplexGrid beams = beam_from_elements(p.elements, plain.head, p.medium,
+  const ComplexGrid beams = beam_from_elements(p.outputs.elements, plain.head, p.report.medium,
                                                {plain.options.synthesis.tolerance, Wavefront::spherical, 0});
   EXPECT_LT(compare_images(beams, p.ping.pressure.cast<std::complex<double>>()).relative_l2, 1e-6);
-  EXPECT_EQ(reference_ping().elements.pressure.size(), 0);
+  EXPECT_EQ(reference_ping().outputs.elements.pressure.size(), 0);
 }

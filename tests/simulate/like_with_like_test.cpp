@@ -5,6 +5,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "simulate/plan_ping.hpp"
 #include "support/heads.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -14,7 +15,7 @@ SonarHead head_of(std::size_t beams) {
   return small_head({.beams = beams, .field_of_view_deg = 40, .beam_width_deg = 2, .max_range = 14});
 }
 
-const Pose at = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+const PingEvent at{pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0), {{0.3, 0.1, 0}, {0, 0, 0.02}}};
 
 Environment sea() {
   Environment e;
@@ -32,10 +33,9 @@ const SceneCloud& harbour() {
 SimulationOptions bare() {
   SimulationOptions o;
   Environment e = sea();
-  o.effects.motion = {{0.3, 0.1, 0}, {0, 0, 0.02}};
   for (const char* stage :
        {"outer-elevations", "outer-azimuths", "absorption-slope", "refraction", "motion", "multipath", "true-delays"})
-    force_stage(stage, false, e, o);
+    force_stage(stage, false, at, e, o);
   o.outputs.scatterers = o.outputs.layers = true;
   return o;
 }
@@ -43,8 +43,8 @@ SimulationOptions bare() {
 SimulatedPing ping(std::size_t beams, const std::string& with) {
   SimulationOptions o = bare();
   Environment e = sea();
-  if (!with.empty()) force_stage(with, true, e, o);
-  return simulate_ping(harbour(), head_of(beams), at, e, o);
+  if (!with.empty()) force_stage(with, true, at, e, o);
+  return simulate_event(harbour(), head_of(beams), at, e, o);
 }
 
 std::map<std::uint64_t, float> areas_of(const Scatterers& s) {
@@ -57,13 +57,13 @@ std::map<std::uint64_t, float> areas_of(const Scatterers& s) {
 
 TEST(LikeWithLike, no_stage_splits_what_is_in_view_in_another_way) {
   for (const std::size_t beams : {24U, 1U}) {
-    const auto alone = areas_of(ping(beams, "").scatterers);
+    const auto alone = areas_of(ping(beams, "").outputs.scatterers);
     ASSERT_GT(alone.size(), 10000U);
     for (const char* stage : {"outer-elevations", "outer-azimuths", "absorption-slope", "refraction", "motion",
                               "multipath", "true-delays"}) {
       const SimulatedPing more = ping(beams, stage);
-      ASSERT_EQ(more.refraction.silenced, 0U);
-      const auto with = areas_of(more.scatterers);
+      ASSERT_EQ(more.report.refraction.silenced, 0U);
+      const auto with = areas_of(more.outputs.scatterers);
       std::size_t others = 0;
       for (const auto& [id, area] : alone) {
         const auto same = with.find(id);
@@ -96,8 +96,8 @@ TEST(LikeWithLike, multipath_has_as_many_scatterers_as_main_lobes_ask_for) {
     Environment e = sea();
     o.sampling.scatterers_per_cell = per_cell;
     o.sampling.outer_azimuths = Choice::always;
-    force_stage("multipath", true, e, o);
-    return simulate_ping(harbour(), head_of(1), at, e, o).layers;
+    force_stage("multipath", true, at, e, o);
+    return simulate_event(harbour(), head_of(1), at, e, o).report.layers;
   };
   const auto layers = echoes(8);
   ASSERT_EQ(layers.size(), 2U);

@@ -119,13 +119,13 @@ TEST(Looks, do_not_depend_on_threads) {
 
 TEST(Looks, are_refused_where_there_are_none) {
   EXPECT_EQ(error_of([] { ping_of_looks(looks(0, 1)); }),
-            "simulate_ping: options.outputs.looks_range = 0, must be within 1 and 1024");
+            "PingSimulator: options.outputs.looks_range = 0, must be within 1 and 1024");
   EXPECT_EQ(error_of([] { ping_of_looks(looks(1, 2000)); }),
-            "simulate_ping: options.outputs.looks_pings = 2000, must be within 1 and 1024");
+            "PingSimulator: options.outputs.looks_pings = 2000, must be within 1 and 1024");
   SimulationOptions expected = looks(2, 2);
   expected.synthesis.method = SynthesisMethod::incoherent;
   EXPECT_EQ(
       error_of([&] { ping_of_looks(expected); }),
-      "simulate_ping: options.outputs.looks_pings = 2, must be 1 with method incoherent: an expected intensity has "
+      "PingSimulator: options.outputs.looks_pings = 2, must be 1 with method incoherent: an expected intensity has "
       "no looks to average");
 }

@@ -42,7 +42,7 @@ const SceneMesh& sea_bed() {
 /// In the sector alone: what is open would be sampled, too.
 MeshSurfels surfels_for(SimulationOptions options = {}) {
   options.sampling.outer_elevations = options.sampling.outer_azimuths = Choice::never;
-  const ResolvedPing ping_mesh = resolve_ping(sea_bed().whole, swath_head, above_bed, {}, options);
+  const ResolvedPing ping_mesh = resolve_ping(sea_bed().whole, swath_head, {above_bed}, {}, options);
   return mesh_surfels(sea_bed(), ping_mesh.region, ping_mesh.head.fan, ping_mesh.view.sampling);
 }
 
@@ -69,8 +69,8 @@ TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
     EXPECT_EQ(mesh.coarsening, 1);
     EXPECT_LT(mesh.scene.size(), 30000U);
     const SimulatedPing sampled = ping_mesh(mesh.scene, {.seed = seed});
-    EXPECT_EQ(sampled.sampling.sparse_beams, 0U);
-    EXPECT_TRUE(sampled.notes.empty());
+    EXPECT_EQ(sampled.report.sampling.sparse_beams, 0U);
+    EXPECT_TRUE(sampled.report.notes.empty());
     const Eigen::ArrayXd error = beam_levels_db(sampled.ping) - fine;
     EXPECT_LT(error.abs().maxCoeff(), 0.5);
     mean += error / 3;
@@ -84,8 +84,8 @@ TEST(MeshPing, of_an_even_sampling_is_noted) {
   SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {400, 400}});
   scene.origin.x() -= 200;
   const SimulatedPing coarse = ping_mesh(scene);
-  EXPECT_GT(coarse.sampling.sparse_beams, 500U);
-  EXPECT_THAT(coarse.notes, testing::ElementsAre(testing::HasSubstr("of 512 beams see mainly surfels")));
+  EXPECT_GT(coarse.report.sampling.sparse_beams, 500U);
+  EXPECT_THAT(coarse.report.notes, testing::ElementsAre(testing::HasSubstr("of 512 beams see mainly surfels")));
 }
 
 TEST(MeshPing, does_not_depend_on_threads) {

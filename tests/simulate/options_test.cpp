@@ -27,7 +27,7 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
       {{.sampling = {.level_error_db = -1}}, "sampling.level_error_db = -1, must be finite and > 0 dB; 0: "},
       {{.sampling = {.level_error_db = not_a_number}}, "sampling.level_error_db = nan, must be"},
       {{.sampling = {.level_error_db = infinity}}, "sampling.level_error_db = inf, must be"},
-      {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2; -1: as needed"},
+      {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2"},
       {{.outputs = {.paths = -1}}, "outputs.paths = -1, must be at least 0"},
       {{.outputs = {.contributors = 300}}, "outputs.contributors = 300, must be within 0 and 255"},
       {{.outputs = {.contributors = -1}}, "outputs.contributors = -1, must be within 0 and 255"},
@@ -45,14 +45,13 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
       {{.accuracy_db = infinity}, "accuracy_db = inf, must be above 0"},
       {{.accuracy_db = 21}, "accuracy_db = 21, must be above 0 and at most 20 dB"},
       {{.effects = {.absorption_order = -2}}, "effects.absorption_order = -2, must be 0, 1 or 2"},
-      {{.time = infinity}, "time = inf, must be finite"},
       {{.threads = -1}, "threads = -1, must be at least 0; 0: all cores"}};
   SceneCloud broken;  // no stage accepts it: a later check would complain about the scene
   broken.point.resize(1);
   for (const auto& [options, message] : cases) {
     const std::string text =
         error_of([&, &o = options] { simulate_ping(broken, small_head({}), Pose::Identity(), {}, o); });
-    EXPECT_THAT(text, testing::StartsWith(std::string("simulate_ping: options.") + message));
+    EXPECT_THAT(text, testing::StartsWith(std::string("PingSimulator: options.") + message));
   }
   EXPECT_THAT(error_of([] {
                 simulate_ping(SceneCloud{}, small_head({}), Pose::Identity(), {},
@@ -81,8 +80,17 @@ TEST(PingOptions, have_the_tolerance_that_their_method_can_keep) {
 }
 
 TEST(PingOptions, are_refused_by_the_plan_as_by_the_ping) {
-  const auto plan = [](const O& options) { plan_ping({}, small_head({}), Pose::Identity(), {}, options); };
+  const auto plan = [](const O& options) { plan_ping({}, small_head({}), {}, {}, options); };
   EXPECT_EQ(error_of([&] { plan({.outputs = {.contributors = 300}}); }),
             "plan_ping: options.outputs.contributors = 300, must be within 0 and 255");
-  EXPECT_THAT(error_of([&] { plan({.effects = {.motion = {{infinity, 0, 0}}}}); }), HasSubstr("motion.velocity = "));
+}
+
+TEST(PingEvents, are_refused_if_they_are_not_finite) {
+  const PingSimulator simulator(small_head({}), {});
+  const SceneCloud nothing;
+  const auto error = [&](const PingEvent& event) {
+    return error_of([&] { simulator.ping(PreparedScene(nothing), event); });
+  };
+  EXPECT_THAT(error({.motion = {{infinity, 0, 0}}}), HasSubstr("motion.velocity = "));
+  EXPECT_THAT(error({.time = infinity}), HasSubstr("event.time = inf, must be finite"));
 }

@@ -11,6 +11,7 @@
 #include "sonar/sonar_spec.hpp"
 #include "support/errors.hpp"
 #include "support/heads.hpp"
+#include "support/simulate_event.hpp"
 
 using namespace insonify;
 
@@ -19,7 +20,7 @@ namespace {
 struct Situation {
   SceneCloud scene;
   SonarHead head;
-  Pose pose;
+  PingEvent event;
   Environment environment;
   SimulationOptions options;
 };
@@ -52,7 +53,7 @@ Situation situation(std::uint64_t number) {
   s.environment.water.temperature_c = 4 + 16 * b[2];
   s.environment.water.depth = 5;
   s.head = make_head(spec, sound_speed(s.environment.water));
-  s.pose = pose_from_yaw_pitch_roll({0, 0, 1.5 + b[3]}, 0, radians(10 + 15 * b[0]), 0);
+  s.event.world_from_head = pose_from_yaw_pitch_roll({0, 0, 1.5 + b[3]}, 0, radians(10 + 15 * b[0]), 0);
   s.options.seed = number;
   s.options.sampling.scatterers_per_cell = 3;
   close(s.options);
@@ -66,7 +67,7 @@ void put_under(const SeaSurface& surface, Situation& s) {
 }
 
 ComplexGrid image(const Situation& s) {
-  return simulate_ping(s.scene, s.head, s.pose, s.environment, s.options).ping.pressure.cast<std::complex<double>>();
+  return simulate_event(s.scene, s.head, s.event, s.environment, s.options).ping.pressure.cast<std::complex<double>>();
 }
 
 const PlannedStage& stage(const PingPlan& plan, const std::string& name) {
@@ -78,12 +79,12 @@ const PlannedStage& stage(const PingPlan& plan, const std::string& name) {
 /// Relative L2 change of the image when `name` is forced in.
 double effect_of(const Situation& s, const std::string& name) {
   Situation forced = s;
-  force_stage(name, true, forced.environment, forced.options);
+  force_stage(name, true, forced.event, forced.environment, forced.options);
   const ComplexGrid with = image(forced), without = image(s);
   return std::sqrt((with - without).abs2().sum() / without.abs2().sum());
 }
 
-PingPlan plan_of(const Situation& s) { return plan_ping(s.scene, s.head, s.pose, s.environment, s.options); }
+PingPlan plan_of(const Situation& s) { return plan_ping(s.scene, s.head, s.event, s.environment, s.options); }
 
 }  // namespace
 
@@ -151,7 +152,7 @@ TEST(PlanPing, bound_of_the_far_field_holds_close_by) {
     spec.min_range = 0.5;
     spec.max_range = 2.5;
     s.head = make_head(spec, sound_speed(s.environment.water));
-    s.pose = pose_from_yaw_pitch_roll({0, 0, 0.4}, 0, radians(20), 0);
+    s.event.world_from_head = pose_from_yaw_pitch_roll({0, 0, 0.4}, 0, radians(20), 0);
     const double effect = effect_of(s, "true-delays"), bound = stage(plan_of(s), "true-delays").bound_relative;
     EXPECT_LE(effect, bound) << number;
     RecordProperty("part_of_the_bound_" + std::to_string(number), std::to_string(effect / bound));
@@ -181,7 +182,7 @@ TEST(PlanPing, what_the_environment_calls_for_is_in) {
   s.options.effects.noise = true;
   s.options.effects.absorption_order = 1;
   s.options.effects.moving = Choice::as_needed;
-  s.options.effects.motion.velocity = {1, 0, 0};
+  s.event.motion.velocity = {1, 0, 0};
   s.scene.materials[0].relief_slope = 0.1;
   s.scene.materials[0].coherent_fraction = 0.5;
   const PingPlan plan = plan_of(s);
@@ -189,7 +190,7 @@ TEST(PlanPing, what_the_environment_calls_for_is_in) {
                                  "micro-relief", "coherent-part", "occlusion"})
     EXPECT_TRUE(stage(plan, name).included) << name;
   for (const std::string name : {"volume", "surface", "bottom", "multipath", "noise", "motion", "occlusion"})
-    force_stage(name, false, s.environment, s.options);
+    force_stage(name, false, s.event, s.environment, s.options);
   const PingPlan less = plan_of(s);
   for (const std::string name : {"volume", "surface", "bottom", "multipath", "noise", "motion", "occlusion"})
     EXPECT_FALSE(stage(less, name).included) << name;
@@ -203,14 +204,14 @@ TEST(PlanPing, forcing_a_method_out_leaves_another_method_alone) {
     for (const std::string name : {"direct-sum", "true-delays"}) {
       Situation s = situation(1);
       s.options.synthesis.method = chosen;
-      force_stage(name, false, s.environment, s.options);
+      force_stage(name, false, s.event, s.environment, s.options);
       const bool was_it = name == "direct-sum" ? chosen == direct : is_true(chosen);
       EXPECT_EQ(s.options.synthesis.method, was_it ? gridded : chosen) << name;
       if (chosen == incoherent) {
         EXPECT_THROW(effect_of(s, name), Error) << name;
         continue;
       }
-      force_stage(name, true, s.environment, s.options);
+      force_stage(name, true, s.event, s.environment, s.options);
       EXPECT_EQ(s.options.synthesis.method, name == "direct-sum" ? direct : true_delays) << name;
     }
 }
@@ -219,10 +220,10 @@ TEST(PlanPing, forcing_a_method_out_leaves_another_method_alone) {
 TEST(PlanPing, true_delays_keep_the_tolerance) {
   Situation s = situation(1);
   s.options.synthesis.tolerance = 1e-7;
-  force_stage("true-delays", true, s.environment, s.options);
+  force_stage("true-delays", true, s.event, s.environment, s.options);
   EXPECT_EQ(s.options.synthesis.method, SynthesisMethod::element_exact);
   s.options.synthesis = {.tolerance = 0.5};
-  force_stage("true-delays", true, s.environment, s.options);
+  force_stage("true-delays", true, s.event, s.environment, s.options);
   EXPECT_EQ(s.options.synthesis.tolerance, 0.1);
 }
 
@@ -263,14 +264,14 @@ TEST(PlanPing, leaves_true_delays_of_a_planar_array_to_its_user) {
   spec.column_beam_width = radians(4);
   s.head = make_head(spec, sound_speed(s.environment.water));
   s.options.synthesis.true_delays = Choice::as_needed;
-  const PingPlan plan = plan_ping(s.scene, s.head, s.pose, s.environment, s.options);
+  const PingPlan plan = plan_ping(s.scene, s.head, s.event, s.environment, s.options);
   const PlannedStage& out = stage(plan, "true-delays");
   EXPECT_FALSE(out.included);
   EXPECT_THAT(out.why, HasSubstr("--with true-delays"));
   EXPECT_GT(out.bound_relative, plan.share_relative);
   EXPECT_GE(plan.left_out_db, out.bound_db);
-  force_stage("true-delays", true, s.environment, s.options);
-  EXPECT_TRUE(stage(plan_ping(s.scene, s.head, s.pose, s.environment, s.options), "true-delays").included);
+  force_stage("true-delays", true, s.event, s.environment, s.options);
+  EXPECT_TRUE(stage(plan_ping(s.scene, s.head, s.event, s.environment, s.options), "true-delays").included);
 }
 
 TEST(PlanPing, is_what_a_ping_does) {
@@ -299,7 +300,7 @@ TEST(PlanPing, of_a_direct_sum_takes_any_tolerance) {
 
 TEST(PlanPing, names_the_stages_that_can_be_forced) {
   Situation s = situation(1);
-  EXPECT_EQ(error_of([&] { force_stage("noize", true, s.environment, s.options); }),
+  EXPECT_EQ(error_of([&] { force_stage("noize", true, s.event, s.environment, s.options); }),
             "force_stage: 'noize' cannot be forced; these can: outer-elevations, outer-azimuths, occlusion, "
             "absorption-slope, refraction, motion, multipath, volume, surface, bottom, noise, direct-sum, true-delays");
 }
@@ -307,8 +308,8 @@ TEST(PlanPing, names_the_stages_that_can_be_forced) {
 TEST(PlanPing, estimates_what_a_ping_will_hold) {
   const Situation s = situation(4);
   const PingPlan plan = plan_of(s);
-  const SimulatedPing p = simulate_ping(s.scene, s.head, s.pose, s.environment, s.options);
-  EXPECT_NEAR(plan.scatterers / static_cast<double>(p.sampling.scatterers), 1, 0.3);
+  const SimulatedPing p = simulate_event(s.scene, s.head, s.event, s.environment, s.options);
+  EXPECT_NEAR(plan.scatterers / static_cast<double>(p.report.sampling.scatterers), 1, 0.3);
   EXPECT_GT(plan.seconds, 0);
   EXPECT_GT(plan.mib, 0);
 }
@@ -317,13 +318,13 @@ TEST(PlanPing, estimates_what_a_ping_of_one_beam_and_its_side_lobes_will_hold) {
   Situation s = situation(4);
   s.head = small_head({.beams = 1, .field_of_view_deg = 2, .elevation_width_deg = 40, .max_range = 8});
   s.options.sampling.outer_azimuths = Choice::always;
-  const SimulatedPing p = simulate_ping(s.scene, s.head, s.pose, s.environment, s.options);
-  EXPECT_NEAR(plan_of(s).scatterers / static_cast<double>(p.sampling.scatterers), 1, 0.3);
+  const SimulatedPing p = simulate_event(s.scene, s.head, s.event, s.environment, s.options);
+  EXPECT_NEAR(plan_of(s).scatterers / static_cast<double>(p.report.sampling.scatterers), 1, 0.3);
 }
 
 TEST(PlanPing, of_an_empty_view_is_finite_but_for_what_is_left_out) {
   Situation s = situation(1);
-  s.pose = pose_from_yaw_pitch_roll({0, 0, 500}, 0, 0, 0);
+  s.event.world_from_head = pose_from_yaw_pitch_roll({0, 0, 500}, 0, 0, 0);
   const PingPlan plan = plan_of(s);
   EXPECT_EQ(plan.surfels_in_view, 0U);
   EXPECT_EQ(plan.scatterers, 0);

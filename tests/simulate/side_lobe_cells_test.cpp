@@ -31,7 +31,7 @@ Eigen::ArrayXd intensities(const SceneCloud& scene, std::uint64_t seed, double p
   options.sampling.outer_azimuths = Choice::always;
   options.synthesis.true_delays = Choice::never;
   const SimulatedPing p = simulate_ping(scene, one_beam, looking_down, {}, options);
-  if (scatterers) *scatterers = p.sampling.scatterers;
+  if (scatterers) *scatterers = p.report.sampling.scatterers;
   const auto begin = static_cast<Eigen::Index>((7 - one_beam.gate.min_range) / one_beam.gate.bin_size);
   const Eigen::ArrayXd all = p.ping.pressure.row(0).cast<std::complex<double>>().abs2();
   return all.segment(begin, all.size() - begin);
@@ -74,8 +74,9 @@ TEST(SideLobeCells, have_the_speckle_of_many_scatterers) {
 // Bent rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes: whether the
 // stages that say so are in or out. Bounces have scatterers of their own.
 TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
-  const auto margin_of = [](const SonarHead& head, const SimulationOptions& options, const Environment& environment) {
-    return resolve_ping(WholeScene{}, head, Pose::Identity(), environment, options).view.sampling.lobe_margin;
+  const auto margin_of = [](const SonarHead& head, const SimulationOptions& options, const Environment& environment,
+                            const Motion& motion = {}) {
+    return resolve_ping(WholeScene{}, head, {.motion = motion}, environment, options).view.sampling.lobe_margin;
   };
   Environment sea;
   sea.surface = SeaSurface{3, 1e-4, -35};
@@ -91,8 +92,8 @@ TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
   sparse.array.spacing *= 2.1;
   EXPECT_EQ(margin_of(sparse, {}, sea), 2);
   const Motion turning{.turn_rate = {0, 0, 0.5}};
-  const double turned = margin_of(one_beam, {.effects = {.motion = turning, .moving = Choice::always}}, sea);
-  EXPECT_EQ(margin_of(one_beam, {.effects = {.motion = turning, .moving = Choice::never}}, sea), turned);
+  const double turned = margin_of(one_beam, {.effects = {.moving = Choice::always}}, sea, turning);
+  EXPECT_EQ(margin_of(one_beam, {.effects = {.moving = Choice::never}}, sea, turning), turned);
   EXPECT_GE(turned, 0.5 * 2 * one_beam.gate.max_range / 1500);
   EXPECT_LT(turned, 0.02);
 }

@@ -3,6 +3,7 @@
 #include "returns/compare.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "support/heads.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -39,8 +40,8 @@ ComplexGrid levelled(const SimulatedPing& p) {
 
 TEST(SimulatePing, hears_the_harbour) {
   const SimulatedPing p = ping_harbour({.detection = {.false_alarm_rate = 1}});
-  EXPECT_GT(p.sampling.visible, 1000U);
-  EXPECT_GT(p.sampling.scatterers, p.sampling.visible);
+  EXPECT_GT(p.report.sampling.visible, 1000U);
+  EXPECT_GT(p.report.sampling.scatterers, p.report.sampling.visible);
   EXPECT_GT(p.soundings.size(), 1000U);
   EXPECT_TRUE(p.ping.pressure.isFinite().all());
   EXPECT_GT(p.ping.pressure.abs().maxCoeff(), 0);
@@ -67,7 +68,7 @@ TEST(SimulatePing, changes_speckle_but_not_the_level_with_the_seed) {
 // World and plain_head moved together by whole metres: the same relative geometry to the last bit of double.
 TEST(SimulatePing, does_not_change_when_world_and_head_move_together) {
   const SimulatedPing here = ping_harbour({}), far = ping_harbour({}, {1e6, -2e6, 300});
-  EXPECT_EQ(here.sampling.scatterers, far.sampling.scatterers);
+  EXPECT_EQ(here.report.sampling.scatterers, far.report.sampling.scatterers);
   EXPECT_LT(compare_images(image(far), image(here)).relative_l2, 1e-9);
 }
 
@@ -104,7 +105,7 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
                          {.effects = {.noise = noise}});
   };
   const SimulatedPing p = ping(true);
-  EXPECT_NEAR(mean_level_db(p.ping, 2, 20), p.noise_floor_db, 0.4);
+  EXPECT_NEAR(mean_level_db(p.ping, 2, 20), p.report.noise_floor_db, 0.4);
   EXPECT_EQ(p.soundings.size(), 0U);
 }
 
@@ -113,11 +114,11 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
 TEST(SimulatePing, of_open_water_gives_false_alarms_at_the_stated_rate) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const auto ping = [&](std::int64_t number, double above_db) {
-    return simulate_ping(
-        scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {},
-        {.effects = {.noise = true}, .detection = {.all_bins = true, .above_db = above_db}, .ping = number});
+    const Pose up = pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0);
+    return simulate_event(scene, plain_head, {.world_from_head = up, .number = number}, {},
+                          {.effects = {.noise = true}, .detection = {.all_bins = true, .above_db = above_db}});
   };
-  const double floor_db = ping(0, 200).noise_floor_db;
+  const double floor_db = ping(0, 200).report.noise_floor_db;
   for (const double rate : {1e-2, 1e-3, 1e-4}) {
     const int pings = rate < 5e-4 ? 12 : 3;
     double found = 0, cells = 0;
@@ -137,7 +138,7 @@ TEST(SimulatePing, of_an_empty_view_is_silent_and_finite) {
   const Water water;
   const SimulatedPing p =
       simulate_ping(scene, plain_head, pose_from_yaw_pitch_roll({0, 0, 100}, 0, radians(-90), 0), {water});
-  EXPECT_EQ(p.sampling.scatterers, 0U);
+  EXPECT_EQ(p.report.sampling.scatterers, 0U);
   EXPECT_EQ(p.ping.pressure.abs().maxCoeff(), 0);
   EXPECT_EQ(p.soundings.size(), 0U);
 }

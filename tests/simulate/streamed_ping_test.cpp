@@ -2,6 +2,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
+#include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -9,13 +10,14 @@ namespace {
 const SonarHead head_at_rest = small_head({.max_range = 20});
 
 void expect_same_stored(const SceneCloud& scene, SimulationOptions options, const Pose& pose,
-                        const SonarHead& head = head_at_rest, std::size_t least = 100000) {
-  const SimulatedPing streamed = simulate_ping(scene, head, pose, {}, options);
+                        const SonarHead& head = head_at_rest, std::size_t least = 100000, const Motion& motion = {}) {
+  const PingEvent event{pose, motion};
+  const SimulatedPing streamed = simulate_event(scene, head, event, {}, options);
   options.outputs.scatterers = true;
-  const SimulatedPing stored = simulate_ping(scene, head, pose, {}, options);
-  EXPECT_EQ(streamed.scatterers.size(), 0U);
-  EXPECT_EQ(stored.scatterers.size(), streamed.sampling.scatterers);
-  EXPECT_GT(streamed.sampling.scatterers, least);
+  const SimulatedPing stored = simulate_event(scene, head, event, {}, options);
+  EXPECT_EQ(streamed.outputs.scatterers.size(), 0U);
+  EXPECT_EQ(stored.outputs.scatterers.size(), streamed.report.sampling.scatterers);
+  EXPECT_GT(streamed.report.sampling.scatterers, least);
   EXPECT_GT(streamed.ping.pressure.abs().maxCoeff(), 0);
   EXPECT_TRUE((streamed.ping.pressure == stored.ping.pressure).all());
   EXPECT_GT(streamed.soundings.size(), 10U);
@@ -78,10 +80,10 @@ TEST(StreamedPing, is_the_stored_one_of_a_head_that_moves_and_turns) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
   SimulationOptions options{.sampling = {.scatterers_per_cell = 60}, .threads = 3};
   options.effects.moving = Choice::always;
-  options.effects.motion = {{13, -4, 1}, {0.1, 0.2, -0.9}};
   for (const Choice true_delays : {Choice::never, Choice::always}) {
     options.synthesis.true_delays = true_delays;
-    expect_same_stored(scene, options, pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0));
+    expect_same_stored(scene, options, pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0), head_at_rest, 100000,
+                       {{13, -4, 1}, {0.1, 0.2, -0.9}});
   }
 }
 
@@ -89,12 +91,12 @@ TEST(StreamedPing, is_the_stored_one_of_a_head_that_moves_and_turns) {
 TEST(StreamedPing, of_many_pings_that_share_what_forms_their_beams_are_single_pings) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
   const PreparedScene prepared(scene);
-  KeptSynthesizers kept;
+  const SimulationOptions options{.synthesis = {.tolerance = 1e-3}, .outputs = {.split_phase = true}};
+  const PingSimulator simulator(head_at_rest, {}, options);
   for (const double yaw : {0.0, 20.0, -40.0}) {
     const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, radians(yaw), radians(10), 0);
-    const SimulationOptions options{.synthesis = {.tolerance = 1e-3}, .outputs = {.split_phase = true}};
     const SimulatedPing single = simulate_ping(prepared, head_at_rest, pose, {}, options);
-    const SimulatedPing shared = simulate_ping(prepared, head_at_rest, pose, {}, options, &kept);
+    const SimulatedPing shared = simulator.ping(prepared, {pose});
     EXPECT_GT(single.ping.pressure.abs().maxCoeff(), 0);
     EXPECT_TRUE((single.ping.pressure == shared.ping.pressure).all()) << yaw;
     EXPECT_TRUE((single.ping.split_phase == shared.ping.split_phase).all()) << yaw;

@@ -9,7 +9,7 @@ namespace insonify {
 inline SceneCloud scene_for_ping(const LoadedScene& loaded, const SonarHead& head, const Pose& pose,
                                  const SimulationOptions& options) {
   if (!loaded.mesh) return loaded.scene;
-  const ResolvedPing ping = resolve_ping(loaded.mesh->whole, head, pose, {}, options);
+  const ResolvedPing ping = resolve_ping(loaded.mesh->whole, head, {pose}, {}, options);
   return mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling).scene;
 }
 

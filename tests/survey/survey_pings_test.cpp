@@ -96,7 +96,7 @@ TEST(SurveyPings, stand_where_the_mounting_is_and_move_with_its_lever_arm) {
   m.trajectory = {{0, 2},
                   {pose_from_yaw_pitch_roll({1, 2, 3}, 0, 0, 0), pose_from_yaw_pitch_roll({1, 2, 3}, pi / 2, 0, 0)}};
   m.heads[0].vehicle_from_head = pose_from_yaw_pitch_roll({2, 0, 0}, -pi / 2, 0, 0);
-  const PingPlace place = place_of(m, {0, 0, 1, 0, radians(30)});
+  const PingEvent place = event_of(m, {0, 0, 1, 0, radians(30)});
   const HeadPlace at = head_place(place.world_from_head);
   const double r = 2 * std::sqrt(0.5);
   EXPECT_TRUE(at.position.isApprox(Eigen::Vector3d(1 + r, 2 + r, 3), 1e-12)) << at.position.transpose();
@@ -110,10 +110,10 @@ TEST(SurveyPings, have_random_numbers_of_their_own) {
   m.heads.push_back(m.heads[0]);
   m.heads[1].name = "other";
   std::set<std::int64_t> numbers;
-  for (const SurveyPing& ping : survey_pings(m)) numbers.insert(random_number_of(ping));
+  for (const SurveyPing& ping : survey_pings(m)) numbers.insert(random_stream_of(ping));
   EXPECT_EQ(numbers.size(), 20U);
   m.legs = {{"one", 0, 1}, {"two", 4, 5}};
-  for (const SurveyPing& ping : survey_pings(m)) EXPECT_TRUE(numbers.contains(random_number_of(ping)));
+  for (const SurveyPing& ping : survey_pings(m)) EXPECT_TRUE(numbers.contains(random_stream_of(ping)));
 }
 
 TEST(SurveyPings, are_divided_into_blocks_of_one_head_each) {

@@ -118,7 +118,7 @@ TEST_F(Missions, that_are_made_can_be_surveyed_and_swept) {
     EXPECT_LT((at(lines.legs[k].to) - Eigen::Vector3d(3 * side, y, -3)).norm(), 0.01) << k;
   }
   for (const SurveyPing& ping : survey_pings(orbit)) {
-    const Pose head = place_of(orbit, ping).world_from_head;
+    const Pose head = event_of(orbit, ping).world_from_head;
     EXPECT_NEAR(head.translation().head<2>().norm(), 3, 0.02);
     EXPECT_NEAR(head.linear().col(0).head<2>().normalized().dot(head.translation().head<2>() / 3), -1, 0.02);
   }

@@ -79,7 +79,7 @@ struct Wrong {
 
 Wrong compare_surfels(const HeightField& field, const SceneCloud& scene, const View& view, SimulationOptions options) {
   options.sampling.scatterers_per_cell = 0;
-  ResolvedPing ping = resolve_ping(whole_of(scene), view.head, view.pose, {}, options);
+  ResolvedPing ping = resolve_ping(whole_of(scene), view.head, {view.pose}, {}, options);
   const auto sampled = [&](bool occlusion) {
     SamplingOptions sampling = ping.view.sampling;
     sampling.occlusion = occlusion;

@@ -40,7 +40,7 @@ class Bench {
     options.sampling.outer_azimuths = Choice::always;
     const Eigen::Vector3d tilt = file.mounting.isZero(0) ? Eigen::Vector3d(0, radians(10), 0) : file.mounting;
     ping_ = resolve_ping(scene.whole(), make_head(spec, sound_speed(water.water)),
-                         pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z()), water, options);
+                         {pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z())}, water, options);
   }
 
   /// How surfels are split.

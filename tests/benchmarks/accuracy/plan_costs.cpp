@@ -17,13 +17,14 @@ std::vector<PlanCase> cost_cases() {
     SonarSpec spec = find_sonar(sonar).spec;
     spec.min_range = near, spec.max_range = far;
     const bool harbour = scene == std::string("harbour");
-    PlanCase& c = cases.emplace_back(PlanCase{what,
-                                              sonar,
-                                              make_built_in_scene(scene, {.points = points, .size = {20, 20}}),
-                                              make_head(spec, sound_speed(water.water)),
-                                              pose_from_yaw_pitch_roll({0, 0, harbour ? -3.0 : 3.0}, 0, radians(15), 0),
-                                              water,
-                                              {}});
+    PlanCase& c =
+        cases.emplace_back(PlanCase{what,
+                                    sonar,
+                                    make_built_in_scene(scene, {.points = points, .size = {20, 20}}),
+                                    make_head(spec, sound_speed(water.water)),
+                                    {pose_from_yaw_pitch_roll({0, 0, harbour ? -3.0 : 3.0}, 0, radians(15), 0)},
+                                    water,
+                                    {}});
     c.options.threads = 1;
     c.options.sampling.scatterers_per_cell = per_cell;
     c.options.synthesis = {.method = method, .true_delays = Choice::never};
@@ -46,11 +47,11 @@ std::vector<PlanCase> cost_cases() {
 }
 
 PlanCost measure_cost(const PlanCase& c) {
-  const PingPlan plan = plan_ping(c.cloud, c.head, c.pose, c.environment, c.options);
+  const PingPlan plan = plan_ping(c.cloud, c.head, c.event, c.environment, c.options);
   forget_peak_memory();
   const double before = peak_memory_mib();
   const std::clock_t start = std::clock();
-  const SimulatedPing ping = simulate_ping(c.cloud, c.head, c.pose, c.environment, plan.options);
+  const SimulatedPing ping = simulate_ping(c.cloud, c.head, c.event.world_from_head, c.environment, plan.options);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return {c.scene,
           plan.seconds,
@@ -58,7 +59,7 @@ PlanCost measure_cost(const PlanCase& c) {
           plan.mib,
           peak_memory_mib() - before,
           plan.scatterers,
-          static_cast<double>(ping.sampling.scatterers)};
+          static_cast<double>(ping.report.sampling.scatterers)};
 }
 
 }  // namespace insonify

@@ -94,13 +94,12 @@ std::vector<PlanCase> plan_cases() {
   const auto add = [&](const char* scene, SceneCloud cloud, const HeadPart& part, const Pose& at,
                        const Environment& environment, const Motion& motion = {}) {
     PlanCase& c = cases.emplace_back(
-        PlanCase{scene, part.sonar, std::move(cloud), head_of(part, environment), at, environment, {}});
+        PlanCase{scene, part.sonar, std::move(cloud), head_of(part, environment), {at, motion}, environment, {}});
     c.options.seed = cases.size();
     c.options.sampling.outer_elevations = c.options.sampling.outer_azimuths = Choice::never;
     c.options.effects.multipath = c.options.effects.refraction = c.options.effects.moving = Choice::never;
     c.options.effects.absorption_order = 0;
     c.options.synthesis.true_delays = Choice::never;
-    c.options.effects.motion = motion;
   };
   const Environment coast = water_of(12, 5);
   add("plane", built_in("plane", 7000), {"oculus-m750d", 5, 6.5, 12}, pose(0, 0, 3, 15), coast);
@@ -125,19 +124,20 @@ std::vector<PlanCase> plan_cases() {
 namespace {
 
 ComplexGrid image(const PlanCase& c) {
-  return simulate_ping(c.cloud, c.head, c.pose, c.environment, c.options).ping.pressure.cast<std::complex<double>>();
+  const PingSimulator simulator(c.head, c.environment, c.options);
+  return simulator.ping(PreparedScene(c.cloud), c.event).ping.pressure.cast<std::complex<double>>();
 }
 
 }  // namespace
 
 std::vector<PlanEffect> plan_effects(const PlanCase& c) {
-  const PingPlan plan = plan_ping(c.cloud, c.head, c.pose, c.environment, c.options);
+  const PingPlan plan = plan_ping(c.cloud, c.head, c.event, c.environment, c.options);
   const ComplexGrid without = image(c);
   std::vector<PlanEffect> effects;
   for (const PlannedStage& stage : plan.stages) {
     if (stage.by != DecidedBy::budget || stage.bound_relative == 0) continue;
     PlanCase forced = c;
-    force_stage(stage.name, true, forced.environment, forced.options);
+    force_stage(stage.name, true, forced.event, forced.environment, forced.options);
     const std::clock_t start = std::clock();
     const ComplexGrid with = image(forced);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -154,8 +154,7 @@ LeftOut left_out_of_default(const PlanCase& c, double accuracy_db) {
   by_default.options = {};
   by_default.options.accuracy_db = accuracy_db;
   by_default.options.seed = c.options.seed;
-  by_default.options.effects.motion = c.options.effects.motion;
-  const PingPlan plan = plan_ping(c.cloud, c.head, c.pose, c.environment, by_default.options);
+  const PingPlan plan = plan_ping(c.cloud, c.head, c.event, c.environment, by_default.options);
   by_default.options = plan.options;
   PlanCase whole = by_default;
   LeftOut result;
@@ -163,7 +162,7 @@ LeftOut left_out_of_default(const PlanCase& c, double accuracy_db) {
   for (const PlannedStage& stage : plan.stages) {
     const bool too_slow = stage.name == "true-delays" && c.head.column;
     if (stage.by != DecidedBy::budget || stage.included || stage.bound_relative == 0 || too_slow) continue;
-    force_stage(stage.name, true, whole.environment, whole.options);
+    force_stage(stage.name, true, whole.event, whole.environment, whole.options);
     result.stages += (result.stages.empty() ? "" : ", ") + stage.name;
     squares += stage.bound_relative * stage.bound_relative;
   }

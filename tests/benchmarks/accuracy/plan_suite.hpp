@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "simulate/plan_ping.hpp"
+#include "simulate/simulate_ping.hpp"
 
 namespace insonify {
 
@@ -11,7 +12,7 @@ struct PlanCase {
   std::string scene, sonar;
   SceneCloud cloud;
   SonarHead head;
-  Pose pose;
+  PingEvent event;
   Environment environment;
   SimulationOptions options;  ///< all that the budget decides is out
 };

@@ -29,13 +29,12 @@ struct PingTime {
   std::size_t scatterers = 0, samples = 0;
 };
 
-PingTime time_ping(const PreparedScene& scene, const SonarHead& head, const Pose& pose,
-                   const SimulationOptions& options, KeptSynthesizers& kept) {
+PingTime time_ping(const PingSimulator& simulator, const PreparedScene& scene, const Pose& pose) {
   const std::clock_t begin = std::clock();
   StopWatch watch;
-  const SimulatedPing result = simulate_ping(scene, head, pose, fresh_water, options, &kept);
-  PingTime time{watch.lap(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, result.seconds,
-                result.sampling.scatterers, head.fan.beams() * head.gate.bins()};
+  const SimulatedPing result = simulator.ping(scene, {pose});
+  PingTime time{watch.lap(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, result.report.seconds,
+                result.report.sampling.scatterers, static_cast<std::size_t>(result.ping.pressure.size())};
   return time;
 }
 
@@ -43,12 +42,12 @@ PingTime time_ping(const PreparedScene& scene, const SonarHead& head, const Pose
 /// takes more than a second.
 PingTime median_ping(int repeats, const PreparedScene& scene, const SonarHead& head, const Pose& pose,
                      const SimulationOptions& options = {}) {
-  KeptSynthesizers kept;
-  const PingTime first = time_ping(scene, head, pose, options, kept);
+  const PingSimulator simulator(head, fresh_water, options);
+  const PingTime first = time_ping(simulator, scene, pose);
   if (first.wall > 1) return first;
   if (first.wall < 0.2) repeats = 11;
   std::vector<PingTime> times;
-  for (int k = 0; k < repeats; ++k) times.push_back(time_ping(scene, head, pose, options, kept));
+  for (int k = 0; k < repeats; ++k) times.push_back(time_ping(simulator, scene, pose));
   std::sort(times.begin(), times.end(), [](const PingTime& a, const PingTime& b) { return a.wall < b.wall; });
   return times[times.size() / 2];
 }

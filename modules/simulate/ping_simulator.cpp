@@ -1,0 +1,94 @@
+// A ping: the whole signal path. Start reading at PingSimulator::ping.
+#include "simulate/ping_simulator.hpp"
+
+#include <utility>
+
+#include "core/stop_watch.hpp"
+#include "core/work_progress.hpp"
+#include "simulate/average_looks_internal.hpp"
+#include "simulate/layer_sum_internal.hpp"
+#include "simulate/ping_stages_internal.hpp"
+#include "simulate/plan_stages_internal.hpp"
+#include "simulate/resolve_ping_internal.hpp"
+
+namespace insonify {
+
+struct PingSimulator::Shared {
+  SonarHead head;
+  Environment environment;
+  SimulationOptions options;
+  SynthesizerTable synthesizers;
+};
+
+namespace {
+
+constexpr const char* me = "PingSimulator";
+
+}  // namespace
+
+PingSimulator::PingSimulator(SonarHead head, Environment environment, SimulationOptions options)
+    : shared_(std::make_shared<Shared>(std::move(head), std::move(environment), std::move(options))) {
+  require_valid(shared_->head, shared_->environment, shared_->options, me);
+}
+
+const SonarHead& PingSimulator::head() const { return shared_->head; }
+const Environment& PingSimulator::environment() const { return shared_->environment; }
+const SimulationOptions& PingSimulator::options() const { return shared_->options; }
+
+ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& event) const {
+  return resolve_valid_ping(scene, shared_->head, event, shared_->environment, shared_->options, me);
+}
+
+PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {
+  return plan_of(scene.scene(), &scene, resolve(scene.whole(), event));
+}
+
+InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& event) const {
+  return resolve(scene, event).region;
+}
+
+SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event) const {
+  ResolvedPing ping = resolve(scene.whole(), event);
+  decide_effects(scene, ping);
+  return this->ping(scene, ping);
+}
+
+SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing& decided) const {
+  ResolvedPing ping = decided;
+  SimulatedPing result;
+  StageSeconds& seconds = result.report.seconds;
+  StopWatch watch;
+
+  // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
+  begin_stage("sampling");
+  PingParts parts = sample_parts(scene, ping, result.report);
+  seconds.sampling = watch.lap();
+
+  // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
+  begin_stage("echoes");
+  const EchoSource direct = direct_source(scene.scene(), ping, parts);
+  seconds.acoustics = watch.lap();
+
+  // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
+  begin_stage("synthesis");
+  LayerSum layers(ping, shared_->synthesizers);
+  layers.add("direct", direct);
+  add_multipath(scene, ping, parts, layers);
+  for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
+  if (ping.options.effects.noise) layers.add_noise();
+  layers.finish(result);
+  average_looks(decided, result.ping, [&](const ResolvedPing& look) { return this->ping(scene, look).ping; });
+  seconds.synthesis = watch.lap();
+
+  // What an operator would mark: detections, as points in the world.
+  begin_stage("detection");
+  result.soundings = detect_soundings(result.ping, direct, ping.detection);
+  seconds.detection = watch.lap();
+
+  // What the options ask for besides, and how the ping came about.
+  begin_stage("outputs");
+  attach_outputs(scene, ping, std::move(parts), result);
+  return result;
+}
+
+}  // namespace insonify
