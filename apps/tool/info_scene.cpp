@@ -66,6 +66,7 @@ ordered_json cloud_info(const std::string& path) {
                        {"width", d.width},
                        {"height", d.height},
                        {"not_finite", d.not_finite},
+                       {"withheld", d.withheld},
                        {"duplicates", d.duplicates},
                        {"fields", fields},
                        {"bounds", {{"min", point(d.min)}, {"max", point(d.max)}}},

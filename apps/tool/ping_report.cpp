@@ -100,6 +100,7 @@ ordered_json scene_json(const LoadedScene& loaded) {
           {"triangles_read", r.triangles_read},
           {"surfels", loaded.scene.size()},
           {"dropped_not_finite", r.dropped_not_finite},
+          {"dropped_withheld", r.dropped_withheld},
           {"dropped_duplicates", r.dropped_duplicates},
           {"dropped_degenerate_triangles", r.dropped_degenerate},
           {"dropped_without_normal", r.dropped_without_normal},

@@ -234,6 +234,7 @@ std::vector<std::string> loading_notes(const LoadReport& r) {
     if (n > 0) notes.push_back(fmt::format("{}: {} {}", r.path, n, what));
   };
   count(r.dropped_not_finite, "points with coordinates that are NaN, infinite or beyond 1e9 m dropped");
+  count(r.dropped_withheld, "points that the file marks as withheld left out");
   count(r.dropped_duplicates, "duplicate points dropped");
   count(r.dropped_degenerate, "degenerate triangles dropped");
   count(r.repaired_normals, "zero or NaN normals replaced by estimates");

@@ -14,11 +14,8 @@ constexpr double knots_per_m_s = 3600.0 / 1852;
 /// Whether a correction fits into the centimetres of TIDE_CORRECTOR; else it is one of GPS_TIDE_CORRECTOR.
 bool is_small_tide(double tide) { return std::abs(tide) < 327; }
 
-double least_angle_beam(const GsfPing& p) {
-  const auto least =
-      std::min_element(p.beams.begin(), p.beams.end(), [](const auto& a, const auto& b) { return a.angle < b.angle; });
-  return static_cast<double>(least - p.beams.begin());
-}
+/// The GSF library takes an EM 2040 whose centre is before the middle for the starboard one of two heads.
+double middle_beam(const GsfPing& p) { return static_cast<double>(p.beams.size() / 2); }
 
 double detections(const GsfPing& p) {
   return static_cast<double>(std::count_if(p.beams.begin(), p.beams.end(), [](const auto& b) { return b.detected; }));
@@ -38,7 +35,7 @@ const GsfField<Ping> ping_fields[] = {
      [](const Ping& p) { return degrees(p.place.latitude); }},
     {"NUM_BEAMS", u16, 1, "", "entries of every array, from port to starboard",
      [](const Ping& p) { return static_cast<double>(p.beams.size()); }},
-    {"CENTER_BEAM", u16, 1, "", "the beam nearest to straight down, from 0", least_angle_beam},
+    {"CENTER_BEAM", u16, 1, "", "the middle one, from 0: half of NUM_BEAMS", middle_beam},
     {"PING_FLAGS", zeros, 2, "", ""},
     {"RESERVED", zeros, 2, "", ""},
     {"TIDE_CORRECTOR", i16, 100, "m",

@@ -47,14 +47,8 @@ const std::string vector_part = part_line + "geometry_msgs/Vector3\nfloat64 x\nf
 constexpr std::uint32_t dtype_uint8 = 0, dtype_uint32 = 4;
 constexpr std::uint8_t uint32_field = 6, float32_field = 7;  // of PointField
 
-/// A window whose grey values are the nearest ones by level = black + grey / 255 (white - black): quantise_8 rounds up (E58).
-GreyWindow nearest_grey(const GreyWindow& window) {
-  const double half_step = (window.max_db - window.min_db) / 255 / 2;
-  return {window.min_db + half_step, window.max_db + half_step};
-}
-
 Grid<std::uint8_t> greys_of(const Ping& ping, const Tvg& tvg, const GreyWindow& window) {
-  return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), nearest_grey(window));
+  return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
 }
 
 }  // namespace
@@ -141,7 +135,7 @@ std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double f
 }
 
 std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height) {
-  const GreyFan raster = grey_fan(ping, tvg, nearest_grey(window), height);
+  const GreyFan raster = grey_fan(ping, tvg, window, height);
   CdrMessage message;
   message.header(time, "head");
   message.count(static_cast<std::size_t>(raster.grey.rows()));

@@ -146,14 +146,12 @@ std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
     }
     if (best == bins) break;
     // Where in the interval most energy is: any that holds a short echo has as much as the one about it.
-    std::size_t reach = reach_of(beam, ping_.gate.centre(best));
+    const std::size_t reach = reach_of(beam, ping_.gate.centre(best));
     const std::size_t begin = best - std::min(best, reach), end = std::min(bins, best + reach + 1);
     const double middle = std::clamp((moment[end] - moment[begin]) / (sum[end] - sum[begin]),
                                      static_cast<double>(begin), static_cast<double>(end - 1));
     found.push_back({ping_.gate.centre(0) + middle * ping_.gate.bin_size, most});
-    reach *= 3;
-    std::fill(taken.begin() + static_cast<std::ptrdiff_t>(best - std::min(best, reach)),
-              taken.begin() + static_cast<std::ptrdiff_t>(std::min(bins, best + reach + 1)), 1);
+    for (std::size_t n = best - std::min(best, 3 * reach); n < std::min(bins, best + 3 * reach + 1); ++n) taken[n] = 1;
   }
   return found;
 }
@@ -274,8 +272,10 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
           beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range + echo.lengthening : find.range);
       const bool by_phase = phase.deviation < amplitude.deviation;
       BottomEstimate best = by_phase ? phase : amplitude;
-      if (!std::isfinite(best.deviation) || !(best.range > ping.gate.min_range))
-        best = {find.range, std::max(echo.half_power_reach, ping.gate.bin_size)};
+      const double cell = std::max(echo.half_power_reach, ping.gate.bin_size);
+      if (!std::isfinite(best.deviation) || !(best.range > ping.gate.min_range)) best = {find.range, cell};
+      const auto met = [&](const Sounding& s) { return std::abs(s.best.range - best.range) < cell; };
+      if (std::any_of(soundings[b].begin(), soundings[b].end(), met)) continue;  // both fits are of one echo
       soundings[b].push_back({best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
                               prepared.level_db_near(b, best.range, echo.half_power_reach), echo});
     }

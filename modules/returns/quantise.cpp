@@ -23,7 +23,7 @@ Grid<Grey> quantised(const Grid<float>& level_db, const GreyWindow& w, const cha
     for (Eigen::Index n = 0; n < grey.cols(); ++n) {
       const double level = level_db(b, n);
       if (std::isnan(level)) fail(ErrorKind::content, who, ": level(", b, ", ", n, ") is not a number");
-      const double step = std::ceil((level - w.min_db) / (w.max_db - w.min_db) * most);  // (E58)
+      const double step = std::round((level - w.min_db) / (w.max_db - w.min_db) * most);  // (E58)
       grey(b, n) = static_cast<Grey>(step <= 0 ? 0 : step < most ? step : most);
     }
   return grey;
@@ -62,7 +62,7 @@ double level_of_grey(std::uint16_t value, int bits, const GreyWindow& w) {
   if (bits != 8 && bits != 16) fail(ErrorKind::argument, "level_of_grey: bits = ", bits, ", must be 8 or 16");
   const int most = bits == 8 ? 255 : 65535;
   if (value > most) fail(ErrorKind::argument, "level_of_grey: value = ", value, ", must be at most ", most);
-  return value == 0 ? w.min_db : w.min_db + (value - 0.5) * (w.max_db - w.min_db) / most;
+  return w.min_db + value * (w.max_db - w.min_db) / most;
 }
 
 }  // namespace insonify

@@ -24,19 +24,18 @@ Grid<float> apply_tvg(Grid<float> level_db, const RangeGate& gate, const Tvg& tv
 
 /// Range of levels of a display, from black to white.
 struct GreyWindow {
-  double min_db = 0;  ///< levels up to it map to 0
-  double max_db = 0;  ///< levels from it on map to the largest value, 255 or 65535
+  double min_db = 0;  ///< level of grey value 0, to which lower ones map too
+  double max_db = 0;  ///< level of the largest value, 255 or 65535, to which higher ones map too
 };
 
-/// Returns grey values of levels (E58), linear in dB: 0 only at or below min_db; above it steps of (max_db -
-/// min_db)/255 or /65535, and the largest value in the last step and above. Throws Error(argument) unless the window is
-/// finite with min_db < max_db, Error(content) for a level that is not a number.
+/// Returns the grey values that are nearest to levels (E58), linear in dB by steps of (max_db - min_db)/255 or /65535, 0
+/// and the largest value beyond the window. Throws Error(argument) unless the window is finite with min_db < max_db,
+/// Error(content) for a level that is not a number.
 Grid<std::uint8_t> quantise_8(const Grid<float>& level_db, const GreyWindow& window);
 /// The same in 65535 steps.
 Grid<std::uint16_t> quantise_16(const Grid<float>& level_db, const GreyWindow& window);
 
-/// Returns the level at the middle of a grey value's step [dB], within half a step of the original for levels in the
-/// window; min_db for 0. Throws Error(argument) unless `bits` is 8 or 16 and `value` is within its range.
+/// Returns the level of a grey value [dB], within half a step of the original for levels in the window. Throws Error(argument) unless `bits` is 8 or 16 and `value` is within its range.
 double level_of_grey(std::uint16_t value, int bits, const GreyWindow& window);
 
 }  // namespace insonify

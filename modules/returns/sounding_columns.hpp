@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "returns/soundings.hpp"
 
 namespace insonify {
@@ -7,6 +9,13 @@ namespace insonify {
 struct SoundingColumn {
   const char *name, *unit;
 };
+
+/// The unit of a column in files whose whole numbers are signed: -1 in place of 4294967295.
+inline std::string signed_unit(const SoundingColumn& column) {
+  const std::string unit = column.unit, none = std::to_string(Soundings::none);
+  const std::size_t at = unit.find(none);
+  return at == unit.npos ? unit : std::string(unit).replace(at, none.size(), "-1");
+}
 
 /// Calls use(SoundingColumn, column ...) for every column beside position, in the order of files, with the columns of one
 /// or more soundings.

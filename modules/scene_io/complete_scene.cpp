@@ -19,11 +19,11 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
   column.resize(keep.size());
 }
 
-/// Drops points that are not finite or coincide with an earlier point.
+/// Drops points that are withheld, not finite or coincide with an earlier point.
 void drop_unusable(RawCloud& raw, LoadReport& report) {
   // Files written by save_scene contain no duplicates.
   const bool search = !raw.tags.prepared;
-  if (!search && raw.not_finite == 0) return;
+  if (!search && raw.not_finite + raw.withheld == 0) return;
   std::vector<std::uint32_t> first(raw.point.size());
   std::iota(first.begin(), first.end(), 0u);
   if (search) first = first_at_same_place(raw.point);
@@ -90,18 +90,6 @@ void check_intervals(const LoadOptions& options, const char* who) {
   }
 }
 
-LoadReport begin_report(const RawCloud& raw) {
-  LoadReport report;
-  report.path = raw.path;
-  report.format = raw.format;
-  report.points_read = raw.points_in_file;
-  report.triangles_read = raw.triangles_in_file;
-  report.dropped_not_finite = raw.not_finite;
-  report.notes = raw.notes;
-  report.other_columns = raw.other_columns;
-  return report;
-}
-
 /// Typical spacing [m]: of a cloud from its surfels, of a mesh from its vertices.
 double typical_spacing(const RawCloud& raw, std::vector<float> areas) {
   if (!raw.triangle.empty()) {
@@ -114,6 +102,18 @@ double typical_spacing(const RawCloud& raw, std::vector<float> areas) {
 }
 
 }  // namespace
+
+LoadReport begin_report(const RawCloud& raw) {
+  LoadReport report;
+  report.path = raw.path;
+  report.format = raw.format;
+  report.points_read = raw.points_in_file;
+  report.triangles_read = raw.triangles_in_file;
+  report.dropped_not_finite = raw.not_finite, report.dropped_withheld = raw.withheld;
+  report.notes = raw.notes;
+  report.other_columns = raw.other_columns;
+  return report;
+}
 
 std::string share(std::size_t part, std::size_t whole, const char* noun) {
   std::ostringstream text;

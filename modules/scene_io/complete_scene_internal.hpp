@@ -15,6 +15,9 @@ void check_options(const LoadOptions& options, const char* who);
 /// Cleans and completes a raw cloud and counts the changes: everything load_scene does after reading.
 LoadedScene complete_scene(RawCloud raw, const LoadOptions& options);
 
+/// What a report says of a cloud before it is cleaned.
+LoadReport begin_report(const RawCloud& raw);
+
 /// For each point the first index with exactly the same coordinates (its own if there is no earlier one).
 /// Points that are not finite match no other.
 std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points);

@@ -94,6 +94,8 @@ void add_problems(const RawCloud& raw, bool fans_out, FileDescription& file) {
   if (raw.not_finite > 0)
     problems.push_back(share(raw.not_finite, file.points, "points") +
                        " are not finite, or beyond 1e9 m: will be dropped");
+  if (raw.withheld > 0)
+    problems.push_back(share(raw.withheld, file.points, "points") + " are marked as withheld: will be left out");
   if (file.duplicates > 0 && raw.triangle.empty())
     problems.push_back(share(file.duplicates, file.points, "points") +
                        " coincide with an earlier one: will be dropped");
@@ -121,6 +123,7 @@ FileDescription describe_file(const std::string& path) {
   file.points = raw.points_in_file;
   file.triangles = raw.triangles_in_file;
   file.not_finite = raw.not_finite;
+  file.withheld = raw.withheld;
   file.width = raw.width;
   file.height = raw.height;
   file.fields = raw.fields;

@@ -16,7 +16,7 @@ struct FileDescription {
     std::string name, type;  ///< e.g. "x", "float32"
   };
   std::string path, format;
-  std::size_t points = 0, triangles = 0, not_finite = 0, duplicates = 0;
+  std::size_t points = 0, triangles = 0, not_finite = 0, withheld = 0, duplicates = 0;
   std::size_t width = 0, height = 0;  ///< height > 1: organised
   std::vector<Field> fields;
   Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of finite points [file units]

@@ -62,9 +62,7 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
                ", must be the same; fill every column");
         const bool real = std::is_same_v<decltype(column.front()), const float&>;
         rows.columns.push_back({prefix + about.name, real ? NumberType::float32 : NumberType::uint32});
-        std::string unit = about.unit;
-        if (const std::size_t none = unit.find("4294967295"); ply && none != unit.npos) unit.replace(none, 10, "-1");
-        rows.comments.push_back("unit " + prefix + about.name + " " + unit);
+        rows.comments.push_back("unit " + prefix + about.name + " " + (ply ? signed_unit(about) : about.unit));
       },
       soundings);
   rows.write_row = [&soundings, wide](std::size_t i, char* out) {

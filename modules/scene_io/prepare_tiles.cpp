@@ -55,10 +55,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
   std::int64_t last_id = -1;
   for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
     const RawCloud raw = read_batch(survey, first).raw;
-    whole.box.min = whole.box.min.cwiseMin(raw.box.min);
-    whole.box.max = whole.box.max.cwiseMax(raw.box.max);
-    whole.not_finite += raw.not_finite;
-    whole.too_far += raw.too_far;
+    add_counts(whole, raw);
     whole.float_coordinates = raw.float_coordinates;
     whole.label_field = raw.label_field;
     whole.other_columns = raw.other_columns;
@@ -68,7 +65,8 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     survey.bad_areas += static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad_area));
     for (const float area : raw.area)
       if (std::isfinite(area)) survey.largest_area = std::max(survey.largest_area, area);
-    for (const std::uint16_t label : raw.label) ++survey.label_count[label];
+    for (std::size_t i = 0; i < raw.label.size(); ++i)
+      if (raw.point[i].allFinite()) ++survey.label_count[raw.label[i]];
     survey.ids_ascend = survey.ids_ascend && !raw.id.empty();
     for (const std::uint32_t id : raw.id) {
       survey.ids_ascend = survey.ids_ascend && id > last_id;
@@ -131,7 +129,7 @@ SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, con
 PreparedTiles stream(RowFile file, const std::string& output, const PrepareTilesOptions& options) {
   Survey survey{std::move(file), read_options(options.load), {}};
   RawCloud& whole = survey.whole;
-  whole.path = survey.file.path;
+  whole.path = survey.file.path, whole.format = survey.file.format;
   whole.tags = survey.file.tags;
   if (survey.file.viewpoint) whole.viewpoint = options.load.unit * *survey.file.viewpoint;
   if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
@@ -146,11 +144,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   survey.reading.origin = whole.origin = origin_of(whole.box, whole.tags, options.load.unit);
 
   LoadedScene result;
-  LoadReport& report = result.report;
-  report.path = whole.path;
-  report.format = survey.file.format;
-  report.points_read = survey.file.rows;
-  report.dropped_not_finite = whole.not_finite, report.other_columns = whole.other_columns;
+  LoadReport& report = result.report = begin_report(whole);
   report.areas_estimated = !survey.areas || survey.bad_areas > 0;
   if (survey.bad_areas > 0)
     report.notes.push_back("at least " + share(survey.bad_areas, survey.file.rows, "areas") +

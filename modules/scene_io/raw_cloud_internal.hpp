@@ -41,7 +41,7 @@ struct RawCloud {
   std::size_t points_in_file = 0;                    ///< differs from point.size() for OBJ corners
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]
   Bounds box;                                        ///< of the finite points, world [m]
-  std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite
+  std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite, or withheld
   std::vector<Eigen::Vector3f> normal;
   std::vector<float> area;           ///< [m^2]
   std::vector<float> noise;          ///< [m]
@@ -57,7 +57,8 @@ struct RawCloud {
   std::vector<float> surface_height;  ///< z on it [m], of points that stray from it by noise; empty: theirs
   std::string surface_name;           ///< what it is, for the report
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
-  std::size_t not_finite = 0;                            ///< too far ones among them
+  std::size_t withheld = 0;                              ///< points that their file marks as not to be used
+  std::size_t not_finite = 0;                            ///< of the others; too far ones among them
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate
   bool float_coordinates = false;                        ///< stored as float32
   std::optional<Eigen::Vector3d> viewpoint;              ///< [m]
@@ -67,6 +68,14 @@ struct RawCloud {
 };
 constexpr std::uint16_t no_label = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
+
+/// A bit by which a row says that it is not to be used; of a file without such a bit none has it.
+struct WithheldBit {
+  std::size_t offset = 0;  ///< of its byte within a row
+  std::uint8_t bit = 0;
+
+  bool is_set(const char* row) const { return (static_cast<unsigned char>(row[offset]) & bit) != 0; }
+};
 
 /// A table of packed rows in memory.
 struct RowTable {
@@ -86,6 +95,7 @@ struct RowTable {
   std::size_t rows = 0, stride = 0;
   const char* bytes = nullptr;
   std::shared_ptr<const void> owner;  ///< owner of the bytes, unless they outlive the table
+  WithheldBit withheld{};
 };
 
 /// Table of doubles in row-major order, one column per name.
@@ -109,10 +119,13 @@ ReadOptions read_options(const LoadOptions& options);
 /// finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
-/// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
+/// Widens the box of a cloud by that of a part of it, and adds its counts of points that are not used.
+void add_counts(RawCloud& whole, const RawCloud& part);
+
 /// Throws Error(content) if none of the file's points is usable, and says why.
 void require_usable_points(const RawCloud& raw, std::size_t points);
 
+/// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
 Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit);
 
 /// Coordinates of the rows in double [m], relative to options.origin; NaN where unusable.

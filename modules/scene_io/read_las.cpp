@@ -126,6 +126,7 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
     fail(ErrorKind::content, path, ": cut off: the header announces ", file.rows, " points of ", file.stride,
          " bytes from byte ", file.begin, ", the file has ", size, " bytes; copy or export the file again");
   add_columns(start, layout, format < 6, file);
+  file.withheld = format < 6 ? WithheldBit{layout.classification, 0x80} : WithheldBit{layout.classification - 1, 0x04};
 
   // The variable-length records between header and points.
   const std::string front = read_beginning(path, file.begin);

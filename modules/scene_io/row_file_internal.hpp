@@ -21,6 +21,7 @@ struct RowFile {
   SceneTags tags;
   std::optional<Eigen::Vector3d> viewpoint;  ///< [file units]
   std::vector<std::string> comments{};       ///< of a PLY
+  WithheldBit withheld{};
 };
 
 /// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole. Throws as

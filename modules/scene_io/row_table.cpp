@@ -18,6 +18,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t block_rows = 1 << 16;
+const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// The first column whose plain name is among `names`, in the order of `names`; null if none.
 const RowTable::Column* find_column(const RowTable& table, std::initializer_list<std::string> names) {
@@ -79,30 +80,28 @@ bool too_far(const Eigen::Vector3d& position) {
 
 bool usable(const Eigen::Vector3d& position) { return position.allFinite() && !too_far(position); }
 
+/// Where a row stands [m]; NaN if it is withheld.
+Eigen::Vector3d place_of(const RowTable& table, const Columns& found, const char* row, double unit) {
+  return table.withheld.is_set(row) ? nowhere : Eigen::Vector3d(unit * read_triple(found.position, row));
+}
+
 /// Finds bounding box, number of usable points, and origin.
 void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
-  const std::size_t blocks = (table.rows + block_rows - 1) / block_rows;
-  std::vector<Bounds> boxes(blocks);
-  std::vector<std::size_t> unusable(blocks, 0), far(blocks, 0);
+  std::vector<RawCloud> blocks((table.rows + block_rows - 1) / block_rows);  // boxes and counts
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
-    Bounds& box = boxes[first / block_rows];
+    RawCloud& block = blocks[first / block_rows];
     for (std::size_t i = 0; i < rows; ++i) {
-      const Eigen::Vector3d p = options.unit * read_triple(found.position, bytes + i * table.stride);
-      if (!usable(p)) {
-        ++unusable[first / block_rows];
-        far[first / block_rows] += too_far(p);
-        continue;
-      }
-      box.min = box.min.cwiseMin(p);
-      box.max = box.max.cwiseMax(p);
+      const char* row = bytes + i * table.stride;
+      const Eigen::Vector3d p = place_of(table, found, row, options.unit);
+      if (usable(p))
+        block.box.min = block.box.min.cwiseMin(p), block.box.max = block.box.max.cwiseMax(p);
+      else if (table.withheld.is_set(row))
+        ++block.withheld;
+      else
+        ++block.not_finite, block.too_far += too_far(p);
     }
   });
-  for (std::size_t b = 0; b < blocks; ++b) {
-    raw.box.min = raw.box.min.cwiseMin(boxes[b].min);
-    raw.box.max = raw.box.max.cwiseMax(boxes[b].max);
-    raw.not_finite += unusable[b];
-    raw.too_far += far[b];
-  }
+  for (const RawCloud& block : blocks) add_counts(raw, block);
   if (options.origin) {
     raw.origin = *options.origin;
     return;
@@ -151,8 +150,17 @@ std::vector<const RowTable::Column*> others_of(const RowTable& table, const Colu
 
 }  // namespace
 
+void add_counts(RawCloud& whole, const RawCloud& part) {
+  whole.box.min = whole.box.min.cwiseMin(part.box.min);
+  whole.box.max = whole.box.max.cwiseMax(part.box.max);
+  whole.withheld += part.withheld, whole.not_finite += part.not_finite, whole.too_far += part.too_far;
+}
+
 void require_usable_points(const RawCloud& raw, std::size_t points) {
-  if (raw.not_finite < points) return;
+  if (raw.withheld + raw.not_finite < points) return;
+  if (raw.withheld > 0)
+    fail(ErrorKind::content, raw.path, ": holds no usable point (", raw.withheld, " of ", points,
+         " points are marked as withheld); clear the flags, or export the cloud again");
   if (raw.too_far == 0)
     fail(ErrorKind::content, raw.path, ": holds no usable point (", points,
          " points, none with finite coordinates); export the cloud again");
@@ -170,9 +178,8 @@ std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::strin
   std::vector<Eigen::Vector3d> places(table.rows);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     for (std::size_t i = 0; i < rows; ++i) {
-      const Eigen::Vector3d p = options.unit * read_triple(found.position, bytes + i * table.stride);
-      places[first + i] = usable(p) ? Eigen::Vector3d(p - options.origin.value_or(Eigen::Vector3d::Zero()))
-                                    : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+      const Eigen::Vector3d p = place_of(table, found, bytes + i * table.stride, options.unit);
+      places[first + i] = usable(p) ? Eigen::Vector3d(p - options.origin.value_or(Eigen::Vector3d::Zero())) : nowhere;
     }
   });
   return places;
@@ -226,9 +233,8 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;
       const auto number = [&](const RowTable::Column& c) { return c.value(row); };
-      const Eigen::Vector3d p = options.unit * read_triple(found.position, row);
-      raw.point[first + i] = usable(p) ? Eigen::Vector3f((p - raw.origin).cast<float>())
-                                       : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+      const Eigen::Vector3d p = place_of(table, found, row, options.unit);
+      raw.point[first + i] = (usable(p) ? Eigen::Vector3d(p - raw.origin) : nowhere).cast<float>();
       if (normals) raw.normal[first + i] = read_triple(found.normal, row).cast<float>();
       if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
       if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * options.unit);
@@ -288,7 +294,7 @@ RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
         std::reverse(number, number + size_of(column.type));
       }
   }
-  return {file.columns, count, file.stride, bytes->data(), bytes};
+  return {file.columns, count, file.stride, bytes->data(), bytes, file.withheld};
 }
 
 }  // namespace insonify

@@ -7,13 +7,13 @@
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
-#include <vtkUnsignedIntArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include "core/error.hpp"
@@ -65,14 +65,14 @@ void save_points(const std::string& path, const Soundings& soundings, const std:
       [&](const SoundingColumn& about, const auto& column) {
         require_length(about.name, column.size());
         using Real = std::is_same<typename std::decay_t<decltype(column)>::value_type, float>;
-        using Array = std::conditional_t<Real::value, vtkFloatArray, vtkUnsignedIntArray>;
-        add_column<Array>(data, units, about.name, about.unit, column);
+        using Array = std::conditional_t<Real::value, vtkFloatArray, vtkIntArray>;
+        add_column<Array>(data, units, about.name, signed_unit(about), column);
       },
       soundings);
   for (const PointColumn& column : more) {
     require_length(column.name, column.values.size());
     if (column.whole)
-      add_column<vtkUnsignedIntArray>(data, units, column.name, column.unit, column.values);
+      add_column<vtkIntArray>(data, units, column.name, column.unit, column.values);
     else
       add_column<vtkDoubleArray>(data, units, column.name, column.unit, column.values);
   }

@@ -77,7 +77,7 @@ TEST(GsfFile, holds_what_its_specification_says) {
     EXPECT_NEAR(s.height, 3.0625, 5.1e-4);
     EXPECT_NEAR(s.separation, 44.125, 1e-9);
     EXPECT_EQ(s.beams, 3);
-    EXPECT_EQ(s.centre_beam, 1);  // an angle of 0
+    EXPECT_EQ(s.centre_beam, 1);
     EXPECT_EQ(s.ping_flags, 0);
     EXPECT_NEAR(s.tide, -0.34, 1e-9);
     EXPECT_NEAR(s.gps_tide, 0, 1e-9);

@@ -90,6 +90,27 @@ TEST(DetectBottom, gives_several_soundings_of_a_beam_on_request) {
   EXPECT_NEAR(both.range[1], 4, 1e-3);
 }
 
+// Both sides of an echo that is longer than the footprint of a level bottom lead to its middle: one sounding.
+TEST(DetectBottom, gives_an_echo_once) {
+  Ping ping = silent_swath(64, 10);
+  std::size_t several = 0;
+  for (std::size_t b = 0; b < 64; ++b) {
+    for (std::size_t n = 0; n < ping.gate.bins(); ++n)
+      ping.pressure(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n)) =
+          std::complex<float>(random_complex_normal(9, RandomStage::noise, {0, b, n}) *
+                              std::exp(-0.5 * std::pow((ping.gate.centre(n) - 7) / 0.05, 2)));
+    add_echo(ping, b, 9, 0.5, 0.03);
+  }
+  const BottomSoundings all = detect_bottom(ping, {.range_resolution = 0.03, .per_beam = 5});
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all.beam[i] != all.beam[i - 1]) continue;
+    ++several;
+    for (std::size_t j = i; j > 0 && all.beam[j - 1] == all.beam[i]; --j)
+      EXPECT_GE(std::abs(all.range[i] - all.range[j - 1]), ping.gate.bin_size) << all.beam[i];
+  }
+  EXPECT_GE(several, 64U) << "two echoes of each beam";
+}
+
 // The phase of the echo of a plane that is seen at 7 degrees, whose strongest part is nearer than the beam's axis: a line
 // fitted to it would cross zero 4 to 8 mm beyond, as the ranges bend. The echo is 1 degree long along the way.
 TEST(DetectBottom, takes_the_zero_of_the_phase_where_the_echo_is_long) {

@@ -1,4 +1,5 @@
 // LAS files, written here byte by byte from the specification.
+#include "scene_io/describe_file.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/test_files.hpp"
 #include "scene_io/tiled_scene.hpp"
@@ -12,13 +13,16 @@ struct LasFile {
   bool extra =
       false;       ///< an 'area' of uint16 in units of 1 cm2, after two bytes without a meaning, and an 'id' of uint32
   int points = 0;  ///< announced beyond those there are
+  std::size_t withheld = 0;  ///< of each so many points the first is withheld; 0: none
+  bool normals = false;      ///< upright ones, after the others
 
   std::size_t stride() const {
-    return std::array{20u, 28u, 26u, 34u, 57u, 63u, 30u, 36u, 38u, 59u, 67u}[format] + (extra ? 8u : 0u);
+    return std::array{20u, 28u, 26u, 34u, 57u, 63u, 30u, 36u, 38u, 59u, 67u}[format] + (extra ? 8u : 0u) +
+           (normals ? 12u : 0u);
   }
 
   std::string extra_record() const {
-    if (!extra) return "";
+    if (!extra && !normals) return "";
     const auto described = [](int type, int options, const std::string& name, double factor) {
       std::string d(192, '\0');
       d[2] = static_cast<char>(type);
@@ -27,7 +31,9 @@ struct LasFile {
       d.replace(112, 8, bytes_of(factor));
       return d;
     };
-    const std::string body = described(0, 2, "", 0) + described(3, 8, "area", 1e-4) + described(5, 0, "id", 0);
+    std::string body;
+    if (extra) body = described(0, 2, "", 0) + described(3, 8, "area", 1e-4) + described(5, 0, "id", 0);
+    if (normals) body += described(9, 0, "nx", 0) + described(9, 0, "ny", 0) + described(9, 0, "nz", 0);
     std::string head(54, '\0');
     head.replace(2, 9, "LASF_Spec");
     head.replace(18, 2, bytes_of(std::uint16_t{4}));
@@ -44,7 +50,7 @@ struct LasFile {
     put(24, {1, static_cast<char>(minor)});
     put(94, bytes_of(static_cast<std::uint16_t>(header_size)));
     put(96, bytes_of(static_cast<std::uint32_t>(header_size + records.size())));
-    put(100, bytes_of(extra ? 1u : 0u));
+    put(100, bytes_of(extra || normals ? 1u : 0u));
     put(104, std::string(1, static_cast<char>(format)));
     put(105, bytes_of(static_cast<std::uint16_t>(stride())));
     const auto count = static_cast<std::uint32_t>(places.size() + static_cast<std::size_t>(points));
@@ -64,10 +70,14 @@ struct LasFile {
                     bytes_of(static_cast<std::int32_t>(std::lround((places[i] - offset)[axis] / scale))));
       // Classes 0 and 2; up to format 5 their upper bits are flags.
       row[format < 6 ? 15 : 16] = static_cast<char>((i % 2 ? 2 : 0) | (format < 6 ? 0x20 : 0));
+      // A synthetic one, as above, is none that is withheld.
+      if (format >= 6) row[15] = 1;
+      if (withheld > 0 && i % withheld == 0) row[15] = static_cast<char>(row[15] | (format < 6 ? 0x80 : 4));
       if (extra) {
         row.replace(stride() - 6, 2, bytes_of(static_cast<std::uint16_t>(100 + i)));
         row.replace(stride() - 4, 4, bytes_of(static_cast<std::uint32_t>(1000 + i)));
       }
+      if (normals) row.replace(stride() - 4, 4, bytes_of(1.0F));
       rows += row;
     }
     return h + records + rows;
@@ -105,6 +115,40 @@ TEST(Las, extra_bytes_are_fields_with_their_scale) {
     EXPECT_NEAR(scene.scene.area[i], 0.01 + 1e-4 * static_cast<double>(i), 1e-8);
     EXPECT_EQ(scene.scene.id[i], 1000 + i);
   }
+}
+
+// Whole, in tiles and in batches of rows; a scene has neither their places nor their classes.
+TEST(Las, leaves_out_points_that_are_withheld) {
+  for (int format = 0; format <= 10; ++format) {
+    const LasFile las{.minor = format >= 6 ? 4 : 2, .format = format, .withheld = 4};
+    const LoadedScene scene = loaded_las(las);
+    ASSERT_EQ(scene.scene.size(), 48u) << format;
+    EXPECT_EQ(scene.report.dropped_withheld, 16u);
+    EXPECT_EQ(scene.report.dropped_not_finite, 0u);
+    for (std::size_t k = 0; k < 48; ++k) {
+      const std::size_t i = 4 * (k / 3) + k % 3 + 1;
+      EXPECT_LT((world(scene.scene, k) - places()[i]).norm(), 1e-3) << format;
+      EXPECT_EQ(scene.scene.material[k], i % 2 ? 2 : 0) << format;
+      EXPECT_EQ(scene.scene.id[k], i) << format;
+    }
+  }
+  const std::string path = own_file("cloud.las", LasFile{.withheld = 4}.bytes(places()));
+  const FileDescription file = describe_file(path);
+  EXPECT_EQ(file.points, 64u);
+  EXPECT_EQ(file.withheld, 16u);
+  EXPECT_THAT(file.problems, testing::Contains("16 of 64 points (25 %) are marked as withheld: will be left out"));
+  EXPECT_NEAR(file.min.z(), places()[1].z(), 1e-3) << "the first is withheld";
+  const std::string upright = own_file("up.las", LasFile{.withheld = 4, .normals = true}.bytes(places()));
+  for (const std::size_t whole_points : {std::size_t{0}, std::size_t{64}}) {
+    PrepareTilesOptions options;
+    options.whole_points = whole_points;
+    const PreparedTiles tiles = prepare_tiles(upright, own_path("up.tiles"), options);
+    EXPECT_EQ(tiles.streamed, whole_points == 0);
+    EXPECT_EQ(tiles.report.dropped_withheld, 16u);
+    EXPECT_EQ(TiledScene(own_path("up.tiles")).info().surfels, 48u);
+  }
+  expect_error(ErrorKind::content, {"all.las", "no usable point", "64 of 64 points are marked as withheld"},
+               [] { load_scene(own_file("all.las", LasFile{.withheld = 1}.bytes(places()))); });
 }
 
 TEST(Las, becomes_tiles_in_batches) {

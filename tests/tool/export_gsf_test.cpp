@@ -252,6 +252,7 @@ TEST_F(ExportGsf, names_sonar_versions_and_how_the_head_is_mounted) {
   for (const decode::GsfSwath& s : gsf.swaths) {
     EXPECT_EQ(s.sensor, 149);
     EXPECT_EQ(s.of_sensor.at("model_number"), 2040);
+    EXPECT_EQ(s.centre_beam, 16) << "half of the beams, else the GSF library takes it for one of two heads";
     EXPECT_NEAR(s.of_sensor.at("surface_velocity"), 1499.2, 0.051);  // of the profile at 2.2 m
     EXPECT_NEAR(s.of_sensor.at("sector_frequency"), 4e5, 1);
     EXPECT_NEAR(s.of_sensor.at("receive_beam_width_deg"), 1, 0.051);

@@ -91,16 +91,22 @@ TEST_F(Export, gives_returns_with_names_and_units) {
   std::string all;
   for (vtkIdType i = 0; i < units->GetNumberOfValues(); ++i) all += units->GetValue(i) + "\n";
   EXPECT_THAT(all, HasSubstr("level_db: dB re 1 uPa\nrange: m\nazimuth: rad"));
+  std::size_t without = 0;  // numbers that stand for none
   const auto expect_column = [&](const char* name, const auto& values) {
     vtkDataArray* array = data->GetPointData()->GetArray(name);
     ASSERT_NE(array, nullptr) << name;
     EXPECT_TRUE(array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) << name;
+    const bool real = std::is_same_v<decltype(values[0]), const float&>;
+    EXPECT_EQ(array->GetDataType(), real ? VTK_FLOAT : VTK_INT) << name;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double value = static_cast<double>(values[i]), read = array->GetTuple1(static_cast<vtkIdType>(i));
+      double value = static_cast<double>(values[i]), read = array->GetTuple1(static_cast<vtkIdType>(i));
+      if (value == Soundings::none) value = -1, ++without;
       ASSERT_TRUE(read == value || (std::isnan(read) && std::isnan(value))) << name << " " << i;
     }
   };
   each_column([&](const SoundingColumn& about, const auto& column) { expect_column(about.name, column); }, returns);
+  EXPECT_GT(without, 0U) << "false alarms, of noise";
+  EXPECT_THAT(all, HasSubstr("true_surfel: id in the scene; -1: none\n"));
 }
 
 // Of a survey of several heads: the returns of the head that is named, with the time and the head of each.

@@ -53,7 +53,7 @@ TEST_F(ImageVerb, grey_values_are_the_levels_of_the_cube) {
         const double l = level(static_cast<int>(beam), static_cast<int>(bins - 1 - row));
         const double expected = std::clamp((l - top + window) / window * full, 0.0, full);
         const double value = grey[row * beams + column];
-        wrong += value < expected - 1e-2 || value > expected + 1 + 1e-2;  // rounded up
+        wrong += std::abs(value - expected) > 0.5 + 1e-2;  // to the nearest
         at_work += value > 0 && value < full;
       }
     EXPECT_EQ(wrong, 0U) << bits;
