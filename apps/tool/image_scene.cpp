@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "sampling/find_holes.hpp"
 #include "scene_io/load_scene.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "tool/image.hpp"
 #include "tool/parse_values.hpp"
 #include "tool/ping_setup.hpp"

@@ -1,3 +1,4 @@
+#include "simulate/resolve_ping.hpp"
 #include "tool/ping_setup.hpp"
 
 #include <algorithm>

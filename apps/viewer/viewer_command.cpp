@@ -1,3 +1,4 @@
+#include "simulate/resolve_ping.hpp"
 #include "viewer/viewer_command.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/direct_echoes.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "simulate/resolve_ping.hpp"

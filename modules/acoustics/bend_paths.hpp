@@ -23,12 +23,6 @@ struct Eigenray {
 /// invalid profile, depths that are not finite, or horizontal that is not finite and >= 0.
 Eigenray find_eigenray(const SoundSpeedProfile& profile, double depth_from, double depth_to, double horizontal);
 
-/// What refraction does to a scene, at most.
-struct RefractionBound {
-  double range = 0;      ///< error of the apparent range when rays are taken as straight [m]
-  double elevation = 0;  ///< and of the angle at the head [rad]
-};
-
 /// Upper bound of what bend_paths does to any of the scatterers (in head axes), from the box of their ranges and
 /// directions alone; some two to four times the true effect where sound speed changes evenly. Both are 0 if sound speed
 /// is the same wherever a ray between head and scatterers can run. `head_depth` [m] is the depth of the head's origin;

@@ -12,14 +12,6 @@
 
 namespace insonify {
 
-/// The complex factor xi of a scatterer's amplitude (E7).
-enum class SurfaceAmplitude {
-  complex_normal,  ///< Rayleigh speckle, bound to the scatterer id (E9)
-  random_phase,    ///< unit amplitude, random phase
-  coherent,        ///< 1: calibrated targets and closed forms
-  mean_power       ///< 1 in water and boundaries too: for expected intensities, where phases do not count
-};
-
 /// Patterns of the head, and amplitudes of the surface.
 struct EchoOptions {
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;

@@ -5,6 +5,14 @@
 
 namespace insonify {
 
+/// The complex factor xi of a scatterer's amplitude (E7).
+enum class SurfaceAmplitude {
+  complex_normal,  ///< Rayleigh speckle, bound to the scatterer id (E9)
+  random_phase,    ///< unit amplitude, random phase
+  coherent,        ///< 1: calibrated targets and closed forms
+  mean_power       ///< 1 in water and boundaries too: for expected intensities, where phases do not count
+};
+
 /// Arrivals at the array, structure of arrays. A direct echo of scatterer i stands at index i.
 struct Echoes {
   std::vector<double> delay;                    ///< [s], two way; absorption follows from its length

@@ -16,4 +16,10 @@ void require_valid(const SoundSpeedProfile& profile, const char* who);
 /// Sound speed at `depth` [m] (E42). The profile must be valid, the depth finite (not checked: it is called often).
 double sound_speed_at(const SoundSpeedProfile& profile, double depth);
 
+/// What refraction does to a scene, at most.
+struct RefractionBound {
+  double range = 0;      ///< error of the apparent range when rays are taken as straight [m]
+  double elevation = 0;  ///< and of the angle at the head [rad]
+};
+
 }  // namespace insonify

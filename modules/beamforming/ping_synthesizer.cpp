@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
 #include "beamforming/narrow_band/windowed_sum_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "acoustics/echo_source.hpp"
+#include "beamforming/synthesis_choice.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/sonar_head.hpp"
 
@@ -10,18 +11,6 @@ namespace insonify {
 
 /// The smallest tolerance that gridding can keep.
 constexpr double min_gridding_tolerance = 1e-13;
-
-/// Parameters that a PingSynthesizer chose for its tolerance; all but direct_echoes concern gridding.
-struct SynthesisChoice {
-  bool single_precision = false;  ///< of tiles and transforms; delays and phases are always double
-  std::size_t kernel_width = 0;   ///< width of the gridding kernel [grid steps]
-  std::size_t grid = 0;           ///< length of the grid over direction
-  std::size_t pulse_samples = 0;  ///< bins per gridded pulse
-  double pulse_half_length = 0;   ///< distance from the pulse's centre at which it is cut [s]
-  std::size_t direct_echoes = 0;  ///< up to this number of echoes, distributed over the gate, the direct sum is cheaper
-  double share = 0;               ///< expected root of the ratio of a beam's energy to the gridded energy
-  double bytes_per_thread = 0;    ///< working memory beside the image
-};
 
 /// Synthesizes the complex baseband pressure of many pings of one head by gridding (E13), to a guaranteed relative L2
 /// error: each echo adds its pulse, cut at the tolerance, times a kernel (E60) to a grid over direction; per bin an FFT

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numeric>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"

@@ -1,5 +1,6 @@
 #include "beamforming/synthesize.hpp"
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/synthesizer.hpp"
 
 namespace insonify {

@@ -1,11 +1,12 @@
 #pragma once
-#include "acoustics/echo_source.hpp"
 #include "acoustics/echoes.hpp"
 #include "core/grid.hpp"
 #include "sonar/sonar_head.hpp"
 #include "sonar/water.hpp"
 
 namespace insonify {
+
+struct EchoSource;
 
 /// Method of synthesis; all but `incoherent` give the complex pressure of the synthesizers below, `incoherent` the
 /// expected level without speckle (synthesize_intensity).

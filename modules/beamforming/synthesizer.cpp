@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"

@@ -1,6 +1,7 @@
 #include "formats/gsf_file.hpp"
 
 #include "core/error.hpp"
+#include "files/pending_file.hpp"
 #include "formats/gsf_fields_internal.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
@@ -93,7 +94,7 @@ void count_ping(GsfSummary& summary, const GsfPing& ping) {
 }  // namespace
 
 GsfFile::GsfFile(const std::string& path, const GsfSurvey& survey)
-    : pending_(path), out_(pending_.temporary(), std::ios::binary), sensor_(survey.sensor) {
+    : pending_(std::make_shared<PendingFile>(path)), out_(pending_->temporary(), std::ios::binary), sensor_(survey.sensor) {
   require_time(survey.time);
   record(header_record, std::string("GSF-v03.11\0\0", 12));
   record(summary_record, fields_of(gsf_summary_fields(), summary_, "the summary"));  // again when all is known
@@ -155,7 +156,7 @@ void GsfFile::finish() {
   put_attitudes();
   out_.seekp(summary_at);
   record(summary_record, fields_of(gsf_summary_fields(), summary_, "the summary"));
-  pending_.commit(out_);
+  pending_->commit(out_);
 }
 
 }  // namespace insonify

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,9 +10,10 @@
 
 #include "acoustics/sound_speed_profile.hpp"
 #include "core/geodesy.hpp"
-#include "files/pending_file.hpp"
 
 namespace insonify {
+
+class PendingFile;
 
 /// A sounding of a swath, in level axes below the head that look ahead as the ship does.
 struct GsfBeam {
@@ -118,7 +120,7 @@ class GsfFile {
   void record(std::uint32_t id, std::string data);
   void put_attitudes();
 
-  PendingFile pending_;
+  std::shared_ptr<PendingFile> pending_;
   std::ofstream out_;
   GsfSensor sensor_;
   bool scaled_ = false;  ///< whether a ping has had the scale factors

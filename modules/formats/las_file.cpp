@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "files/pending_file.hpp"
 #include "files/utc.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
@@ -109,8 +110,8 @@ std::string utm_wkt(const UtmZone& zone) {
 }
 
 LasFile::LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options)
-    : pending_(path),
-      out_(pending_.temporary(), std::ios::binary),
+    : pending_(std::make_shared<PendingFile>(path)),
+      out_(pending_->temporary(), std::ios::binary),
       zone_(zone),
       options_(options),
       offset_(offset.array().round()) {
@@ -205,7 +206,7 @@ void LasFile::add(const LasPoint& point) {
 void LasFile::finish() {
   out_.seekp(0);
   out_ << header();
-  pending_.commit(out_);
+  pending_->commit(out_);
 }
 
 }  // namespace insonify

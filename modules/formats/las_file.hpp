@@ -3,14 +3,16 @@
 #include <cstdint>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "core/geodesy.hpp"
-#include "files/pending_file.hpp"
 
 namespace insonify {
+
+class PendingFile;
 
 /// Well-known text (OGC 01-009) of a UTM zone on WGS 84, with its EPSG codes.
 std::string utm_wkt(const UtmZone& zone);
@@ -54,7 +56,7 @@ class LasFile {
  private:
   std::string header() const;
 
-  PendingFile pending_;
+  std::shared_ptr<PendingFile> pending_;
   std::ofstream out_;
   UtmZone zone_;
   LasOptions options_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "files/pending_file.hpp"
 #include "formats/mcap_compression_internal.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
@@ -47,7 +48,7 @@ void put_pairs(std::string& bytes, const std::map<std::string, std::string>& map
 }  // namespace
 
 McapFile::McapFile(const std::string& path, McapCompression compression)
-    : pending_(path), out_(pending_.temporary(), std::ios::binary), compression_(compression) {
+    : pending_(std::make_shared<PendingFile>(path)), out_(pending_->temporary(), std::ios::binary), compression_(compression) {
   if (!has_compression(compression)) compressed(compression, "");
   std::string header;
   put_text(header, "ros2");
@@ -206,7 +207,7 @@ void McapFile::finish() {
   write(mcap_record(mcap_data_end, end));
   write(summary());
   write(magic_bytes);
-  pending_.commit(out_);
+  pending_->commit(out_);
 }
 
 }  // namespace insonify

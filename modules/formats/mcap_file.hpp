@@ -1,14 +1,16 @@
 #pragma once
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "files/pending_file.hpp"
 
 namespace insonify {
+
+class PendingFile;
 
 /// How chunks are compressed: as one frame of LZ4 or of Zstandard.
 enum class McapCompression : std::uint8_t { none, lz4, zstd };
@@ -52,7 +54,7 @@ class McapFile {
   std::string metadata_indexes() const;
   std::string summary() const;
 
-  PendingFile pending_;
+  std::shared_ptr<PendingFile> pending_;
   std::ofstream out_;
   McapCompression compression_;
   std::uint64_t written_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "acoustics/echo_source.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"

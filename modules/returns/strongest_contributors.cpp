@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "acoustics/echo_source.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "returns/strongest_contributors_internal.hpp"

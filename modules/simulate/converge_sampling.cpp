@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize_intensity.hpp"
 #include "sampling/visible_surfels.hpp"
 #include "simulate/converge_sampling_internal.hpp"

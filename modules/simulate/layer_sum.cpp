@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/split_aperture.hpp"
 #include "beamforming/synthesize_noise.hpp"

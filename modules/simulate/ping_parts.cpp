@@ -4,6 +4,9 @@
 #include <span>
 #include <utility>
 
+#include "acoustics/bend_paths.hpp"
+#include "acoustics/direct_echoes.hpp"
+#include "acoustics/echo_source.hpp"
 #include "simulate/converge_sampling_internal.hpp"
 #include "simulate/heard_energy_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/synthesis_choice.hpp"
 #include "simulate/simulation_options.hpp"
 
 namespace insonify {

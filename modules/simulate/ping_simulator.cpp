@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "acoustics/echo_source.hpp"
 #include "core/stop_watch.hpp"
 #include "core/work_progress.hpp"
 #include "simulate/average_looks_internal.hpp"

@@ -2,15 +2,17 @@
 #include <memory>
 
 #include "acoustics/environment.hpp"
+#include "sampling/insonified_region.hpp"
 #include "scene/prepared_scene.hpp"
 #include "simulate/ping_event.hpp"
 #include "simulate/ping_plan.hpp"
-#include "simulate/resolve_ping.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "simulate/simulation_options.hpp"
 #include "sonar/sonar_head.hpp"
 
 namespace insonify {
+
+struct ResolvedPing;
 
 /// One head in one environment, ready to ping any scene from any place. Head and options are checked once; plans, tables,
 /// transforms and buffers that form the beams are made in the first ping and used again by those that follow, with the same

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "acoustics/reverberation_echoes.hpp"
+#include "acoustics/trace_paths.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "returns/find_contributors.hpp"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "acoustics/direct_echoes.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "sampling/sampled_cells.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/sound_speed_profile.hpp"
 #include "acoustics/sound_paths.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "returns/contributors.hpp"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "acoustics/direct_echoes.hpp"
+#include "acoustics/echoes.hpp"
 #include "beamforming/synthesize.hpp"
 #include "returns/contributors.hpp"
 #include "returns/detect_soundings.hpp"

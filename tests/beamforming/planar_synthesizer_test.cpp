@@ -1,4 +1,5 @@
 // A planar array gridded in time, u and v at once, against the sum over echoes.
+#include "acoustics/echo_source.hpp"
 #include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"

@@ -1,3 +1,4 @@
+#include "acoustics/echo_source.hpp"
 #include "beamforming/split_aperture.hpp"
 
 #include "beamforming/synthesize_noise.hpp"

@@ -1,8 +1,8 @@
 #!/usr/bin/env perl
 # Fails if, below ROOT,
 # - a type of a module is defined twice under one name, in headers or in sources outside unnamed namespaces;
-# - a header of a module is neither listed as public in its CMakeLists.txt nor named _internal, or both; a public header
-#   includes an _internal one; or one is included outside its module, but for those in %lent (tests may use all);
+# - a header of a module is neither listed in its CMakeLists.txt, as public or shared, nor named _internal, or both; a public
+#   header includes one that is not public; a shared one includes an _internal one; or one is included outside its module, but for those in %lent (tests may use all);
 # - a file of modules/ has more than 300 lines, or a function of modules/ or apps/ more than 60.
 # It relies on clang-format: what begins and ends in one column belongs together.
 #
@@ -33,14 +33,18 @@ chdir $root or die "$root: $!\n";
 my $failed = 0;
 sub complain { print STDERR @_, "\n"; $failed = 1 }
 
-my (@files, %public, %defined);
+my (@files, %public, %listed, %defined);
 find({ no_chdir => 1, wanted => sub { push @files, $_ if /\.[ch]pp$/ } }, grep { -d } 'modules', 'apps');
 die "no sources under $root\n" unless @files;
 for my $list (glob 'modules/*/CMakeLists.txt') {
   open(my $in, '<', $list) or die "$list: $!\n";
   my ($folder) = $list =~ m{(.*)/};
   local $/;
-  if (<$in> =~ /\bHEADERS\b([^)]*?)(?:\bDEPENDS\b|\))/s) { $public{"$folder/$_"} = 1 for split ' ', $1 }
+  my $text = <$in>;
+  for my $key ('HEADERS', 'SHARED') {
+    next unless $text =~ /\b$key\b([^)]*?)(?:\b(?:SHARED|DEPENDS|PRIVATE_DEPENDS)\b|\))/s;
+    for (split ' ', $1) { $listed{"$folder/$_"} = 1; $public{"$folder/$_"} = 1 if $key eq 'HEADERS' }
+  }
 }
 
 for my $path (sort @files) {
@@ -52,8 +56,8 @@ for my $path (sort @files) {
   my $internal = $path =~ /_internal\.hpp$/;
   if ($module) {
     complain("$path: ", scalar(@lines), " lines, must be $file_limit at most") if @lines > $file_limit && !$long_file{$path};
-    complain("$path: neither in HEADERS of its module nor named _internal.hpp") if $path =~ /\.hpp$/ && !$internal && !$public{$path};
-    complain("$path: an internal header in HEADERS of its module") if $internal && $public{$path};
+    complain("$path: neither in HEADERS of its module nor named _internal.hpp") if $path =~ /\.hpp$/ && !$internal && !$listed{$path};
+    complain("$path: an internal header in HEADERS of its module") if $internal && $listed{$path};
   }
 
   my ($namespace, @start) = ('');  # of the definition at column 0, and within a class at column 2
@@ -62,9 +66,12 @@ for my $path (sort @files) {
     local $_ = $lines[$i];
     if (m{^#include "((?:([a-z_]+)/)?(?:[a-z_0-9]+/)*[a-z_0-9]+_internal\.hpp)"}) {
       my ($header, $other) = ($1, $2 // $here);
-      complain("$path: a public header includes $header") if $public{$path};
+      complain("$path: a public header includes $header") if $listed{$path};
       complain("$path: includes $header, which is internal to $other")
         unless $path =~ m{^\w+/$other/} || $user eq ($lent{$header} // '') || $user eq ($lent{"$other/*"} // '');
+    }
+    if ($public{$path} && m{^#include "((?:[a-z_0-9]+/)+[a-z_0-9]+\.hpp)"} && $1 !~ /_internal/) {
+      complain("$path: a public header includes $1, which is not installed") unless $public{"modules/$1"};
     }
     if (/^namespace (\S* ?)\{$/) { $namespace .= '::' . ($1 =~ s/ $//r || 'unnamed') }
     if (m{^\}  // namespace}) { $namespace =~ s/^(.*)::(unnamed|.+?)$/$1/ }

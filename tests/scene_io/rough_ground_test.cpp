@@ -10,6 +10,7 @@
 #include "sampling/find_scatterers.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/files.hpp"
 #include "support/heads.hpp"

@@ -1,3 +1,4 @@
+#include "acoustics/echo_source.hpp"
 #include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
 #include "beamforming/narrow_band/image_by_tiles_internal.hpp"
 

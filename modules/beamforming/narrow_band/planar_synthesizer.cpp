@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/narrow_band/image_by_tiles_internal.hpp"
 #include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "beamforming/narrow_band/planar_tile_internal.hpp"

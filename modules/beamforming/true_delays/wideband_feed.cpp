@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/true_delays/wideband_feed_internal.hpp"
 

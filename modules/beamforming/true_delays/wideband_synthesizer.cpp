@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/numerics/flush_denormals_internal.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/true_delays/wideband_block_internal.hpp"

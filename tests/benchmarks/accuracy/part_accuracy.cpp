@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize_intensity.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"

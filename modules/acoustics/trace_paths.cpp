@@ -1,4 +1,4 @@
-#include "acoustics/sound_paths.hpp"
+#include "acoustics/trace_paths.hpp"
 
 #include <algorithm>
 #include <cmath>
