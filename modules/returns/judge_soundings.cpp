@@ -71,15 +71,14 @@ class Judge {
 
   const JudgedPing& judged_;
   const BottomSoundings& soundings_;
-  std::vector<std::ptrdiff_t> first_;            ///< of each beam its first sounding; -1: none
-  std::vector<float> own_;                       ///< deviations as the echoes predict them [m]
-  std::vector<double> sine_, angle_;             ///< of each beam in the plane of the fan
-  std::vector<std::optional<Bend>> bends_;       ///< of each beam
-  std::vector<double> loudness_db_;              ///< of each sounding, without what range costs a bottom
-  Eigen::Array<double, 1, Eigen::Dynamic> all_;  ///< sum over beams of the intensity of each bin [Pa^2]
-  std::ptrdiff_t lag_ = 1;                       ///< beams in a beam's width
-  std::ptrdiff_t relief_lag_ = 1;  ///< beams in the longer side of a footprint, at most a sixteenth of all
-  double share_ = 1;               ///< of a beam's width between two beams
+  std::vector<std::ptrdiff_t> first_;       ///< of each beam its first sounding; -1: none
+  std::vector<float> own_;                  ///< deviations as the echoes predict them [m]
+  std::vector<double> sine_, angle_;        ///< of each beam in the plane of the fan
+  std::vector<std::optional<Bend>> bends_;  ///< of each beam
+  std::vector<double> loudness_db_;         ///< of each sounding, without what range costs a bottom
+  std::ptrdiff_t lag_ = 1;                  ///< beams in a beam's width
+  std::ptrdiff_t relief_lag_ = 1;           ///< beams in the longer side of a footprint, at most a sixteenth of all
+  double share_ = 1;                        ///< of a beam's width between two beams
 };
 
 Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
@@ -97,8 +96,6 @@ Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
                            std::max<long long>(lag_, static_cast<long long>(fan.beams() / 16)));
   }
   for (std::size_t b = 0; b < fan.beams(); ++b) bends_.push_back(bend_at(static_cast<std::ptrdiff_t>(b)));
-  all_.setZero(judged.intensity.cols());
-  for (Eigen::Index b = 0; b < judged.intensity.rows(); ++b) all_ += judged.intensity.row(b);  // as they lie in memory
   for (std::size_t i = 0; i < soundings.size(); ++i)
     loudness_db_.push_back(static_cast<double>(soundings.level_db[i]) + 30 * std::log10(soundings.range[i]) +
                            2 * judged.absorption_db_per_m * soundings.range[i]);
@@ -119,7 +116,7 @@ double Judge::strongest(std::size_t beam, Bins bins) const {
 /// The largest intensity that side lobes may bring in at the range of a sounding.
 double Judge::side_lobes_at(std::size_t i) const {  // (E129)
   const Bins bins = bins_about(soundings_.range[i], judged_.side_lobe_reach + 2 * judged_.echoes[i].pulse_deviation);
-  Eigen::Array<double, 1, Eigen::Dynamic> others = all_.segment(bins.first, bins.end - bins.first);
+  Eigen::Array<double, 1, Eigen::Dynamic> others = judged_.all.segment(bins.first, bins.end - bins.first);
   const std::size_t beam = soundings_.beam[i];
   const auto reach = static_cast<std::size_t>(std::lround(main_lobe * static_cast<double>(lag_)));
   for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b)
@@ -129,13 +126,12 @@ double Judge::side_lobes_at(std::size_t i) const {  // (E129)
 
 /// Whether the bottom about a sounding is far louder.
 bool Judge::is_faint(std::size_t i) const {  // (E130)
-  std::vector<double> about;
-  for (std::size_t k = 0; k < soundings_.size(); ++k)
-    if (std::abs(angle_[soundings_.beam[k]] - angle_[soundings_.beam[i]]) < bottom_about)
-      about.push_back(loudness_db_[k]);
-  const auto louder = about.begin() + static_cast<std::ptrdiff_t>(about.size() * 3 / 4);
-  std::nth_element(about.begin(), louder, about.end());
-  return loudness_db_[i] < *louder - faint_db;
+  std::size_t about = 0, louder = 0;
+  for (std::size_t k = 0; k < soundings_.size(); ++k) {
+    const bool near = std::abs(angle_[soundings_.beam[k]] - angle_[soundings_.beam[i]]) < bottom_about;
+    about += near, louder += near && loudness_db_[i] < loudness_db_[k] - faint_db;
+  }
+  return louder >= about - about * 3 / 4;  // the sounding at three quarters is among them
 }
 
 /// The beam within a few widths whose main lobe brings most into that of a sounding.
@@ -146,8 +142,10 @@ Skirt Judge::skirt_at(std::size_t i) const {
   const double here = strongest(beam, bins);
   Skirt most;
   for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b) {
+    const double there = strongest(b, bins);
+    if (there / here <= most.part) continue;  // even on its axis
     const double off = (sine_[b] - sine_[beam]) / judged_.ping.fan.beam_width;
-    const double part = strongest(b, bins) * std::exp2(-4 * off * off) / here;  // a Gaussian main lobe
+    const double part = there * std::exp2(-4 * off * off) / here;  // a Gaussian main lobe
     if (b != beam && part > most.part) most = {part, std::abs(angle_[b] - angle_[beam])};
   }
   return most;
