@@ -81,8 +81,9 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
       BottomEstimate best = by_phase ? phase : amplitude;
       if (!std::isfinite(best.deviation) || !(best.range > ping.gate.min_range))
         best = {find.range, std::max(echo.half_power_reach, ping.gate.bin_size)};
-      soundings[b].push_back({best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
-                              prepared.level_db_near(b, best.range, echo.half_power_reach), echo});
+      soundings[b].push_back(
+          {best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
+           prepared.level_db_near(b, best.range, std::max(echo.half_power_reach, echo.along_deviation)), echo});
     }
   });
   BottomSoundings all;

@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "returns/bottom_ping_internal.hpp"
 #include "returns/detect_soundings.hpp"
+#include "returns/echo_shape_internal.hpp"
 #include "returns/judge_soundings_internal.hpp"
 
 namespace insonify {
@@ -99,10 +100,11 @@ std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
     moment[n + 1] = moment[n] + here * static_cast<double>(n);
   }
   std::vector<char> taken(bins, 0);
-  std::vector<BottomFind> found;
+  std::vector<BottomFind> found, in_lobes;
+  double strongest = 0;
   while (static_cast<int>(found.size()) < options_.per_beam) {
     std::size_t best = bins;
-    double most = found.empty() ? 0 : found.front().energy * power_from_db(options_.least_energy_db);
+    double most = strongest * power_from_db(options_.least_energy_db);
     for (std::size_t n = 0; n < bins; ++n) {
       if (taken[n] || !(view.intensity[n] > threshold_[beam]) || view.compensated(n) == 0) continue;
       const std::size_t reach = reach_of(tangent, cosine, ping_.gate.centre(n));
@@ -115,11 +117,16 @@ std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
     const std::size_t begin = best - std::min(best, reach), end = std::min(bins, best + reach + 1);
     const double middle = std::clamp((moment[end] - moment[begin]) / (sum[end] - sum[begin]),
                                      static_cast<double>(begin), static_cast<double>(end - 1));
-    found.push_back({ping_.gate.centre(0) + middle * ping_.gate.bin_size, most});
+    const double range = ping_.gate.centre(0) + middle * ping_.gate.bin_size;
+    const bool in_lobe =
+        is_of_grating_lobe(ping_, beam, range, static_cast<double>(reach) * ping_.gate.bin_size, pulse_deviation_);
+    (in_lobe ? in_lobes : found).push_back({range, most});
+    strongest = std::max(strongest, most);
     reach *= 3;
     std::fill(taken.begin() + static_cast<std::ptrdiff_t>(best - std::min(best, reach)),
               taken.begin() + static_cast<std::ptrdiff_t>(std::min(bins, best + reach + 1)), 1);
   }
+  if (found.empty() && !in_lobes.empty()) found.push_back(in_lobes.front());  // to be judged
   return found;
 }
 
