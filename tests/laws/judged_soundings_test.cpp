@@ -158,7 +158,7 @@ TEST(JudgedSoundings, of_a_reef) {
 // are one, the place is right and the echo is not.
 TEST(JudgedSoundings, of_a_harbour_with_a_quay_beside_the_fan) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 200000});
-  const SceneCloud dense = make_built_in_scene("harbour", {.points = 2000000});
+  const SceneCloud dense = make_built_in_scene("harbour", {.points = 1000000});
   const Surface surface(dense);
   for (const char* sonar : {"em2040", "r2sonic-2024"}) {
     Judged j = judged(harbour, surface, head_below(sonar, 26), {13.6, 2, -0.5}, 9.2, 4);
