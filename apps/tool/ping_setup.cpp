@@ -1,4 +1,3 @@
-#include "simulate/resolve_ping.hpp"
 #include "tool/ping_setup.hpp"
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "core/units.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "simulate/plan_ping.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/materials_file.hpp"

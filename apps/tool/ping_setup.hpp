@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "acoustics/multipath_echoes.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_simulator.hpp"

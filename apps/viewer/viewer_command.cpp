@@ -1,4 +1,3 @@
-#include "simulate/resolve_ping.hpp"
 #include "viewer/viewer_command.hpp"
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "scene_io/load_scene.hpp"
+#include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/survey_run.hpp"

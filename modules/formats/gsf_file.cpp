@@ -94,7 +94,9 @@ void count_ping(GsfSummary& summary, const GsfPing& ping) {
 }  // namespace
 
 GsfFile::GsfFile(const std::string& path, const GsfSurvey& survey)
-    : pending_(std::make_shared<PendingFile>(path)), out_(pending_->temporary(), std::ios::binary), sensor_(survey.sensor) {
+    : pending_(std::make_shared<PendingFile>(path)),
+      out_(pending_->temporary(), std::ios::binary),
+      sensor_(survey.sensor) {
   require_time(survey.time);
   record(header_record, std::string("GSF-v03.11\0\0", 12));
   record(summary_record, fields_of(gsf_summary_fields(), summary_, "the summary"));  // again when all is known

@@ -48,7 +48,9 @@ void put_pairs(std::string& bytes, const std::map<std::string, std::string>& map
 }  // namespace
 
 McapFile::McapFile(const std::string& path, McapCompression compression)
-    : pending_(std::make_shared<PendingFile>(path)), out_(pending_->temporary(), std::ios::binary), compression_(compression) {
+    : pending_(std::make_shared<PendingFile>(path)),
+      out_(pending_->temporary(), std::ios::binary),
+      compression_(compression) {
   if (!has_compression(compression)) compressed(compression, "");
   std::string header;
   put_text(header, "ros2");

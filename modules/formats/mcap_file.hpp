@@ -1,12 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <fstream>
-#include <memory>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
 
 namespace insonify {
 

@@ -16,10 +16,11 @@ enum class BottomMethod : std::uint8_t { amplitude = 1, phase = 2 };
 
 /// Why a sounding is rejected, as bits of BottomSoundings::reject.
 enum RejectReason : std::uint8_t {
-  reject_side_lobe = 1,  ///< side lobes of what other beams hear at its range may explain it
-  reject_skirt = 2,      ///< the main lobe of a louder beam beside it explains it
-  reject_faint = 4,      ///< far below the bottom about it
-  reject_lone = 8        ///< no sounding beside it confirms it, and it stands out of neither side lobes nor noise
+  reject_side_lobe = 1,     ///< side lobes of what other beams hear at its range may explain it
+  reject_skirt = 2,         ///< the main lobe of a louder beam beside it explains it
+  reject_faint = 4,         ///< far below the bottom about it
+  reject_lone = 8,          ///< no sounding beside it confirms it, and it stands out of neither side lobes nor noise
+  reject_grating_lobe = 16  ///< of frequencies beside the pulse's: a grating lobe brings it in from beyond the fan
 };
 
 /// Soundings of the bottom as a structure of arrays, by beams and, in a beam, by falling energy.
@@ -61,7 +62,8 @@ struct BottomOptions {
 ///
 ///   1. noise of each beam from the smallest quarter of its intensities; the echo is where range-compensated energy within
 ///      the length of a beam's footprint is greatest, and holds a sample that noise exceeds in one of 1 / rate beams (E78);
-///      samples that side lobes of an echo up to half an array's length nearer or farther may explain are left out (E19)
+///      samples that side lobes of an echo up to half an array's length nearer or farther may explain are left out (E19),
+///      and what a grating lobe brings in gives way to the next echo (E133)
 ///   2. dr/du of the bottom: median of the slopes between the ranges of seven neighbouring beams
 ///   3. amplitude: centre of gravity of the intensity above noise within three standard deviations, with the error (E94)
 ///   4. phase: line fitted to the phase between the halves of the array within the main lobe, which crosses zero at the

@@ -201,7 +201,8 @@ BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo,
     sum = square = 0;
     for (std::size_t n = begin; n < end; ++n) {
       const double x = beam.range(n) - centre;
-      sum += beam.compensated[n], moment += x * beam.compensated[n], square += x * x;
+      const double here = beam.compensated(n);
+      sum += here, moment += x * here, square += x * x;
     }
     if (!(sum > 0) || !(std::abs(moment / sum) < reach)) return {start, infinite};
     centre += moment / sum;
@@ -212,7 +213,7 @@ BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo,
   const double at = beam.first + beam.step * std::round((centre - beam.first) / beam.step);
   const auto nearest = static_cast<std::size_t>(
       std::clamp((at - beam.first) / beam.step, 0.0, static_cast<double>(beam.intensity.size() - 1)));
-  const double gain = beam.compensated[nearest] / (beam.intensity[nearest] - beam.noise);
+  const double gain = beam.compensated(nearest) / (beam.intensity[nearest] - beam.noise);
   const double noise = beam.noise * (std::isfinite(gain) ? std::abs(gain) : 0);
   const double cells = std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
   const double from_noise = cells * (noise * noise * square / (sum * sum) + 2 * noise * (pulse + footprint) / sum);

@@ -10,11 +10,15 @@ namespace insonify {
 
 /// One beam's samples for bottom detection; all spans have one entry per bin.
 struct BottomBeam {
-  std::span<const double> intensity;    ///< [Pa^2]
-  std::span<const double> compensated;  ///< times r^4 and absorption, noise subtracted; may be negative
-  std::span<const float> phase;         ///< between the halves [rad]; empty: none
-  double noise = 0;                     ///< mean intensity [Pa^2]
-  double first = 0, step = 0;           ///< range of bin 0 and between bins [m]
+  std::span<const double> intensity;  ///< [Pa^2]
+  std::span<const double> floor;      ///< samples up to it are side lobes [Pa^2]
+  std::span<const double> gain;       ///< r^4 and absorption
+  std::span<const float> phase;       ///< between the halves [rad]; empty: none
+  double noise = 0;                   ///< mean intensity [Pa^2]
+  double first = 0, step = 0;         ///< range of bin 0 and between bins [m]
+
+  /// Intensity less noise, times gain; may be negative; 0 of a side lobe.
+  double compensated(std::size_t n) const { return intensity[n] > floor[n] ? (intensity[n] - noise) * gain[n] : 0; }
 
   double range(std::size_t n) const { return first + static_cast<double>(n) * step; }
 };

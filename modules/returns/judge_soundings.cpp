@@ -4,7 +4,7 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "returns/judge_soundings_internal.hpp"
+#include "returns/echo_shape_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -19,19 +19,11 @@ constexpr double skirt_reach = 3;        // beam widths to either side
 constexpr double lone_margin_db = 10;  // above the limits of side lobes and of noise, of a sounding that none confirms
 constexpr double lone_noise_db = 20;
 constexpr double reference_of_levels = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
-constexpr double full_width_of_normal = 2.354820045;                   // at half its height, in standard deviations
 constexpr double steepest = 4;               // dr / (r dtheta) up to which beams see one surface: 76 degrees
 constexpr std::size_t witnesses = 2;         // soundings beside one that confirm it
 constexpr double median_of_normal = 1.4826;  // standard deviations in a median absolute deviation
 constexpr double own_part = 0.5;             // of the largest step beside a sounding that counts as its deviation
 constexpr double sure_of_relief = 2.5;       // variances that errors alone may give
-constexpr double widest_slope = 0.6;         // of a bottom along the way, where its echo is measured
-constexpr double width_part = 0.5;           // of an echo's excess width along the way that counts as deviation
-
-/// Bins about a range, first and behind the last.
-struct Bins {
-  Eigen::Index first, end;
-};
 
 /// How far a sounding lies off its neighbours [m], and the variance that their errors alone give [m^2].
 struct Bend {
@@ -50,14 +42,14 @@ class Judge {
   /// What a beam beside a sounding explains of it.
   Skirt skirt_at(std::size_t i) const;
   std::uint8_t reject(std::size_t i, const Skirt& skirt) const;
+  /// How far each sounding that is kept lies off those about it, for relief_variance.
+  void find_bends();
   /// Variance that the relief of the bottom adds to the range of a sounding [m^2].
   double relief_variance(std::size_t i, const Skirt& skirt) const;
 
  private:
-  Bins bins_about(double range, double reach) const;
   double strongest(std::size_t beam, Bins bins) const;
   double side_lobes_at(std::size_t i) const;
-  double excess_width(std::size_t i) const;
   bool is_faint(std::size_t i) const;
   bool is_confirmed(std::size_t i) const;
   /// The sounding of a beam that has most energy; none if it has none.
@@ -71,15 +63,14 @@ class Judge {
 
   const JudgedPing& judged_;
   const BottomSoundings& soundings_;
-  std::vector<std::ptrdiff_t> first_;            ///< of each beam its first sounding; -1: none
-  std::vector<float> own_;                       ///< deviations as the echoes predict them [m]
-  std::vector<double> sine_, angle_;             ///< of each beam in the plane of the fan
-  std::vector<std::optional<Bend>> bends_;       ///< of each beam
-  std::vector<double> loudness_db_;              ///< of each sounding, without what range costs a bottom
-  Eigen::Array<double, 1, Eigen::Dynamic> all_;  ///< sum over beams of the intensity of each bin [Pa^2]
-  std::ptrdiff_t lag_ = 1;                       ///< beams in a beam's width
-  std::ptrdiff_t relief_lag_ = 1;  ///< beams in the longer side of a footprint, at most a sixteenth of all
-  double share_ = 1;               ///< of a beam's width between two beams
+  std::vector<std::ptrdiff_t> first_;       ///< of each beam its first sounding; -1: none
+  std::vector<float> own_;                  ///< deviations as the echoes predict them [m]
+  std::vector<double> sine_, angle_;        ///< of each beam in the plane of the fan
+  std::vector<std::optional<Bend>> bends_;  ///< of each beam
+  std::vector<double> loudness_db_;         ///< of each sounding, without what range costs a bottom
+  std::ptrdiff_t lag_ = 1;                  ///< beams in a beam's width
+  std::ptrdiff_t relief_lag_ = 1;           ///< beams in the longer side of a footprint, at most a sixteenth of all
+  double share_ = 1;                        ///< of a beam's width between two beams
 };
 
 Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
@@ -96,20 +87,9 @@ Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
     relief_lag_ = std::min(std::llround(longer * static_cast<double>(lag_)),
                            std::max<long long>(lag_, static_cast<long long>(fan.beams() / 16)));
   }
-  for (std::size_t b = 0; b < fan.beams(); ++b) bends_.push_back(bend_at(static_cast<std::ptrdiff_t>(b)));
-  all_.setZero(judged.intensity.cols());
-  for (Eigen::Index b = 0; b < judged.intensity.rows(); ++b) all_ += judged.intensity.row(b);  // as they lie in memory
   for (std::size_t i = 0; i < soundings.size(); ++i)
     loudness_db_.push_back(static_cast<double>(soundings.level_db[i]) + 30 * std::log10(soundings.range[i]) +
                            2 * judged.absorption_db_per_m * soundings.range[i]);
-}
-
-Bins Judge::bins_about(double range, double reach) const {
-  const RangeGate& gate = judged_.ping.gate;
-  const double last = static_cast<double>(judged_.intensity.cols() - 1);
-  const double low = std::clamp(std::floor((range - reach - gate.centre(0)) / gate.bin_size), 0.0, last);
-  const double high = std::clamp(std::ceil((range + reach - gate.centre(0)) / gate.bin_size), low, last);
-  return {static_cast<Eigen::Index>(low), static_cast<Eigen::Index>(high) + 1};
 }
 
 double Judge::strongest(std::size_t beam, Bins bins) const {
@@ -118,8 +98,9 @@ double Judge::strongest(std::size_t beam, Bins bins) const {
 
 /// The largest intensity that side lobes may bring in at the range of a sounding.
 double Judge::side_lobes_at(std::size_t i) const {  // (E129)
-  const Bins bins = bins_about(soundings_.range[i], judged_.side_lobe_reach + 2 * judged_.echoes[i].pulse_deviation);
-  Eigen::Array<double, 1, Eigen::Dynamic> others = all_.segment(bins.first, bins.end - bins.first);
+  const Bins bins =
+      bins_about(judged_.ping, soundings_.range[i], judged_.side_lobe_reach + 2 * judged_.echoes[i].pulse_deviation);
+  Eigen::Array<double, 1, Eigen::Dynamic> others = judged_.all.segment(bins.first, bins.end - bins.first);
   const std::size_t beam = soundings_.beam[i];
   const auto reach = static_cast<std::size_t>(std::lround(main_lobe * static_cast<double>(lag_)));
   for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b)
@@ -129,25 +110,26 @@ double Judge::side_lobes_at(std::size_t i) const {  // (E129)
 
 /// Whether the bottom about a sounding is far louder.
 bool Judge::is_faint(std::size_t i) const {  // (E130)
-  std::vector<double> about;
-  for (std::size_t k = 0; k < soundings_.size(); ++k)
-    if (std::abs(angle_[soundings_.beam[k]] - angle_[soundings_.beam[i]]) < bottom_about)
-      about.push_back(loudness_db_[k]);
-  const auto louder = about.begin() + static_cast<std::ptrdiff_t>(about.size() * 3 / 4);
-  std::nth_element(about.begin(), louder, about.end());
-  return loudness_db_[i] < *louder - faint_db;
+  std::size_t about = 0, louder = 0;
+  for (std::size_t k = 0; k < soundings_.size(); ++k) {
+    const bool near = std::abs(angle_[soundings_.beam[k]] - angle_[soundings_.beam[i]]) < bottom_about;
+    about += near, louder += near && loudness_db_[i] < loudness_db_[k] - faint_db;
+  }
+  return louder >= about - about * 3 / 4;  // the sounding at three quarters is among them
 }
 
 /// The beam within a few widths whose main lobe brings most into that of a sounding.
 Skirt Judge::skirt_at(std::size_t i) const {
   const std::size_t beam = soundings_.beam[i];
-  const Bins bins = bins_about(soundings_.range[i], 4 * judged_.echoes[i].pulse_deviation);
+  const Bins bins = bins_about(judged_.ping, soundings_.range[i], 4 * judged_.echoes[i].pulse_deviation);
   const auto reach = static_cast<std::size_t>(std::ceil(skirt_reach * static_cast<double>(lag_)));
   const double here = strongest(beam, bins);
   Skirt most;
   for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b) {
+    const double there = strongest(b, bins);
+    if (there / here <= most.part) continue;  // even on its axis
     const double off = (sine_[b] - sine_[beam]) / judged_.ping.fan.beam_width;
-    const double part = strongest(b, bins) * std::exp2(-4 * off * off) / here;  // a Gaussian main lobe
+    const double part = there * std::exp2(-4 * off * off) / here;  // a Gaussian main lobe
     if (b != beam && part > most.part) most = {part, std::abs(angle_[b] - angle_[beam])};
   }
   return most;
@@ -181,6 +163,10 @@ std::uint8_t Judge::reject(std::size_t i, const Skirt& skirt) const {
   if (level < side_lobes) reasons |= reject_side_lobe;
   if (skirt.part > power_from_db(skirt_margin_db)) reasons |= reject_skirt;
   if (is_faint(i)) reasons |= reject_faint;
+  const BottomEcho& echo = judged_.echoes[i];
+  if (is_of_grating_lobe(judged_.ping, soundings_.beam[i], soundings_.range[i], echo.half_power_reach,
+                         echo.pulse_deviation))
+    reasons |= reject_grating_lobe;
   if (!is_confirmed(i) && level < std::max(side_lobes * power_from_db(lone_margin_db), noise)) reasons |= reject_lone;
   return reasons;
 }
@@ -202,38 +188,26 @@ std::optional<Bend> Judge::bend_at(std::ptrdiff_t beam) const {
               (variance(*here) + 0.25 * (variance(*before) + variance(*after))) / 1.5};
 }
 
+void Judge::find_bends() {
+  for (std::ptrdiff_t& first : first_)
+    if (first >= 0 && soundings_.reject[static_cast<std::size_t>(first)] != 0) first = -1;
+  for (std::size_t b = 0; b < first_.size(); ++b) bends_.push_back(bend_at(static_cast<std::ptrdiff_t>(b)));
+}
+
 double Judge::relief_variance(std::size_t i, const Skirt& skirt) const {  // (E131)
   const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
   std::vector<double> bends, expected;
   for (std::ptrdiff_t b = beam - 2 * relief_lag_; b <= beam + 2 * relief_lag_; ++b)
     if (const std::optional<Bend>& bend = bend_of(b)) bends.push_back(bend->off), expected.push_back(bend->expected);
   const double aside = skirt.part > power_from_db(partly_skirt_db) ? soundings_.range[i] * skirt.away : 0;
-  const double other = std::pow(std::max(aside, width_part * excess_width(i)), 2);
+  const double other = std::pow(
+      std::max(aside, deviation_along(judged_, soundings_.beam[i], soundings_.range[i], judged_.echoes[i])), 2);
   if (bends.size() < 3) return other;
   double most = 0;
   for (std::ptrdiff_t b = beam - relief_lag_; b <= beam + relief_lag_; ++b)
     if (const std::optional<Bend>& bend = bend_of(b)) most = std::max(most, bend->off);
   const double scatter = std::max(median_of_normal * median_of(bends), own_part * most);
   return std::max({0.0, scatter * scatter - sure_of_relief * median_of(expected), other});
-}
-
-/// By how much the echo of a beam that is wide along the way is longer than that of a plane, as a standard deviation [m].
-double Judge::excess_width(std::size_t i) const {
-  const BottomEcho& echo = judged_.echoes[i];
-  if (echo.along_deviation < 2 * echo.pulse_deviation) return 0;
-  const std::size_t beam = soundings_.beam[i];
-  const RangeGate& gate = judged_.ping.gate;
-  const double range = soundings_.range[i], plane = std::hypot(echo.footprint_deviation, echo.pulse_deviation);
-  const double slope = widest_slope * range * judged_.ping.fan.elevation_width / full_width_of_normal;
-  const Bins bins = bins_about(range, 3 * std::max(plane, slope));
-  double sum = 0, moment = 0, square = 0;
-  for (Eigen::Index n = bins.first; n < bins.end; ++n) {
-    const double x = gate.centre(static_cast<std::size_t>(n)) - range;
-    const double w = std::max(0.0, judged_.intensity(static_cast<Eigen::Index>(beam), n) - judged_.noise[beam]);
-    sum += w, moment += w * x, square += w * x * x;
-  }
-  if (!(sum > 0)) return 0;
-  return std::sqrt(std::max(0.0, square / sum - moment / sum * (moment / sum) - plane * plane));
 }
 
 }  // namespace
@@ -252,13 +226,16 @@ void keep_soundings(BottomSoundings& soundings, const std::vector<char>& keep) {
 void judge_soundings(const JudgedPing& judged, BottomSoundings& soundings) {
   soundings.reject.assign(soundings.size(), 0);
   if (soundings.size() == 0) return;
-  const Judge judge(judged, soundings);
-  std::vector<double> relief(soundings.size());
+  Judge judge(judged, soundings);
+  std::vector<Skirt> skirts(soundings.size());
   parallel_for(soundings.size(), judged.threads, [&](std::size_t i) {
-    const Skirt skirt = judge.skirt_at(i);
-    soundings.reject[i] = judge.reject(i, skirt);
-    relief[i] = judge.relief_variance(i, skirt);
+    skirts[i] = judge.skirt_at(i);
+    soundings.reject[i] = judge.reject(i, skirts[i]);
   });
+  judge.find_bends();
+  std::vector<double> relief(soundings.size());
+  parallel_for(soundings.size(), judged.threads,
+               [&](std::size_t i) { relief[i] = judge.relief_variance(i, skirts[i]); });
   for (std::size_t i = 0; i < soundings.size(); ++i) {
     const auto own = static_cast<double>(soundings.deviation[i]);
     soundings.deviation[i] = static_cast<float>(std::sqrt(own * own + relief[i]));

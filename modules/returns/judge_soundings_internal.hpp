@@ -11,9 +11,10 @@ namespace insonify {
 /// What judge_soundings needs of the ping that soundings were found in.
 struct JudgedPing {
   const Ping& ping;
-  const Grid<double>& intensity;       ///< beams x bins [Pa^2]
-  const std::vector<double>& noise;    ///< of each beam [Pa^2]
-  std::span<const BottomEcho> echoes;  ///< of each sounding
+  const Grid<double>& intensity;                       ///< beams x bins [Pa^2]
+  const Eigen::Array<double, 1, Eigen::Dynamic>& all;  ///< sum over beams of the intensity of each bin [Pa^2]
+  const std::vector<double>& noise;                    ///< of each beam [Pa^2]
+  std::span<const BottomEcho> echoes;                  ///< of each sounding
   double absorption_db_per_m = 0;
   double side_lobe_reach = 0;  ///< how far side lobes stand from the range of their echo [m]
   int threads = 0;

@@ -2,10 +2,13 @@
 #include <string>
 
 #include "acoustics/echoes.hpp"
+#include "acoustics/environment.hpp"
 #include "sampling/scatterers.hpp"
+#include "scene/scene_cloud.hpp"
 #include "simulate/ping_event.hpp"
 #include "simulate/ping_plan.hpp"
-#include "simulate/simulated_ping.hpp"
+#include "simulate/simulation_options.hpp"
+#include "sonar/sonar_head.hpp"
 
 namespace insonify {
 

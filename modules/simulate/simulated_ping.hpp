@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/sound_speed_profile.hpp"
 #include "acoustics/sound_paths.hpp"
+#include "acoustics/sound_speed_profile.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "returns/contributors.hpp"
 #include "returns/ping.hpp"

@@ -109,7 +109,7 @@ void show_waterfall(const PingHistory& history, const PictureOptions& options, c
 std::vector<Mark> strongest_maxima(const LevelImage& image, std::size_t count, double within_db);
 
 /// Draws soundings of the bottom as points: across to starboard from the head, and height in the world [m], those found by
-/// amplitude and by phase apart. Files as show_fan; Error(content) without soundings.
+/// amplitude, those by phase, and rejected ones apart. Files as show_fan; Error(content) without soundings.
 void show_soundings(const Ping& ping, const BottomSoundings& found, const PictureOptions& options,
                     const std::string& png_path);
 

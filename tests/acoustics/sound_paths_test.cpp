@@ -1,5 +1,4 @@
 #include "acoustics/trace_paths.hpp"
-
 #include "support/test.hpp"
 
 namespace insonify {

@@ -1,6 +1,6 @@
-#include "acoustics/echo_source.hpp"
 #include "beamforming/split_aperture.hpp"
 
+#include "acoustics/echo_source.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"

@@ -1,6 +1,6 @@
 // Levels at the limits of what numbers can hold.
-#include "extreme_cases.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "extreme_cases.hpp"
 
 using namespace insonify::extreme;
 

@@ -1,6 +1,6 @@
 // A flat Lambert bottom, and the materials that ship with insonify against handbook values.
-#include "acoustics/reflection.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "acoustics/reflection.hpp"
 #include "speckle_bench.hpp"
 #include "store/materials_file.hpp"
 #include "support/test.hpp"

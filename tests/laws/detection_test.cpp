@@ -1,7 +1,7 @@
 // Error rates of detection in noise. Bins are longer than the pulse and beams are in each other's nulls, so samples are
 // independent; seeds are fixed, tolerances are multiples of the binomial standard error.
-#include "beamforming/synthesize_noise.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/synthesize_noise.hpp"
 #include "returns/detect_soundings.hpp"
 #include "speckle_bench.hpp"
 #include "support/test.hpp"

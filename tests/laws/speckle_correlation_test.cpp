@@ -1,6 +1,6 @@
 // Second-order laws of speckle: correlation between neighbouring beams and between neighbouring poses of the head.
-#include "speckle_bench.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "speckle_bench.hpp"
 #include "support/test.hpp"
 
 using namespace insonify::laws;

@@ -1,7 +1,7 @@
 // First-order laws of speckle: statistics of single pixels over independent cells and seeds. Seeds are fixed, so
 // results are reproducible; tolerances are multiples of the standard error stated beside them.
-#include "simulate/simulate_ping.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "simulate/simulate_ping.hpp"
 #include "speckle_bench.hpp"
 #include "support/simulate_event.hpp"
 #include "support/test.hpp"

@@ -1,6 +1,6 @@
 // Calibrated targets: echoes of single bodies of known shape.
-#include "returns/ping.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "returns/ping.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "speckle_bench.hpp"

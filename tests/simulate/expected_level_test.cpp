@@ -1,6 +1,6 @@
 // Expected levels without speckle, how well finitely many points give them, and where the scan has holes.
-#include "beamforming/synthesize_intensity.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/synthesize_intensity.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"

@@ -1,6 +1,6 @@
 // What is heard of a surfel (E127), against the energy of pings of single surfels, and the error of parts by its share.
-#include "beamforming/synthesize_intensity.hpp"
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/synthesize_intensity.hpp"
 #include "simulate/heard_energy_internal.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"

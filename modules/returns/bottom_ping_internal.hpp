@@ -1,0 +1,49 @@
+#pragma once
+#include <vector>
+
+#include "core/grid.hpp"
+#include "returns/bottom_detection.hpp"
+#include "returns/bottom_fits_internal.hpp"
+
+namespace insonify {
+
+/// A found echo of a beam.
+struct BottomFind {
+  double range = 0, energy = 0;
+};
+
+/// All beams of a ping, prepared for detection.
+class BottomPing {
+ public:
+  BottomPing(const Ping& ping, const BottomOptions& options);
+
+  /// Echoes of a beam by falling energy; at most options.per_beam.
+  std::vector<BottomFind> find(std::size_t beam) const;
+  /// dr/du about a beam from the first echoes of its neighbours [m].
+  double slope_at(std::size_t beam, const std::vector<std::vector<BottomFind>>& found) const;
+  /// What the echo of a plane of this slope is like.
+  BottomEcho echo_at(std::size_t beam, double range, double slope, double turn) const;
+  /// Phase between the halves per direction cosine [rad], by the median of all beams.
+  double phase_per_cosine(const std::vector<std::vector<BottomFind>>& found, const std::vector<double>& slopes) const;
+  BottomBeam beam_of(std::size_t beam) const;
+  float level_db_near(std::size_t beam, double range, double reach) const;
+  void judge(const std::vector<BottomEcho>& echoes, BottomSoundings& soundings) const;
+
+ private:
+  /// Half the footprint on a level bottom [bins], at least a pulse, of beams so far from the vertical.
+  std::size_t reach_of(double tangent, double cosine, double range) const;
+  /// Intensity at each range below which a sample is a side lobe, from that of the strongest beam.
+  Eigen::Array<double, 1, Eigen::Dynamic> side_lobe_floor(
+      const Eigen::Array<double, 1, Eigen::Dynamic>& strongest) const;
+  /// How far in range side lobes stand from their echo [m].
+  double side_lobe_reach() const;
+
+  const Ping& ping_;
+  const BottomOptions& options_;
+  Grid<double> intensity_;
+  Eigen::Array<double, 1, Eigen::Dynamic> all_, floor_, gain_;  ///< of each bin
+  std::vector<double> noise_, threshold_, cosine_, down_;
+  double pulse_deviation_ = 0;
+};
+
+}  // namespace insonify
