@@ -194,6 +194,11 @@ TEST(RoughGround, is_the_same_after_it_was_prepared) {
     EXPECT_EQ(again.mesh->triangle, loaded.mesh->triangle) << name;
     EXPECT_EQ((energy(again) == energy(loaded)).all(), true) << name;
   }
+  LoadOptions from_below;
+  from_below.viewpoint = Eigen::Vector3d(0, 0, -1000);
+  const LoadedScene roof = drawn({}, from_below);
+  save_scene(own_path("roof.ply"), roof);
+  EXPECT_EQ(load_scene(own_path("roof.ply")).mesh.value().triangle, roof.mesh.value().triangle);
   const LoadedScene mesh = load_scene(mesh_file(bed()));
   save_scene(own_path("mesh.ply"), mesh);
   const LoadedScene again = load_scene(own_path("mesh.ply"));
@@ -202,6 +207,25 @@ TEST(RoughGround, is_the_same_after_it_was_prepared) {
   EXPECT_EQ((energy(again) == energy(mesh)).all(), true);
   save_scene(own_path("mesh.pcd"), mesh);
   EXPECT_FALSE(load_scene(own_path("mesh.pcd")).mesh);
+}
+
+// A prepared PLY says which points are neighbours, so that nothing is joined again; one without faces is joined as ever.
+TEST(RoughGround, that_was_prepared_keeps_its_triangles_in_the_file) {
+  const LoadedScene loaded = drawn({.jitter = 0.35});
+  save_scene(own_path("bed.ply"), loaded);
+  const std::string bytes = file_bytes(own_path("bed.ply")), all = std::to_string(loaded.mesh->triangle.size());
+  const std::string half = replaced(bytes, "element face " + all, "element face " + std::to_string(1000));
+  const LoadedScene some =
+      load_scene(own_file("some.ply", half.substr(0, half.size() - 13 * (loaded.mesh->triangle.size() - 1000))));
+  ASSERT_TRUE(some.mesh);
+  EXPECT_EQ(some.mesh->triangle, std::vector(loaded.mesh->triangle.begin(), loaded.mesh->triangle.begin() + 1000));
+  EXPECT_EQ(some.scene.size(), loaded.scene.size());
+
+  SceneCloud points = loaded.scene;
+  points.point = loaded.mesh->point;
+  save_scene(own_path("points.ply"), points, loaded.columns);
+  EXPECT_EQ(file_bytes(own_path("points.ply")).find("element face"), std::string::npos);
+  EXPECT_EQ(load_scene(own_path("points.ply")).mesh.value().triangle, loaded.mesh->triangle);
 }
 
 TEST(RoughGround, is_no_height_field_where_walls_stand_on_it_or_surfaces_lie_above_each_other) {
