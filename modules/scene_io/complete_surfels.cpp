@@ -4,6 +4,7 @@
 
 #include "sampling/trust_lines_of_sight.hpp"
 #include "scene/estimate/height_triangles.hpp"
+#include "scene/estimate/smoothed_heights.hpp"
 #include "scene/estimate/surfel_area.hpp"
 #include "scene/estimate/surfel_noise.hpp"
 #include "scene_io/complete_scene_internal.hpp"
