@@ -174,9 +174,10 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
     return area_of({at(0), at(1), at(2)}) == 0;
   });
   if (raw.surface.empty()) return;
+  const bool own_normals = raw.surface_normals || raw.tags.own_normals;
   SceneMesh mesh{.origin = scene.origin,
                  .point = scene.point,
-                 .normal = {},
+                 .normal = own_normals ? scene.normal : std::vector<Vector3f>(),
                  .material = scene.material,
                  .triangle = std::move(raw.surface),
                  .materials = scene.materials,
@@ -191,6 +192,7 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
   result.report.format += ", " + raw.surface_name;
   if (options.mesh_spacing == 0) {
     result.columns.heights = true;
+    result.columns.own_normals = own_normals;
     result.mesh = std::move(mesh);
     return;
   }

@@ -230,6 +230,32 @@ TEST(RoughGround, that_was_prepared_keeps_its_triangles_in_the_file) {
   EXPECT_EQ(load_scene(own_path("points.ply")).mesh.value().triangle, loaded.mesh->triangle);
 }
 
+// Normals of a file, here those across two spacings, say how its surface scatters; where it stands and what it hides is that of
+// its triangles, so it is heard as without them within what such normals leave.
+TEST(RoughGround, with_normals_of_its_own_is_a_surface_that_has_them) {
+  std::string text = "x y z nx ny nz\n", fallen = text;
+  for (const Eigen::Vector3d& p : draw_points(bed())) {
+    const auto slope = [&](const Eigen::Vector2d& step) {
+      const auto at = [&](const Eigen::Vector2d& q) { return bed().at(q.cwiseMax(-1.499).cwiseMin(1.499)); };
+      return (at(p.head<2>() + step) - at(p.head<2>() - step)) / (2 * step.norm());
+    };
+    const Eigen::Vector3d normal(-slope({0.01, 0}), -slope({0, 0.01}), 1);
+    text += text_of({p}), text.back() = ' ', text += text_of({normal.normalized()});
+    fallen += text_of({p}), fallen.back() = ' ', fallen += "1 0 0\n";
+  }
+  const LoadedScene loaded = load_scene(own_file("bed.xyz", text));
+  ASSERT_TRUE(loaded.mesh);
+  EXPECT_EQ(loaded.mesh->normal, loaded.scene.normal);
+  expect_levels(energy(loaded), truth_of_bed(), 0.1, 0.3);
+  EXPECT_FALSE(load_scene(own_file("fallen.xyz", fallen)).mesh);
+
+  save_scene(own_path("bed.ply"), loaded);
+  const LoadedScene again = load_scene(own_path("bed.ply"));
+  ASSERT_TRUE(again.mesh);
+  EXPECT_EQ(again.mesh->normal, loaded.mesh->normal);
+  EXPECT_EQ((energy(again) == energy(loaded)).all(), true);
+}
+
 TEST(RoughGround, is_no_height_field_where_walls_stand_on_it_or_surfaces_lie_above_each_other) {
   std::vector<Eigen::Vector3d> points = draw_points(bed(), {.jitter = 0.35});
   const std::size_t one = points.size();
