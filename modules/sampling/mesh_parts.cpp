@@ -71,6 +71,15 @@ MeshSurfel MeshParts::surfel_of(const Part& part, std::size_t triangle) const {
           {c[0].cast<float>(), c[1].cast<float>(), c[2].cast<float>()}};
 }
 
+void reserve(std::size_t surfels, SceneCloud& scene) {
+  scene.point.reserve(surfels);
+  scene.normal.reserve(surfels);
+  scene.area.reserve(surfels);
+  scene.material.reserve(surfels);
+  scene.id.reserve(surfels);
+  scene.facet.reserve(surfels);
+}
+
 void append(const std::vector<MeshSurfel>& surfels, SceneCloud& scene) {
   for (const MeshSurfel& s : surfels) {
     scene.point.push_back(s.place.position.cast<float>());

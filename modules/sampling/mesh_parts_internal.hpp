@@ -56,6 +56,8 @@ class MeshParts {
   std::uint64_t seed_;
 };
 
+/// Makes room for so many surfels with facets.
+void reserve(std::size_t surfels, SceneCloud& scene);
 /// Appends surfels to a scene, with their parts as facets.
 void append(const std::vector<MeshSurfel>& surfels, SceneCloud& scene);
 

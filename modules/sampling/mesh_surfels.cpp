@@ -137,6 +137,12 @@ class MeshSampler {
   std::atomic<std::size_t> count_{0};
 };
 
+std::size_t surfels_in(const std::vector<std::vector<MeshSurfel>>& parts) {
+  std::size_t sum = 0;
+  for (const auto& part : parts) sum += part.size();
+  return sum;
+}
+
 }  // namespace
 
 MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, const BeamFan& fan,
@@ -168,6 +174,7 @@ MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, 
   }
   while (!mesh.triangle.empty() && (found = sampler.sample(result.coarsening, most_surfels)).empty())
     result.coarsening *= 2;
+  reserve(surfels_in(found), scene);
   for (auto& part : found) {
     append(part, scene);
     std::vector<MeshSurfel>().swap(part);
@@ -202,6 +209,8 @@ EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t se
   even.scene.origin = mesh.origin;
   even.scene.materials = mesh.materials;
   even.scene.normals_oriented = mesh.normals_oriented;
+  reserve(surfels_in(found), even.scene);
+  even.corner.reserve(surfels_in(found));
   for (const auto& part : found) {
     append(part, even.scene);
     for (const MeshSurfel& s : part) even.corner.push_back(s.place.corner);

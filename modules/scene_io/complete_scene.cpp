@@ -21,8 +21,7 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
 
 /// Drops points that are withheld, not finite or coincide with an earlier point.
 void drop_unusable(RawCloud& raw, LoadReport& report) {
-  // Files written by save_scene contain no duplicates.
-  const bool search = !raw.tags.prepared;
+  const bool search = !raw.tags.prepared;  // save_scene writes no duplicates
   if (!search && raw.not_finite + raw.withheld == 0) return;
   std::vector<std::uint32_t> first(raw.point.size());
   std::iota(first.begin(), first.end(), 0u);
@@ -178,6 +177,7 @@ void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
   keep_only(raw.id, keep);
   for (SceneColumn& column : raw.columns) keep_rows(column, keep);
   if (!raw.raster.empty()) raw.raster = raster_triangles(raw.point);
+  raw.surface.clear();
 }
 
 LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {

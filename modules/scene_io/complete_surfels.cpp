@@ -4,12 +4,15 @@
 
 #include "sampling/trust_lines_of_sight.hpp"
 #include "scene/estimate/height_triangles.hpp"
+#include "scene/estimate/smoothed_heights.hpp"
 #include "scene/estimate/surfel_area.hpp"
 #include "scene/estimate/surfel_noise.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
 namespace {
+
+constexpr double nearly_all = 0.98;  // of the points
 
 /// An organised cloud with a viewpoint: one view, of which every line of sight is known.
 bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint; }
@@ -27,7 +30,6 @@ bool seen_from_above(const RawCloud& raw) {
 /// relief or all are noisy; else those of the plan, if nearly all are of one height field.
 void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32_t, 3>> raster, int threads,
                   RawCloud& raw) {
-  constexpr double nearly_all = 0.98;
   const bool one_sheet = static_cast<double>(shapes.heights) >= nearly_all * static_cast<double>(raw.point.size());
   const bool relief = 2 * shapes.height_field >= raw.point.size();
   if (!one_sheet && !(relief && !raster.empty())) return;
@@ -40,26 +42,53 @@ void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32
   set_surface(smooth, is_raster ? raster_triangles(smooth) : std::move(raster), threads, raw);
 }
 
-/// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
-void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+SurfelShapes shapes_of(const RawCloud& raw, const LoadOptions& options) {
   ShapeOptions shaping{.threads = options.threads, .keep_strays = options.keep_strays};
   shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raw.raster.empty() || seen_from_above(raw);
   if (seen_at_once(raw)) shaping.viewpoint = *raw.viewpoint - raw.origin;
-  SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, shaping);
+  return estimate_surfel_shapes(raw.point, raw.normal, shaping);
+}
+
+void take_areas(SurfelShapes& shapes, const LoadOptions& options, RawCloud& raw, LoadReport& report) {
+  raw.area = std::move(shapes.area);
+  report.areas_estimated = true;
+  report.strays = shapes.strays;
+  if (shapes.strays > 0)
+    report.notes.push_back(share(shapes.strays, raw.point.size(), "points") + " stand far from all others: " +
+                           (options.keep_strays ? "kept with areas as large as their cells"
+                                                : "their areas are those of their neighbours"));
+}
+
+/// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
+void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  SurfelShapes shapes = shapes_of(raw, options);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
     const bool seen = !raw.viewpoint || shapes.normal[i].cast<double>().dot(*raw.viewpoint - raw.origin -
                                                                             raw.point[i].cast<double>()) > 0;
     if (seen) raw.normal[i] = shapes.normal[i];
   }
   if (raw.heights && !raw.viewpoint) turn_up(raw.normal);
-  raw.area = std::move(shapes.area);
-  report.areas_estimated = true;
-  report.strays = shapes.strays;
   join_heights(shapes, std::exchange(raw.raster, {}), options.threads, raw);
-  if (shapes.strays > 0)
-    report.notes.push_back(share(shapes.strays, raw.point.size(), "points") + " stand far from all others: " +
-                           (options.keep_strays ? "kept with areas as large as their cells"
-                                                : "their areas are those of their neighbours"));
+  take_areas(shapes, options, raw, report);
+}
+
+/// True if nearly all normals look up, or down: those of one side of a height field.
+bool look_one_way(const std::vector<Eigen::Vector3f>& normals) {
+  std::size_t up = 0, down = 0;
+  for (const Eigen::Vector3f& normal : normals) up += normal.z() > 0, down += normal.z() < 0;
+  return static_cast<double>(std::max(up, down)) >= nearly_all * static_cast<double>(normals.size());
+}
+
+/// The surface of a height field with normals of its own, which are those of the surface, and areas; false for other clouds.
+bool complete_heights(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  if (!raw.area.empty() || raw.tags.prepared || !look_one_way(raw.normal)) return false;
+  raw.raster = raster_triangles(raw.point);
+  SurfelShapes shapes = shapes_of(raw, options);
+  join_heights(shapes, std::exchange(raw.raster, {}), options.threads, raw);
+  if (raw.surface.empty()) return false;
+  raw.surface_normals = true;
+  take_areas(shapes, options, raw, report);
+  return true;
 }
 
 }  // namespace
@@ -77,6 +106,7 @@ double largest_area(const RawCloud& raw) {
 
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   if (raw.area.empty() && report.normals_estimated) return complete_shapes(raw, options, report);
+  if (complete_heights(raw, options, report)) return;
   raw.raster.clear();  // points with areas of their own stand for themselves
   const double limit = largest_area(raw);
   const auto bad = [&](float area) { return !(area >= 0 && area <= limit); };

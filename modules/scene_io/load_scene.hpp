@@ -62,8 +62,9 @@ struct LoadedScene {
   LoadReport report;
   /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or the surface
   /// of a height field, of which `scene` has the points. A ping samples it by what its head resolves (mesh_surfels). A height
-  /// field is a cloud without normals and areas of which 98 % of the points have one height each, or whose points stand on a
-  /// grid along x and y and most show no noise (raster_triangles, height_triangles); noisy points are joined at smoothed_heights.
+  /// field is a cloud without areas of which 98 % of the points have one height each, or whose points stand on a grid along x
+  /// and y and most show no noise (raster_triangles, height_triangles), and whose normals look up, or down, if it has any:
+  /// they are those of the mesh. Noisy points are joined at smoothed_heights.
   std::optional<SceneMesh> mesh{};
   SceneColumns
       columns{};  ///< of the surfels, with options.keep_columns; of a sampled mesh those of the nearest corners

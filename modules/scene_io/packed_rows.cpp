@@ -109,7 +109,8 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
   rows.comments = tag_lines(scene);
   if (columns.material != "material" || !columns.others.empty())
     rows.comments.push_back("insonify material_field " + columns.material);
-  if (columns.heights) rows.comments.push_back("insonify points heights");
+  if (columns.heights)
+    rows.comments.push_back(std::string("insonify points heights") + (columns.own_normals ? " normals" : ""));
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
   rows.columns.push_back({"area", NumberType::float32});

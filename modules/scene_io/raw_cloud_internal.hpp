@@ -25,6 +25,7 @@ struct SceneTags {
   std::vector<Material> materials;
   std::string material_field;  ///< name of the column of materials, if it is said
   bool heights = false;        ///< points of a height field, with the surface between them
+  bool own_normals = false;    ///< whose normals are those of the points
 };
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
@@ -55,6 +56,7 @@ struct RawCloud {
   std::vector<std::array<std::uint32_t, 3>> raster;   ///< triangles between the points, if they are a raster of heights
   std::vector<std::array<std::uint32_t, 3>> surface;  ///< triangles between the points of a height field
   std::vector<float> surface_height;  ///< z on it [m], of points that stray from it by noise; empty: theirs
+  bool surface_normals = false;       ///< its normals are those of the points, and not of its triangles
   std::string surface_name;           ///< what it is, for the report
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
   std::size_t withheld = 0;                              ///< points that their file marks as not to be used

@@ -134,7 +134,10 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options) {
            "; copy the file again, or save it from CloudCompare or MeshLab");
     return taker.rows();
   });
-  if (!raw.triangle.empty() || raw.bad_triangles > 0) raw.format += " mesh";
+  if (raw.tags.prepared && raw.tags.heights)
+    raw.surface = std::move(raw.triangle), raw.triangle.clear();
+  else if (!raw.triangle.empty() || raw.bad_triangles > 0)
+    raw.format += " mesh";
   return raw;
 }
 

@@ -268,8 +268,11 @@ std::optional<RowFile> find_ply_rows(const std::string& path) {
   RowFile file{path, "PLY " + header.encoding, {}, header.vertex().count, 0, header.end, false, header.tags, {}};
   file.big_endian = header.encoding == "binary_big_endian";
   file.comments = header.comments;
+  const bool points = header.tags.prepared && header.tags.heights;  // with the surface between them
+  for (const PlyElement& element : header.elements)
+    if (element.has_list() && element.count > 0 && !points) return std::nullopt;  // a mesh
   for (const PlyElement& element : header.elements) {
-    if (element.has_list() && element.count > 0) return std::nullopt;  // a mesh
+    if (element.has_list() && element.count > 0) return std::nullopt;
     std::size_t stride = 0;
     for (const PlyProperty& property : element.properties) {
       if (element.name == "vertex") file.columns.push_back({property.name, property.type, stride});

@@ -164,30 +164,35 @@ SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadRepor
 
 void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneCloud& scene = result.scene;
-  if (raw.tags.prepared && raw.tags.heights)
+  const bool from_file = !raw.surface.empty() && raw.tags.prepared;
+  if (from_file)
+    raw.surface_name = "surface of heights";
+  else if (raw.tags.prepared && raw.tags.heights)
     set_surface(scene.point, raster_triangles(scene.point), options.threads, raw);
   std::erase_if(raw.surface, [&](const auto& t) {
     const auto at = [&](int corner) { return scene.point[t[corner]].template cast<double>(); };
     return area_of({at(0), at(1), at(2)}) == 0;
   });
   if (raw.surface.empty()) return;
+  const bool own_normals = raw.surface_normals || raw.tags.own_normals;
   SceneMesh mesh{.origin = scene.origin,
                  .point = scene.point,
-                 .normal = {},
+                 .normal = own_normals ? scene.normal : std::vector<Vector3f>(),
                  .material = scene.material,
                  .triangle = std::move(raw.surface),
                  .materials = scene.materials,
                  .normals_oriented = scene.normals_oriented,
                  .whole = whole_of(scene)};
   for (std::size_t i = 0; i < raw.surface_height.size(); ++i) mesh.point[i].z() = raw.surface_height[i];
-  // A height field looks to one side.
+  // A height field looks to one side, to which the triangles of a file are turned.
   double up = 0;
   for (std::size_t i = 0; i < scene.size(); ++i) up += double{scene.area[i]} * double{scene.normal[i].z()};
-  if (scene.normals_oriented && up < 0)
+  if (scene.normals_oriented && up < 0 && !from_file)
     for (auto& triangle : mesh.triangle) std::swap(triangle[1], triangle[2]);
   result.report.format += ", " + raw.surface_name;
   if (options.mesh_spacing == 0) {
     result.columns.heights = true;
+    result.columns.own_normals = own_normals;
     result.mesh = std::move(mesh);
     return;
   }

@@ -61,7 +61,10 @@ void save_scene(const std::string& path, const LoadedScene& loaded) {
   if (!loaded.columns.heights || !loaded.mesh) return save_scene(path, loaded.scene, loaded.columns);
   SceneCloud scene = loaded.scene;
   scene.point = loaded.mesh->point;
-  save_scene(path, scene, loaded.columns);
+  const CloudFormat format = format_for(path, scene);
+  PackedRows rows = rows_of(scene, format, loaded.columns);
+  if (format == CloudFormat::ply) rows.triangles = loaded.mesh->triangle;
+  write_cloud(path, format, rows);
 }
 
 void save_bare_points(const std::string& path, const SceneCloud& scene) {

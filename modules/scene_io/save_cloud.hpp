@@ -20,7 +20,7 @@ namespace insonify {
 void save_scene(const std::string& path, const SceneCloud& scene, const SceneColumns& columns = {});
 
 /// Writes a loaded scene so that it is pinged as before: points of a height field, at their heights on its surface, with a
-/// comment line that says that they are; a mesh as .ply, with its triangles; a mesh as .pcd, which has no place for them, as
+/// comment line that says that they are, and in a .ply the triangles between them; a mesh as .ply, with its triangles; a mesh as .pcd, which has no place for them, as
 /// the surfels of its overview. Otherwise as above.
 void save_scene(const std::string& path, const LoadedScene& loaded);
 

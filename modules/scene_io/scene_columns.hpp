@@ -17,7 +17,8 @@ struct SceneColumn {
 struct SceneColumns {
   std::string material = "material";  ///< name of the column of materials
   std::vector<SceneColumn> others{};
-  bool heights = false;  ///< the points are those of a height field, with the surface between them
+  bool heights = false;      ///< the points are those of a height field, with the surface between them
+  bool own_normals = false;  ///< whose normals are those of the points, and not of its triangles
 };
 
 /// The columns of the surfels with the ids `kept`, which are some of `ids`, those of `columns`.

@@ -44,7 +44,8 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     }
     tags.origin = origin;
   } else if (key == "points") {
-    if (take_word(rest) == "heights") tags.heights = true;
+    tags.heights = take_word(rest) == "heights";
+    tags.own_normals = tags.heights && take_word(rest) == "normals";
   } else if (key == "material_field") {
     if (!rest.empty()) rest.remove_prefix(1);
     tags.material_field = std::string(rest);

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "scene/estimate/smoothed_heights.hpp"
+
 using namespace insonify;
 using Eigen::Vector3f;
 
@@ -104,4 +106,45 @@ TEST(SmoothedHeights, lie_near_the_surface_that_noise_hides) {
     after += std::pow(heights[i] - wave(points[i]), 2);
   }
   EXPECT_LT(after, 0.15 * before);
+}
+
+// How wide the neighbourhoods are follows the surface: a plane is as even as the widest leave it, and the waves that noise of a
+// spacing does not hide keep their slopes.
+TEST(SmoothedHeights, keep_the_waves_that_rise_out_of_noise_and_no_others) {
+  constexpr int n = 128;
+  constexpr float spacing = 1.0f / n;
+  const auto slopes = [](const std::vector<float>& heights) {  // mean square, between neighbours of a raster, inside
+    double sum = 0;
+    int count = 0;
+    for (int j = 12; j < n - 12; ++j)
+      for (int i = 12; i < n - 12; ++i, ++count)
+        sum += std::pow(
+            (heights[static_cast<std::size_t>(j * n + i + 1)] - heights[static_cast<std::size_t>(j * n + i)]) / spacing,
+            2);
+    return sum / count;
+  };
+  const auto bed = [](float steepness, float i, float j) {  // of two waves, 12 and 20 spacings long
+    const float k = 2 * 3.14159265f;
+    return steepness * spacing / k *
+           (12 * std::sin(k * (i + 0.5f * j) / 13.4f) + 20 * std::cos(k * (j - 0.3f * i) / 20.9f));
+  };
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise;
+  for (const float steepness : {0.0f, 0.5f}) {
+    std::vector<Vector3f> points;
+    std::vector<float> truth;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        truth.push_back(bed(steepness, static_cast<float>(i), static_cast<float>(j)));
+        points.emplace_back(static_cast<float>(i) * spacing, static_cast<float>(j) * spacing,
+                            truth.back() + spacing * noise(random));
+      }
+    const auto heights = smoothed_heights(points, std::vector<std::uint8_t>(points.size(), 1));
+    EXPECT_NEAR(slopes(heights), slopes(truth), 0.2 * slopes(truth) + 0.003) << steepness;
+  }
+}
+
+TEST(SmoothedHeights, of_a_few_points_are_theirs_if_no_cubic_goes_through_them) {
+  const std::vector<Vector3f> points = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3}, {1, 1, 4}};
+  EXPECT_EQ(smoothed_heights(points, std::vector<std::uint8_t>(4, 1)), (std::vector<float>{1, 2, 3, 4}));
 }

@@ -244,6 +244,25 @@ TEST(SurfelShapes, of_a_noisy_plane_are_those_of_the_plane) {
   }
 }
 
+// Around a point of a raster with lines 1 : 5 apart stand but three lines, through which there is no cubic.
+TEST(SurfelShapes, know_noise_on_lines_far_apart) {
+  std::mt19937 random(2);
+  std::normal_distribution<float> normal;
+  const auto noisy_of = [&](float noise) {
+    std::vector<Vector3f> points;
+    for (int i = 0; i < 60; ++i)
+      for (int j = 0; j < 300; ++j) {
+        const float x = 0.05f * static_cast<float>(i), y = 0.01f * static_cast<float>(j);
+        points.push_back({x, y, 0.03f * std::sin(6 * x) * std::cos(5 * y) + noise * normal(random)});
+      }
+    const SurfelShapes shapes = estimate_surfel_shapes(points, base_normals(points));
+    return static_cast<double>(std::count(shapes.noisy.begin(), shapes.noisy.end(), 1)) /
+           static_cast<double>(points.size());
+  };
+  EXPECT_LT(noisy_of(0), 0.05);
+  EXPECT_GT(noisy_of(0.015f), 0.95);
+}
+
 // A viewpoint that only orients the normals of a raster of heights does not make it a scan.
 TEST(SurfelShapes, of_a_raster_of_heights_do_not_depend_on_the_viewpoint) {
   std::vector<Vector3f> points;

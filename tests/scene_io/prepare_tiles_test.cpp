@@ -77,6 +77,28 @@ TEST(PrepareTiles, a_prepared_ply_or_pcd_comes_back_bit_by_bit) {
   EXPECT_EQ(prepared.tiles.surfels, scene.size());
 }
 
+TEST(PrepareTiles, triangles_of_a_prepared_height_field_are_passed_over_and_those_of_a_mesh_sampled) {
+  std::string points = "-0.5 0.5 0\n";
+  for (int i = 0; i < 400; ++i)
+    points += std::to_string(i % 20 + 0.3 * std::sin(i)) + " " + std::to_string(i / 20 + 0.3 * std::cos(2 * i)) + " " +
+              std::to_string(std::sin(0.3 * i / 20)) + "\n";
+  LoadOptions from_above;
+  from_above.viewpoint = Eigen::Vector3d(0, 0, 1000);
+  const LoadedScene heights = load_scene(own_file("bed.xyz", points), from_above);
+  save_scene(own_path("bed.ply"), heights);
+  ASSERT_NE(file_bytes(own_path("bed.ply")).find("element face"), std::string::npos);
+  EXPECT_EQ(expect_as_loaded(own_path("bed.ply")).tiles.surfels, heights.scene.size());
+
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n";
+  save_scene(own_path("mesh.ply"), load_scene(own_file("text.ply", text)));
+  const PreparedTiles prepared = prepare_tiles(own_path("mesh.ply"), own_path("mesh.tiles"), in_batches());
+  EXPECT_FALSE(prepared.streamed);
+  EXPECT_NEAR(prepared.tiles.total_area, 0.5, 1e-6);
+}
+
 TEST(PrepareTiles, both_byte_orders_doubles_and_labels_are_read_as_load_scene_reads_them) {
   std::vector<Row> rows = plate(60);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].label = static_cast<std::uint8_t>(i % 3);

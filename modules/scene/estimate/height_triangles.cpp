@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "scene/estimate/relief_fit_internal.hpp"
 #include "scene/estimate/surfel_cell_internal.hpp"
 #include "scene/scene_index.hpp"
 
@@ -28,13 +27,6 @@ double hashed(std::uint64_t n) {  // in [-0.5, 0.5) (splitmix64)
   n = (n ^ n >> 30) * 0xbf58476d1ce4e5b9u;
   n = (n ^ n >> 27) * 0x94d049bb133111ebu;
   return static_cast<double>((n ^ n >> 31) >> 11) * 0x1p-53 - 0.5;
-}
-
-std::vector<Vector3f> plan_of(std::span<const Vector3f> points) {
-  std::vector<Vector3f> flat;
-  flat.reserve(points.size());
-  for (const Vector3f& p : points) flat.emplace_back(p.x(), p.y(), 0.0f);
-  return flat;
 }
 
 class Stars {
@@ -116,42 +108,6 @@ std::vector<Triangle> height_triangles(std::span<const Vector3f> points, int thr
   std::vector<Triangle> triangles;
   for (const auto& part : parts) triangles.insert(triangles.end(), part.begin(), part.end());
   return triangles;
-}
-
-std::vector<float> smoothed_heights(std::span<const Vector3f> points, std::span<const std::uint8_t> noisy,
-                                    int threads) {
-  std::vector<float> heights;
-  for (const Vector3f& p : points) heights.push_back(p.z());
-  if (points.size() <= first_look) return heights;
-  const std::vector<Vector3f> flat = plan_of(points);
-  const SceneIndex index(flat);
-  // A slope of a cubic through n points in a circle, one to each square spacing, has the deviation 6 sqrt(pi) / n of noise of
-  // one spacing.
-  constexpr double slope = 0.05, least = 16, most = 192;
-  const double points_per_noise = 6 * std::sqrt(pi) / slope;
-  parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    Workspace work;
-    const auto fit_to = [&](std::size_t i, std::size_t neighbours) {
-      index.find_nearest(flat[i], neighbours + 1, work.found);
-      work.places.clear();
-      for (const Neighbour& n : work.found)
-        if (n.index != i) {
-          const Vector3d offset = (points[n.index] - points[i]).cast<double>();
-          work.places.push_back({offset.head<2>(), offset});
-        }
-      return fit_relief<3>(work.places, Vector3d::UnitZ());
-    };
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!noisy[i]) continue;
-      const ReliefFit first = fit_to(i, first_look);
-      const double reach = std::sqrt(static_cast<double>(work.found.back().squared_distance));
-      const double spacing = reach * std::sqrt(pi / static_cast<double>(work.found.size()));
-      const double wanted = points_per_noise * std::sqrt(first.misfit) / spacing;
-      const ReliefFit fit = fit_to(i, static_cast<std::size_t>(std::clamp(wanted, least, most)));
-      if (fit.found) heights[i] += static_cast<float>(fit.rise);
-    }
-  });
-  return heights;
 }
 
 }  // namespace insonify

@@ -14,9 +14,4 @@ namespace insonify {
 /// triangles that stand on end. O(n log n); the same for any number of `threads` (0: all cores).
 std::vector<std::array<std::uint32_t, 3>> height_triangles(std::span<const Eigen::Vector3f> points, int threads = 0);
 
-/// Heights of the points of a height field, those marked in `noisy` (one entry a point) moved onto the surface through their
-/// neighbours on the plan: a cubic through as many of them, 16 to 192, as bring the slope of the surface within 0.05.
-std::vector<float> smoothed_heights(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> noisy,
-                                    int threads = 0);
-
 }  // namespace insonify

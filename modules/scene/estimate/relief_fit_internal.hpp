@@ -14,6 +14,7 @@ struct ReliefFit {
   Vector2d slope = Vector2d::Zero();  // at the point
   double rise = 0;                    // of the polynomial over the point [m]
   double misfit = 0;                  // [m^2], mean square of what the polynomial leaves, per degree of freedom
+  double leverage = 0;                // of the point's own rise on that of the polynomial
   bool found = false;                 // the places determine it
 };
 
@@ -47,7 +48,9 @@ ReliefFit fit_relief(std::span<const Place> places, const Vector3d& up) {
   if (!(solver.vectorD().minCoeff() > least * solver.vectorD().maxCoeff())) return {};
   const Terms found = solver.solve(right);
   const double left = std::max(0.0, square - found.dot(right));
-  return {found.template segment<2>(1) / reach, found[0], left / static_cast<double>(places.size() + 1 - terms), true};
+  const double leverage = solver.solve(Terms::Unit(0))[0];
+  return {found.template segment<2>(1) / reach, found[0], left / static_cast<double>(places.size() + 1 - terms),
+          leverage, true};
 }
 
 }  // namespace insonify::cells

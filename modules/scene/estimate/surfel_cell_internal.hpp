@@ -25,6 +25,14 @@ inline constexpr double largest_spacing = 16;  // of a cell, in median spacings 
 inline constexpr double same_sheet = 1;        // a neighbour rises over the tangent plane by no more than it is away
 inline constexpr double same_rough_sheet = 3;  // and over the base plane of a rough surface
 
+// Where points stand on their plan.
+inline std::vector<Vector3f> plan_of(std::span<const Vector3f> points) {
+  std::vector<Vector3f> flat;
+  flat.reserve(points.size());
+  for (const Vector3f& p : points) flat.emplace_back(p.x(), p.y(), 0.0f);
+  return flat;
+}
+
 // A neighbour in the tangent plane, and where it is from the point.
 struct Place {
   Vector2d flat;

@@ -95,7 +95,8 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
   if (facet.dot(up) >= least_cosine) look.relief = facet.cast<float>();
   if (work.places.size() < neighbours_fitted) return look;
   const std::span<const Place> all(work.places), near = all.first(neighbours_fitted);
-  const ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
+  ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
+  if (!cubic.found) cubic = fit_relief<2>(all, up), flat = fit_relief<1>(all, up);  // on three lines of a scan
   if (!cubic.found) return look;
   look.left_by_relief = cubic.misfit;
   look.left_by_plane = flat.misfit;

@@ -15,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <limits>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@
 #include "sampling/find_scatterers.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
+#include "scene_io/tile_writer.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
@@ -173,6 +175,11 @@ void compare(const std::string& title, const HeightField& field, const View& vie
   const Grid<double> truth =
       energy_by_definition(field, Material{}.lambert_mu, view.head, view.pose, medium, 3, groups, cells);
   print_head(title);
+  const Grid<double> wanted = by_band(truth);
+  std::printf("| energy, dB below the strongest band | | |");
+  for (Eigen::Index b = 0; b < bands; ++b)
+    if (wanted(b) > 1e-6 * wanted.maxCoeff()) std::printf(" %.1f", error_db(wanted.maxCoeff(), wanted(b)));
+  std::printf(" | | | |\n");
   for (const Reading& r : readings) print_row(r.name, field, truth, load_scene(r.path, r.load), view, r.kind);
 }
 
@@ -192,6 +199,22 @@ std::string prepared(const std::string& path, const LoadOptions& load, const std
   return to;
 }
 
+// Tiles, which are discs, and a cloud with normals of its own: those that were estimated of it.
+std::vector<Reading> with_normals(const std::string& path, const LoadOptions& load, const std::string& folder) {
+  const SceneCloud scene = load_scene(path, load).scene;
+  const std::string tiles = folder + "/normals.tiles", text = folder + "/normals.xyz";
+  save_tiles(tiles, scene);
+  std::ofstream out(text);
+  out << "x y z nx ny nz\n" << std::setprecision(9);
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    out << (scene.origin + scene.point[i].cast<double>()).transpose() << ' ' << scene.normal[i].transpose() << '\n';
+  return {{"tiles", tiles, {}}, {"points with normals", text, {}}};
+}
+
+void add(std::vector<Reading>& readings, const std::vector<Reading>& others) {
+  readings.insert(readings.end(), others.begin(), others.end());
+}
+
 void captured(char** argv, const std::string& folder) {
   const auto number = [&](int i) { return std::stod(argv[i]); };
   LoadOptions load;
@@ -201,12 +224,13 @@ void captured(char** argv, const std::string& folder) {
   const HeightField field = field_of(load_scene(argv[1], load).scene);
   const View view =
       view_of(argv[2], {number(3), number(4), number(5)}, number(6), number(7), number(8), number(9), number(10));
-  compare(argv[1], field, view,
-          {{"raster", argv[1], load},
-           {"surfels 1 cm apart", argv[1], points},
-           {"prepared", prepared(argv[1], load, folder + "/prepared.ply"), {}},
-           {"raster, rays", argv[1], load, SamplingKind::rays},
-           {"surfels 1 cm apart, rays", argv[1], points, SamplingKind::rays}});
+  std::vector<Reading> readings = {{"raster", argv[1], load},
+                                   {"surfels 1 cm apart", argv[1], points},
+                                   {"prepared", prepared(argv[1], load, folder + "/prepared.ply"), {}},
+                                   {"raster, rays", argv[1], load, SamplingKind::rays},
+                                   {"surfels 1 cm apart, rays", argv[1], points, SamplingKind::rays}};
+  add(readings, with_normals(argv[1], load, folder));
+  compare(argv[1], field, view, readings);
 }
 
 LoadOptions from_above() {
@@ -240,6 +264,7 @@ void generated(const std::string& folder) {
     readings.push_back({readings[r].name + ", prepared",
                         prepared(readings[r].path, readings[r].load, folder + "/" + std::to_string(r) + ".ply"),
                         {}});
+  add(readings, with_normals(readings[1].path, readings[1].load, folder));
   compare("15 degrees down", field, side, readings);
   compare("8 degrees down", field, low, readings);
   compare("40 degrees down", field, steep, readings);
