@@ -68,7 +68,7 @@ void add_materials(RawCloud& raw, FileDescription& file) {
   std::vector<std::uint16_t> label = std::move(raw.label);
   label.resize(raw.point.size(), 0);
   std::vector<float> area = areas_of_points(raw);
-  if (raw.triangle.empty() && (file.duplicates > 0 || raw.not_finite > 0)) {
+  if (raw.triangle.empty() && file.duplicates + raw.not_finite + raw.withheld > 0) {
     const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
     std::size_t kept = 0;
     for (std::uint32_t i = 0; i < first.size(); ++i) {

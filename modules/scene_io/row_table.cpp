@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <string>
 
@@ -21,12 +20,10 @@ constexpr std::size_t block_rows = 1 << 16;
 const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// The first column whose plain name is among `names`, in the order of `names`; null if none.
-const RowTable::Column* find_column(const RowTable& table, std::initializer_list<std::string> names) {
-  for (const std::string& name : names) {
-    for (const RowTable::Column& column : table.columns) {
+const RowTable::Column* find_column(const RowTable& table, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    for (const RowTable::Column& column : table.columns)
       if (plain_name(column.name) == name) return &column;
-    }
-  }
   return nullptr;
 }
 
