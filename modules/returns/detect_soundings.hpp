@@ -1,11 +1,14 @@
 #pragma once
 #include <limits>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echoes.hpp"
 #include "returns/ping.hpp"
 #include "returns/soundings.hpp"
+#include "sampling/scatterers.hpp"
 
 namespace insonify {
+
+struct EchoSource;
 
 /// Thresholds of detect_soundings.
 struct DetectionOptions {

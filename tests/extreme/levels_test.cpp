@@ -142,7 +142,7 @@ TEST(ExtremeLevels, n34_pressure_beyond_single_precision_is_refused) {
   SceneCloud scene = plate(5, 1, 3);
   for (float& area : scene.area) area = 3e38F;
   scene.materials[0].lambert_mu = 1e30;
-  expect_error(ErrorKind::content, {"simulate_ping", "Pa", "single precision"},
+  expect_error(ErrorKind::content, {"PingSimulator", "Pa", "single precision"},
                [&] { simulate_ping(scene, head, Pose::Identity(), {}, {.sampling = {.scatterers_per_cell = 0}}); });
 }
 

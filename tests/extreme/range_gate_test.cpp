@@ -95,7 +95,7 @@ TEST(ExtremeGates, n21_bandwidth_of_twice_the_centre_frequency_is_refused) {
                [&] { make_head(s, 1500); });
   SonarHead head = small_head();
   head.pulse.bandwidth = 900e3;
-  expect_error(ErrorKind::argument, {"simulate_ping", "bandwidth = 900000 Hz", "below twice the centre frequency"},
+  expect_error(ErrorKind::argument, {"PingSimulator", "bandwidth = 900000 Hz", "below twice the centre frequency"},
                [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
 }
 
@@ -105,11 +105,11 @@ TEST(ExtremeGates, n21_head_that_is_not_valid_is_named_by_the_call_that_got_it) 
     damage(head);
     expect_error(ErrorKind::argument, parts, [&] { simulate_ping(plate(5, 1, 3), head, Pose::Identity(), {}); });
   };
-  refused([](SonarHead& h) { h.pulse.bandwidth = 0; }, {"simulate_ping", "bandwidth = 0 Hz"});
-  refused([](SonarHead& h) { h.pulse.centre_frequency = -1; }, {"simulate_ping", "centre_frequency = -1 Hz"});
-  refused([](SonarHead& h) { h.array.shading.clear(); }, {"simulate_ping", "no elements"});
-  refused([](SonarHead& h) { h.gate.min_range = 0; }, {"simulate_ping", "min_range = 0 m"});
-  refused([](SonarHead& h) { h.gate.bin_size = not_a_number; }, {"simulate_ping", "bin_size = nan m"});
+  refused([](SonarHead& h) { h.pulse.bandwidth = 0; }, {"PingSimulator", "bandwidth = 0 Hz"});
+  refused([](SonarHead& h) { h.pulse.centre_frequency = -1; }, {"PingSimulator", "centre_frequency = -1 Hz"});
+  refused([](SonarHead& h) { h.array.shading.clear(); }, {"PingSimulator", "no elements"});
+  refused([](SonarHead& h) { h.gate.min_range = 0; }, {"PingSimulator", "min_range = 0 m"});
+  refused([](SonarHead& h) { h.gate.bin_size = not_a_number; }, {"PingSimulator", "bin_size = nan m"});
 }
 
 TEST(ExtremeGates, n23_bin_that_would_under_sample_the_pulse_is_refused) {
