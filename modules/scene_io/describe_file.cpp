@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/parallel.hpp"
 #include "scene/scene_index.hpp"
@@ -13,23 +14,22 @@ namespace {
 
 constexpr std::size_t most_queries = 20000;
 
-/// The finite points without duplicates.
-std::vector<Eigen::Vector3f> distinct_points(const RawCloud& raw, std::size_t& duplicates) {
+/// The finite points without duplicates: those of `raw` themselves, or in `kept` if some are dropped.
+std::span<const Eigen::Vector3f> distinct_points(const RawCloud& raw, std::vector<Eigen::Vector3f>& kept,
+                                                 std::size_t& duplicates) {
+  const bool all_finite = raw.not_finite + raw.withheld == 0;
+  if (all_finite && raw.tags.prepared) return raw.point;  // save_scene writes no duplicates
   const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
-  std::vector<Eigen::Vector3f> distinct;
-  distinct.reserve(first.size());
-  for (std::uint32_t i = 0; i < first.size(); ++i) {
-    if (!raw.point[i].allFinite()) continue;
-    if (first[i] == i)
-      distinct.push_back(raw.point[i]);
-    else
-      ++duplicates;
-  }
-  return distinct;
+  for (std::uint32_t i = 0; i < first.size(); ++i) duplicates += first[i] != i;
+  if (all_finite && duplicates == 0) return raw.point;
+  kept.reserve(first.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i)
+    if (first[i] == i && raw.point[i].allFinite()) kept.push_back(raw.point[i]);
+  return kept;
 }
 
 /// Median distance to the nearest neighbour of up to 20 000 points spread over the cloud.
-double median_spacing(const std::vector<Eigen::Vector3f>& points) {
+double median_spacing(std::span<const Eigen::Vector3f> points) {
   if (points.size() < 2) return 0;
   const SceneIndex index(points);
   const std::size_t queries = std::min(points.size(), most_queries);
@@ -129,7 +129,8 @@ FileDescription describe_file(const std::string& path) {
   file.fields = raw.fields;
   file.min = raw.box.min;
   file.max = raw.box.max;
-  const std::vector<Eigen::Vector3f> distinct = distinct_points(raw, file.duplicates);
+  std::vector<Eigen::Vector3f> kept;
+  const std::span<const Eigen::Vector3f> distinct = distinct_points(raw, kept, file.duplicates);
   file.median_spacing = median_spacing(distinct);
   file.has_normals = !raw.normal.empty();
   file.has_area = !raw.area.empty();
