@@ -19,13 +19,13 @@ LayerSum::LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers)
   if (ping.options.outputs.split_phase) split_ = split_aperture(ping.head, "PingSimulator");
 }
 
-Synthesizer LayerSum::whole() const {
+std::shared_ptr<const Synthesizer> LayerSum::whole() const {
   const SimulationOptions& o = ping_.options;
   return synthesizers_.of(SynthesizerTable::Part::whole, ping_.head, ping_.sent.medium, o.synthesis.method,
                           {o.synthesis.tolerance, o.threads});
 }
 
-Synthesizer LayerSum::half(ApertureSide side) const {
+std::shared_ptr<const Synthesizer> LayerSum::half(ApertureSide side) const {
   const SimulationOptions& o = ping_.options;
   const auto part =
       side == ApertureSide::port ? SynthesizerTable::Part::port_half : SynthesizerTable::Part::starboard_half;
@@ -37,9 +37,9 @@ void LayerSum::add(const std::string& name, const Echoes& echoes) {
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
   const double tolerance = o.synthesis.tolerance;
-  add_pressure(name, echoes.size(), whole().pressure(echoes));
+  add_pressure(name, echoes.size(), whole()->pressure(echoes));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
-    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side).pressure(echoes);
+    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side)->pressure(echoes);
     return half_pressure(echoes, split, side, medium, {std::max(tolerance, min_gridding_tolerance), o.threads});
   });
   if (!o.outputs.elements) return;
@@ -52,9 +52,9 @@ void LayerSum::add(const std::string& name, const EchoSource& source) {
   if (source.stored) return add(name, *source.stored);
   const SimulationOptions& o = ping_.options;
   const Medium& medium = ping_.sent.medium;
-  add_pressure(name, source.size(), whole().pressure(source));
+  add_pressure(name, source.size(), whole()->pressure(source));
   add_halves([&](const SplitAperture& split, ApertureSide side) {
-    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side).pressure(source);
+    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side)->pressure(source);
     return half_pressure(source, split, side, medium, {o.synthesis.tolerance, o.threads});
   });
 }

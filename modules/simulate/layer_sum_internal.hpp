@@ -32,8 +32,8 @@ class LayerSum {
  private:
   void add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure);
   /// Forms beams of all the array, or of one half of it.
-  Synthesizer whole() const;
-  Synthesizer half(ApertureSide side) const;
+  std::shared_ptr<const Synthesizer> whole() const;
+  std::shared_ptr<const Synthesizer> half(ApertureSide side) const;
   /// Adds what `image` gives of either half of a split aperture, if its phase is asked for.
   void add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image);
 

@@ -4,8 +4,8 @@
 
 namespace insonify {
 
-Synthesizer SynthesizerTable::of(Part part, const SonarHead& head, const Medium& medium, SynthesisMethod method,
-                                 const SynthesisOptions& options) {
+std::shared_ptr<const Synthesizer> SynthesizerTable::of(Part part, const SonarHead& head, const Medium& medium,
+                                                        SynthesisMethod method, const SynthesisOptions& options) {
   const std::scoped_lock lock(guard_);  // a synthesizer makes its tables in its first image, outside of this lock
   std::vector<Row>& rows = rows_[static_cast<std::size_t>(part)];
   const auto at = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
@@ -13,10 +13,13 @@ Synthesizer SynthesizerTable::of(Part part, const SonarHead& head, const Medium&
   });
   if (at != rows.end()) {
     std::rotate(rows.begin(), at, at + 1);
-  } else {
-    rows.insert(rows.begin(), {medium, method, options, Synthesizer(head, medium, method, options)});
-    if (rows.size() > most) rows.pop_back();
+    return rows.front().synthesizer;
   }
+  rows.insert(rows.begin(), {medium, method, options, std::make_shared<Synthesizer>(head, medium, method, options)});
+  std::vector<Medium> media;  // the last used first
+  for (const Row& row : rows)
+    if (std::find(media.begin(), media.end(), row.medium) == media.end()) media.push_back(row.medium);
+  if (media.size() > most_media) std::erase_if(rows, [&](const Row& row) { return row.medium == media.back(); });
   return rows.front().synthesizer;
 }
 

@@ -1,5 +1,4 @@
 // What forms beams is made once for each medium, method and tolerance, and the last few stay.
-#include "core/parallel.hpp"
 #include "simulate/synthesizer_table_internal.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
@@ -12,15 +11,6 @@ const SonarHead table_head = line_head({.beams = 9, .elements = 32, .min_range =
 
 Medium medium_of_speed(double sound_speed) { return {sound_speed, {0.02, 0, 0}}; }
 
-/// CPU time of the image of one echo [s]: most of it makes tables, if there are none.
-double seconds_of_image(const Synthesizer& synthesizer) {
-  Echoes echo;
-  echo.delay = {2 * 3.0 / 1490}, echo.u = {0.1}, echo.amplitude = {1.0};
-  const std::clock_t begin = std::clock();
-  EXPECT_GT(synthesizer.pressure(echo).abs().maxCoeff(), 0);
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
 }  // namespace
 
 TEST(SynthesizerTable, makes_one_for_each_part_medium_method_and_tolerance) {
@@ -28,7 +18,7 @@ TEST(SynthesizerTable, makes_one_for_each_part_medium_method_and_tolerance) {
   const auto image_of = [&](Part part, double sound_speed, SynthesisMethod method, double tolerance) {
     Echoes echo;
     echo.delay = {2 * 3.0 / 1490}, echo.u = {0.1}, echo.amplitude = {1.0};
-    return table.of(part, table_head, medium_of_speed(sound_speed), method, {tolerance, 1}).pressure(echo);
+    return table.of(part, table_head, medium_of_speed(sound_speed), method, {tolerance, 1})->pressure(echo);
   };
   using enum SynthesisMethod;
   for (int again = 0; again < 2; ++again)
@@ -43,15 +33,36 @@ TEST(SynthesizerTable, makes_one_for_each_part_medium_method_and_tolerance) {
         }
 }
 
-TEST(SynthesizerTable, keeps_what_the_next_ping_needs) {
+TEST(SynthesizerTable, makes_each_once) {
   SynthesizerTable table;
-  const auto of = [&](double sound_speed) {
-    return table.of(Part::whole, table_head, medium_of_speed(sound_speed), SynthesisMethod::true_delays, {1e-4, 1});
+  using enum SynthesisMethod;
+  const auto of = [&](Part part, double sound_speed, SynthesisMethod method, double tolerance) {
+    return table.of(part, table_head, medium_of_speed(sound_speed), method, {tolerance, 1});
   };
-  double first = 0, later = 0;
-  for (int k = 0; k < 5; ++k) {
-    first += seconds_of_image(of(1490 + k));
-    later += seconds_of_image(of(1490 + k));
-  }
-  EXPECT_LT(later, 0.7 * first);
+  const auto first = of(Part::whole, 1490, true_delays, 1e-3);
+  EXPECT_EQ(of(Part::whole, 1490, true_delays, 1e-3), first);
+  EXPECT_NE(of(Part::whole, 1490, true_delays, 1e-4), first);
+  EXPECT_NE(of(Part::whole, 1490, gridded, 1e-3), first);
+  EXPECT_NE(of(Part::whole, 1491, true_delays, 1e-3), first);
+  EXPECT_NE(of(Part::port_half, 1490, true_delays, 1e-3), first);
+  EXPECT_EQ(of(Part::whole, 1490, true_delays, 1e-3), first);
+}
+
+// A head that dives has another medium in every ping, and does not come back to earlier ones.
+TEST(SynthesizerTable, keeps_those_of_the_last_two_media) {
+  SynthesizerTable table;
+  const auto made_in = [&](double sound_speed) {
+    return table.of(Part::whole, table_head, medium_of_speed(sound_speed), SynthesisMethod::gridded, {1e-3, 1});
+  };
+  const std::weak_ptr<const Synthesizer> a = made_in(1490), b = made_in(1491);
+  (void)made_in(1490);
+  const std::weak_ptr<const Synthesizer> c = made_in(1492);
+  EXPECT_FALSE(a.expired() || c.expired());
+  EXPECT_TRUE(b.expired()) << "the one not used for the longest time goes";
+}
+
+TEST(SynthesizerTable, refuses_what_cannot_be_made_every_time) {
+  SynthesizerTable table;
+  for (int k = 0; k < 2; ++k)
+    EXPECT_THROW(table.of(Part::whole, table_head, {-1, {}}, SynthesisMethod::gridded, {1e-3, 1}), Error) << k;
 }
