@@ -4,9 +4,9 @@
 
 #include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
-#include "tool/memory_guard.hpp"
-#include "tool/parse_values.hpp"
-#include "tool/program.hpp"
+#include "tool/command/memory_guard.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/program.hpp"
 #include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"
 

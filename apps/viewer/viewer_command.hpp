@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tool/options.hpp"
+#include "tool/command/options.hpp"
 #include "viewer/viewer_data.hpp"
 
 namespace insonify::viewer {

@@ -20,7 +20,7 @@
 #include <wordexp.h>
 
 #include "faults/failing_calls.hpp"
-#include "tool/command_line.hpp"
+#include "tool/command/command_line.hpp"
 
 namespace fs = std::filesystem;
 using insonify::Failure;

@@ -16,7 +16,7 @@
 
 #include "core/stop_watch.hpp"
 #include "fuzz/readers.hpp"
-#include "tool/program.hpp"
+#include "tool/command/program.hpp"
 
 namespace fs = std::filesystem;
 using namespace insonify;

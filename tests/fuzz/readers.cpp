@@ -13,7 +13,7 @@
 #include "store/mission_file.hpp"
 #include "store/sonar_file.hpp"
 #ifdef INSONIFY_FUZZ_TOOL
-#include "tool/run_settings.hpp"
+#include "tool/command/run_settings.hpp"
 #include "view/grey_file.hpp"
 #endif
 

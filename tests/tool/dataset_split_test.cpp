@@ -1,5 +1,5 @@
 // What goes into train, val and test of a data set.
-#include "tool/dataset_split.hpp"
+#include "tool/dataset/dataset_split.hpp"
 
 #include "support/test.hpp"
 #include "tool/dataset_fixture.hpp"

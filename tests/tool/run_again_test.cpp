@@ -1,7 +1,7 @@
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
 #include "store/cube.hpp"
 #include "support/test.hpp"
-#include "tool/run_settings.hpp"
+#include "tool/command/run_settings.hpp"
 #include "tool/tool_runner.hpp"
 
 using namespace insonify::tool;

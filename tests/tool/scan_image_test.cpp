@@ -1,5 +1,5 @@
 // Sweeps of a scanning head: bent where the vehicle moved, straight once that is compensated.
-#include "tool/scan_image.hpp"
+#include "tool/image/scan_image.hpp"
 
 #include <Eigen/Eigenvalues>
 

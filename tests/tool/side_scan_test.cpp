@@ -1,6 +1,6 @@
 // Side-scan lines and swaths: heads mounted as their files say, slant and ground range, shadows of the length they must
 // have.
-#include "tool/side_scan.hpp"
+#include "tool/image/side_scan.hpp"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

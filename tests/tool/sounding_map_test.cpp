@@ -1,4 +1,4 @@
-#include "tool/sounding_map.hpp"
+#include "tool/export/sounding_map.hpp"
 
 #include "support/test.hpp"
 

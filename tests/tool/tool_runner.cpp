@@ -8,7 +8,7 @@
 #include <wordexp.h>
 
 #include "support/test.hpp"
-#include "tool/command_line.hpp"
+#include "tool/command/command_line.hpp"
 
 namespace fs = std::filesystem;
 

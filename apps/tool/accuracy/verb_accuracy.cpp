@@ -1,0 +1,209 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/accuracy_sweep.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "files/peak_memory.hpp"
+#include "store/run_directory.hpp"
+#include "tool/accuracy/accuracy_files.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "tool/run/run_checks.hpp"
+#include "tool/run/run_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct AccuracyOptions {
+  CommonOptions common;
+  SceneOptions scene;  ///< path empty: built-in tasks
+  RunOptions run;      ///< of which sonar, range, environment, output, force and no_picture count
+  std::string pose;
+  std::string world = "z-up";
+  std::vector<std::string> methods, tolerances;  ///< empty: all
+  int repeats = 5;
+  bool full = false, quick = false;
+};
+
+void add_options(OptionList list, AccuracyOptions& o) {
+  o.run.output = "accuracy";
+  list.add("-o,--output", &o.run.output, "run directory to make; default: accuracy");
+  list.add("--scene", &o.scene.path, "measure on the echoes of your own ping; with --sonar and --pose");
+  list.add("--sonar", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file");
+  list.add("--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
+  add_world(list, o.world);
+  list.add("--range", &o.run.range, "min:max [m]; default: the sonar's");
+  list.add("--material", &o.scene.material, "one material for everything, by name, e.g. sand");
+  list.add("--methods", &o.methods, "only these, e.g. gridded,direct", {.comma_separated = true});
+  list.add("--tolerances", &o.tolerances, "of gridded, e.g. 1e-3,1e-6", {.comma_separated = true});
+  list.add("--repeats", &o.repeats, "timed runs of each, after one to warm up; fewer if they take long");
+  list.add("--full", &o.full, "larger tasks and all tolerances: some ten minutes");
+  list.add("--quick", &o.quick, "tiny tasks: seconds", {.group = ""});
+  list.add("--set", &o.common.settings, "SECTION.KEY=VALUE of sonar or environment", {.one_each = true});
+  list.add("--force", &o.run.force, "replace an existing run directory");
+  list.add("--no-picture", &o.run.no_picture, "do not draw the charts");
+  add_common(list, o.common);
+  add_work(list, o.common);
+}
+
+SweepOptions sweep_options(const AccuracyOptions& o) {
+  SweepOptions sweep;
+  sweep.size = o.quick ? SweepSize::quick : o.full ? SweepSize::full : SweepSize::standard;
+  sweep.seed = o.common.seed;
+  sweep.threads = o.common.threads;
+  sweep.methods = o.methods;
+  const std::vector<std::string> known = accuracy_methods();
+  for (const std::string& method : o.methods)
+    if (std::find(known.begin(), known.end(), method) == known.end())
+      fail(ErrorKind::argument, "--methods '", method, "' is unknown; known are ", joined(known));
+  for (const std::string& text : o.tolerances) {
+    const double tolerance = parse_number("--tolerances", text);
+    if (!(tolerance >= 1e-13 && tolerance < 1))
+      fail(ErrorKind::argument, "--tolerances: ", tolerance, ", must be within [1e-13, 1)");
+    sweep.tolerances.push_back(tolerance);
+  }
+  return sweep;
+}
+
+/// The steps for the user's own scene, or for the built-in tasks.
+std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions& sweep, Progress& progress) {
+  if (o.scene.path.empty()) {
+    if (!o.run.sonar.empty() || !o.pose.empty() || !o.run.range.empty())
+      fail(ErrorKind::argument, "--sonar, --pose and --range go with --scene FILE; without it the tasks are built in");
+    return accuracy_sweep(sweep);
+  }
+  if (o.run.sonar.empty() || o.pose.empty())
+    fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
+  PingSetup setup{{parse_pose(o.pose, o.world)}, set_up_head(o.common, o.run), {}};
+  setup.event.world_from_head = setup.event.world_from_head * setup.head.mount;
+  setup.simulation.seed = o.common.seed;
+  setup.simulation.threads = o.common.threads;
+  const LoadOptions loading = load_options(o.common, o.scene);
+  progress.step("loading " + o.scene.path);
+  LoadedScene loaded = load_scene(o.scene.path, loading);
+  sample_for_ping({}, setup, loaded);
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  return accuracy_sweep_of(
+      task_of(loaded.scene, setup.head.head, setup.event.world_from_head, setup.head.environment, setup.simulation),
+      sweep);
+}
+
+std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,
+                                   Progress& progress) {
+  MeasureOptions measure;
+  measure.threads = o.common.threads;
+  measure.repeats = o.repeats;
+  std::vector<AccuracyRow> rows;
+  for (const AccuracyStep& step : steps) {
+    progress.step(step.what);
+    const AccuracyBench bench(step.sweep, step.make(), measure);
+    for (const AccuracyRun& run : step.runs) rows.push_back(run.measure(bench));
+  }
+  return rows;
+}
+
+ordered_json manifest_of(const AccuracyOptions& o) {
+  return {{"schema", 1},
+          {"insonify_version", INSONIFY_VERSION},
+          {"seed", o.common.seed},
+          {"threads", thread_count(o.common.threads)},
+          {"size", o.quick  ? "quick"
+                   : o.full ? "full"
+                            : "standard"},
+          {"scene", o.scene.path},
+          {"sonar", o.run.sonar},
+          {"pose", o.pose},
+          {"protocol",
+           {{"referee", "direct sum in double over all echoes and bins, in `checked_beams` evenly picked beams"},
+            {"referee_error", "error of the rows `direct`: against long double, at most 2000 echoes, 4 beams, 64 bins"},
+            {"local_error", "worst eighth of the range axis, relative to its own level"},
+            {"seconds",
+             "median of `repeats` runs after one to warm up; plans (FFTW: ESTIMATE) apart in plan_seconds; with "
+             "timed_scatterers < scatterers or timed_beams < beams scaled up in proportion"},
+            {"peak_mib", "largest resident set of the process during the runs, input and referee included"}}},
+          {"machine", machine_json()},
+          {"notes", ordered_json::array()}};
+}
+
+void print_table(const std::string& output, const std::vector<AccuracyRow>& rows, const ordered_json& summary) {
+  const auto first = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.sweep == "work-precision"; });
+  if (first != rows.end())
+    fmt::print("{} scatterers, {} beams, {} bins:\n{:<24}{:>11}{:>10}{:>12}{:>12}\n", first->scatterers, first->beams,
+               first->bins, "method", "tolerance", "error", "local error", "seconds");
+  for (const AccuracyRow& r : rows)
+    if (r.sweep == "work-precision")
+      fmt::print("{:<24}{:>11}{:>10.1e}{:>12.1e}{:>12.3g}\n",
+                 r.method + (r.parameter > 0 ? fmt::format(" {:g}", r.parameter) : "") +
+                     (r.precision == "single" ? ", single" : ""),
+                 r.tolerance > 0 ? fmt::format("{:.0e}", r.tolerance) : "-", r.error, r.local_error, r.seconds);
+  for (const auto& p : summary["promise"])
+    fmt::print("tolerance {:.0e}: worst of {} images {:.1e}, {:.2f} of what was promised\n",
+               p["tolerance"].get<double>(), p["images"].get<int>(), p["worst_error"].get<double>(),
+               p["worst_error_over_tolerance"].get<double>());
+  for (const auto& c : summary["crossover"])
+    if (!c["faster_from"].is_null())
+      fmt::print("gridded at {:.0e} is faster than {} from {} scatterers on\n", c["tolerance"].get<double>(),
+                 c["against"].get<std::string>(), c["faster_from"].get<std::size_t>());
+  fmt::print("{}: {} measurements in sweep.csv\n", output, rows.size());
+}
+
+void accuracy(const AccuracyOptions& o) {
+  const CommonOptions& common = o.common;
+  if (o.repeats < 1 || o.repeats > 1000)
+    fail(ErrorKind::argument, "--repeats = ", o.repeats, ", must be within 1 and 1000");
+  const SweepOptions sweep = sweep_options(o);
+  Progress preparing(common, 1);
+  RunDirectory directory(o.run.output, o.run.force, {o.scene.path, o.run.sonar});
+  const std::vector<AccuracyStep> steps = steps_of(o, sweep, preparing);
+  Progress progress(common, static_cast<int>(steps.size()) + 2);
+  ordered_json manifest = manifest_of(o);
+  const std::vector<AccuracyRow> rows = run_steps(steps, o, progress);
+
+  std::vector<SamplingErrorRow> sampling;
+  if (o.scene.path.empty() && o.methods.empty()) {
+    progress.step("sampling error");
+    sampling = measure_sampling_error({.most_rays = o.quick  ? 64
+                                                    : o.full ? 16384
+                                                             : 4096,
+                                       .trials = o.quick ? 1 : 4,
+                                       .seed = common.seed,
+                                       .threads = common.threads});
+  }
+
+  progress.step("writing " + o.run.output);
+  write_file(directory.file("sweep.csv"), sweep_csv(rows));
+  if (!sampling.empty()) write_file(directory.file("sampling.csv"), sampling_csv(sampling));
+  if (!o.run.no_picture) try {
+      manifest["pictures"] = draw_accuracy(rows, sampling, directory);
+    } catch (const Error& error) {  // without OpenGL the numbers are still written
+      progress.note(std::string("no pictures: ") + error.what());
+      manifest["notes"].push_back(std::string("no pictures: ") + error.what());
+    }
+  manifest["summary"] = accuracy_summary(rows);
+  manifest["peak_memory_mib"] = peak_memory_mib();
+  write_manifest(directory, manifest);
+  directory.commit();
+  print_result(common, manifest, [&] {
+    if (!common.quiet) print_table(o.run.output, rows, manifest["summary"]);
+  });
+}
+
+}  // namespace
+
+Verb accuracy_verb() {
+  return make_verb<AccuracyOptions>(
+      "accuracy", "error against run time of all methods, measured on this machine",
+      {"insonify accuracy -o accuracy",
+       "insonify accuracy --scene harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 -o mine"},
+      add_options, accuracy);
+}
+
+}  // namespace insonify::tool

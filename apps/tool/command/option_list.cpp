@@ -1,0 +1,165 @@
+#include "tool/command/option_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace insonify::tool {
+
+namespace {
+
+CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue& value, const std::string& help) {
+  using Function = std::function<void(const std::string&)>;
+  if (bool* const* flag = std::get_if<bool*>(&value)) return app.add_flag(name, **flag, help);
+  if (const auto* text = std::get_if<std::optional<std::string>*>(&value))
+    return app.add_option(name, **text, help)->expected(0, 1);
+  if (const auto* function = std::get_if<Function>(&value))
+    return app.add_option_function<std::string>(name, *function, help);
+  return std::visit(
+      [&](const auto& target) -> CLI::Option* {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(target)>, Function>)
+          return app.add_option(name, *target, help);
+        return nullptr;
+      },
+      value);
+}
+
+/// Checks that the text is an integer within limits.
+std::function<std::string(const std::string&)> range_check(std::pair<int, int> limits) {
+  return [limits](const std::string& text) {
+    const int value = std::atoi(text.c_str());
+    if (value >= limits.first && value <= limits.second) return std::string();
+    return text + " must be within " + std::to_string(limits.first) + " and " + std::to_string(limits.second);
+  };
+}
+
+/// CLI11 takes -1 for the largest number without a sign.
+std::string sign_check(const std::string& text) {
+  return text.starts_with("-") ? text + " must be 0 or more" : std::string();
+}
+
+/// The value that an option has if it is not given; empty if there is none, or an infinite one, which is no limit.
+std::string default_of(const OptionValue& value) {
+  if (const auto* text = std::get_if<std::string*>(&value)) return **text;
+  if (const auto* number = std::get_if<double*>(&value))
+    return std::isfinite(**number) ? fmt::format("{}", **number) : "";
+  if (const auto* number = std::get_if<int*>(&value)) return fmt::format("{}", **number);
+  if (const auto* number = std::get_if<std::uint64_t*>(&value)) return fmt::format("{}", **number);
+  return "";
+}
+
+/// The help of an option with its range and default, unless the help itself says what holds by default.
+std::string full_help(const std::string& help, const OptionValue& value, const OptionRules& rules) {
+  std::string text = help;
+  if (rules.within) text += fmt::format(" ({} to {})", rules.within->first, rules.within->second);
+  if (rules.positive) text += " (above 0)";
+  const std::string preset = default_of(value);
+  if (!preset.empty() && help.find("default") == std::string::npos) text += fmt::format("; default {}", preset);
+  return text;
+}
+
+OptionText text_of(const CLI::Option& option, const OptionRules& rules) {
+  OptionText text{{}, "", option.get_description(), option.get_group(), rules.words, rules.required};
+  for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+  if (text.names.empty()) text.names.push_back(option.get_single_name());
+  if (option.get_items_expected_max() > 0)
+    text.value = option.get_option_text().empty() ? option.get_type_name() : option.get_option_text();
+  return text;
+}
+
+/// Columns of the terminal, or of a file that is read later.
+std::size_t help_width() {
+  winsize size{};
+  if (const char* columns = std::getenv("COLUMNS"); columns && std::atoi(columns) > 0)
+    return static_cast<std::size_t>(std::atoi(columns));
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 100;
+}
+
+/// --help within the terminal's width.
+class WrappedHelp : public CLI::Formatter {
+ public:
+  WrappedHelp() { column_width(left); }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return wrapped(option->get_description(), std::max<std::size_t>(help_width(), 2 * left) - left, 0, 0);
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = option->get_option_text();
+    if (!text.empty()) return " " + text + (option->get_required() ? " REQUIRED" : "");
+    const std::string type = option->get_type_size() == 0 ? "" : " " + option->get_type_name();
+    return type + (option->get_required() ? " REQUIRED" : "");
+  }
+  std::string make_subcommand(const CLI::App* verb) const override {
+    std::stringstream out;
+    CLI::detail::format_help(
+        out, verb->get_name(),
+        wrapped(verb->get_description(), std::max<std::size_t>(help_width(), 2 * left) - left, 0, 0), left);
+    return out.str();
+  }
+
+ private:
+  static constexpr std::size_t left = 32;  // columns of the names
+};
+
+}  // namespace
+
+void OptionList::add(const std::string& name, const OptionValue& value, const std::string& help,
+                     const OptionRules& rules) {
+  CLI::Option* option = add_value(*app_, name, value, full_help(help, value, rules));
+  option->required(rules.required);
+  if (!rules.words.empty()) option->check(CLI::IsMember(rules.words))->option_text("WORD");
+  if (rules.within) option->check(range_check(*rules.within))->option_text("INT");
+  if (rules.positive) option->check(CLI::PositiveNumber)->option_text("FLOAT");
+  if (std::holds_alternative<std::uint64_t*>(value)) option->check(sign_check)->option_text("UINT");
+  if (rules.one_each) option->allow_extra_args(false);
+  if (rules.comma_separated) option->delimiter(',');
+  if (rules.excludes) option->excludes(app_->get_option(rules.excludes));
+  if (rules.group) option->group(rules.group);
+  if (rules.shown_as) option->option_text(rules.shown_as);
+  text_->options.push_back(text_of(*option, rules));
+}
+
+void OptionList::release(const std::string& name) { app_->get_option(name)->required(false); }
+
+CommandLine::CommandLine(const std::string& name, const std::string& purpose, const std::string& footer)
+    : app_(std::make_unique<CLI::App>(purpose, name)), text_{name, purpose, footer, {}} {
+  app_->set_version_flag("--version", INSONIFY_VERSION);
+  app_->formatter(std::make_shared<WrappedHelp>());
+  app_->footer(footer);
+}
+
+CommandLine::~CommandLine() = default;
+
+OptionList CommandLine::options() { return {app_.get(), &text_}; }
+
+OptionList CommandLine::add_verb(const std::string& name, const std::string& purpose, const std::string& footer) {
+  app_->require_subcommand(1);
+  CLI::App* verb = app_->add_subcommand(name, purpose);
+  verb->footer(footer);
+  return {verb, &verb_texts_.emplace_back(CommandText{name, purpose, footer, {}})};
+}
+
+std::optional<int> CommandLine::parse(int argc, char** argv) {
+  const std::string program = app_->get_name();
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help and --version
+    return app_->exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "insonify: %s; see %s --help\n", error.what(), program.c_str());
+    return 2;
+  }
+  return std::nullopt;
+}
+
+std::string CommandLine::verb() const { return app_->get_subcommands().front()->get_name(); }
+
+}  // namespace insonify::tool

@@ -1,0 +1,81 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tool/command/command_text.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace insonify::tool {
+
+/// Where the value of an option goes. A bool is a flag: true if it is given, or what --name=false says. An
+/// optional<string> is an option that may stand without a value. A function is called with the value.
+using OptionValue = std::variant<std::string*, double*, int*, std::uint64_t*, bool*, std::vector<std::string>*,
+                                 std::optional<std::string>*, std::function<void(const std::string&)>>;
+
+/// Rules of an option beyond its name, value and help.
+struct OptionRules {
+  bool required = false;
+  std::vector<std::string> words = {};             ///< allowed values; empty: any
+  std::optional<std::pair<int, int>> within = {};  ///< lowest and highest value of an integer
+  bool positive = false;                           ///< of a number: must be > 0
+  bool one_each = false;                           ///< of a list: one entry each time that the option is given
+  bool comma_separated = false;                    ///< of a list: "a,b" is two entries
+  const char* excludes = nullptr;                  ///< an option, added before, that must not stand beside this one
+  const char* group = nullptr;                     ///< title under which --help lists it; "": nowhere
+  const char* shown_as = nullptr;                  ///< the value in --help; null: its type
+};
+
+/// The options of a program or of one of its verbs. Values are written by CommandLine::parse, in the order in which the
+/// options were added; an option that is not given leaves its value as it is. Names with a dash are options
+/// ("-o,--output"), others are positional.
+class OptionList {
+ public:
+  OptionList(CLI::App* app, CommandText* text) : app_(app), text_(text) {}
+  void add(const std::string& name, const OptionValue& value, const std::string& help, const OptionRules& rules = {});
+  /// Makes a required option optional.
+  void release(const std::string& name);
+
+ private:
+  CLI::App* app_;
+  CommandText* text_;
+};
+
+/// The command line of a program, with or without verbs. Only option_list.cpp includes CLI11.
+class CommandLine {
+ public:
+  CommandLine(const std::string& name, const std::string& purpose, const std::string& footer = "");
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  /// Options of the program itself.
+  OptionList options();
+  /// Options of a verb; once there is one, a command line must name a verb.
+  OptionList add_verb(const std::string& name, const std::string& purpose, const std::string& footer);
+
+  /// Parses. Returns an exit code if nothing is left to do: 0 after --help and --version, which go to stdout, 2 after
+  /// an error of usage, which goes to stderr. Throws what the functions of options throw.
+  std::optional<int> parse(int argc, char** argv);
+  /// The verb that was named.
+  std::string verb() const;
+  /// What --help says of the program and of its verbs, in the order in which they were added.
+  const CommandText& text() const { return text_; }
+  const std::deque<CommandText>& verb_texts() const { return verb_texts_; }
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+  CommandText text_;
+  std::deque<CommandText> verb_texts_;  // OptionLists point to its entries
+};
+
+}  // namespace insonify::tool

@@ -1,0 +1,96 @@
+#include "tool/command/parse_values.hpp"
+
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
+
+namespace insonify::tool {
+namespace {
+
+std::optional<double> number(std::string_view text) { return finite_number(trimmed(text, " ")); }
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end = text.find(separator); end != std::string::npos; end = text.find(separator, begin)) {
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+}  // namespace
+
+double parse_number(const std::string& option, const std::string& text) {
+  const auto value = number(text);
+  if (!value) fail(ErrorKind::argument, option, " = '", text, "' is not a number");
+  return *value;
+}
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
+                                  const char* meaning) {
+  const std::vector<std::string> parts = split(text, ',');
+  if (parts.size() != count)
+    fail(ErrorKind::argument, option, " = '", text, "' has ", parts.size(), " numbers, must have ", count, ": ",
+         meaning);
+  std::vector<double> values;
+  for (const std::string& part : parts) {
+    const auto value = number(part);
+    if (!value) fail(ErrorKind::argument, option, " = '", text, "': '", part, "' is not a number; give ", meaning);
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Eigen::Vector3d parse_vector(const std::string& option, const std::string& text, const char* meaning) {
+  const auto v = parse_numbers(option, text, 3, meaning);
+  return {v[0], v[1], v[2]};
+}
+
+Pose parse_pose(const std::string& text, const std::string& world, const char* option) {
+  const auto v = parse_numbers(
+      option, text, 6, printed("x,y,z,yaw,pitch,roll in metres and degrees, e.g. %s=0,0,-3,0,10,0", option).c_str());
+  const auto pose = world == "ned" ? pose_from_ned : pose_from_yaw_pitch_roll;
+  return pose({v[0], v[1], v[2]}, radians(v[3]), radians(v[4]), radians(v[5]));
+}
+
+std::pair<double, double> parse_range(const std::string& text) {
+  const std::vector<std::string> parts = split(text, ':');
+  const auto min = number(parts[0]), max = number(parts.back());
+  if (parts.size() != 2 || !min || !max)
+    fail(ErrorKind::argument, "--range = '", text, "' is not min:max in metres, e.g. --range 0.5:9");
+  if (!(*min > 0)) fail(ErrorKind::argument, "--range = '", text, "': min range ", *min, " m must be > 0");
+  if (!(*max > *min))
+    fail(ErrorKind::argument, "--range = '", text, "': max range ", *max, " m must be above min range ", *min,
+         " m; write min:max");
+  return {*min, *max};
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+  const std::vector<std::string> parts = split(text, 'x');
+  const auto width = number(parts[0]), height = number(parts.back());
+  if (parts.size() != 2 || !width || !height || *width < 100 || *height < 100 || *width > 16384 || *height > 16384)
+    fail(ErrorKind::argument, "--size = '", text, "' is not WIDTHxHEIGHT within 100 and 16384 pixels, e.g. 1400x1050");
+  return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+double parse_unit(const std::string& text) {
+  constexpr Named<double> units[] = {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}};
+  if (const double* known = find_named(units, text)) return *known;
+  const auto value = number(text);
+  if (!value || *value <= 0)
+    fail(ErrorKind::argument, "--unit = '", text, "' must be m, mm, cm, km, ft, or metres per unit as a number > 0");
+  return *value;
+}
+
+Setting parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('='), dot = text.find('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == 0 || dot + 1 == equals)
+    fail(ErrorKind::argument, "--set = '", text, "' is not section.key=value, e.g. --set sonar.beams=256");
+  return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,107 @@
+#include "tool/command/shared_options.hpp"
+
+#include <fmt/format.h>
+
+#include "core/units.hpp"
+#include "store/sonar_file.hpp"
+#include "tool/command/run_settings.hpp"
+
+namespace insonify::tool {
+
+void add_verbosity(OptionList list, CommonOptions& o) {
+  list.add("-q,--quiet", &o.quiet, "no notes, and no line that says what was written");
+  list.add("-v,--verbose", &o.verbose, "say each step");
+}
+
+void add_common(OptionList list, CommonOptions& o) {
+  add_verbosity(list, o);
+  list.add("--json", &o.json, "result as JSON on stdout");
+}
+
+void add_work(OptionList list, CommonOptions& o) {
+  list.add("-j,--threads", &o.threads, "threads, at most 1024; 0: all cores (results do not depend on it)",
+           {.within = std::pair(0, 1024)});
+  add_settings(list, {seed_setting(o)});
+}
+
+void add_completion(OptionList list, SceneOptions& o) {
+  const auto settings = scene_settings(o);
+  add_settings(list, {settings.begin() + 1, settings.end()});
+}
+
+void add_sonar(OptionList list, CommonOptions& common, RunOptions& o, const char* default_range) {
+  list.add("--sonar", &o.sonar, "preset (see `insonify sonars`), a .toml file, or the run.toml of a run",
+           {.required = true, .group = sonar_title});
+  list.add("--range", &o.range, fmt::format("min:max [m]; default: {}", default_range), {.group = sonar_title});
+  list.add("--environment", &o.environment,
+           "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run",
+           {.group = sonar_title});
+  list.add("--profile", &o.profile,
+           "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays; needs surface.height_m",
+           {.group = sonar_title});
+  list.add("--set", &common.settings, "SECTION.KEY=VALUE of sonar or environment, e.g. water.temperature_c=4",
+           {.one_each = true, .group = sonar_title});
+  add_settings(list, synthesis_settings(o));
+}
+
+void add_output(OptionList list, RunOptions& o) {
+  list.add("-o,--output", &o.output, "run directory to make", {.required = true, .group = output_title});
+  list.add("--force", &o.force, "replace an existing run directory", {.group = output_title});
+  list.add("--no-picture", &o.no_picture, "do not draw fan.png", {.group = output_title});
+}
+
+void add_world(OptionList list, std::string& world) {
+  list.add("--world", &world, "z-up, or ned: z down, pitch positive nose up", {.words = {"z-up", "ned"}});
+}
+
+void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
+  // Values are written in the order of the options, so --run comes first and all others override it.
+  const auto load_run = [list, &command](const std::string& path) mutable {
+    command.options = command.of_run.emplace(load_ping_settings(path));
+    list.release("SCENE");
+    list.release("--sonar");
+  };
+  list.add(
+      "--run", load_run,
+      "run.toml of an earlier ping: the same again, but for the options given beside it; then SCENE and --sonar need "
+      "not be given, and a flag is switched off by e.g. --noise=false");
+  PingOptions& o = command.options;
+  add_settings(list, scene_settings(o.scene));
+  add_sonar(list, o.common, o.run, "to the end of the scene, at most the sonar's");
+  // Titles stand in the order in which they are first used.
+  if (with_output) add_output(list, o.run);
+  add_settings(list, ping_settings(o));
+  add_common(list, o.common);
+  add_work(list, o.common);
+}
+
+namespace {
+
+/// The mounting that the file of a sonar names, as --mount takes it; empty if it is none.
+std::string mounting_text(const SonarFile& sonar) {
+  if (sonar.mounting.isZero()) return "";
+  const Eigen::Vector3d angles = sonar.mounting * degrees(1);
+  return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
+}
+
+}  // namespace
+
+PingOptions settled_options(const PingCommand& command) {
+  PingOptions o = command.options;
+  // A run records its mounting, since its own file of the sonar does not hold it.
+  const bool other_sonar = !command.of_run || o.run.sonar != command.of_run->run.sonar;
+  if (o.mount.empty() && other_sonar) o.mount = mounting_text(find_sonar(o.run.sonar));
+  if (!command.of_run) return o;
+  const PingOptions &run = *command.of_run, defaults;
+  const bool new_pose = o.pose != run.pose, new_trajectory = o.trajectory != run.trajectory;
+  if (new_pose && !new_trajectory) o.trajectory.clear();
+  if (!new_trajectory || new_pose) return o;
+  // A trajectory says all that a pose and its motion say.
+  o.pose.clear();
+  if (o.world == run.world) o.world = defaults.world;
+  if (o.velocity == run.velocity) o.velocity.clear();
+  if (o.turn_rate == run.turn_rate) o.turn_rate.clear();
+  return o;
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,37 @@
+#pragma once
+#include <optional>
+
+#include "tool/command/option_list.hpp"
+#include "tool/command/options.hpp"
+
+/// Options that several verbs share.
+namespace insonify::tool {
+
+/// --quiet and --verbose.
+void add_verbosity(OptionList list, CommonOptions& options);
+/// --quiet, --verbose and --json.
+void add_common(OptionList list, CommonOptions& options);
+/// --threads and --seed.
+void add_work(OptionList list, CommonOptions& options);
+/// How a scene is completed: viewpoint, materials, unit.
+void add_completion(OptionList list, SceneOptions& options);
+/// --sonar, which is required, the environment and the synthesis. `default_range` says what range holds by default.
+void add_sonar(OptionList list, CommonOptions& common, RunOptions& options, const char* default_range = "the sonar's");
+/// The run directory to make.
+void add_output(OptionList list, RunOptions& options);
+/// --world, beside a --pose.
+void add_world(OptionList list, std::string& world);
+
+/// A ping as the command line gives it, perhaps beside the run.toml of an earlier one.
+struct PingCommand {
+  PingOptions options;                     ///< of the command line, over those of --run
+  std::optional<PingOptions> of_run = {};  ///< if --run is given
+};
+
+/// Adds everything that says what a ping is: --run, scene, sonar, pose and so on. `with_output` adds the run directory.
+void add_ping_options(OptionList list, PingCommand& command, bool with_output);
+
+/// The options to use: a pose of the command line replaces a trajectory of --run, and a trajectory the pose.
+PingOptions settled_options(const PingCommand& command);
+
+}  // namespace insonify::tool

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+
+#include "compare/image_comparison.hpp"
+#include "compare/rank_correlation.hpp"
+#include "store/run_directory.hpp"
+#include "tool/compare/compared_files.hpp"
+
+namespace insonify::tool {
+
+/// Draws both images, their difference, levels, correlations and map of grey, and writes index.html that shows them with
+/// `table`, text of the results.
+void write_compare_page(const RunDirectory& directory, const CompareOptions& options, const ComparedFile& a,
+                        const ComparedFile& b, const ImageComparison& comparison, const std::string& table);
+
+/// The same of points: predicted against measured levels.
+void write_points_page(const RunDirectory& directory, const CompareOptions& options, const ComparedPoints& points,
+                       const PointComparison& comparison, const std::string& table);
+
+}  // namespace insonify::tool

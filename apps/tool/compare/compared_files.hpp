@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "compare/resample_image.hpp"
+#include "core/pose.hpp"
+#include "tool/command/options.hpp"
+
+/// What `compare` reads.
+namespace insonify::tool {
+
+/// Options of `compare`.
+struct CompareOptions {
+  CommonOptions common;
+  std::string a, b, output;
+  int ping = 0, ping_b = -1;  ///< of A; of B, -1: the same
+  int frame = 0;              ///< of an .aris recording
+  std::string scale;          ///< MIN:MAX [dB] of grey values, or empty
+  std::string window;         ///< MIN:MAX [dB], or empty: automatic
+  std::string strength;       ///< field of a cloud
+  std::string unit = "db";    ///< of the field
+  std::string repeat;         ///< another record of the same place
+  double cell = 0.25;         ///< [m] of grids of soundings and scene
+  bool align = false;         ///< move A by the shift that is found
+  bool force = false;
+};
+
+/// An image to compare, and what it is of.
+struct ComparedFile {
+  ComparedImage image;
+  bool from_port = false;                 ///< beams are the columns of a picture, from port to starboard
+  std::optional<Pose> world_from_head{};  ///< of a run
+  double centre_frequency = 0, bandwidth = 0, sound_speed = 0;  ///< of a run; 0: unknown
+  std::string kind{};                                           ///< run, ARIS 1200, NPY, PNG of 8 bits, ...
+};
+
+/// "MIN:MAX" in dB. Throws Error(argument) naming the option.
+GreyWindow parse_window(const std::string& option, const std::string& text);
+
+/// Reads a run (directory or cube), .aris, .npy or .png. Throws Error(argument) for another file, a ping or frame that is
+/// not there, or grey values without --scale; and as the readers.
+ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options);
+
+/// Brings two images to one grid: of one size as they are, beams of pictures in the order of the other's fan; of two
+/// geometries A as resampled to B. Throws Error(content) naming sizes and remedy if neither is possible.
+void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options);
+
+/// Levels predicted by a run at the points of a cloud, against their strengths.
+struct ComparedPoints {
+  std::vector<double> predicted_db, measured_db, range, repeated_db;  ///< repeated: NaN where there is no point near
+  std::size_t in_cloud = 0;                                           ///< points with a strength
+};
+
+/// Points of the cloud B that the image A holds; silent pixels and strengths that are not > 0 of a linear unit are left
+/// out. Throws Error(argument) if A is no run, Error(content) if fewer than three points are left.
+ComparedPoints compared_points(const ComparedFile& a, const CompareOptions& options);
+
+}  // namespace insonify::tool

@@ -1,0 +1,84 @@
+#include "tool/dataset/dataset_runs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "core/error.hpp"
+#include "files/sha256.hpp"
+#include "store/survey_run.hpp"
+#include "tool/image/image.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "tool/run/scene_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Notes the scene of a run, and the instances of its points if its cloud has them.
+void find_scene(DatasetSource& source, const std::string& settings_folder) {
+  source.scene = scene_of_run(settings_folder).path;
+  std::error_code error;
+  const bool there = !source.scene.empty() && fs::is_regular_file(source.scene, error);
+  source.scene_digest =
+      there ? sha256_of_file(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
+  if (there) source.instances = instances_of_scene(source.scene);
+}
+
+std::vector<DatasetSource> sources_of_survey(const std::string& run) {
+  const SurveyRun survey = load_survey_run(run);
+  const std::string mission = (fs::path(run) / "mission.toml").string();
+  std::vector<DatasetSource> sources;
+  for (std::size_t h = 0; h < survey.heads.size(); ++h) {
+    DatasetSource source;
+    source.run = run, source.head = survey.heads[h].name, source.head_index = h;
+    for (std::size_t b = 0; b < survey.heads[h].blocks(); ++b) {
+      const BlockFiles files = block_files(run, source.head, static_cast<std::int64_t>(b));
+      if (!find_mark(files, survey.mission_sha256))
+        fail(ErrorKind::content, run, ": block ", b, " of head ", source.head, " is not done; run the survey again");
+      if (fs::exists(files.cube)) source.cubes.push_back(files.cube);
+    }
+    source.randomisation = load_survey_randomisation(mission);
+    find_scene(source, (fs::path(run) / source.head).string());
+    sources.push_back(std::move(source));
+  }
+  return sources;
+}
+
+}  // namespace
+
+std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs) {
+  std::vector<DatasetSource> sources;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::string& run = runs[r];
+    const std::size_t before = sources.size();
+    if (is_survey_run(run)) {
+      for (DatasetSource& source : sources_of_survey(run)) sources.push_back(std::move(source));
+    } else {
+      DatasetSource& source = sources.emplace_back();
+      source.run = run, source.cubes = {run_cube_path(run)};
+      find_scene(source, fs::is_directory(run) ? run : fs::path(run).parent_path().string());
+    }
+    for (std::size_t s = before; s < sources.size(); ++s) {
+      sources[s].run_index = r;
+      for (const std::string& cube : sources[s].cubes)
+        for (const TrackPoint& ping : read_track(cube)) sources[s].track.push_back(ping);
+    }
+  }
+  return sources;
+}
+
+void for_each_labelled_ping(const DatasetSource& source,
+                            const std::function<void(const Cube&, const Ping&, std::size_t)>& body) {
+  std::size_t place = 0;
+  for (const std::string& path : source.cubes)
+    read_cube_pings(path, [&](const Cube& cube, const Ping& ping) {
+      if (ping.labels.empty())
+        fail(ErrorKind::content, path, ": ping ", ping.number,
+             " has no labels: make it with --keep contributors, in a mission keep = [\"contributors\"] under [ping]");
+      body(cube, ping, place++);
+    });
+}
+
+}  // namespace insonify::tool

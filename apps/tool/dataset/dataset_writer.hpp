@@ -1,0 +1,96 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/label_map.hpp"
+#include "returns/picture_grid.hpp"
+#include "returns/quantise.hpp"
+#include "store/run_directory.hpp"
+#include "tool/command/options.hpp"
+#include "tool/dataset/dataset_runs.hpp"
+#include "tool/dataset/dataset_split.hpp"
+#include "tool/dataset/label_pictures.hpp"
+
+namespace insonify::tool {
+
+/// Options of `dataset`.
+struct DatasetOptions {
+  CommonOptions common;
+  std::vector<std::string> runs;
+  std::string output, window;
+  double share = least_label_share;  ///< of a pixel's energy, at least, for its class
+  std::string min_level;             ///< [dB] or black, below which surfaces have no class; empty: none
+  int least_pixels = 20;             ///< of an object
+  int columns = 512;                 ///< of fan pictures
+  double tvg = 40;                   ///< [dB per decade of range]
+  bool raw = false;                  ///< no TVG
+  std::vector<std::string> stuff;    ///< classes that are in masks alone
+  bool polygons = false;             ///< outlines beside the masks of COCO
+  std::string row;                   ///< of heads with several rows of beams: a number, all, or empty: the middle one
+  std::string split = "80:10:10", split_by = "scene";
+  bool force = false;
+};
+
+/// An image of a data set.
+struct DatasetImage {
+  std::string name, split;           ///< split: train, val or test
+  std::optional<std::size_t> row{};  ///< of its head's beams, if that has several
+};
+
+/// Writes images, masks, boxes and lists of a data set into a folder.
+class DatasetWriter {
+ public:
+  /// `classes` are the names of the masks' values: nothing, shadow, then materials.
+  DatasetWriter(const RunDirectory& directory, const DatasetOptions& options, std::vector<std::string> classes,
+                GreyWindow window);
+
+  /// Adds a ping of one row of beams.
+  void add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image);
+  /// Writes what lists all images. Throws Error(content) if no pixel of any image shows a surface.
+  void finish();
+
+  std::size_t images() const { return images_; }
+  /// Boxes of a form, polar or fan.
+  std::size_t boxes_of_polar() const { return polar_.boxes; }
+  std::size_t boxes_of_fan() const { return fan_.boxes; }
+  const SplitTally& tally() const { return tally_; }
+
+ private:
+  /// One of the two forms of the images, polar or fan.
+  struct Form {
+    std::string name;
+    std::map<std::string, nlohmann::ordered_json> coco{};  ///< of each split
+    std::map<std::string, std::string> lists{};
+    std::vector<std::size_t> pixels{};  ///< of each class
+    std::size_t boxes = 0;
+    std::map<std::string, nlohmann::ordered_json> outlines{};  ///< of each split: polygons of its annotations, in order
+  };
+  void add_form(Form& form, const DatasetImage& image, const LabelMap& map);
+  void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
+                const LabelMap& map);
+  nlohmann::ordered_json empty_coco() const;
+  std::vector<std::size_t> boxed_classes() const;
+  void write_lists(Form& form, const std::vector<std::size_t>& boxed) const;
+  std::string card() const;
+  std::string yolo_yaml(const Form& form, const std::vector<std::size_t>& boxed) const;
+  const FanRaster& raster_of(const Ping& ping);
+
+  const RunDirectory& directory_;
+  const DatasetOptions& options_;
+  std::vector<std::string> classes_;
+  GreyWindow window_;
+  std::size_t images_ = 0, annotations_ = 0;
+  Form polar_{"polar"}, fan_{"fan"};
+  std::string meta_, sonars_;
+  std::map<std::string, FanRaster> rasters_;
+  SplitTally tally_;
+};
+
+/// Levels of a ping as the images show them: with the options' TVG.
+Grid<float> dataset_levels(const Ping& ping, const DatasetOptions& options);
+
+}  // namespace insonify::tool

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "files/peak_memory.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/compare/compared_files.hpp"
+#include "tool/dataset/dataset_writer.hpp"
+#include "tool/dataset/label_pictures.hpp"
+
+namespace insonify::tool {
+namespace {
+
+void add_options(OptionList list, DatasetOptions& o) {
+  list.add("RUN", &o.runs,
+           "runs, surveys or cubes made with --keep contributors (missions: keep = [\"contributors\"] under [ping])",
+           {.required = true});
+  list.add("-o,--output", &o.output, "folder to make", {.required = true});
+  list.add("--window", &o.window,
+           "MIN:MAX [dB] of black and white in all images; default: 60 dB below the top of the first one");
+  list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption");
+  list.add("--raw", &o.raw, "levels as received, without --tvg", {.excludes = "--tvg", .shown_as = " "});
+  list.add("--share", &o.share,
+           "of a pixel's energy that must be of one material in the pixel's own cell, for that class");
+  list.add("--min-level", &o.min_level, min_level_help);
+  list.add("--least-pixels", &o.least_pixels, "of an object, in the polar image",
+           {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
+  list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
+  list.add("--stuff", &o.stuff, "classes that have no boxes, e.g. sand or shadow; several with commas",
+           {.comma_separated = true});
+  list.add("--polygons", &o.polygons, "COCO with outlines too, holes filled: annotations/polygons_SPLIT.json");
+  list.add("--row", &o.row,
+           "of heads with several rows of beams: the number of one, from 0 at the bottom, or all: an image of each; "
+           "default: the middle one");
+  list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of what --split-by names");
+  std::vector<std::string> units;
+  std::string means = "what stays together in train, val or test";
+  for (const SplitUnit& unit : split_units())
+    units.push_back(unit.name), means += std::string("; ") + unit.name + ": " + unit.means;
+  list.add("--split-by", &o.split_by, means, {.words = units});
+  list.add("--force", &o.force, "replace an existing data set");
+  add_common(list, o.common);
+}
+
+std::vector<double> parse_split(const std::string& text) {
+  std::string commas = text;
+  std::replace(commas.begin(), commas.end(), ':', ',');
+  const std::vector<double> shares = parse_numbers("--split", commas, 3, "TRAIN:VAL:TEST");
+  if (!(shares[0] > 0 && shares[1] >= 0 && shares[2] >= 0))
+    fail(ErrorKind::argument, "--split = ", text, ", must be three shares, the first > 0, e.g. 80:10:10");
+  return shares;
+}
+
+/// The rows of beams of a ping that become images.
+std::vector<std::size_t> chosen_rows(const Ping& ping, const DatasetOptions& o) {
+  const std::size_t rows = rows_of(ping);
+  std::vector<std::size_t> chosen;
+  if (o.row == "all") {
+    for (std::size_t r = 0; r < rows; ++r) chosen.push_back(r);
+  } else if (o.row.empty()) {
+    chosen.push_back(rows / 2);
+  } else {
+    const double row = parse_number("--row", o.row);
+    if (!(row >= 0 && row < static_cast<double>(rows) && row == std::floor(row)))
+      fail(ErrorKind::argument, "--row = ", o.row, ", must be all or from 0 and below ", rows,
+           ", the number of rows of beams");
+    chosen.push_back(static_cast<std::size_t>(row));
+  }
+  return chosen;
+}
+
+/// All classes in the order of the sources, and the window of the first ping.
+struct DatasetPlan {
+  std::vector<std::string> classes{"nothing", "shadow"};
+  GreyWindow window;
+};
+
+DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
+  DatasetPlan plan;
+  if (!o.window.empty()) plan.window = parse_window("--window", o.window);
+  for (const DatasetSource& source : sources) {
+    if (source.cubes.empty()) continue;
+    DatasetSource first = source;
+    first.cubes.resize(1);
+    bool begun = false;
+    for_each_labelled_ping(first, [&](const Cube&, const Ping& ping, std::size_t) {
+      if (begun) return;
+      begun = true;
+      for (const std::string& name : ping.labels.names)
+        if (std::find(plan.classes.begin(), plan.classes.end(), name) == plan.classes.end())
+          plan.classes.push_back(name);
+      if (plan.window.max_db > plan.window.min_db) return;
+      const Grid<float> level = dataset_levels(row_of(ping, chosen_rows(ping, o).front()), o);
+      std::vector<float> sorted(level.data(), level.data() + level.size());
+      const auto top = sorted.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sorted.size() - 1));
+      std::nth_element(sorted.begin(), top, sorted.end());
+      const double max_db = 5 * std::ceil(static_cast<double>(*top) / 5);
+      plan.window = {max_db - 60, max_db};
+    });
+  }
+  for (const std::string& name : o.stuff)
+    if (std::find(plan.classes.begin() + 1, plan.classes.end(), name) == plan.classes.end())
+      fail(ErrorKind::argument, "--stuff = ", name, " is no class of the runs; they have ",
+           joined(std::vector<std::string>(plan.classes.begin() + 1, plan.classes.end())));
+  return plan;
+}
+
+void dataset(const DatasetOptions& o) {
+  if (!(o.share > 0 && o.share <= 1)) fail(ErrorKind::argument, "--share = ", o.share, ", must be > 0 and at most 1");
+  const std::vector<double> shares = parse_split(o.split);
+  (void)parse_min_level(o.min_level, 0);  // before any work
+  std::vector<DatasetSource> sources = dataset_sources(o.runs);
+  split_pings(sources, o.split_by, shares);
+  Progress progress(o.common, static_cast<int>(sources.size()) + 2);
+  progress.step("reading");
+  const DatasetPlan plan = plan_of(sources, o);
+  RunDirectory directory(o.output, o.force, o.runs);
+  DatasetWriter writer(directory, o, plan.classes, plan.window);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const DatasetSource& source = sources[s];
+    progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
+    for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping, std::size_t place) {
+      const std::string name = fmt::format("{:03}_{:06}", s, ping.number);
+      const std::string& split = source.split.at(place);
+      if (rows_of(ping) == 1 && o.row.empty()) return writer.add(source, cube, ping, {name, split});
+      for (const std::size_t row : chosen_rows(ping, o))
+        writer.add(source, cube, row_of(ping, row), {name + fmt::format("_row{:02}", row), split, row});
+    });
+  }
+  progress.step("listing");
+  writer.finish();
+  directory.commit();
+  const std::vector<std::string> notes = writer.tally().notes(o.split_by, o.split, shares);
+  for (const std::string& note : notes) progress.note(note);
+  nlohmann::ordered_json splits;
+  std::string counts;
+  for (const std::string& split : split_names) {
+    const auto images = writer.tally().images();
+    const std::size_t count = images.contains(split) ? images.at(split) : 0;
+    splits[split] = {{"images", count}, {"near_train", split == "train" ? count : writer.tally().near_train(split)}};
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, split);
+  }
+  const nlohmann::ordered_json result = {
+      {"folder", o.output},
+      {"images", writer.images()},
+      {"splits", splits},
+      {"notes", notes},
+      {"boxes", {{"polar", writer.boxes_of_polar()}, {"fan", writer.boxes_of_fan()}}},
+      {"classes", plan.classes},
+      {"window_db", {plan.window.min_db, plan.window.max_db}},
+      {"peak_memory_mib", peak_memory_mib()}};
+  print_summary(o.common, result,
+                fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}", o.output, writer.images(),
+                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), joined(plan.classes)));
+}
+
+}  // namespace
+
+Verb dataset_verb() {
+  return make_verb<DatasetOptions>("dataset", "images with labels to learn from: COCO, YOLO, masks",
+                                   {"insonify dataset survey -o dataset --stuff sand",
+                                    "insonify dataset reef wreck harbour -o dataset --split 70:15:15",
+                                    "insonify dataset survey -o dataset --split-by leg"},
+                                   add_options, dataset);
+}
+
+}  // namespace insonify::tool

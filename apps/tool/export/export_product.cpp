@@ -1,0 +1,138 @@
+#include "tool/export/export_product.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "returns/quantise.hpp"
+#include "store/csv_tables.hpp"
+#include "store/run_directory.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/export/product_run.hpp"
+#include "tool/export/raster_plane.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr double shown_span_db = 80;  // of images in 8 bits
+
+/// Where the world is, if options or mission say so.
+std::optional<Georeference> georeference_of(const ProductOptions& o, const RunPings& pings) {
+  Georeference reference;
+  if (!o.utm.empty()) reference.zone = parse_utm_zone(o.utm, "--utm");
+  if (!o.anchor.empty())
+    reference.anchor = parse_anchor(o.anchor, "--anchor");
+  else if (pings.anchor)
+    reference.anchor = *pings.anchor;
+  else if (o.utm.empty())
+    return {};
+  return reference;
+}
+
+/// A product: its writer, and whether it needs a place on the globe.
+struct Product {
+  const char* name;
+  bool placed;
+  SoundingCount (*write)(const PlacedRun& run);
+};
+constexpr Product products[] = {{"gsf", true, gsf_product},
+                                {"las", true, las_product},
+                                {"geotiff", true, geotiff_product},
+                                {"csv", false, csv_product},
+                                {"mcap", false, mcap_product}};
+
+}  // namespace
+
+UtmWorld::UtmWorld(const Georeference& from)
+    : reference(from), zone(from.zone.value_or(utm_zone_of(geo_from_world(from, Eigen::Vector3d::Zero())))) {}
+
+Eigen::Vector3d UtmWorld::place(const Eigen::Vector3d& world) const {
+  if (reference.zone) return world;
+  const UtmPlace utm = utm_place_of(geo_from_world(reference, world), zone);
+  return {utm.easting, utm.northing, world.z()};
+}
+
+GreyScale::GreyScale(const Ping& first) {
+  const double most =
+      std::ceil(static_cast<double>(range_compensated_level_db(first, first.absorption_db_per_m).maxCoeff())) + 10;
+  window = {most - shown_span_db, most};
+}
+
+std::string profile_name(const ProductOptions& options) {
+  return std::filesystem::path(options.processing_profile).filename().string();
+}
+
+std::string profile_remark(const ProductOptions& options) {
+  return options.processing_profile.empty() ? "" : "processing profile: " + profile_name(options);
+}
+
+SoundingCount each_swath(const PlacedRun& run,
+                         const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use) {
+  const ProductOptions& o = run.options;
+  SoundingCount count;
+  std::size_t pings = 0;
+  each_ping(run.pings, [&](const Cube& cube, const Ping& ping) {
+    BottomOptions how = bottom_options(cube, ping, run.pings.environment, o.per_beam);
+    if (run.processing_profile) how.profile = run.processing_profile;
+    BottomSoundings found = detect_bottom(ping, how);
+    std::vector<char> keep(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      count.rejected += found.reject[i] != 0;
+      keep[i] = (o.keep_rejected || found.reject[i] == 0) && static_cast<double>(found.level_db[i]) >= o.min_level &&
+                static_cast<double>(found.deviation[i]) <= o.max_deviation;
+    }
+    keep_soundings(found, keep);
+    ++pings;
+    count.soundings += found.size();
+    use(cube, ping, found);
+  });
+  if (pings == 0) fail(ErrorKind::content, o.run, ": has no pings");
+  return count;
+}
+
+void export_product(const ProductOptions& o, const CommonOptions& common) {
+  Progress progress(common, 2);
+  progress.step("reading " + o.run);
+  PlacedRun run{o, find_run_pings(o.run, o.head)};
+  run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
+  run.place = georeference_of(o, run.pings);
+  if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);
+  if (o.to == "png") {
+    RunDirectory directory(o.output, o.force, {o.run});
+    progress.step("writing " + o.output);
+    const std::size_t pings = png_product(run, directory);
+    print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", pings}},
+                  fmt::format("{}: pictures of {} pings; scales are in manifest.json", o.output, pings));
+    return;
+  }
+  const auto& product =
+      *std::find_if(std::begin(products), std::end(products), [&](const Product& each) { return o.to == each.name; });
+  if (o.to == "las" && o.output.ends_with(".laz"))
+    fail(ErrorKind::argument, "--output ", o.output,
+         ": LAZ is not written, since Debian 12 has no library for it; write a ",
+         ".las and pack it: laszip -i x.las -o x.laz, or pdal translate x.las x.laz");
+  const bool raster = o.to == "geotiff";
+  if (!o.crs.empty() && !raster)
+    fail(ErrorKind::argument, "--crs goes with --to geotiff; --to ", o.to, " is in ",
+         product.placed ? "the UTM zone or the degrees of its place" : "the axes of the world", ": leave --crs out");
+  if (product.placed && !run.place && !RasterPlane::is_local(o.crs))
+    fail(ErrorKind::argument, o.run, ": does not say where on the globe it is, which --to ", o.to,
+         " needs; give --anchor LAT,LON[,HEADING] of the origin and x axis of its world, anchor in the mission, or ",
+         "--utm ZONE of a world in UTM", raster ? "; or --crs local for a grid of the world's own plane" : "");
+  require_free_file(o.output, o.force, {o.run});
+  progress.step("writing " + o.output);
+  const SoundingCount count = product.write(run);
+  if (const std::string note = o.to == "mcap" ? compression_note(o) : ""; !note.empty()) progress.note(note);
+  nlohmann::ordered_json summary = {
+      {"output", o.output}, {"to", o.to}, {"soundings", count.soundings}, {"rejected", count.rejected}};
+  if (!o.processing_profile.empty()) summary["processing_profile"] = profile_name(o);
+  print_summary(
+      common, summary,
+      fmt::format("{}: {} soundings as {}; {} rejected {} {}", o.output, count.soundings, o.to, count.rejected,
+                  count.rejected == 1 ? "one" : "ones", o.keep_rejected ? "are among them, flagged" : "are left out"));
+}
+
+}  // namespace insonify::tool

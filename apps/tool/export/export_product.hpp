@@ -1,0 +1,32 @@
+#pragma once
+#include <limits>
+#include <string>
+
+#include "tool/command/options.hpp"
+
+namespace insonify::tool {
+
+/// Options of `export`.
+struct ProductOptions {
+  std::string to = "vtk", run, output;
+  std::string head;                                                ///< of a survey with several
+  std::string anchor, utm, start_utc;                              ///< where and when; empty: as the mission says
+  std::string crs;                                                 ///< of a raster: EPSG:N, local, or empty: UTM
+  double cell = 0.5;                                               ///< of a raster [m]
+  int per_beam = 1;                                                ///< soundings of a beam
+  bool keep_rejected = false;                                      ///< keep soundings that are judged wrong, flagged
+  double min_level = -std::numeric_limits<double>::infinity();     ///< of a sounding [dB re 1 uPa]
+  double max_deviation = std::numeric_limits<double>::infinity();  ///< [m]
+  std::string processing_profile;    ///< file; empty: the profile that the sound ran through
+  std::string las_version = "1.4";   ///< or 1.2
+  std::string compression = "none";  ///< of an mcap: or lz4, zstd
+  bool linear = false;               ///< images of pressure in 32 bits
+  bool force = false;                ///< replace a file or directory
+};
+
+/// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws Error(argument) for a product with
+/// coordinates of the globe if neither options nor mission say where the world is, Error(content) for a survey that is
+/// not complete or has several heads, as read_cube for damaged cubes, and Error(file) if it cannot write.
+void export_product(const ProductOptions& options, const CommonOptions& common);
+
+}  // namespace insonify::tool

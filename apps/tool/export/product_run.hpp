@@ -1,0 +1,66 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "core/geodesy.hpp"
+#include "returns/quantise.hpp"
+#include "store/run_directory.hpp"
+#include "tool/export/export_product.hpp"
+#include "tool/run/run_pings.hpp"
+
+namespace insonify::tool {
+
+/// A run with its place and time.
+struct PlacedRun {
+  const ProductOptions& options;
+  RunPings pings;
+  std::optional<Georeference> place{};                    ///< where its world is; csv, mcap and png need none
+  double start = 0;                                       ///< seconds since 1970 of time 0
+  std::optional<SoundSpeedProfile> processing_profile{};  ///< by which soundings are placed; absent: the true one
+
+  const Georeference& reference() const { return *place; }
+};
+
+/// The UTM zone of a product, and places in it.
+struct UtmWorld {
+  const Georeference& reference;
+  UtmZone zone;
+  explicit UtmWorld(const Georeference& from);
+  /// Easting, northing [m] and height of a place in the world.
+  Eigen::Vector3d place(const Eigen::Vector3d& world) const;
+};
+
+/// How many soundings a product has, and how many were rejected, whether it has them or not.
+struct SoundingCount {
+  std::size_t soundings = 0, rejected = 0;
+};
+
+/// The name of the processing profile, without its folder.
+std::string profile_name(const ProductOptions& options);
+/// What the header of a product says of its processing profile; empty without one.
+std::string profile_remark(const ProductOptions& options);
+
+/// Calls `use` with every ping and its soundings of the bottom, as far as the options keep them; returns how many there
+/// were. Throws Error(content) for a run without pings.
+SoundingCount each_swath(const PlacedRun& run,
+                         const std::function<void(const Cube&, const Ping&, const BottomSoundings&)>& use);
+
+/// How range-compensated levels become grey values: one window for all pings, from the first, and the gain of each.
+struct GreyScale {
+  GreyWindow window;
+  explicit GreyScale(const Ping& first);
+  static Tvg tvg_of(const Ping& ping) { return {40, ping.absorption_db_per_m}; }
+};
+
+// Writers of the products: each returns how many soundings there were.
+SoundingCount gsf_product(const PlacedRun& run);
+SoundingCount las_product(const PlacedRun& run);
+SoundingCount geotiff_product(const PlacedRun& run);
+SoundingCount csv_product(const PlacedRun& run);
+SoundingCount mcap_product(const PlacedRun& run);
+/// What to say if an mcap is not compressed as it was asked for; else nothing.
+std::string compression_note(const ProductOptions& options);
+/// Writes pictures and how to read them; returns how many pings there were.
+std::size_t png_product(const PlacedRun& run, RunDirectory& directory);
+
+}  // namespace insonify::tool

@@ -1,0 +1,76 @@
+#include "tool/export/raster_plane.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/error.hpp"
+
+namespace insonify::tool {
+namespace {
+
+/// The number of EPSG:N.
+int epsg_of(const std::string& crs) {
+  constexpr std::size_t digits = 5;  // behind "EPSG:"
+  int code = 0;
+  const bool named =
+      crs.size() > digits && (crs.compare(0, digits, "EPSG:") == 0 || crs.compare(0, digits, "epsg:") == 0);
+  const char* const end = crs.data() + crs.size();
+  if (!named || std::from_chars(crs.data() + digits, end, code).ptr != end)
+    fail(ErrorKind::argument, "--crs '", crs, "', must be EPSG:N of a projected system, e.g. EPSG:25832, or local");
+  return code;
+}
+
+}  // namespace
+
+RasterPlane::RasterPlane(const std::string& crs, const std::optional<Georeference>& place) : reference_(place) {
+  if (is_local(crs)) return;
+  const int code = crs.empty() ? 0 : epsg_of(crs);
+  if (!place)
+    fail(ErrorKind::argument,
+         "a raster needs a place on the globe; give --anchor LAT,LON[,HEADING] of the origin and x "
+         "axis of its world, or --crs local");
+  if (code > 0)
+    system_ = ProjectedSystem(code, "--crs");
+  else
+    system_ = place->zone.value_or(utm_zone_of(geo_from_world(*place, Eigen::Vector3d::Zero())));
+}
+
+Eigen::Vector3d RasterPlane::place(const Eigen::Vector3d& world) const {
+  if (const auto* system = std::get_if<ProjectedSystem>(&system_)) {
+    const Eigen::Vector2d at = system->place_of(geo_from_world(*reference_, world));
+    return {at.x(), at.y(), world.z()};
+  }
+  const auto* zone = std::get_if<UtmZone>(&system_);
+  if (!zone || reference_->zone) return world;
+  const UtmPlace utm = utm_place_of(geo_from_world(*reference_, world), *zone);
+  return {utm.easting, utm.northing, world.z()};
+}
+
+Eigen::Vector2d RasterPlane::world_of(const Eigen::Vector2d& wanted) const {
+  if (std::holds_alternative<std::monostate>(system_)) return wanted;
+  const auto level = [&](const Eigen::Vector2d& world) {
+    return Eigen::Vector2d(place({world.x(), world.y(), 0}).head<2>());
+  };
+  constexpr double step = 100, good_enough = 1e-6;  // [m]
+  Eigen::Vector2d world(0, 0);
+  for (int pass = 0; pass < 20; ++pass) {
+    const Eigen::Vector2d here = level(world), off = wanted - here;
+    if (off.norm() < good_enough) break;
+    Eigen::Matrix2d slopes;
+    slopes << level(world + Eigen::Vector2d(step, 0)) - here, level(world + Eigen::Vector2d(0, step)) - here;
+    world += step * slopes.inverse() * off;
+  }
+  return world;
+}
+
+GeoGrid RasterPlane::in_system(GeoGrid grid) const {
+  if (const auto* system = std::get_if<ProjectedSystem>(&system_))
+    grid.epsg = system->epsg(), grid.unit = system->unit();
+  else if (const auto* zone = std::get_if<UtmZone>(&system_))
+    grid.epsg = epsg_code(*zone);
+  return grid;
+}
+
+}  // namespace insonify::tool

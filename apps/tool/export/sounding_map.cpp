@@ -1,0 +1,64 @@
+#include "tool/export/sounding_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr double on_edge = 1e-6;  // [m]
+
+}  // namespace
+
+std::int64_t cell_of(double coordinate, double cell) {
+  return static_cast<std::int64_t>(std::floor((coordinate + on_edge) / cell));
+}
+
+void SoundingMap::add(const Eigen::Vector3d& place, double intensity) {
+  Cell& cell = cells_[{cell_of(place.y(), cell_), cell_of(place.x(), cell_)}];
+  const double z = place.z();
+  cell.least = cell.count == 0 ? z : std::min(cell.least, z);
+  cell.most = cell.count == 0 ? z : std::max(cell.most, z);
+  cell.count += 1;
+  const double off = z - cell.mean;  // Welford's sums, which heights far from 0 do not cancel
+  cell.mean += off / cell.count;
+  cell.squares += off * (z - cell.mean);
+  cell.intensity += intensity;
+}
+
+SoundingMap::Extent SoundingMap::extent() const {
+  std::int64_t west = cells_.begin()->first.second, east = west;
+  for (const auto& [at, cell] : cells_) west = std::min(west, at.second), east = std::max(east, at.second);
+  const std::int64_t south = cells_.begin()->first.first, rows = cells_.rbegin()->first.first - south + 1;
+  const std::int64_t columns = east - west + 1;
+  if (static_cast<double>(rows) * static_cast<double>(columns) > 0x1p26)
+    fail(ErrorKind::argument, "--cell = ", cell_, " m gives ", rows, " x ", columns, " cells, must give at most 2^26");
+  return {west, south, columns, rows};
+}
+
+std::vector<GeoBand> SoundingMap::bands() const {
+  const auto [west, south, columns, rows] = extent();
+  const Grid<float> none = Grid<float>::Constant(rows, columns, std::numeric_limits<float>::quiet_NaN());
+  std::vector<GeoBand> bands;
+  for (const BandMeaning& meaning : sounding_bands) bands.push_back({meaning.name, meaning.unit, none});
+  bands[2].values.setZero();
+  for (const auto& [at, cell] : cells_) {
+    const std::int64_t row = at.first - south, column = at.second - west;
+    const double of_cell[] = {cell.mean,  db_from_power(cell.intensity / cell.count),
+                              cell.count, cell.count > 1 ? std::sqrt(cell.squares / (cell.count - 1)) : std::nan(""),
+                              cell.least, cell.most};
+    for (std::size_t k = 0; k < bands.size(); ++k) bands[k].values(row, column) = static_cast<float>(of_cell[k]);
+  }
+  return bands;
+}
+
+GeoGrid SoundingMap::grid() const {
+  const Extent e = extent();
+  return {0, static_cast<double>(e.west) * cell_, static_cast<double>(e.south) * cell_, cell_};
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,155 @@
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "returns/looks.hpp"
+#include "returns/quantise.hpp"
+#include "scene_io/load_scene.hpp"
+#include "store/run_directory.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/export/export_product.hpp"
+#include "tool/export/raster_plane.hpp"
+#include "tool/run/run_checks.hpp"
+#include "tool/run/run_pings.hpp"
+#include "view/save_vtk.hpp"
+
+namespace insonify::tool {
+namespace {
+
+struct ExportOptions {
+  CommonOptions common;
+  ProductOptions product;
+};
+
+void add_options(OptionList list, ExportOptions& o) {
+  ProductOptions& p = o.product;
+  list.add("RUN", &p.run, "run directory, survey or cube.h5", {.required = true});
+  list.add("-o,--output", &p.output, "file to write; of vtk and png: directory to make", {.required = true});
+  list.add(
+      "--to", &p.to,
+      "vtk: grids and returns for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 "
+      "in "
+      "UTM, geotiff: a grid in UTM or another projected system, or csv: a table; mcap: images, points and poses as "
+      "messages of ROS 2; png: bare "
+      "pictures",
+      {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png"}});
+  list.add("--anchor", &p.anchor,
+           "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: the mission's");
+  list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
+  list.add("--start-utc", &p.start_utc, "of time 0, as 2026-05-01T08:30:00Z; default: the mission's, else 1970");
+  list.add("--head", &p.head, "of a survey with several heads");
+  list.add("--crs", &p.crs, crs_help);
+  list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
+  list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
+           {.within = std::pair(1, 100), .shown_as = "INT"});
+  list.add("--keep-rejected", &p.keep_rejected, "also soundings that are judged wrong, flagged");
+  list.add("--min-level", &p.min_level, "[dB re 1 uPa] of a sounding");
+  list.add("--max-deviation", &p.max_deviation, "[m] of a sounding, its predicted standard deviation",
+           {.positive = true});
+  list.add("--processing-profile", &p.processing_profile,
+           "sound-speed profile (.csv) by which soundings are placed; default: the one that the sound ran through");
+  list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
+  list.add("--compression", &p.compression, "of the chunks of an mcap; one that this build lacks is noted, and none",
+           {.words = {"none", "lz4", "zstd"}});
+  list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
+  list.add("--force", &p.force, "replace an existing file, or the directory of an earlier export");
+  add_common(list, o.common);
+}
+
+/// All fields that a cube holds per sample of a ping.
+std::vector<SampleField> fields_of(const Ping& ping) {
+  constexpr const char* level_unit = "dB re 1 uPa";
+  const Grid<float> level = level_db(ping);
+  std::vector<SampleField> fields = {
+      {"level_db", level, level_unit},
+      {"range_compensated_level_db", apply_tvg(level, ping.gate, Tvg{40, ping.absorption_db_per_m}),
+       "dB re 1 uPa at 1 m"},
+      {"pressure_re", ping.pressure.real(), "Pa, amplitude"},
+      {"pressure_im", ping.pressure.imag(), "Pa, amplitude"}};
+  for (const Layer& layer : ping.layers)
+    fields.push_back({"level_db_" + layer.name,
+                      level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure}), level_unit});
+  if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping), level_unit});
+  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db, "dB"});
+  if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase, "rad"});
+  if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
+  return fields;
+}
+
+/// Writes the returns of a run or of the head of a survey; how many, or nothing if there are none.
+std::optional<std::size_t> save_returns(const RunPings& run, const std::string& path) {
+  if (run.returns.empty()) return {};
+  const SurveyReturns returns = load_survey_returns(run.returns);
+  std::vector<PointColumn> more;
+  if (!returns.time.empty())
+    more = {{"time", "s", returns.time},
+            {"head", "number in the mission, from 0", {returns.head.begin(), returns.head.end()}, true}};
+  save_points(path, returns.soundings, more);
+  return returns.soundings.size();
+}
+
+/// Throws for options of soundings beside a product that has none.
+void require_soundings(const ProductOptions& o) {
+  if ((o.to == "vtk" || o.to == "png") && (o.keep_rejected || std::isfinite(o.min_level) ||
+                                           std::isfinite(o.max_deviation) || !o.processing_profile.empty()))
+    fail(ErrorKind::argument, "--to = ", o.to,
+         " has no soundings of the bottom: --keep-rejected, --min-level, --max-deviation and --processing-profile must "
+         "go "
+         "with gsf, las, geotiff, csv or mcap");
+}
+
+void export_run(const ExportOptions& options) {
+  require_soundings(options.product);
+  if (options.product.to != "vtk") return export_product(options.product, options.common);
+  const ProductOptions& o = options.product;
+  Progress progress(options.common, 2);
+  progress.step("reading " + o.run);
+  const RunPings run = find_run_pings(o.run, o.head);
+  RunDirectory directory(o.output, o.force, {o.run});
+
+  progress.step("writing " + o.output);
+  std::vector<SeriesEntry> fans, images;
+  each_ping(run, [&](const Cube&, const Ping& ping) {
+    const std::size_t k = images.size();
+    const std::vector<SampleField> fields = fields_of(ping);
+    const auto files = save_fan_grid(directory.file(fmt::format("fan_{:06}.vts", k)), ping.fan, ping.gate, fields,
+                                     ping.world_from_head);
+    for (std::size_t part = 0; part < files.size(); ++part)
+      fans.push_back({ping.time, static_cast<int>(part), files[part]});
+    const std::string image = directory.file(fmt::format("image_{:06}.vti", k));
+    save_sample_image(image, ping.fan, ping.gate, fields);
+    images.push_back({ping.time, 0, image});
+  });
+  save_series(directory.file("fan.pvd"), fans);
+  save_series(directory.file("image.pvd"), images);
+  const std::optional<std::size_t> returns = save_returns(run, directory.file("returns.vtp"));
+  write_manifest(directory, {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}});
+  directory.commit();
+  print_summary(options.common,
+                {{"output", o.output},
+                 {"to", o.to},
+                 {"pings", images.size()},
+                 {"grids", fans.size()},
+                 {"returns", returns.value_or(0)}},
+                fmt::format("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView", o.output, fans.size(),
+                            images.size(), images.size(), returns ? fmt::format(", {} returns", *returns) : ""));
+}
+
+}  // namespace
+
+Verb export_verb() {
+  return make_verb<ExportOptions>(
+      "export", "a run for other programs: ParaView, hydrography, GIS, ROS",
+      {"insonify export out -o out-vtk", "insonify export survey -o vtk && paraview vtk/fan.pvd",
+       "insonify export survey --to gsf --anchor 54.1,7.9,90 -o survey.gsf",
+       "insonify export out --to mcap -o out.mcap"},
+      add_options, export_run);
+}
+
+}  // namespace insonify::tool

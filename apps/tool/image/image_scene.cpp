@@ -1,0 +1,149 @@
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "sampling/find_holes.hpp"
+#include "scene_io/load_scene.hpp"
+#include "simulate/resolve_ping.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/image/image.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "tool/run/run_files.hpp"
+#include "tool/run/scene_reach.hpp"
+#include "view/show_scene.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A scene, how it is drawn, and its title.
+struct Drawing {
+  SceneCloud scene;
+  SceneLook look;
+  std::string title;
+  std::optional<View> view;  // of the head, if its sonar is known
+};
+
+SceneCloud load(const CommonOptions& common, const SceneOptions& options, Progress& progress) {
+  LoadedScene loaded = load_scene(options.path, load_options(common, options));
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  return std::move(loaded.scene);
+}
+
+/// The soundings of one ping, with the gain of the other views.
+Soundings of_ping(const Soundings& all, std::int64_t number, const std::optional<Tvg>& tvg) {
+  Soundings some;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (static_cast<std::int64_t>(all.ping[i]) != number) continue;
+    some.position.push_back(all.position[i]);
+    some.level_db.push_back(all.level_db[i] + (tvg ? static_cast<float>(gain_db(*tvg, all.range[i])) : 0));
+  }
+  return some;
+}
+
+/// Draws returns in the colour of their level over the grey scene, unless --colour says otherwise.
+Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
+  if (!o.sonar.empty() || !o.pose.empty() || !o.range.empty())
+    fail(ErrorKind::argument, o.run,
+         " is a run, whose sonar and poses are known; leave --sonar, --pose and --range out");
+  const Cube cube = read_run_cube(o.run);
+  if (o.ping >= cube.pings.size())
+    fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ",
+         o.run);
+  const Ping& ping = cube.pings[o.ping];
+  SceneOptions options = scene_of_run(o.run);
+  if (!o.scene.empty()) options.path = o.scene;
+  if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
+
+  Drawing drawing;
+  drawing.scene = load(o.common, options, progress);
+  drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
+  for (const Ping& sent : cube.pings) drawing.look.track.emplace_back(sent.world_from_head.translation());
+  drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
+  if (drawing.look.colour == SceneColour::visibility)
+    drawing.view = view_of_run(o.run, whole_of(drawing.scene), o.common.threads);
+  const fs::path returns = fs::path(o.run) / "returns.ply";
+  const bool covered = drawing.look.colour == SceneColour::visibility || drawing.look.colour == SceneColour::grazing ||
+                       drawing.look.colour == SceneColour::incidence;
+  if (!fs::exists(returns)) {
+    progress.note(returns.string() + " is missing, so no returns are drawn");
+  } else if (!covered) {
+    const auto tvg = o.raw ? std::nullopt : std::optional(Tvg{o.tvg, ping.absorption_db_per_m});
+    drawing.look.soundings = of_ping(load_soundings(returns.string()), ping.number, tvg);
+    drawing.look.level_unit = level_image(ping, tvg).unit;
+  }
+  drawing.title = picture_title(cube.sonar, ping);
+  return drawing;
+}
+
+/// Finds the visibility of every surfel from the head, and the holes of the scan in its view.
+void look_from_head(const SceneCloud& scene, const std::optional<View>& view, int threads, SceneLook& look) {
+  const auto& [pose, fan, head_gate] = *look.head;
+  const RangeGate& gate = view ? view->gate : head_gate;
+  SamplingOptions sampling = view ? view->sampling : SamplingOptions{};
+  sampling.threads = threads;
+  sampling.rays_per_beam = 16;
+  const PreparedScene prepared(scene, threads);
+  look.visibility = find_visibility(prepared, pose, fan, gate, std::vector<std::uint8_t>(scene.size(), 1), sampling);
+  look.holes = hole_positions(find_holes(prepared, pose, fan, gate, sampling), pose);
+}
+
+Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
+  Drawing drawing;
+  if (o.sonar.empty() != o.pose.empty())
+    fail(ErrorKind::argument, "--sonar and --pose go together, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
+  if (o.colour == "level") fail(ErrorKind::argument, "--colour level: a scene alone has no levels; give a run");
+  SceneOptions options;
+  options.path = o.run;
+  drawing.title = fs::path(o.run).filename().string();
+  drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::visibility;
+  std::optional<HeadSetup> setup;
+  if (!o.sonar.empty()) {
+    RunOptions run;
+    run.sonar = o.sonar;
+    run.range = o.range;
+    setup = set_up_head(o.common, run);
+    const SonarHead& head = setup->head;
+    drawing.look.head = SceneHead{parse_pose(o.pose, o.world) * setup->mount, head.fan, head.gate};
+    drawing.title = head.name + " before " + drawing.title;
+  }
+  if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);
+  if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
+    fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
+  drawing.scene = load(o.common, options, progress);
+  if (setup) {
+    end_range_with_scene(*setup, bounds(drawing.scene), drawing.look.head->world_from_head);
+    drawing.look.head->gate = setup->head.gate;
+    drawing.view =
+        resolve_ping(whole_of(drawing.scene), setup->head, {drawing.look.head->world_from_head}, setup->environment)
+            .view;
+  }
+  return drawing;
+}
+
+}  // namespace
+
+void image_scene(const ImageOptions& o, const PictureOptions& asked) {
+  Progress progress(o.common, 2);
+  progress.step("reading " + o.run);
+  const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
+  Drawing drawing = run ? drawing_of_run(o, progress) : drawing_of_scene(o, progress);
+  SceneLook& look = drawing.look;
+  look.camera.preset = *find_named(camera_words, o.camera);
+  look.normals = o.normals;
+  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, drawing.view, o.common.threads, look);
+
+  progress.step("drawing " + o.output);
+  PictureOptions picture = asked;
+  picture.title = o.title.empty() ? drawing.title : o.title;
+  show_scene(drawing.scene, look, picture, o.output);
+  print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
+}
+
+}  // namespace insonify::tool

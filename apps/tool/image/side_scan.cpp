@@ -1,0 +1,117 @@
+#include "tool/image/side_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace insonify::tool {
+namespace {
+
+/// A history of the pings of `other` with silent samples from `min_range` to `max_range`.
+PingHistory silent_history(const PingHistory& other, double min_range, double max_range) {
+  PingHistory history = other;
+  history.gate.min_range = min_range;
+  history.gate.max_range = max_range;
+  history.level_db.setConstant(other.level_db.rows(), static_cast<Eigen::Index>(history.gate.bins()),
+                               static_cast<float>(silence_db));
+  return history;
+}
+
+/// One head by slant range, or by ground range if the options give an altitude.
+PingHistory history_of(const ImageRun& run, const ImageOptions& o) {
+  const PingHistory slant = beam_history(run, o);
+  const std::vector<double> altitude = altitudes_of(run, o);
+  return altitude.empty() ? slant : on_flat_bottom(slant, altitude);
+}
+
+}  // namespace
+
+PingHistory beam_history(const ImageRun& run, const ImageOptions& o) {
+  const std::vector<Ping>& pings = run.cube.pings;
+  if (pings.size() < 2)
+    fail(ErrorKind::content, run.path, ": holds one ping, a waterfall needs several; join runs with insonify merge");
+  const ChosenBeam chosen = choose_beam(o, pings.front().fan);
+  PingHistory history;
+  history.gate = pings.front().gate;
+  history.level_db.resize(static_cast<Eigen::Index>(pings.size()), static_cast<Eigen::Index>(history.gate.bins()));
+  for (std::size_t p = 0; p < pings.size(); ++p) {
+    history.number.push_back(pings[p].number);
+    history.time.push_back(pings[p].time);
+    const LevelImage levels = levels_of(run, o, p);
+    const auto row = static_cast<Eigen::Index>(p);
+    if (chosen.choice == BeamChoice::one)
+      history.level_db.row(row) = levels.level_db.row(static_cast<Eigen::Index>(chosen.beam));
+    else
+      history.level_db.row(row) = levels.level_db.colwise().maxCoeff();
+    history.unit = levels.unit;
+  }
+  return history;
+}
+
+std::vector<double> altitudes_of(const ImageRun& run, const ImageOptions& o) {
+  const bool by_pose = !o.bottom.empty();
+  if (!by_pose && o.altitude.empty()) return {};
+  const double given = by_pose ? parse_number("--bottom", o.bottom) : parse_number("--altitude", o.altitude);
+  std::vector<double> altitudes;
+  for (const Ping& ping : run.cube.pings) {
+    altitudes.push_back(by_pose ? ping.world_from_head.translation().z() - given : given);
+    if (!(altitudes.back() > 0))
+      fail(ErrorKind::argument, by_pose ? "--bottom" : "--altitude", " = ", given, " m puts the head of ping ",
+           ping.number, " ", altitudes.back(), " m above the bottom, must be > 0");
+  }
+  return altitudes;
+}
+
+PingHistory on_flat_bottom(const PingHistory& slant, const std::vector<double>& altitude) {
+  const RangeGate& gate = slant.gate;
+  const double lowest = *std::min_element(altitude.begin(), altitude.end());
+  const double highest = *std::max_element(altitude.begin(), altitude.end());
+  if (!(highest < gate.max_range))
+    fail(ErrorKind::argument, "on_flat_bottom: altitude = ", highest, " m, must be below the max range of ",
+         gate.max_range, " m");
+  PingHistory ground = silent_history(slant, 0, std::sqrt(gate.max_range * gate.max_range - lowest * lowest));
+  ground.range_title = "Ground range on a flat bottom [m]";
+  for (Eigen::Index p = 0; p < ground.level_db.rows(); ++p)
+    for (Eigen::Index g = 0; g < ground.level_db.cols(); ++g) {
+      const double range =
+          std::hypot(ground.gate.centre(static_cast<std::size_t>(g)), altitude[static_cast<std::size_t>(p)]);
+      const double bin = std::floor((range - gate.min_range) / gate.bin_size);
+      if (bin >= 0 && bin < static_cast<double>(slant.level_db.cols()))
+        ground.level_db(p, g) = slant.level_db(p, static_cast<Eigen::Index>(bin));
+    }
+  return ground;
+}
+
+PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard) {
+  const RangeGate &a = port.gate, &b = starboard.gate;
+  if (a.min_range != b.min_range || a.bin_size != b.bin_size || port.level_db.rows() != starboard.level_db.rows() ||
+      port.level_db.cols() != starboard.level_db.cols())
+    fail(ErrorKind::content, "port has ", port.level_db.rows(), " pings of ", a.min_range, " to ", a.max_range,
+         " m, starboard ", starboard.level_db.rows(), " of ", b.min_range, " to ", b.max_range,
+         " m, must be the same, with bins of one size");
+  const Eigen::Index bins = port.level_db.cols();
+  const double end = a.min_range + static_cast<double>(bins) * a.bin_size;
+  PingHistory both = silent_history(port, -end, end);
+  both.level_db.leftCols(bins) = port.level_db.rowwise().reverse();
+  both.level_db.rightCols(bins) = starboard.level_db;
+  both.range_title = "Port          " + port.range_title + "          Starboard";
+  return both;
+}
+
+void draw_waterfall(const ViewJob& job) {
+  const ImageOptions& o = job.options;
+  PingHistory history = history_of(job.run, o);
+  std::string what = chosen_beam_text(job);
+  if (!o.starboard.empty()) {
+    history = side_by_side(history, history_of(read_image_run(o.starboard, o.layer), o));
+    what = "port and starboard";
+  }
+  PictureOptions picture = job.picture;
+  if (o.title.empty()) picture.title = fmt::format("{}, {} pings, {}", job.run.cube.sonar, history.number.size(), what);
+  show_waterfall(history, picture, job.path);
+}
+
+}  // namespace insonify::tool

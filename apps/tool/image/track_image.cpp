@@ -1,0 +1,67 @@
+#include "tool/image/track_image.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "scene_io/bed_of_returns.hpp"
+#include "store/survey_run.hpp"
+#include "tool/command/progress.hpp"
+#include "view/save_vtk.hpp"
+#include "view/show_track.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+TrackMap::Way way_of(const std::string& name, const std::vector<TrackPoint>& track) {
+  TrackMap::Way way{name, {}, {}};
+  for (const TrackPoint& point : track) {
+    way.places.emplace_back(point.world_from_head.translation().head<2>());
+    way.ahead.emplace_back(point.world_from_head.linear().col(0).head<2>());
+  }
+  return way;
+}
+
+/// The mosaic, or the returns; nothing if there are none.
+void add_levels(const fs::path& folder, TrackMap& map) {
+  const std::string mosaic = (folder / "mosaic.vti").string(), returns = (folder / "returns.ply").string();
+  if (fs::exists(mosaic)) {
+    const HorizontalMap laid = load_map_image(mosaic);
+    map.x = laid.x, map.y = laid.y, map.cell = laid.cell;
+    map.level_db = laid.fields.front().values;
+    map.unit = "dB re 1 m² per m²";
+  } else if (fs::exists(returns)) {
+    constexpr int cells = 400;
+    ReturnsMap of_returns = map_of_returns(returns, cells);
+    map.x = of_returns.x, map.y = of_returns.y, map.cell = of_returns.cell;
+    map.level_db = std::move(of_returns.level_db);
+    map.unit = "dB re 1 µPa, range compensated";
+  }
+}
+
+}  // namespace
+
+void draw_track(const ImageOptions& o, const PictureOptions& options) {
+  const SurveyRun run = load_survey_run(o.run);
+  TrackMap map;
+  std::size_t pings = 0;
+  for (const SurveyRunHead& head : run.heads) {
+    const fs::path cube = fs::path(o.run) / head.name / "cube.h5";
+    if (!fs::exists(cube))
+      fail(ErrorKind::content, o.run, ": holds no ", head.name, "/cube.h5; run insonify merge ", o.run);
+    map.ways.push_back(way_of(head.name, read_track(cube.string())));
+    pings += map.ways.back().places.size();
+  }
+  add_levels(o.run, map);
+  PictureOptions picture = options;
+  picture.title =
+      o.title.empty() ? fmt::format("{} pings of {}", pings, joined(run.heads, ", ", &SurveyRunHead::name)) : o.title;
+  show_track(map, picture, o.output);
+  print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tool/command/options.hpp"
+
+/// What `info` says of a file or folder: facts by name, and under `next` the commands that go on from there.
+namespace insonify::tool {
+
+/// Of a cube of pings; of a run if the path of its folder is given.
+nlohmann::ordered_json info_of_cube(const std::string& path);
+
+/// Of a folder: a run, a survey, a head of one, or anything else with a manifest of insonify. Throws Error(content) for
+/// another folder.
+nlohmann::ordered_json info_of_folder(const std::string& path);
+
+/// Of a TOML file: a mission, a table of materials, settings of a run, an environment or a sonar, by its keys.
+/// Throws as the reader of each.
+nlohmann::ordered_json info_of_toml(const std::string& path);
+
+/// Of a cloud, mesh, raster or tiles.
+nlohmann::ordered_json info_of_scene(const std::string& path);
+
+/// Prints what info_of_scene says of a cloud, mesh or raster.
+void print_scene(const nlohmann::ordered_json& info);
+
+/// A path as a shell takes it.
+std::string shell_word(const std::string& path);
+
+}  // namespace insonify::tool

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "returns/looks.hpp"
+#include "store/contributor_file.hpp"
+#include "store/cube.hpp"
+#include "store/run_directory.hpp"
+#include "store/survey_run.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/info/info.hpp"
+#include "tool/run/scene_reach.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// How much of a head of a survey is done.
+struct HeadState {
+  std::size_t done = 0, failed = 0;  ///< blocks, pings
+  bool merged = false;
+};
+
+HeadState state_of(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
+  HeadState state;
+  for (std::size_t b = 0; b < head.blocks(); ++b)
+    if (const auto mark = find_mark(block_files(run, head.name, static_cast<std::int64_t>(b)), survey.mission_sha256))
+      ++state.done, state.failed += mark->failed.size();
+  state.merged = fs::exists(fs::path(run) / head.name / "cube.h5");
+  return state;
+}
+
+/// What a head of a survey keeps: settings of its run.toml.
+PingOptions settings_of(const std::string& run, const std::string& head) {
+  const fs::path file = fs::path(run) / head / "run.toml";
+  return fs::exists(file) ? load_ping_settings(file.string()) : PingOptions{};
+}
+
+bool keeps_contributors(const PingOptions& settings) {
+  return std::find(settings.keep.begin(), settings.keep.end(), "contributors") != settings.keep.end();
+}
+
+/// How a finished head goes on; `target` is what `export` takes.
+std::vector<std::string> products_of(const std::string& target, const PingOptions& settings) {
+  std::vector<std::string> next;
+  if (settings.split)
+    for (const char* kind : {"csv", "gsf"})
+      next.push_back(
+          fmt::format("insonify export {} --to {} --anchor LAT,LON,HEADING -o soundings.{}", target, kind, kind));
+  if (settings.split) next.front() = fmt::format("insonify export {} --to csv -o soundings.csv", target);
+  next.push_back("insonify export " + target + " -o vtk");
+  return next;
+}
+
+ordered_json survey_info(const std::string& run) {
+  const SurveyRun survey = load_survey_run(run);
+  ordered_json heads = ordered_json::array();
+  bool done = true, merged = true, labelled = false;
+  for (const SurveyRunHead& head : survey.heads) {
+    const HeadState state = state_of(run, survey, head);
+    done &= state.done == head.blocks(), merged &= state.merged;
+    labelled |= keeps_contributors(settings_of(run, head.name));
+    heads.push_back({{"name", head.name},
+                     {"pings", head.pings},
+                     {"blocks", head.blocks()},
+                     {"blocks_done", state.done},
+                     {"failed_pings", state.failed},
+                     {"merged", state.merged}});
+  }
+  const std::string word = shell_word(run);
+  std::vector<std::string> next;
+  if (!done) next.push_back("insonify survey MISSION -o " + word + "  # the mission that it was begun with");
+  if (done && !merged) next.push_back("insonify merge " + word);
+  if (done && merged) {
+    next.push_back("insonify image " + word + " --view track -o track.png");
+    const std::string name = survey.heads.front().name;
+    const std::string target = survey.heads.size() == 1 ? word : word + " --head " + name;
+    for (std::string& command : products_of(target, settings_of(run, name))) next.push_back(std::move(command));
+  }
+  if (done && labelled) next.push_back("insonify dataset " + word + " -o dataset");
+  next.push_back("insonify view " + word);
+  return {{"path", run},
+          {"format", "insonify survey"},
+          {"state", !done    ? "unfinished"
+                    : merged ? "merged"
+                             : "done, not merged"},
+          {"heads", heads},
+          {"mosaic", fs::exists(fs::path(run) / "mosaic.vti")},
+          {"next", next}};
+}
+
+/// Of a head that is not merged yet: blocks alone.
+ordered_json head_info(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
+  const HeadState state = state_of(run, survey, head);
+  const std::string word = shell_word(run);
+  const bool done = state.done == head.blocks();
+  return {{"path", (fs::path(run) / head.name).string()},
+          {"format", "insonify survey, one head of it"},
+          {"survey", run},
+          {"pings", head.pings},
+          {"blocks", head.blocks()},
+          {"blocks_done", state.done},
+          {"failed_pings", state.failed},
+          {"merged", state.merged},
+          {"next",
+           {done ? "insonify merge " + word
+                 : "insonify survey MISSION -o " + word + "  # the mission that it was begun with",
+            "insonify info " + word}}};
+}
+
+/// The survey of whose heads `folder` is one, and which.
+std::optional<std::pair<std::string, SurveyRunHead>> head_of_survey(const fs::path& folder) {
+  fs::path run = (folder / "..").lexically_normal();
+  if (!run.has_filename()) run = run.parent_path();
+  if (!is_survey_run(run.string())) return {};
+  for (const SurveyRunHead& head : load_survey_run(run.string()).heads)
+    if (head.name == fs::absolute(folder).filename()) return std::pair(run.string(), head);
+  return {};
+}
+
+/// Of any folder that insonify wrote: what its manifest says, but for lists.
+ordered_json manifest_info(const std::string& path) {
+  const std::string file = path + "/manifest.json";
+  ordered_json info = {{"path", path}, {"format", "folder written by insonify"}};
+  const ordered_json manifest = ordered_json::parse(read_text_file(file), nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("insonify_version"))
+    fail(ErrorKind::content, file, ": is no manifest of insonify");
+  for (const auto& [key, value] : manifest.items())
+    if (key != "schema" && (value.is_primitive() || (value.is_array() && value.size() < 8))) info[key] = value;
+  info["next"] = {"insonify info --verify " + shell_word(path)};
+  return info;
+}
+
+std::vector<std::string> next_of_run(const std::string& path) {
+  const fs::path run(path), folder = fs::is_directory(run) ? run : run.parent_path();
+  const std::string word = shell_word(path);
+  std::vector<std::string> next = {"insonify image " + word + " -o picture.png"};
+  const PingOptions settings =
+      fs::is_directory(run) && fs::exists(run / "run.toml") ? settings_of(path, ".") : PingOptions{};
+  if (fs::is_directory(run)) next.push_back("insonify view " + word);
+  for (std::string& command : products_of(word, settings)) next.push_back(std::move(command));
+  if (keeps_contributors(settings)) next.push_back("insonify dataset " + word + " -o dataset");
+  return next;
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& path) {
+  const auto plain = [](char c) {
+    const bool ascii = static_cast<unsigned char>(c) < 128;
+    return !ascii || std::isalnum(c) != 0 || std::string_view("_./-+,:@%=").find(c) != std::string_view::npos;
+  };
+  if (!path.empty() && std::all_of(path.begin(), path.end(), plain)) return path;
+  std::string word = "'";
+  for (const char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+ordered_json info_of_cube(const std::string& path) {
+  const bool is_run = fs::is_directory(path);
+  const std::string file = is_run ? path + "/cube.h5" : path;
+  const Cube cube = read_cube(file);
+  const Ping& first = cube.pings.front();
+  ordered_json layers = ordered_json::array();
+  for (const Layer& layer : first.layers) layers.push_back(layer.name);
+  // The water of a dive is not one number.
+  const auto water = [&](double Ping::*number) -> ordered_json {
+    const auto [least, most] = std::minmax_element(
+        cube.pings.begin(), cube.pings.end(), [number](const Ping& a, const Ping& b) { return a.*number < b.*number; });
+    if ((*least).*number == (*most).*number) return first.*number;
+    return {(*least).*number, (*most).*number};
+  };
+  float peak = silence_db;
+  for (const Ping& ping : cube.pings) peak = std::max(peak, level_db(ping).maxCoeff());
+  return {{"path", file},
+          {"format", "insonify ping cube"},
+          {"sonar", cube.sonar},
+          {"pings", cube.pings.size()},
+          {"beams", first.fan.beams()},
+          {"bins", first.gate.bins()},
+          {"min_range_m", first.gate.min_range},
+          {"max_range_m", first.gate.max_range},
+          {"bin_size_m", first.gate.bin_size},
+          {"layers", layers},
+          {"centre_frequency_hz", cube.centre_frequency},
+          {"bandwidth_hz", cube.bandwidth},
+          {"source_level_db", cube.source_level_db},
+          {"sound_speed", water(&Ping::sound_speed)},
+          {"absorption_db_per_m", water(&Ping::absorption_db_per_m)},
+          {"seed", cube.seed},
+          {"peak_level_db", peak},
+          {"insonify_version", cube.insonify_version},
+          {"next", next_of_run(path)}};
+}
+
+ordered_json info_of_folder(const std::string& path) {
+  fs::path folder = fs::path(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // of a path that ends with a slash
+  if (is_survey_run(path)) return survey_info(path);
+  if (fs::exists(folder / "cube.h5")) return info_of_cube(folder.string());
+  if (const auto head = head_of_survey(folder))
+    return head_info(head->first, load_survey_run(head->first), head->second);
+  if (fs::exists(folder / "manifest.json")) return manifest_info(folder.string());
+  fail(ErrorKind::content, path, ": is no run, survey, head of a survey or export of insonify: it holds no cube.h5, ",
+       "survey.toml or manifest.json; give one of its files, or the folder of a run");
+}
+
+}  // namespace insonify::tool

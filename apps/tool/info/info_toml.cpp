@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "store/environment_file.hpp"
+#include "store/sonar_file.hpp"
+#include "store/toml_tree_internal.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/info/info.hpp"
+#include "tool/info/material_list.hpp"
+#include "tool/run/scene_reach.hpp"
+#include "tool/survey/survey_setup.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json mission_info(const std::string& path) {
+  SurveyOptions options;
+  options.mission = path;
+  const SurveySetup survey = set_up_survey(options);
+  const Mission& mission = survey.file.mission;
+  ordered_json heads = ordered_json::array(), legs = ordered_json::array();
+  for (std::size_t h = 0; h < mission.heads.size(); ++h) {
+    const HeadSetup& head = survey.heads[h].setup.head;
+    const std::vector<SurveyPing>& all = survey.survey->pings();
+    const auto pings = std::count_if(all.begin(), all.end(), [h](const SurveyPing& p) { return p.head == h; });
+    heads.push_back({{"name", mission.heads[h].name},
+                     {"sonar", head.spec.name},
+                     {"range_m", range_text(head.spec.min_range, head.spec.max_range)},
+                     {"pings", pings}});
+  }
+  for (const MissionLeg& leg : mission.legs) legs.push_back(leg.name);
+  const std::string word = shell_word(path);
+  return {{"path", path},
+          {"format", "insonify mission"},
+          {"scene", survey.file.scene},
+          {"seconds", mission.trajectory.time.back() - mission.trajectory.time.front()},
+          {"heads", heads},
+          {"legs", legs},
+          {"next", {"insonify survey " + word + " --plan", "insonify survey " + word + " -o run"}}};
+}
+
+ordered_json materials_info(const std::string& path) {
+  const MaterialTable table = load_materials(path);
+  ordered_json names = ordered_json::array();
+  for (const SourcedMaterial& m : table.materials) names.push_back(m.material.name);
+  const std::string word = shell_word(path);
+  return {{"path", path},
+          {"format", "insonify materials"},
+          {"field", table.field.name},
+          {"materials", names},
+          {"next",
+           {"insonify materials " + word,
+            "insonify ping SCENE --materials " + word + " --sonar oculus-m750d --pose=x,y,z,0,0,0 -o out",
+            "insonify prepare SCENE --materials " + word + " -o prepared.ply"}}};
+}
+
+ordered_json settings_info(const std::string& path) {
+  const PingOptions options = load_ping_settings(path);
+  const SonarSpec spec = load_sonar_file(path).spec;
+  return {{"path", path},
+          {"format", "insonify settings of a run"},
+          {"scene", options.scene.path},
+          {"sonar", spec.name},
+          {"range_m", range_text(spec.min_range, spec.max_range)},
+          {"pose", options.pose},
+          {"seed", options.common.seed},
+          {"next",
+           {"insonify ping --run " + shell_word(path) + " -o again",
+            "insonify ping --run " + shell_word(path) + " --seed 2 -o other-speckle"}}};
+}
+
+ordered_json environment_info(const std::string& path) {
+  ordered_json parts = ordered_json::array();
+  for (const std::string& key : load_toml(path).keys) parts.push_back(key);
+  (void)load_environment(path);  // refuses what is wrong in it
+  return {
+      {"path", path},
+      {"format", "insonify environment"},
+      {"parts", parts},
+      {"next",
+       {"insonify ping SCENE --environment " + shell_word(path) + " --sonar oculus-m750d --pose=x,y,z,0,0,0 -o out"}}};
+}
+
+ordered_json sonar_info(const std::string& path) {
+  const SonarSpec spec = load_sonar_file(path).spec;
+  const std::string word = shell_word(path);
+  return {{"path", path},
+          {"format", "insonify sonar"},
+          {"name", spec.name},
+          {"beams", spec.beams},
+          {"centre_frequency_hz", spec.centre_frequency},
+          {"bandwidth_hz", spec.bandwidth},
+          {"range_m", range_text(spec.min_range, spec.max_range)},
+          {"next",
+           {"insonify sonars " + word, "insonify beampattern " + word + " -o pattern.png",
+            "insonify ping SCENE --sonar " + word + " --pose=x,y,z,0,0,0 -o out"}}};
+}
+
+ordered_json of_survey_mark(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  return info_of_folder(folder.string());
+}
+
+/// Kinds of TOML files, each known by a key that no kind before it has.
+struct TomlKind {
+  const char* key;
+  ordered_json (*info)(const std::string& path);
+};
+constexpr TomlKind toml_kinds[] = {{"insonify_version", settings_info},
+                                   {"mission_sha256", of_survey_mark},
+                                   {"head", mission_info},
+                                   {"survey", mission_info},
+                                   {"material", materials_info},
+                                   {"water", environment_info},
+                                   {"surface", environment_info},
+                                   {"bottom", environment_info},
+                                   {"volume", environment_info},
+                                   {"wind", environment_info},
+                                   {"noise", environment_info},
+                                   {"profile", environment_info}};
+
+}  // namespace
+
+ordered_json info_of_toml(const std::string& path) {
+  const TomlValue document = load_toml(path);
+  for (const TomlKind& kind : toml_kinds)
+    if (document.find(kind.key)) return kind.info(path);
+  return sonar_info(path);
+}
+
+}  // namespace insonify::tool

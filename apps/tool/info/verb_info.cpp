@@ -1,0 +1,95 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/text.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/info/info.hpp"
+#include "tool/run/run_checks.hpp"
+#include "tool/run/scene_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct InfoOptions {
+  CommonOptions common;
+  std::vector<std::string> files;
+  bool verify = false;
+};
+
+void add_options(OptionList list, InfoOptions& o) {
+  list.add(
+      "FILE", &o.files,
+      "cloud, mesh, tiles, run, survey, head of a survey, cube.h5, or a .toml: mission, materials, sonar, environment, "
+      "run.toml",
+      {.required = true});
+  list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 of when they were made");
+  add_common(list, o.common);
+}
+
+std::string text_of(const ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+/// A line for each fact, and for each entry of a list of objects or commands.
+void print_facts(const ordered_json& info) {
+  for (const auto& [key, value] : info.items()) {
+    const bool lines = value.is_array() && !value.empty() && (key == "next" || value.front().is_object());
+    if (!lines) {
+      fmt::print("  {:<20} {}\n", key, text_of(value));
+      continue;
+    }
+    for (const auto& entry : value) {
+      std::string line = entry.is_object() ? "" : text_of(entry);
+      if (entry.is_object())
+        for (const auto& [name, fact] : entry.items())
+          line += fmt::format("{}{} {}", line.empty() ? "" : ", ", name, text_of(fact));
+      fmt::print("  {:<20} {}\n", key, line);
+    }
+  }
+}
+
+/// Compares the files of all runs. Throws Error(content) if one was changed.
+void verify(const InfoOptions& o) {
+  ordered_json all = ordered_json::array();
+  std::vector<std::string> problems;
+  for (const std::string& run : o.files) {
+    const RunCheck check = check_run(run);
+    for (const std::string& problem : check.problems) problems.push_back(run + ": " + problem);
+    all.push_back({{"path", run}, {"files", check.files}, {"problems", check.problems}});
+    if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files as they were made\n", run, check.files);
+  }
+  if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+  if (!problems.empty()) fail(ErrorKind::content, joined(problems), "; copy the run again, or make it again");
+}
+
+void info(const InfoOptions& o) {
+  if (o.verify) return verify(o);
+  ordered_json all = ordered_json::array();
+  for (const std::string& path : o.files) {
+    const std::filesystem::path file(path);
+    const bool is_scene =
+        !std::filesystem::is_directory(file) && file.extension() != ".h5" && file.extension() != ".toml";
+    if (is_scene)
+      all.push_back(info_of_scene(path));
+    else if (file.extension() == ".toml")
+      all.push_back(info_of_toml(path));
+    else
+      all.push_back(std::filesystem::is_directory(file) ? info_of_folder(path) : info_of_cube(path));
+    if (!o.common.json) (is_scene && !is_tiles(path) ? print_scene : print_facts)(all.back());
+  }
+  if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+}
+
+}  // namespace
+
+Verb info_verb() {
+  return make_verb<InfoOptions>("info", "what a file or folder is, what is wrong with it, and what to do next",
+                                {"insonify info reef.pcd", "insonify info reef.pcd --json | jq .bounds",
+                                 "insonify info mission.toml", "insonify info run", "insonify info --verify out"},
+                                add_options, info);
+}
+
+}  // namespace insonify::tool

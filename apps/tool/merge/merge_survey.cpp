@@ -1,0 +1,151 @@
+#include "tool/merge/merge_survey.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "files/pending_file.hpp"
+#include "files/sha256.hpp"
+#include "scene_io/coverage_file.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "store/join_cubes.hpp"
+#include "store/survey_run.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/merge/survey_mosaic.hpp"
+#include "tool/merge/survey_places.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// A finished block.
+struct Finished {
+  const SurveyRunHead* head;
+  BlockFiles files;
+  BlockMark mark;
+};
+
+std::string pings_of(const SurveyRunHead& head, std::size_t block) {
+  const std::size_t first = block * head.pings_per_block, last = std::min(first + head.pings_per_block, head.pings) - 1;
+  return fmt::format("{}/blocks/{:06} (pings {} to {})", head.name, block, first, last);
+}
+
+/// All blocks in the order of heads and pings. Throws Error(content) naming those that are not done.
+std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun& run) {
+  std::vector<Finished> finished;
+  std::vector<std::string> missing;
+  for (const SurveyRunHead& head : run.heads)
+    for (std::size_t b = 0; b < head.blocks(); ++b) {
+      const BlockFiles files = block_files(folder, head.name, static_cast<std::int64_t>(b));
+      if (const auto mark = find_mark(files, run.mission_sha256))
+        finished.push_back({&head, files, *mark});
+      else
+        missing.push_back(pings_of(head, b));
+    }
+  const std::size_t named = std::min<std::size_t>(missing.size(), 5);
+  if (named > 0)
+    fail(ErrorKind::content, folder, ": ", missing.size(), " of ", missing.size() + finished.size(),
+         " blocks are not done: ", joined(std::vector(missing.begin(), missing.begin() + static_cast<long>(named))),
+         missing.size() > named ? ", ..." : "", "; run the survey (or its missing shards) again");
+  return finished;
+}
+
+/// What joining the blocks of all heads gave.
+struct JoinedHeads {
+  ordered_json heads = ordered_json::array(), failed = ordered_json::array();  ///< for the manifest
+  std::vector<std::string> clouds, coverages;                                  ///< of the blocks
+  std::vector<HeadCubes> cubes;                                                ///< of the blocks
+  std::vector<HeadCube> joined_cubes;
+};
+
+/// Joins the cubes of each head.
+JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const std::vector<Finished>& finished,
+                       bool copy, Progress& progress) {
+  JoinedHeads all;
+  for (const SurveyRunHead& head : run.heads) {
+    progress.step("joining " + head.name);
+    std::vector<std::string>& of_head = all.cubes.emplace_back(HeadCubes{head.name, {}}).cubes;
+    for (const Finished& block : finished) {
+      if (block.head != &head) continue;
+      for (const FailedPing& ping : block.mark.failed)
+        all.failed.push_back({{"head", head.name}, {"ping", ping.number}, {"reason", ping.reason}});
+      if (block.mark.cube_sha256.empty()) continue;
+      of_head.push_back(block.files.cube);
+      all.clouds.push_back(block.files.returns);
+      if (!block.mark.coverage_sha256.empty()) all.coverages.push_back(block.files.coverage);
+    }
+    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
+    if (!of_head.empty()) {
+      join_cubes(cube, of_head, copy);
+      all.joined_cubes.push_back({head.name, cube});
+    }
+    all.heads.push_back({{"name", head.name},
+                         {"pings", head.pings},
+                         {"cube", of_head.empty() ? ordered_json() : ordered_json(head.name + "/cube.h5")},
+                         {"cube_sha256", of_head.empty() ? ordered_json() : ordered_json(sha256_of_file(cube))}});
+  }
+  return all;
+}
+
+/// The plane of mosaic.tif; absent if none is made.
+std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const SurveyFrame& frame) {
+  if (mosaic.cell == 0 || (mosaic.crs.empty() && !frame.anchor)) return {};
+  std::optional<Georeference> place;
+  if (frame.anchor) place = Georeference{{}, *frame.anchor};
+  return RasterPlane(mosaic.crs, place);
+}
+
+}  // namespace
+
+void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common) {
+  const SurveyRun run = load_survey_run(folder);
+  const std::vector<Finished> finished = finished_blocks(folder, run);
+  const SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
+  const std::optional<RasterPlane> plane = plane_of(mosaic, frame);
+  Progress progress(common, 2 + static_cast<int>(run.heads.size()) + (mosaic.cell > 0));
+  progress.step("checking " + folder);
+  parallel_for(finished.size(), common.threads,
+               [&](std::size_t b) { require_unchanged(finished[b].files, finished[b].mark); });
+
+  const JoinedHeads joined_heads = join_heads(folder, run, finished, copy, progress);
+  const auto& [heads, failed, clouds, coverages, cubes, joined_cubes] = joined_heads;
+  progress.step("joining returns");
+  const std::string returns = (fs::path(folder) / "returns.ply").string();
+  ordered_json manifest = {{"schema", 1},
+                           {"insonify_version", INSONIFY_VERSION},
+                           {"mission_sha256", run.mission_sha256},
+                           {"blocks", finished.size()},
+                           {"heads", heads}};
+  manifest.update(frame_json(frame));
+  if (frame.anchor)
+    write_file((fs::path(folder) / "track.geojson").string(), track_geojson(frame, joined_cubes).dump(1) + "\n");
+  if (!clouds.empty()) {
+    join_clouds(returns, clouds);
+    if (mosaic.cell > 0) {
+      progress.step("laying the images on the bed");
+      save_mosaic(folder, cubes, returns, mosaic, plane, common.threads);
+    }
+    manifest["returns_sha256"] = sha256_of_file(returns);
+  }
+  if (!coverages.empty()) {
+    const std::string coverage = (fs::path(folder) / "coverage.ply").string();
+    join_coverage(coverage, coverages);
+    manifest["coverage_sha256"] = sha256_of_file(coverage);
+  }
+  manifest["failed"] = failed;
+  write_file((fs::path(folder) / "manifest.json").string(), manifest.dump(2) + "\n");
+  print_summary(common, manifest,
+                fmt::format("{}: {} blocks of {} joined", folder, finished.size(),
+                            joined(run.heads, ", ", &SurveyRunHead::name)));
+  if (!failed.empty())
+    throw SomeFailed{fmt::format("{}: {} pings failed and are missing in the cubes; manifest.json lists them", folder,
+                                 failed.size())};
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "tool/command/options.hpp"
+
+namespace insonify::tool {
+
+/// --mosaic and what goes with it.
+struct MosaicOptions {
+  double cell = 0;          ///< [m]; 0: no mosaic
+  std::string bottom;       ///< height of a level bed [m], or empty: the returns' surface
+  std::string by = "mean";  ///< or "best"
+  std::string crs;          ///< of mosaic.tif: EPSG:N, local, or empty: UTM, if the mission says where its world is
+};
+
+/// Joins the blocks of a survey in its folder: NAME/cube.h5 of each head, which refers to the blocks unless `copy`,
+/// returns.ply and manifest.json; with a mosaic also mosaic.vti, .png, .pgw and,
+/// with a place on the globe or a local plane, .tif. Throws Error(content) naming blocks that
+/// are missing or were changed; SomeFailed, when all is written, if some pings failed.
+void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common);
+
+}  // namespace insonify::tool

@@ -1,0 +1,220 @@
+#include "tool/ping/ping_report.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "acoustics/reflection.hpp"
+#include "core/units.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/run/scene_reach.hpp"
+
+namespace insonify::tool {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// States the effect of refraction, and whether it was left out.
+std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
+  const auto beyond_rounding = [](double x) { return x < 1e-9 ? 0 : x; };
+  const std::string bound =
+      fmt::format("straight rays to what is in view are off by up to {:.2g} m in range and {:.2g} deg in angle",
+                  beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)));
+  if (!r.bent) return fmt::format("refraction left out: {} (bin {:.3g} m)", bound, gate.bin_size);
+  return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
+}
+
+/// States why multipath gave no echo: most often the sea is too rough.
+std::string no_multipath_note(const Environment& environment) {
+  const double waves = environment.surface ? rms_wave_height(environment) : 0;
+  const std::string sea = waves > 0
+                              ? fmt::format("waves of {:.2g} m rms scatter what a smooth surface would reflect", waves)
+                              : std::string("boundaries are out of reach, hidden or off the pattern");
+  return "no echo comes by way of surface or bottom: " + sea;
+}
+
+/// The options with which a head that hears nothing looks at the scene.
+std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& centre,
+                              const PingSetup& setup, bool mounted) {
+  const Eigen::Vector3d way = setup.event.world_from_head.linear() * centre,
+                        at = setup.event.world_from_head.translation();
+  std::string remedy =
+      mounted ? "move or turn the vehicle by --pose, or the head on it by --mount"
+              : fmt::format("--pose={} looks at it", pose_text(at, std::atan2(way.y(), way.x()),
+                                                               std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
+  double farthest = 0;
+  for (const auto& p : places) farthest = std::max(farthest, p.norm());
+  const RangeGate& gate = setup.head.head.gate;
+  if (centre.norm() > gate.max_range)
+    remedy += fmt::format(", with --range {}", range_text(gate.min_range, end_of_range(farthest)));
+  return remedy;
+}
+
+/// States that the ping is silent, where the scene lies and what to do.
+std::string silence_note(const std::vector<Eigen::Vector3d>& places, const SamplingReport& sampling,
+                         const PingSetup& setup, bool mounted) {
+  if (sampling.in_gate > 0)
+    return fmt::format(
+        "the ping is silent: of {} surfels inside fan and range gate {} face away from the head and {} are hidden; "
+        "move the head to the side to which the normals point, or orient them by --viewpoint",
+        sampling.in_gate, sampling.back_facing, sampling.hidden);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& p : places) centre += p / static_cast<double>(places.size());
+  const Direction d = direction_of(centre);
+  return fmt::format(
+      "nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
+      "{:.0f} deg to {} and {:.0f} deg {} the head's axis: {}",
+      centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
+      d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
+}
+
+/// States that the head sees nearly only backs.
+std::string backs_note(const SamplingReport& s) {
+  return fmt::format(
+      "{:.0f} % of the surfels in fan and range gate face away from the head and give no echo: is it below the ground, "
+      "or inside a body? Check the pose, or the viewpoint of the scene",
+      100.0 * static_cast<double>(s.back_facing) / static_cast<double>(s.in_gate));
+}
+
+std::string bound_text(const PlannedStage& stage) {
+  if (std::isinf(stage.bound_relative)) return "not known";
+  if (stage.bound_relative == 0) return "0";
+  return fmt::format("{:.2g} dB", stage.bound_db);
+}
+
+std::string share_text(const PlannedStage& stage, const PingPlan& plan) {
+  return stage.by == DecidedBy::budget ? fmt::format("{:.2g} dB", plan.share_db) : decided_by_name(stage.by);
+}
+
+/// JSON has no infinity: null is no bound.
+ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+
+}  // namespace
+
+ordered_json scene_json(const LoadedScene& loaded) {
+  const LoadReport& r = loaded.report;
+  return {{"path", r.path},
+          {"format", r.format},
+          {"points_read", r.points_read},
+          {"triangles_read", r.triangles_read},
+          {"surfels", loaded.scene.size()},
+          {"dropped_not_finite", r.dropped_not_finite},
+          {"dropped_withheld", r.dropped_withheld},
+          {"dropped_duplicates", r.dropped_duplicates},
+          {"dropped_degenerate_triangles", r.dropped_degenerate},
+          {"dropped_without_normal", r.dropped_without_normal},
+          {"repaired_normals", r.repaired_normals},
+          {"normals", r.normals_estimated ? "estimated" : "from file"},
+          {"normals_oriented", loaded.scene.normals_oriented},
+          {"material_field", r.material_field},
+          {"outside_intervals", r.outside_intervals},
+          {"areas", r.areas_estimated ? "estimated" : "from file"},
+          {"origin", {loaded.scene.origin.x(), loaded.scene.origin.y(), loaded.scene.origin.z()}}};
+}
+
+ordered_json layers_json(const std::vector<LayerReport>& layers) {
+  ordered_json json = ordered_json::array();
+  for (const LayerReport& layer : layers) json.push_back({{"name", layer.name}, {"echoes", layer.echoes}});
+  return json;
+}
+
+ordered_json sampling_json(const SimulatedPing& p) {
+  const SamplingReport& s = p.report.sampling;
+  return {{"surfels", s.surfels},
+          {"in_fan_and_gate", s.in_gate},
+          {"back_facing", s.back_facing},
+          {"hidden", s.hidden},
+          {"visible", s.visible},
+          {"rays_missed", s.rays_missed},
+          {"sparse_beams", s.sparse_beams},
+          {"scatterers", s.scatterers},
+          {"soundings", p.soundings.size()},
+          {"noise_floor_db", p.report.noise_floor_db}};
+}
+
+ordered_json level_error_json(const ConvergenceReport& c) {
+  return {{"wanted_db", c.wanted_db},
+          {"reached", c.reached},
+          {"reached_db", c.reached_db},
+          {"share_below", c.share_below},
+          {"cells", c.judged},
+          {"samplings", c.samplings},
+          {"scatterers_per_cell", c.scatterers_per_cell},
+          {"rays_per_beam", c.rays_per_beam}};
+}
+
+ordered_json holes_json(const HoleReport& holes) {
+  return {{"directions", holes.directions},
+          {"unknown", holes.unknown},
+          {"share", static_cast<double>(holes.unknown) / static_cast<double>(holes.directions)}};
+}
+
+ordered_json motion_json(const Motion& motion) {
+  const auto list = [](const Eigen::Vector3d& v) { return ordered_json{v.x(), v.y(), v.z()}; };
+  return {{"velocity_m_s", list(motion.velocity)}, {"turn_rate_deg_s", list(motion.turn_rate * degrees(1))}};
+}
+
+std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
+                                    const std::vector<Eigen::Vector3d>& places, bool mounted) {
+  std::vector<std::string> notes = ping.report.notes;
+  const Environment& environment = setup.head.environment;
+  const SamplingReport& sampling = ping.report.sampling;
+  constexpr double nearly_all = 0.95;
+  const bool backs = sampling.in_gate > 0 &&
+                     static_cast<double>(sampling.back_facing) >= nearly_all * static_cast<double>(sampling.in_gate);
+  if (backs)
+    notes.push_back(backs_note(sampling));
+  else if (sampling.scatterers == 0)
+    notes.push_back(silence_note(places, sampling, setup, mounted));
+  for (const LayerReport& layer : ping.report.layers)
+    if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
+  if (environment.profile) notes.push_back(refraction_note(ping.report.refraction, setup.head.head.gate));
+  return notes;
+}
+
+ordered_json plan_json(const PingPlan& plan) {
+  ordered_json stages = ordered_json::array();
+  for (const PlannedStage& s : plan.stages)
+    stages.push_back({{"name", s.name},
+                      {"by", decided_by_name(s.by)},
+                      {"included", s.included},
+                      {"why", s.why},
+                      {"bound_db", number(s.bound_db)},
+                      {"bound_relative", number(s.bound_relative)},
+                      {"seconds_on_one_core", s.seconds}});
+  return {{"accuracy_db", plan.options.accuracy_db},
+          {"share_db", plan.share_db},
+          {"left_out_db", number(plan.left_out_db)},
+          {"stages", stages},
+          {"synthesis",
+           {{"method", name_of(method_words, plan.options.synthesis.method)},
+            {"precision", plan.synthesis.single_precision ? "single" : "double"},
+            {"kernel_width", plan.synthesis.kernel_width},
+            {"grid", plan.synthesis.grid},
+            {"pulse_samples", plan.synthesis.pulse_samples}}},
+          {"surfels_in_view", plan.surfels_in_view},
+          {"scatterers", std::llround(plan.scatterers)},
+          {"seconds_on_one_core", plan.seconds},
+          {"memory_mib", plan.mib}};
+}
+
+void print_plan(const PingPlan& plan) {
+  fmt::print("{:<18} {:<4} {:<10} {:<9} {:<9} {}\n", "stage", "", "bound", "share", "cost", "why");
+  for (const PlannedStage& s : plan.stages)
+    fmt::print("{:<18} {:<4} {:<10} {:<9} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s),
+               share_text(s, plan), s.seconds > 0 ? fmt::format("{:.2g} s", s.seconds) : "", s.why);
+  fmt::print(
+      "bound: error of the image without the stage; share: of {} dB, what a stage may cost to be left out, or who "
+      "decides instead\n",
+      plan.options.accuracy_db);
+  fmt::print("left out: {:.2g} dB together\n", plan.left_out_db);
+  fmt::print("synthesis: {}, {} precision, kernel {} of {} grid steps, {} samples per pulse\n",
+             name_of(method_words, plan.options.synthesis.method),
+             plan.synthesis.single_precision ? "single" : "double", plan.synthesis.kernel_width, plan.synthesis.grid,
+             plan.synthesis.pulse_samples);
+  fmt::print("about {} surfels in view, {:.2g} scatterers, {:.2g} s on one core, {:.0f} MiB\n", plan.surfels_in_view,
+             plan.scatterers, plan.seconds, plan.mib);
+}
+
+}  // namespace insonify::tool

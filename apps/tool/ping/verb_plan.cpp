@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tool/command/progress.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/ping/ping_report.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "tool/run/scene_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
+
+void plan(const PingCommand& command) {
+  const PingOptions o = settled_options(command);
+  Progress progress(o.common, 2);
+  PingSetup ready = set_up_ping(o);
+  progress.step("loading " + o.scene.path);
+  const LoadedScene loaded = load_ping_scene(o, ready).loaded;
+  for (const std::string& note : ready.head.notes) progress.note(note);
+  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
+  progress.step("planning");
+  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.event, ready.head.environment, ready.simulation);
+  print_result(o.common, plan_json(plan), [&] { print_plan(plan); });
+}
+
+}  // namespace
+
+Verb plan_verb() {
+  return make_verb<PingCommand>(
+      "plan", "what a ping would compute and leave out, and what leaving it out costs",
+      {"insonify plan reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9",
+       "insonify plan harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set surface.height_m=0 --json"},
+      add_plan_verb_options, plan);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,294 @@
+#include "tool/run/ping_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "sampling/mesh_surfels.hpp"
+#include "simulate/plan_ping.hpp"
+#include "simulate/resolve_ping.hpp"
+#include "store/csv_tables.hpp"
+#include "store/environment_file.hpp"
+#include "store/materials_file.hpp"
+#include "store/nearest_word.hpp"
+#include "store/toml_tree_internal.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/run_settings.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr int drawn_paths = 64;  // of each kind; more would hide one another
+
+SimulationOptions simulation_options(const CommonOptions& common, const PingOptions& o) {
+  SimulationOptions s;
+  s.seed = common.seed;
+  s.threads = common.threads;
+  s.sampling.kind = *find_named(sampling_words, o.sampling);
+  s.sampling.scatterers_per_cell = o.scatterers_per_cell;
+  s.sampling.rays_per_beam = o.rays_per_beam;
+  s.sampling.level_error_db = o.level_error_db;
+  s.amplitude = *find_named(amplitude_words, o.amplitude);
+  s.synthesis = asked_synthesis(o.run);
+  s.accuracy_db = o.accuracy_db;
+  s.effects.noise = o.noise;
+  if (o.multipath) s.effects.multipath = Choice::always;
+  s.outputs.layers = o.layers;
+  s.outputs.looks_range = o.looks_range;
+  s.outputs.looks_pings = o.looks_pings;
+  s.outputs.split_phase = o.split;
+  s.outputs.elements = keeps(o, "elements");
+  s.outputs.scatterers = keeps(o, "insonification");
+  s.outputs.mask = keeps(o, "mask");
+  s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
+  s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
+  if (o.absorption_order >= 0) s.effects.absorption_order = o.absorption_order;
+  s.detection.threshold_db = o.threshold_db;
+  s.detection.false_alarm_rate = o.false_alarm_rate;
+  if (!o.all_bins_above.empty()) {
+    s.detection.all_bins = true;
+    s.detection.above_db = parse_number("--all-bins-above", o.all_bins_above);
+  }
+  return s;
+}
+
+/// Pose of the vehicle, and its motion if it follows a trajectory.
+struct Track {
+  Pose pose;
+  Motion motion;
+};
+
+Track track_of(const PingOptions& o) {
+  if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
+  if (o.pose.empty() == o.trajectory.empty())
+    fail(ErrorKind::argument, "--pose or --trajectory must be given, one of them, e.g. --pose=0,0,-3,0,10,0");
+  if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), {}};
+  if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
+  if (!o.velocity.empty() || !o.turn_rate.empty())
+    fail(ErrorKind::argument, "--velocity and --turn-rate follow from --trajectory; leave them out");
+  const Trajectory trajectory = load_trajectory(o.trajectory);
+  return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
+}
+
+/// Refuses multipath without any boundary.
+void require_boundaries(const PingOptions& o, const Environment& environment) {
+  if (o.multipath && !environment.surface && !environment.bottom)
+    fail(ErrorKind::argument, "--multipath: the environment has neither surface nor bottom; give their heights, e.g. ",
+         "--set surface.height_m=0");
+}
+
+/// Index of the material called `name`; Error(argument) with the nearest name.
+std::uint16_t material_index(const std::vector<Material>& materials, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Material& m : materials) names.push_back(m.name);
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end())
+    fail(ErrorKind::argument, "--material = '", name, "' is unknown", did_you_mean(name, names), "; known are ",
+         joined(names));
+  return static_cast<std::uint16_t>(at - names.begin());
+}
+
+/// A sentence with the remedy if the range ends beyond that of the sonar's file.
+std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
+  const double most = device.spec.max_range;
+  if (device.of_run || spec.max_range <= most) return {};
+  return fmt::format(
+      "the range ends at {:g} m, beyond the {:g} m of {}: echoes are computed from where the device hears none; "
+      "--range "
+      "{:g}:{:g} stays within it",
+      spec.max_range, most, device.spec.name, spec.min_range, most);
+}
+
+/// The motion that --velocity and --turn-rate ask for.
+Motion asked_motion(const PingOptions& o) {
+  Motion motion;
+  if (!o.velocity.empty()) motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
+  if (!o.turn_rate.empty()) motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
+  return motion;
+}
+
+/// The setup of a ping at the pose of the options, or of one that has another.
+PingSetup set_up(const PingOptions& o, bool at_pose) {
+  const Track track = track_of(o);
+  const bool mounted = !o.mount.empty();
+  const Pose mount = mounted ? parse_pose(o.mount, "z-up", "--mount") : Pose::Identity();
+  PingSetup setup;
+  PingEvent& event = setup.event;
+  event.world_from_head = mounted ? track.pose * mount : track.pose;
+  const double z = event.world_from_head.translation().z();
+  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(z) : std::nullopt);
+  setup.simulation = simulation_options(o.common, o);
+  Motion& motion = event.motion;
+  motion = asked_motion(o);
+  if (!o.trajectory.empty()) {
+    motion = track.motion;
+    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
+  }
+  // A head away from the vehicle's centre moves as the vehicle turns.
+  if (mounted) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
+  event.time = o.time;
+  event.number = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
+  for (const std::string& stage : o.with) force_stage(stage, true, event, setup.head.environment, setup.simulation);
+  for (const std::string& stage : o.without) force_stage(stage, false, event, setup.head.environment, setup.simulation);
+  require_boundaries(o, setup.head.environment);
+  require_depths_known(setup.head.environment, "environment");
+  require_valid(setup.simulation, "PingSimulator");
+  require_valid(event, "PingSimulator");
+  return setup;
+}
+
+}  // namespace
+
+SynthesisSettings asked_synthesis(const RunOptions& o) {
+  return {*find_named(method_words, o.method), o.tolerance, o.method == "gridded" ? Choice::never : Choice::as_needed};
+}
+
+bool keeps(const PingOptions& options, const std::string& what) {
+  return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();
+}
+
+PingSetup set_up_ping(const PingOptions& o) { return set_up(o, true); }
+
+PingSetup set_up_any_ping(const PingOptions& o) { return set_up(o, false); }
+
+std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {
+  std::vector<Eigen::Vector3d> places;
+  const std::size_t step = std::max<std::size_t>(1, scene.size() / 10000);
+  for (std::size_t i = 0; i < scene.size(); i += step)
+    places.push_back(pose.linear().transpose() * (scene.origin - pose.translation() + scene.point[i].cast<double>()));
+  return places;
+}
+
+void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path) {
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::nth_element(places.begin(), middle, places.end(),
+                   [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+  const double range = middle->norm();
+  if (range > 10 * gate.max_range)
+    fail(ErrorKind::content, path, ": the middle point is ", range,
+         " m from the head, more than ten times the max range of ", gate.max_range,
+         " m; is the cloud in millimetres (--unit mm), or the pose in another frame?");
+  if (range < gate.min_range / 10)
+    fail(ErrorKind::content, path, ": the middle point is ", range,
+         " m from the head, less than a tenth of the min range of ", gate.min_range,
+         " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
+}
+
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::optional<double> head_height) {
+  HeadSetup setup;
+  const SonarFile file = find_sonar(run.sonar);
+  setup.spec = file.spec;
+  setup.mount = pose_from_yaw_pitch_roll({0, 0, 0}, file.mounting.x(), file.mounting.y(), file.mounting.z());
+  for (const SonarNumber& n : file.numbers)
+    if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
+  if (!run.environment.empty()) setup.environment = load_environment(run.environment);
+  if (!run.profile.empty()) setup.environment.profile = load_sound_speed_profile(run.profile);
+  bool sets_range = false;
+  for (const std::string& text : common.settings) {
+    const Setting setting = parse_setting(text);
+    sets_range |= setting.section == "sonar" && setting.key == "max_range_m";
+    if (setting.section == "sonar")
+      set_sonar_value(setup.spec, setting.key, setting.value);
+    else
+      set_environment_value(setup.environment, setting.section, setting.key, setting.value);
+  }
+  if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
+  setup.range_is_own = run.range.empty() && !sets_range && !file.of_run;
+  require_valid(setup.environment, "environment");
+  const Environment there =
+      head_height ? environment_at(setup.environment, *head_height, "environment") : setup.environment;
+  setup.notes =
+      validity_notes(there.water, setup.spec.centre_frequency, there.sound_speed_formula, there.absorption_formula);
+  if (const std::string note = beyond_sonar_note(setup.spec, file); !note.empty()) setup.notes.push_back(note);
+  setup.medium = medium_of(setup.environment, setup.spec.centre_frequency);
+  setup.head = make_head(setup.spec, slowest_sound(setup.environment));
+  return setup;
+}
+
+LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene) {
+  LoadOptions options;
+  options.seed = common.seed;
+  options.threads = common.threads;
+  options.unit = parse_unit(scene.unit);
+  options.mesh_spacing = scene.mesh_spacing;
+  if (!scene.scan_noise.empty()) options.scan_noise = parse_numbers("--scan-noise", scene.scan_noise, 1, "metres")[0];
+  options.keep_strays = scene.keep_strays;
+  if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
+  if (!scene.materials_file.empty() || !scene.material.empty()) {
+    const std::string path = scene.materials_file.empty() ? data_folder() + "/materials.toml" : scene.materials_file;
+    const MaterialTable table = load_materials(path);
+    options.materials = materials_by_label(table);
+    options.material_field = table.field;
+  }
+  if (!scene.material_field.empty()) options.material_field.name = scene.material_field;
+  if (!scene.material.empty()) options.material = material_index(options.materials, scene.material);
+  return options;
+}
+
+std::vector<std::string> loading_notes(const LoadReport& r) {
+  std::vector<std::string> notes;
+  const auto count = [&](std::size_t n, const char* what) {
+    if (n > 0) notes.push_back(fmt::format("{}: {} {}", r.path, n, what));
+  };
+  count(r.dropped_not_finite, "points with coordinates that are NaN, infinite or beyond 1e9 m dropped");
+  count(r.dropped_withheld, "points that the file marks as withheld left out");
+  count(r.dropped_duplicates, "duplicate points dropped");
+  count(r.dropped_degenerate, "degenerate triangles dropped");
+  count(r.repaired_normals, "zero or NaN normals replaced by estimates");
+  count(r.dropped_without_normal, "points without neighbours for a normal dropped");
+  for (const std::string& note : r.notes) notes.push_back(r.path + ": " + note);
+  return notes;
+}
+
+SceneOptions scene_of_run(const std::string& run) {
+  const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
+  return std::filesystem::exists(settings) ? load_scene_settings(settings.string()) : SceneOptions{};
+}
+
+std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads) {
+  const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
+  if (!std::filesystem::exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
+  RunOptions options;
+  options.sonar = options.environment = settings.string();
+  HeadSetup setup = set_up_head({}, options);
+  Pose somewhere = Pose::Identity();
+  Environment& e = setup.environment;
+  if (e.profile && !surface_height(e))
+    e.profile = SoundSpeedProfile{{0}, {setup.medium.sound_speed}};  // of older versions
+  if (const auto surface = surface_height(e))
+    somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
+  return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;
+}
+
+MeshSample mesh_sample_for(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,
+                           const LoadedScene& loaded) {
+  const ResolvedPing ping =
+      resolve_ping(loaded.mesh->whole, simulator.head(), event, simulator.environment(), simulator.options());
+  constexpr double bytes = bytes_to_ping + bytes_of_facet;
+  const auto most =
+      o.memory_limit > 0 ? static_cast<std::size_t>(std::ceil(o.memory_limit * 0x1p30 / bytes)) : default_mesh_surfels;
+  MeshSurfels fine = mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling, most);
+  MeshSample sample;
+  if (fine.coarsening > 1)
+    sample.note = fmt::format(
+        "{} surfels at most are sampled from the mesh ({:.2g} GiB), {}: raise --memory-limit, or narrow the range",
+        most, static_cast<double>(most) * bytes / 0x1p30,
+        std::isinf(fine.coarsening)
+            ? fmt::format("fewer than its triangles within reach: {} in all are taken", loaded.scene.size())
+            : fmt::format("{} times as large as the beams ask for", fine.coarsening));
+  if (!std::isinf(fine.coarsening)) sample.scene = std::move(fine.scene);
+  return sample;
+}
+
+void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {
+  if (!loaded.mesh) return;
+  MeshSample sample = mesh_sample_for(o, setup.simulator(), setup.event, loaded);
+  if (!sample.note.empty()) loaded.report.notes.push_back(std::move(sample.note));
+  if (sample.scene) loaded.scene = std::move(*sample.scene);
+}
+
+}  // namespace insonify::tool

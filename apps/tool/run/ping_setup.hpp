@@ -1,0 +1,91 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "acoustics/multipath_echoes.hpp"
+#include "scene/scene_cloud.hpp"
+#include "scene_io/load_scene.hpp"
+#include "simulate/ping_simulator.hpp"
+#include "sonar/sonar_spec.hpp"
+#include "store/sonar_file.hpp"
+#include "tool/command/options.hpp"
+
+namespace insonify::tool {
+
+/// Sonar and environment of a run: presets or files, then --set, then --range. The head does not depend on where it
+/// pings: its bins are fine enough for the slowest sound of the water. Throws Error(argument) for what
+/// environment_at refuses of a head at `head_height` [m], if that is given.
+struct HeadSetup {
+  SonarSpec spec;
+  SonarHead head;
+  Environment environment;
+  Medium medium;                      ///< of the water as given; PingReport::medium is that at the head's depth
+  Pose mount = Pose::Identity();      ///< on a vehicle, as the sonar's file says
+  std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
+  bool range_is_own = false;          ///< the sonar's: neither options nor a run say another
+  std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
+};
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,
+                      std::optional<double> head_height = std::nullopt);
+
+/// Options of loading a scene. Materials come from --materials, else, with --material, from the table that is part of
+/// insonify.
+LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene);
+
+/// One sentence per thing that was dropped, repaired or assumed on loading.
+std::vector<std::string> loading_notes(const LoadReport& report);
+
+/// [scene] of the run.toml in a run directory as options of loading it, with paths looked up as by load_ping_settings.
+/// Defaults, with an empty path, if there is no run.toml or no [scene] in it.
+SceneOptions scene_of_run(const std::string& run);
+
+/// How the head of a run, as its run.toml describes it, samples `scene`, wherever it stands; none without a
+/// run.toml that has the sonar.
+std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads);
+
+/// Everything that a ping needs except the scene.
+struct PingSetup {
+  PingEvent event;
+  HeadSetup head;
+  SimulationOptions simulation;
+
+  PingSimulator simulator() const { return {head.head, head.environment, simulation}; }
+};
+
+/// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
+/// read.
+PingSetup set_up_ping(const PingOptions& options);
+/// The same, but for the depth of the head: of pings that have other poses than the options'.
+PingSetup set_up_any_ping(const PingOptions& options);
+
+/// How beams are formed, as --method and --tolerance ask for it.
+SynthesisSettings asked_synthesis(const RunOptions& options);
+
+/// Whether --keep names `what`.
+bool keeps(const PingOptions& options, const std::string& what);
+
+/// Places of about 10 000 surfels in head axes [m].
+std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);
+
+/// Throws Error(content) if the median range of `places` is far outside the range gate: the cloud is in other units, or
+/// the pose in another frame.
+void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);
+
+constexpr double bytes_to_ping = 192;  ///< per surfel read: surfel, index, scatterers and echoes
+constexpr double bytes_of_facet = 88;  ///< besides, per surfel of a mesh: its triangle, in the scene and in head axes
+
+/// Surfels of a mesh that a ping needs (E70), within --memory-limit.
+struct MeshSample {
+  std::optional<SceneCloud> scene;  ///< empty: the overview of the mesh
+  std::string note;                 ///< what could not be kept; empty: all is
+};
+MeshSample mesh_sample_for(const PingOptions& options, const PingSimulator& simulator, const PingEvent& event,
+                           const LoadedScene& loaded);
+
+/// Replaces the overview of a mesh by them, with the note; leaves other scenes as they are.
+void sample_for_ping(const PingOptions& options, const PingSetup& setup, LoadedScene& loaded);
+
+}  // namespace insonify::tool

@@ -1,0 +1,76 @@
+#include "tool/run/run_checks.hpp"
+
+#include <filesystem>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "files/sha256.hpp"
+#include "store/run_manifest.hpp"
+#include "store/survey_run.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+void compare_file(RunCheck& check, const std::string& path, const std::string& name, const std::string& digest) {
+  ++check.files;
+  if (!fs::exists(path))
+    check.problems.push_back(name + " is missing");
+  else if (sha256_of_file(path) != digest)
+    check.problems.push_back(name + " was changed");
+}
+
+RunCheck check_survey(const std::string& run) {
+  RunCheck check;
+  const SurveyRun survey = load_survey_run(run);
+  for (const SurveyRunHead& head : survey.heads)
+    for (std::size_t b = 0; b < head.blocks(); ++b) {
+      const BlockFiles files = block_files(run, head.name, static_cast<std::int64_t>(b));
+      const auto mark = find_mark(files, survey.mission_sha256);
+      if (!mark) continue;
+      for (const auto& [path, digest] :
+           {std::pair(files.cube, mark->cube_sha256), std::pair(files.returns, mark->returns_sha256),
+            std::pair(files.coverage, mark->coverage_sha256)})
+        if (!digest.empty()) compare_file(check, path, fs::path(path).lexically_relative(run).string(), digest);
+    }
+  return check;
+}
+
+}  // namespace
+
+void write_manifest(const RunDirectory& directory, ordered_json manifest) {
+  std::map<std::string, std::string> digests = manifest.value(digests_key, ordered_json::object());
+  const fs::path folder = directory.file("");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (const std::string name = fs::relative(entry.path(), folder).string();
+        entry.is_regular_file() && !digests.contains(name))
+      digests[name] = sha256_of_file(entry.path().string());
+  manifest.erase(digests_key);  // to the end
+  manifest[digests_key] = digests;
+  write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
+}
+
+RunCheck check_run(const std::string& run, const std::string& only) {
+  if (!fs::is_directory(run))
+    fail(ErrorKind::file, run, ": is no folder of a run, of which --verify compares the files");
+  if (is_survey_run(run)) return check_survey(run);
+  RunCheck check;
+  const auto digests = digests_of_run(run);
+  if (digests.empty() && only.empty())
+    fail(ErrorKind::content, run, ": has no manifest.json with SHA-256 of its files, so nothing can be compared");
+  for (const auto& [name, digest] : digests)
+    if (only.empty() || name == only) compare_file(check, (fs::path(run) / name).string(), name, digest);
+  return check;
+}
+
+std::string doubt_of(const std::string& run, const std::string& file) {
+  if (!fs::is_directory(run) || is_survey_run(run)) return {};
+  const RunCheck check = check_run(run, file);
+  return check.problems.empty() ? "" : run + ": " + check.problems.front() + " since the run was made";
+}
+
+}  // namespace insonify::tool

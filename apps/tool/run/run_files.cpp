@@ -1,0 +1,191 @@
+#include "tool/run/run_files.hpp"
+
+#include <algorithm>
+#include <future>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "files/peak_memory.hpp"
+#include "files/sha256.hpp"
+#include "returns/insonification.hpp"
+#include "returns/label_objects.hpp"
+#include "returns/looks.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "store/contributor_file.hpp"
+#include "store/cube_layout_internal.hpp"
+#include "store/environment_file.hpp"
+#include "store/run_manifest.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/run/run_checks.hpp"
+#include "tool/run/scene_files.hpp"
+#include "view/save_vtk.hpp"
+#include "view/show_image.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json sonar_json(const HeadSetup& setup, double sound_speed) {
+  ordered_json doubtful = ordered_json::array();
+  for (const SonarNumber& n : setup.doubtful)
+    doubtful.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
+  const SonarHead& head = setup.head;
+  return {{"name", head.name},
+          {"beams", head.fan.beams()},
+          {"elements", head.array.elements()},
+          {"bins", head.gate.bins()},
+          {"min_range_m", head.gate.min_range},
+          {"max_range_m", head.gate.max_range},
+          {"bin_size_m", head.gate.bin_size},
+          {"centre_frequency_hz", head.pulse.centre_frequency},
+          {"bandwidth_hz", head.pulse.bandwidth},
+          {"range_resolution_fwhm_m", range_resolution(head.pulse, sound_speed)},
+          {"range_resolution_nominal_m", nominal_range_resolution(head.pulse, sound_speed)},
+          {"source_level_db", head.pulse.source_level_db},
+          {"not_sourced", doubtful}};
+}
+
+}  // namespace
+
+std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings) {
+  return fmt::format(
+      "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\n"
+      "environment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
+      INSONIFY_VERSION, toml_text(run.environment), toml_text(run.profile), settings,
+      environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
+}
+
+Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
+  SimulationOptions options;
+  options.seed = common.seed;
+  options.synthesis.tolerance = run.tolerance;
+  Cube cube = make_cube(setup.head, setup.medium, options);
+  cube.pings = std::move(pings);
+  const Ping& first = cube.pings.front();
+  cube.sound_speed = first.sound_speed, cube.absorption_db_per_m = first.absorption_db_per_m;
+  cube.keep_bits = run.keep_bits;
+  return cube;
+}
+
+void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
+               const HeadSetup& setup, Ping only_ping, const std::string& settings, ordered_json& manifest,
+               Progress& progress) {
+  // The cube is written while the picture is drawn.
+  std::vector<Ping> pings;
+  pings.push_back(std::move(only_ping));
+  const Cube cube = cube_of(std::move(pings), common, run, setup);
+  const Ping& ping = cube.pings.front();
+  std::future<std::string> digest = std::async(std::launch::async, [&, path = directory.file("cube.h5")] {
+    write_cube(path, cube);
+    return sha256_of_file(path);
+  });
+  write_file(directory.file("run.toml"), run_toml(run, setup, settings));
+
+  // Without OpenGL or memory for it the data is still written.
+  const auto no_picture = [&](const std::string& reason) {
+    progress.note("no fan.png: " + reason);
+    manifest["notes"].push_back("no fan.png: " + reason);
+  };
+  if (!run.no_picture) try {
+      PictureOptions options;
+      options.title = picture_title(setup.head.name, ping);
+      options.trim = true;
+      show_fan(level_image(ping, Tvg{40, ping.absorption_db_per_m}), options, directory.file("fan.png"));
+    } catch (const Error& error) {
+      no_picture(error.what());
+    } catch (const std::bad_alloc&) {
+      no_picture("out of memory");
+    }
+
+  manifest[digests_key]["cube.h5"] = digest.get();
+  if (ping.expected_level) manifest["pressure"] = expected_level_text;
+  manifest["sonar"] = sonar_json(setup, cube.sound_speed);
+  const Water& water = setup.environment.water;
+  const double z = ping.world_from_head.translation().z();
+  manifest["water"] = {{"temperature_c", water.temperature_c},
+                       {"salinity_psu", water.salinity_psu},
+                       {"depth_m", head_depth(setup.environment, z)},
+                       {"ph", water.ph},
+                       {"sound_speed", ping.sound_speed},
+                       {"absorption_db_per_m", ping.absorption_db_per_m}};
+  manifest["peak_memory_mib"] = peak_memory_mib();
+}
+
+LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
+  Grid<float> level = shown_level_db(ping);
+  const bool downwards = looks_down(ping.world_from_head, ping.scan);
+  if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa", downwards};
+  const std::string unit = tvg->spreading == 40 ? "dB re 1 µPa at 1 m, range compensated"
+                                                : fmt::format("dB re 1 µPa, gain {:g} log r", tvg->spreading);
+  return {ping.fan, ping.gate, apply_tvg(std::move(level), ping.gate, *tvg), unit, downwards};
+}
+
+std::string picture_title(const std::string& sonar, const Ping& ping) {
+  return fmt::format("{}, ping {}, {:g} to {:g} m{}", sonar, ping.number, ping.gate.min_range, ping.gate.max_range,
+                     ping.expected_level ? std::string(", ") + expected_level_text : "");
+}
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json write_insonification(const RunDirectory& directory, const SceneCloud& scene, const PingSetup& setup,
+                                  const SimulatedPing& ping) {
+  Insonification map;
+  InsonificationOptions options;
+  options.threads = setup.simulation.threads;
+  add_ping(map, scene, ping.outputs.scatterers, setup.head.head, ping.report.medium, options);
+  save_insonification(directory.file("insonification.ply"), scene, map);
+  save_insonification(directory.file("insonification.pcd"), scene, map);
+  const auto insonified = map.size() - static_cast<std::size_t>(std::count(map.hits.begin(), map.hits.end(), 0U));
+  return {{"surfels", map.size()}, {"insonified", insonified}};
+}
+
+ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths) {
+  LineSet lines{paths.points, {{"level_db", paths.level_db}, {"bounces", {}}}};
+  lines.fields[1].values.assign(paths.bounces.begin(), paths.bounces.end());
+  save_lines(directory.file("paths.vtp"), lines);
+  return {{"lines", paths.size()}};
+}
+
+}  // namespace
+
+ContributorWriter::ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
+                                     OutputSettings& outputs) {
+  if (outputs.contributors == 0) return;
+  per_pixel_ = outputs.contributors;
+  std::vector<std::string> materials;
+  for (const Material& material : scene.materials) materials.push_back(material.name);
+  file_ = std::make_unique<ContributorFile>(directory.file("contributors.h5"), head.fan.beams(), head.gate.bins(),
+                                            static_cast<std::size_t>(per_pixel_), materials);
+  outputs.contributor_sink = this;
+}
+
+void ContributorWriter::take(const Contributors& band, std::size_t first_beam) {
+  file_->write(band, first_beam);
+  for (std::size_t i = 0; i < band.share.size(); ++i) {
+    pixels_ += i % band.per_pixel == 0 && band.share[i] > 0;
+    share_ += static_cast<double>(band.share[i]);
+  }
+}
+
+void ContributorWriter::finish(const PixelLabels& labels, const std::string& scene, ordered_json& manifest) {
+  if (!file_) return;
+  file_->finish(material_image(labels), instance_image(labels, instances_of_scene(scene)));
+  manifest["contributors"] = {{"per_pixel", per_pixel_},
+                              {"pixels", pixels_},
+                              {"mean_share_listed", pixels_ > 0 ? share_ / static_cast<double>(pixels_) : 0}};
+}
+
+void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
+                const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {
+  if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.outputs.paths);
+  if (keeps(options, "insonification"))
+    manifest["insonification"] = write_insonification(directory, scene, setup, ping);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,67 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "returns/ping.hpp"
+#include "returns/quantise.hpp"
+#include "simulate/simulated_ping.hpp"
+#include "store/contributor_file.hpp"
+#include "store/cube.hpp"
+#include "store/run_directory.hpp"
+#include "tool/command/options.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "view/picture.hpp"
+
+namespace insonify::tool {
+
+/// Writes cube.h5, run.toml with `settings` (settings_as_toml), and fan.png (unless refused) into `directory`. Adds
+/// sonar, water, peak memory and the cube's digest to `manifest`.
+void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
+               const HeadSetup& setup, Ping ping, const std::string& settings, nlohmann::ordered_json& manifest,
+               Progress& progress);
+
+/// The text of a run.toml, with `settings` as from settings_as_toml.
+std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings);
+
+/// A cube of simulated pings of one head, at least one; its water is that of the first.
+Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup);
+
+/// Levels of a ping as they are drawn; without `tvg`, as they were received.
+LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
+
+/// Title of the picture of a ping: sonar, number, range.
+std::string picture_title(const std::string& sonar, const Ping& ping);
+
+/// Writes contributors.h5 of a ping while they are found, band by band of beams.
+class ContributorWriter : public ContributorSink {
+ public:
+  /// Has `outputs` hand over the contributors, if it asks for any, to this writer, which must outlive the ping.
+  ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
+                    OutputSettings& outputs);
+  ContributorWriter(const ContributorWriter&) = delete;
+  ContributorWriter& operator=(const ContributorWriter&) = delete;
+
+  void take(const Contributors& band, std::size_t first_beam) override;
+
+  /// Completes the file with the label images of the ping, whose objects are the instances of the scene's file if it has
+  /// them; `manifest` gets a summary.
+  void finish(const PixelLabels& labels, const std::string& scene, nlohmann::ordered_json& manifest);
+
+ private:
+  std::unique_ptr<ContributorFile> file_;
+  int per_pixel_ = 0;
+  std::size_t pixels_ = 0;
+  double share_ = 0;
+};
+
+/// Writes the other files of --keep beside the cube: insonification.ply and .pcd, paths.vtp; `manifest` gets
+/// a summary of each.
+void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
+                const PingSetup& setup, const SimulatedPing& ping, nlohmann::ordered_json& manifest);
+
+}  // namespace insonify::tool

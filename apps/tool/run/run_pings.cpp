@@ -1,0 +1,204 @@
+#include "tool/run/run_pings.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
+#include "store/csv_tables.hpp"
+#include "store/environment_file.hpp"
+#include "store/survey_run.hpp"
+#include "store/toml_tree_internal.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/image/image.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+const SurveyRunHead& head_of_survey(const SurveyRun& survey, const std::string& run, const std::string& head) {
+  for (const SurveyRunHead& each : survey.heads)
+    if (each.name == head || (head.empty() && survey.heads.size() == 1)) return each;
+  fail(ErrorKind::argument, "--head = '", head, "' must name a head of ", run, ": ",
+       joined(survey.heads, ", ", &SurveyRunHead::name));
+}
+
+/// Adds what a mission says of the pings of one of its heads, if it is there and has that head.
+void add_mission(const std::string& path, const std::string& head, RunPings& pings) {
+  if (!fs::exists(path)) return;
+  MissionFile file = load_mission(path);
+  const auto found = std::find_if(file.mission.heads.begin(), file.mission.heads.end(),
+                                  [&](const MissionHead& each) { return each.name == head; });
+  pings.anchor = file.anchor;
+  pings.start_utc = file.start_utc;
+  pings.legs = file.mission.legs;
+  if (found == file.mission.heads.end()) return;
+  pings.vehicle_from_head = found->vehicle_from_head;
+  pings.trajectory = std::move(file.mission.trajectory);
+  pings.water = file.water;
+  pings.position_deviation = file.position_deviation;
+}
+
+/// A text that the run.toml of a ping records under [ping]; empty if it has none.
+std::string ping_setting(const std::string& settings, const std::string& key) {
+  const TomlValue document = load_toml(settings);
+  const TomlValue* ping = document.find("ping");
+  const TomlValue* value = ping ? ping->find(key) : nullptr;
+  return value && value->kind == TomlValue::Kind::text ? value->text : "";
+}
+
+/// The mounting that the run.toml of a ping records; the pose itself if it has none.
+Pose mounting_of_ping(const std::string& settings) {
+  const std::string mount = ping_setting(settings, "mount");
+  return mount.empty() ? Pose::Identity() : parse_pose(mount, "z-up", "mount");
+}
+
+/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places.
+std::optional<Trajectory> named_way(const std::string& settings, const Pose& vehicle_from_head,
+                                    const Trajectory& places) {
+  constexpr double same_place = 1e-3;  // [m]
+  const std::string path = path_named_in(settings, ping_setting(settings, "trajectory"));
+  if (!fs::is_regular_file(path)) return {};
+  try {
+    const Trajectory way = load_trajectory(path);
+    for (std::size_t i = 0; i < places.time.size(); ++i)
+      if (!((pose_at(way, places.time[i]) * vehicle_from_head.translation() - places.pose[i].translation()).norm() <
+            same_place))
+        return {};
+    return way;
+  } catch (const Error&) {
+    return {};  // another file by now
+  }
+}
+
+/// The way of a single ping by its velocity, if its run.toml has one.
+std::optional<Trajectory> straight_way(const std::string& settings, const Trajectory& places) {
+  const std::string velocity = ping_setting(settings, "velocity");
+  if (velocity.empty() || places.time.size() != 1) return {};
+  const Eigen::Vector3d in_a_second = parse_vector("velocity", velocity, "vx,vy,vz in m/s");
+  Trajectory way;
+  for (const double second : {-1.0, 1.0}) {
+    way.time.push_back(places.time[0] + second);
+    way.pose.push_back(places.pose[0]);
+    way.pose.back().pretranslate(second * in_a_second);
+  }
+  return way;
+}
+
+RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
+  const SurveyRun survey = load_survey_run(run);
+  const SurveyRunHead& head = head_of_survey(survey, run, head_name);
+  RunPings pings;
+  for (std::size_t b = 0; b < head.blocks(); ++b) {
+    const BlockFiles files = block_files(run, head.name, static_cast<std::int64_t>(b));
+    if (!find_mark(files, survey.mission_sha256))
+      fail(ErrorKind::content, run, ": block ", b, " of ", head.name,
+           " is not done; run the survey (or its missing shards) again");
+    if (fs::exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
+    if (fs::exists(files.returns)) pings.returns.push_back(files.returns);
+  }
+  const std::string settings = run + "/" + head.name + "/run.toml";
+  if (fs::exists(settings)) pings.environment = load_environment(settings);
+  add_mission(run + "/mission.toml", head.name, pings);
+  return pings;
+}
+
+/// Of the run directory of a ping, or of a merged head within the folder of its survey.
+RunPings pings_of_directory(const std::string& run) {
+  RunPings pings;
+  pings.cubes = {run_cube_path(run)};
+  if (fs::is_directory(run) && fs::exists(run + "/returns.ply")) pings.returns = {run + "/returns.ply"};
+  const std::string settings = run + "/run.toml";
+  if (fs::is_directory(run) && fs::exists(settings)) pings.environment = load_environment(settings);
+  if (!fs::is_directory(run)) return pings;
+  const fs::path folder = fs::canonical(run), survey = folder.parent_path();
+  if (!is_survey_run(survey.string())) {
+    if (fs::exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings), pings.settings = settings;
+    return pings;
+  }
+  try {
+    add_mission((survey / "mission.toml").string(), folder.filename().string(), pings);
+  } catch (const Error&) {
+    // A merged head stands alone: where files of its mission are gone, ship and place are unknown.
+  }
+  return pings;
+}
+
+}  // namespace
+
+std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
+  constexpr double rounding = 1e-9;  // of times between legs [s]
+  std::size_t number = 0;
+  for (std::size_t k = 0; k < legs.size(); ++k)
+    if (time >= legs[k].from - rounding) number = k + 1;
+  return number;
+}
+
+RunPings find_run_pings(const std::string& run, const std::string& head) {
+  if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);
+  return pings_of_directory(run);
+}
+
+std::optional<double> water_level(const RunPings& run) {
+  return run.water.level ? run.water.level : surface_height(run.environment);
+}
+
+std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping) {
+  if (!run.vehicle_from_head) return {};
+  const Eigen::AngleAxisd turn(ping.scan ? ping.scan->angle : 0, Eigen::Vector3d::UnitZ());
+  return ping.world_from_head * (*run.vehicle_from_head * turn).inverse();
+}
+
+std::optional<Trajectory> way_of(const RunPings& run) {
+  if (run.trajectory) return run.trajectory;
+  Trajectory way;
+  for (const std::string& path : run.cubes)
+    for (const TrackPoint& point : read_track(path)) {
+      if (!way.time.empty() && !(point.time > way.time.back())) continue;
+      way.time.push_back(point.time);
+      way.pose.push_back(point.world_from_head);
+    }
+  if (!run.settings.empty()) {
+    const Pose vehicle_from_head = run.vehicle_from_head.value_or(Pose::Identity());
+    if (auto named = named_way(run.settings, vehicle_from_head, way)) return named;
+    if (auto straight = straight_way(run.settings, way)) return straight;
+  }
+  if (way.time.size() < 2) return {};
+  return way;
+}
+
+void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use) {
+  for (const std::string& path : run.cubes) read_cube_pings(path, use);
+}
+
+BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam) {
+  BottomOptions options;
+  options.sound_speed = ping.sound_speed;
+  options.centre_frequency = cube.centre_frequency;
+  options.range_resolution = range_resolution({cube.centre_frequency, cube.bandwidth, 0}, ping.sound_speed);
+  options.absorption_db_per_m = ping.absorption_db_per_m;
+  options.per_beam = per_beam;
+  options.profile = environment.profile;
+  options.head_depth = insonify::head_depth(environment, ping.world_from_head.translation().z());
+  return options;
+}
+
+double seconds_of_utc(const std::string& text) {
+  if (text.empty()) return 0;
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
+  double second = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%lfZ%n", &year, &month, &day, &hour, &minute, &second, &used);
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  if (read != 6 || used != static_cast<int>(text.size()) || !date.ok() || hour > 23 || minute > 59 || !(second < 61))
+    fail(ErrorKind::argument, "--start-utc '", text, "', must be a time of UTC as 2026-05-01T08:30:00Z");
+  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
+  return 86400.0 * static_cast<double>(days) + 3600.0 * hour + 60.0 * minute + second;
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,96 @@
+#include "tool/run/scene_files.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "scene_io/cloud_field.hpp"
+#include "simulate/resolve_ping.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/ping/ping_report.hpp"
+#include "tool/run/scene_reach.hpp"
+
+namespace insonify::tool {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// A .tiles scene is complete: options that say how to complete a cloud would have no effect.
+void require_no_loading_options(const SceneOptions& o) {
+  SceneOptions given = o, none;
+  none.path = o.path;
+  const auto settings = scene_settings(given), defaults = scene_settings(none);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
+      fail(ErrorKind::argument, settings[i].option, ": ", o.path,
+           " is prepared already; give it to insonify prepare instead");
+}
+
+}  // namespace
+
+bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
+
+SceneInstances instances_of_scene(const std::string& path) {
+  if (is_tiles(path) || !has_cloud_field(path, "instance")) return {};
+  const CloudField field = load_cloud_field(path, "instance");
+  SceneInstances instances;
+  for (std::size_t i = 0; i < field.value.size(); ++i)
+    if (const double value = field.value[i]; value >= 0 && value < 4294967295.0 && value == std::floor(value))
+      instances[field.id[i]] = static_cast<std::uint32_t>(value);
+  return instances;
+}
+
+PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,
+                          const TiledScene& tiled) {
+  require_no_loading_options(o.scene);
+  const TiledSceneInfo& info = tiled.info();
+  const TileSelection near = tiled.select(simulator.reach(info.whole, event));
+  const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
+  require_memory(near, bytes_to_ping, memory, o.scene.path);
+
+  PingScene result;
+  result.loaded.scene = tiled.load(near, memory, o.common.threads);
+  LoadReport& report = result.loaded.report;
+  report.path = o.scene.path;
+  report.format = "insonify tiles";
+  report.points_read = near.surfels;
+  report.notes.push_back(fmt::format("{} of {} surfels read, in {} of {} tiles", near.surfels, info.surfels,
+                                     near.tiles.size(), info.tiles));
+  for (const Eigen::Vector3d& place : tiled.places())
+    result.places.push_back(event.world_from_head.linear().transpose() * (place - event.world_from_head.translation()));
+  result.json = scene_json(result.loaded);
+  result.json["tiles"] = {{"surfels", info.surfels},
+                          {"surfels_read", near.surfels},
+                          {"tiles", info.tiles},
+                          {"tiles_read", near.tiles.size()},
+                          {"bytes", info.bytes}};
+  return result;
+}
+
+PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
+  const auto add_notes = [&](const SceneCloud& scene, const Bounds& box) {
+    for (std::string& note : fit_notes(scene, box, setup)) setup.head.notes.push_back(std::move(note));
+  };
+  if (is_tiles(o.scene.path)) {
+    const TiledScene tiled(o.scene.path);
+    end_range_with_scene(setup.head, tiled.info().box, setup.event.world_from_head);
+    PingScene result = load_ping_scene(o, setup.simulator(), setup.event, tiled);
+    add_notes(result.loaded.scene, tiled.info().box);
+    return result;
+  }
+  PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
+  const Bounds box = bounds(result.loaded.scene);
+  end_range_with_scene(setup.head, box, setup.event.world_from_head);
+  add_notes(result.loaded.scene, box);
+  result.places = sampled_places(result.loaded.scene, setup.event.world_from_head);
+  require_in_reach(result.places, setup.head.head.gate, o.scene.path);
+  sample_for_ping(o, setup, result.loaded);
+  result.json = scene_json(result.loaded);
+  return result;
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "returns/label_objects.hpp"
+#include "scene_io/load_scene.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "tool/command/options.hpp"
+#include "tool/run/ping_setup.hpp"
+
+namespace insonify::tool {
+
+/// True for a .tiles file: a scene on disk of which a ping reads only what its fan reaches.
+bool is_tiles(const std::string& path);
+
+/// The instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 0.
+SceneInstances instances_of_scene(const std::string& path);
+
+/// The scene of a ping: a whole cloud or mesh, or the tiles of a .tiles file within the region of the ping.
+struct PingScene {
+  LoadedScene loaded;
+  std::vector<Eigen::Vector3d> places;  ///< of some surfels, or centres of tiles, in head axes [m]
+  nlohmann::ordered_json json;          ///< for the manifest
+};
+/// Ends a range that is the sonar's own where the scene ends, and adds to the notes of the head what fits the scene badly.
+/// Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).
+PingScene load_ping_scene(const PingOptions& options, PingSetup& setup);
+/// Loads from tiles that are open already, within the range as it is.
+PingScene load_ping_scene(const PingOptions& options, const PingSimulator& simulator, const PingEvent& event,
+                          const TiledScene& tiles);
+
+}  // namespace insonify::tool

@@ -1,0 +1,119 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "scene_io/tile_writer.hpp"
+#include "store/output_rules.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/run/scene_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr std::size_t batch_surfels = 1 << 20;
+
+struct MakeSceneOptions {
+  CommonOptions common;
+  std::string name;
+  std::string output;
+  std::uint64_t points = 200000;
+  std::string size = "40,40";
+  double radius = 0.5;
+  double lambert_mu_db = -27;
+  bool bare = false;
+  bool force = false;
+};
+
+void add_options(OptionList list, MakeSceneOptions& o) {
+  list.add("NAME", &o.name, "harbour, reef, river, plane, sphere, wall or poles", {.required = true});
+  list.add("-o,--output", &o.output, "scene to write, .ply or .pcd; or .tiles, for any size", {.required = true});
+  list.add("--points", &o.points, "surfels wanted");
+  list.add("--size", &o.size, "plane: x,y extent; wall: width,height [m]");
+  list.add("--radius", &o.radius, "of the sphere [m]");
+  list.add("--mu-db", &o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
+  list.add("--bare", &o.bare, "only the points, as a scanner gives them: `prepare` finds the rest");
+  list.add("--force", &o.force, "replace an existing file");
+  add_common(list, o.common);
+  list.add("--seed", &o.common.seed, "of jitter and ripples; same seed, same bytes");
+}
+
+nlohmann::ordered_json summary_json(const MakeSceneOptions& o, std::size_t surfels,
+                                    const std::vector<Material>& materials) {
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const Material& material : materials) names.push_back(material.name);
+  return {{"output", o.output}, {"scene", o.name}, {"surfels", surfels}, {"seed", o.common.seed}, {"materials", names}};
+}
+
+void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {
+  TileWriterOptions options;
+  options.materials = empty_built_in_scene(o.name, built_in).materials;
+  TileWriter writer(o.output, options);
+  make_built_in_scene_in_batches(o.name, built_in, batch_surfels, [&](const SceneCloud& batch) { writer.add(batch); });
+  progress.step("writing " + o.output);
+  const TileReport report = writer.finish();
+  print_summary(o.common, summary_json(o, report.surfels, options.materials),
+                fmt::format("{}: {} surfels in {} tiles, {} materials", o.output, report.surfels, report.tiles,
+                            options.materials.size()));
+}
+
+/// Throws if the scene fits neither into memory, nor on the disk as tiles.
+void require_room(const MakeSceneOptions& o) {
+  constexpr double bytes_in_memory = 100, bytes_of_tiles = 96, gigabyte = 1e9;  // a surfel, while it is written
+  const double points = static_cast<double>(o.points);
+  if (is_tiles(o.output)) {
+    const std::filesystem::path folder = std::filesystem::path(o.output).parent_path();
+    std::error_code error;
+    const auto space = std::filesystem::space(folder.empty() ? "." : folder, error);
+    if (!error && points * bytes_of_tiles > static_cast<double>(space.available))
+      fail(ErrorKind::file, o.output, ": ", o.points, " surfels take ", points * bytes_of_tiles / gigabyte,
+           " GB while they are sorted, the disk has ", static_cast<double>(space.available) / gigabyte,
+           "; give fewer --points, or another disk");
+  } else {
+    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (points * bytes_in_memory > memory)
+      fail(ErrorKind::argument, "--points = ", o.points, " take ", points * bytes_in_memory / gigabyte,
+           " GB of memory, this computer has ", memory / gigabyte, "; write a .tiles file, or give fewer");
+  }
+}
+
+void make_scene(const MakeSceneOptions& o) {
+  require_free_file(o.output, o.force, {});
+  require_room(o);
+  const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 40,40");
+  const BuiltInSceneOptions built_in{
+      o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), o.common.seed};
+  Progress progress(o.common, 2);
+  progress.step("making " + o.name);
+  if (is_tiles(o.output) && o.bare)
+    fail(ErrorKind::argument, "--bare: ", o.output, ": tiles are prepared surfels; write .ply or .pcd");
+  if (is_tiles(o.output)) return make_scene_as_tiles(o, built_in, progress);
+  const SceneCloud scene = make_built_in_scene(o.name, built_in);
+  progress.step("writing " + o.output);
+  if (o.bare)
+    save_bare_points(o.output, scene);
+  else
+    save_scene(o.output, scene);
+  print_summary(o.common, summary_json(o, scene.size(), scene.materials),
+                fmt::format("{}: {} surfels, {} materials", o.output, scene.size(), scene.materials.size()));
+}
+
+}  // namespace
+
+Verb make_scene_verb() {
+  return make_verb<MakeSceneOptions>(
+      "make-scene", "a built-in scene with normals, areas and materials",
+      {"insonify make-scene reef --bare -o reef.pcd", "insonify make-scene harbour -o harbour.ply --points 200000",
+       "insonify make-scene plane -o plane.ply --size 40,40 --mu-db -27"},
+      add_options, make_scene);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,124 @@
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/text.hpp"
+#include "scene/thin_scene.hpp"
+#include "scene_io/prepare_tiles.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "scene_io/tile_writer.hpp"
+#include "store/output_rules.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "tool/run/scene_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct PrepareOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  std::string output;
+  double thin = 0;  ///< [m] between the surfels that stay; 0: all stay
+  bool force = false;
+  bool normals = false;  ///< without effect: missing normals are always estimated
+};
+
+void add_options(OptionList list, PrepareOptions& o) {
+  add_settings(list, scene_settings(o.scene));
+  list.add("-o,--output", &o.output, "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees",
+           {.required = true});
+  list.add("--thin", &o.thin, "[m] between surfels: denser parts are thinned, area and materials kept",
+           {.positive = true});
+  list.add("--force", &o.force, "replace an existing file");
+  list.add("--normals", &o.normals, "accepted for clarity: missing normals are always estimated");
+  add_common(list, o.common);
+  add_work(list, o.common);
+}
+
+void prepare_as_tiles(const PrepareOptions& o) {
+  Progress progress(o.common, 1);
+  progress.step("preparing " + o.output);
+  PrepareTilesOptions options;
+  options.load = load_options(o.common, o.scene);
+  options.progress = [&](double part) { progress.show(part, "preparing " + o.output); };
+  const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
+  auto notes = loading_notes(prepared.report);
+  if (!prepared.report.other_columns.empty())
+    notes.push_back(fmt::format("{}: tiles have no place for its columns {}: prepare a .ply to keep them", o.scene.path,
+                                joined(prepared.report.other_columns)));
+  for (const std::string& note : notes) progress.note(note);
+  const ordered_json result = {{"output", o.output},
+                               {"points_read", prepared.report.points_read},
+                               {"surfels", prepared.tiles.surfels},
+                               {"tiles", prepared.tiles.tiles},
+                               {"bytes", prepared.tiles.bytes},
+                               {"area_m2", prepared.tiles.total_area},
+                               {"normals_oriented", prepared.normals_oriented},
+                               {"in_batches", prepared.streamed},
+                               {"notes", notes}};
+  print_summary(o.common, result,
+                fmt::format("{}: {} surfels in {} tiles, {:.4g} m^2, normals {}", o.output, prepared.tiles.surfels,
+                            prepared.tiles.tiles, prepared.tiles.total_area,
+                            prepared.normals_oriented ? "oriented" : "two-sided"));
+}
+
+void prepare(const PrepareOptions& o) {
+  require_free_file(o.output, o.force, {o.scene.path, o.scene.materials_file});
+  if (is_tiles(o.output) && o.thin == 0) return prepare_as_tiles(o);
+  Progress progress(o.common, o.thin > 0 ? 3 : 2);
+  progress.step("reading and completing " + o.scene.path);
+  LoadOptions loading = load_options(o.common, o.scene);
+  loading.keep_columns = !is_tiles(o.output);
+  LoadedScene loaded = load_scene(o.scene.path, loading);
+  auto notes = loading_notes(loaded.report);
+  if (o.thin > 0) {
+    const std::size_t all = loaded.scene.size();
+    progress.step(fmt::format("thinning {} surfels", all));
+    SceneCloud thinned = thin_scene(loaded.scene, o.thin);
+    loaded.columns = columns_of(loaded.columns, loaded.scene.id, thinned.id);
+    loaded.scene = std::move(thinned);
+    loaded.columns.heights = false;
+    loaded.mesh.reset();
+    notes.push_back(
+        fmt::format("thinned to {} m: {} of {} surfels kept, with the area of all", o.thin, loaded.scene.size(), all));
+  }
+  const bool as_surfels =
+      loaded.mesh && (is_tiles(o.output) || !(loaded.columns.heights || o.output.ends_with(".ply")));
+  if (as_surfels)
+    notes.push_back(
+        fmt::format("{} has no place for triangles: it holds {} surfels, which hide as discs; a .ply keeps the mesh",
+                    o.output, loaded.scene.size()));
+  for (const std::string& note : notes) progress.note(note);
+  progress.step("writing " + o.output);
+  if (is_tiles(o.output))
+    save_tiles(o.output, loaded.scene);
+  else
+    save_scene(o.output, loaded);
+
+  const double area = std::accumulate(loaded.scene.area.begin(), loaded.scene.area.end(), 0.0);
+  const ordered_json result = {
+      {"output", o.output}, {"points_read", loaded.report.points_read},          {"surfels", loaded.scene.size()},
+      {"area_m2", area},    {"normals_oriented", loaded.scene.normals_oriented}, {"notes", notes}};
+  print_summary(o.common, result,
+                fmt::format("{}: {} surfels, {:.4g} m^2, normals {}", o.output, loaded.scene.size(), area,
+                            loaded.scene.normals_oriented ? "oriented" : "two-sided"));
+}
+
+}  // namespace
+
+Verb prepare_verb() {
+  return make_verb<PrepareOptions>("prepare", "complete a cloud or mesh once: origin, normals, areas, materials",
+                                   {"insonify prepare reef.pcd -o reef.ply --material sand",
+                                    "insonify prepare scan.ply -o scan-m.ply --unit mm --viewpoint 0,0,2",
+                                    "insonify prepare dense.pcd -o reef.ply --thin 0.02"},
+                                   add_options, prepare);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,117 @@
+#include "tool/survey/survey_blocks.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "files/pending_file.hpp"
+#include "returns/sounding_columns.hpp"
+#include "scene_io/coverage_file.hpp"
+#include "scene_io/save_cloud.hpp"
+#include "store/cube.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/run/run_files.hpp"
+
+namespace insonify::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Appends the soundings of `from` that belong to ping `number`.
+void append(Soundings& to, const Soundings& from, std::uint32_t number) {
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (from.ping[i] == number) append_row(to, from, i);
+}
+
+/// Drops the layers if not all pings have the same ones: what a ping needs is decided for each.
+void drop_unlike_layers(std::vector<Ping>& pings) {
+  const auto same = [](const Layer& a, const Layer& b) { return a.name == b.name; };
+  const auto alike = [&](const Ping& ping) {
+    const auto &first = pings.front().layers, &layers = ping.layers;
+    return std::equal(layers.begin(), layers.end(), first.begin(), first.end(), same);
+  };
+  if (!std::all_of(pings.begin(), pings.end(), alike))
+    for (Ping& ping : pings) ping.layers.clear();
+}
+
+}  // namespace
+
+BlockFiles SurveyBlocks::files_of(const SurveyBlock& block) const {
+  return block_files(folder_, setup_.file.mission.heads[block.head].name, block.number);
+}
+
+bool SurveyBlocks::is_done(const SurveyBlock& block) const {
+  return find_mark(files_of(block), setup_.run.mission_sha256).has_value();
+}
+
+BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
+  const BlockFiles files = files_of(block);
+  remove_leftovers(files);
+  for (const std::string& unmarked : {files.cube, files.returns, files.coverage}) fs::remove(unmarked);
+  BlockOutcomes outcomes(block.end - block.begin);
+  if (fs::exists(files.partial_cube) && fs::exists(files.partial_returns)) try {
+      Cube cube = read_cube(files.partial_cube);
+      const Soundings soundings = load_soundings(files.partial_returns);
+      for (Ping& ping : cube.pings) {
+        PingOutcome& outcome = outcomes.at(ping.number - setup_.survey->pings()[block.begin].number).emplace();
+        append(outcome.soundings, soundings, static_cast<std::uint32_t>(ping.number));
+        outcome.ping = std::move(ping);
+      }
+    } catch (const std::exception&) {  // cut short or damaged: made again
+      outcomes.assign(outcomes.size(), std::nullopt);
+    }
+  return outcomes;
+}
+
+void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const {
+  const BlockFiles files = files_of(block);
+  const SurveyHead& head = setup_.heads[block.head];
+  std::vector<Ping> pings;
+  std::vector<FailedPing> failed;
+  std::vector<double> time;
+  Soundings soundings;
+  std::vector<CoveredSurfel> covered;
+  bool whole = true;
+  for (std::optional<PingOutcome>& outcome : outcomes) {
+    whole &= outcome.has_value();
+    if (!outcome) continue;
+    if (!outcome->failure.empty()) {
+      failed.push_back({outcome->ping.number, outcome->failure});
+      continue;
+    }
+    append(soundings, outcome->soundings, static_cast<std::uint32_t>(outcome->ping.number));
+    time.resize(soundings.size(), outcome->ping.time);
+    add(covered, outcome->covered);
+    outcome->covered = {};
+    pings.push_back(std::move(outcome->ping));
+  }
+  if (!whole && setup_.file.coverage) return;  // of some pings alone it cannot go on
+  if (!pings.empty()) {
+    if (setup_.file.coverage) save_coverage(files.coverage, covered);
+    drop_unlike_layers(pings);
+    Cube cube = cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head);
+    cube.head = setup_.file.mission.heads[block.head].name;
+    cube.start_utc = setup_.file.start_utc, cube.anchor = setup_.file.anchor;
+    write_cube(whole ? files.cube : files.partial_cube, cube);
+    save_survey_returns(whole ? files.returns : files.partial_returns, soundings, time,
+                        static_cast<std::uint32_t>(block.head));
+  }
+  if (whole) finish_block(files, setup_.run.mission_sha256, failed);
+}
+
+void write_survey_settings(const SurveySetup& setup, const std::string& folder) {
+  const auto write_once = [](const fs::path& path, const std::string& text) {
+    if (!fs::exists(path)) write_file(path.string(), text);
+  };
+  write_once(fs::path(folder) / "mission.toml", setup.file.text);
+  for (std::size_t h = 0; h < setup.heads.size(); ++h) {
+    PingOptions options = setup.heads[h].options;
+    const fs::path head = fs::path(folder) / setup.file.mission.heads[h].name;
+    if (fs::exists(head))
+      write_once(head / "run.toml",
+                 run_toml(options.run, setup.heads[h].setup.head, settings_as_toml(all_settings(options))));
+  }
+}
+
+}  // namespace insonify::tool

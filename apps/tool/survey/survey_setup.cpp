@@ -1,0 +1,191 @@
+#include "tool/survey/survey_setup.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "files/sha256.hpp"
+#include "store/environment_file.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/run/scene_files.hpp"
+#include "tool/run/scene_reach.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr std::size_t kept_tile_bytes = std::size_t{256} << 20;
+constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
+constexpr std::size_t most_covering_pings = 16;  // each lists every surfel that it insonifies
+
+/// Drops the contributors of pings: surveys keep the labels that follow from them.
+struct DroppedContributors : ContributorSink {
+  void take(const Contributors&, std::size_t) override {}
+};
+
+SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, std::size_t h) {
+  PingOptions options = load_mission_settings(file.path);
+  options.common = o.common;
+  options.common.seed = file.seed;
+  options.common.settings = file.sonars[h].settings;
+  if (file.water.level) options.common.settings.push_back(fmt::format("water.level_m={}", *file.water.level));
+  options.scene.path = file.scene;
+  options.run.sonar = file.sonars[h].sonar;
+  options.run.range = file.sonars[h].range;
+  options.run.environment = file.environment;
+  options.run.profile = file.profile;
+  options.pose = "0,0,0,0,0,0";  // every ping has its own
+  SurveyHead head{options, set_up_any_ping(options)};
+  static DroppedContributors labels_alone;
+  head.setup.simulation.outputs.contributor_sink = &labels_alone;
+  return head;
+}
+
+/// Pings of a block: as asked for, as a survey that was begun has them, or as many as fill the bytes of a block.
+std::size_t block_size(const SurveyOptions& o, const SurveyRun& begun, const std::string& head, std::size_t ping_bytes,
+                       bool coverage) {
+  if (o.pings_per_block > 0) return static_cast<std::size_t>(o.pings_per_block);
+  for (const SurveyRunHead& there : begun.heads)
+    if (there.name == head) return there.pings_per_block;
+  return std::clamp<std::size_t>(most_block_bytes / ping_bytes, 1, coverage ? most_covering_pings : most_block_pings);
+}
+
+/// Throws Error(content) "file: head 'name', ping i at t s: ..." about a ping.
+template <typename... Parts>
+[[noreturn]] void refuse_ping(const SurveySetup& s, const SurveyPing& ping, const Parts&... parts) {
+  fail(ErrorKind::content, s.file.path, ": head '", s.file.mission.heads[ping.head].name, "', ping ", ping.number,
+       " at ", ping.time, " s: ", parts...);
+}
+
+void require_in_water(const SurveySetup& s) {
+  for (const SurveyPing& ping : s.survey->pings()) {
+    const Environment& environment = s.heads[ping.head].setup.head.environment;
+    const double z = event_of(s.file.mission, ping).world_from_head.translation().z();
+    if (const auto surface = surface_height(environment); surface && z >= *surface)
+      refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", *surface,
+                  " m; lower the trajectory, or give surface.height_m in the frame of the scene");
+    try {
+      environment_at(environment, z, "environment");
+    } catch (const Error& error) {
+      refuse_ping(s, ping, error.what());
+    }
+    if (environment.bottom && z <= environment.bottom->height)
+      refuse_ping(s, ping, "is at z = ", z, " m, below the bottom at ", environment.bottom->height, " m");
+  }
+}
+
+/// Digest of a scene: of tiles that of the header, which holds a checksum over those of all tiles.
+std::string scene_digest(const std::string& path) {
+  if (!is_tiles(path)) return sha256_of_file(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string header(256, '\0');
+  if (!file.read(header.data(), static_cast<std::streamsize>(header.size())))
+    fail(ErrorKind::file, path, ": cannot be read");
+  return sha256_of(header);
+}
+
+/// Digest of the mission and of all files that its result depends on.
+std::string digest_of(const SurveySetup& s) {
+  Sha256 sha;
+  const auto add = [&](const std::string& part) { sha.add(std::to_string(part.size()) + ":" + part); };
+  for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, scene_digest(s.file.scene)}) add(part);
+  for (const std::string& path : {s.file.trajectory, s.heads.front().options.scene.materials_file})
+    if (!path.empty()) add(sha256_of_file(path));
+  for (const MissionHead& head : s.file.mission.heads)  // the mounting may be that of the sonar file
+    add(std::string(reinterpret_cast<const char*>(head.vehicle_from_head.data()), 16 * sizeof(double)));
+  for (const SurveyHead& head : s.heads)
+    add(environment_as_toml(head.setup.head.environment) + sonar_as_toml(head.setup.head.spec));
+  return sha.digest();
+}
+
+}  // namespace
+
+std::size_t pressure_bytes(const SonarHead& head) { return head.fan.beams() * head.gate.bins() * 8; }
+
+SurveySetup set_up_survey(const SurveyOptions& o) {
+  SurveySetup s;
+  s.file = load_mission(o.mission);
+  Mission& mission = s.file.mission;
+  const SurveyRun begun = is_survey_run(o.output) ? load_survey_run(o.output) : SurveyRun{};
+  std::vector<std::size_t> per_block;
+  for (std::size_t h = 0; h < mission.heads.size(); ++h) {
+    s.heads.push_back(set_up_survey_head(o, s.file, h));
+    const HeadSetup& head = s.heads.back().setup.head;
+    mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
+    per_block.push_back(block_size(o, begun, mission.heads[h].name, pressure_bytes(head.head), s.file.coverage));
+  }
+  std::vector<PingSimulator> simulators;
+  for (const SurveyHead& head : s.heads) simulators.push_back(head.setup.simulator());
+  try {
+    s.survey.emplace(mission, simulators, SurveySettings{s.file.randomise, s.file.seed, s.file.coverage});
+  } catch (const Error& error) {
+    fail(ErrorKind::content, s.file.path, ": ", error.what());
+  }
+  require_in_water(s);
+  for (const SurveyHead& head : s.heads)
+    if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
+      fail(ErrorKind::content, s.file.path,
+           ": [randomise] noise_db changes the noise of platform and electronics: give ",
+           "noise = true in [ping] and self_noise_db in the environment, or leave it out");
+  const std::vector<SurveyPing>& pings = s.survey->pings();
+  s.blocks = survey_blocks(pings, per_block);
+  for (std::size_t h = 0; h < mission.heads.size(); ++h) {
+    const auto count = std::count_if(pings.begin(), pings.end(), [h](const SurveyPing& p) { return p.head == h; });
+    if (count > 0) s.run.heads.push_back({mission.heads[h].name, static_cast<std::size_t>(count), per_block[h]});
+  }
+  s.run.mission_sha256 = digest_of(s);
+  return s;
+}
+
+SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress)
+    : options_(setup.heads.front().options) {
+  options_.common.threads = 1;
+  const SurveyHead& first = setup.heads.front();
+  Bounds box;
+  if (is_tiles(setup.file.scene)) {
+    box = tiles_.emplace(setup.file.scene, kept_tile_bytes).info().box;
+  } else {
+    loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
+    for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
+    if (loaded_.mesh && loaded_.columns.heights && setup.file.coverage) {
+      loaded_.mesh.reset();
+      progress.note(setup.file.scene +
+                    ": coverage counts its points, so they are pinged, and not the surface between them");
+    }
+    if (loaded_.mesh && setup.file.coverage)
+      fail(ErrorKind::content, setup.file.path,
+           ": coverage counts the pings of each surfel, but a mesh has other ones in ", "every ping; make surfels of ",
+           setup.file.scene, " by insonify prepare --mesh-spacing METRES, or leave coverage out");
+    if (!loaded_.mesh) prepared_ = std::make_shared<PreparedScene>(loaded_.scene, common.threads);
+    box = bounds(loaded_.scene);
+  }
+  std::vector<double> farthest(setup.heads.size());
+  for (const SurveyPing& ping : setup.survey->pings()) {
+    const Eigen::Vector3d at = event_of(setup.file.mission, ping).world_from_head.translation();
+    const double away = (at - at.cwiseMax(box.min).cwiseMin(box.max)).norm();
+    const double reach = setup.heads[ping.head].setup.head.head.gate.max_range;
+    if (away > reach)
+      refuse_ping(setup, ping, "is ", away, " m from the scene, beyond its max range of ", reach,
+                  " m; is the trajectory in another frame, or should this be a transit (active = false)?");
+    farthest[ping.head] =
+        std::max(farthest[ping.head], reach_of(box, at, setup.heads[ping.head].setup.head.environment));
+  }
+  for (std::size_t h = 0; h < setup.heads.size(); ++h)
+    if (const std::string note = far_range_note(setup.heads[h].setup.head, farthest[h]); !note.empty())
+      progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
+}
+
+std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator& simulator,
+                                                            const PingEvent& event) const {
+  if (prepared_) return prepared_;
+  if (tiles_) {
+    PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
+    return std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(part.loaded.scene)), 1);
+  }
+  MeshSample fine = mesh_sample_for(options_, simulator, event, loaded_);
+  if (!fine.scene) return std::make_shared<PreparedScene>(loaded_.scene, 1);
+  return std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(*fine.scene)), 1);
+}
+
+}  // namespace insonify::tool

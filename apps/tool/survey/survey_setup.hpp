@@ -1,0 +1,69 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "scene_io/tiled_scene.hpp"
+#include "store/mission_file.hpp"
+#include "store/survey_run.hpp"
+#include "survey/simulate_survey.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/run/ping_setup.hpp"
+
+namespace insonify::tool {
+
+/// Options of `survey`.
+struct SurveyOptions {
+  CommonOptions common;
+  std::string mission, output;
+  std::string shard = "0/1";
+  int pings_per_block = 0;  ///< 0: as the folder has them, else as many as fill 32 MiB, at most 64
+  bool plan = false;
+};
+
+/// A head of the mission, ready to ping at any pose.
+struct SurveyHead {
+  PingOptions options;  ///< sonar, scene and settings as for a ping
+  PingSetup setup;
+};
+
+/// A mission with its sonars: all that the survey does, but for the scene.
+struct SurveySetup {
+  MissionFile file;
+  std::vector<SurveyHead> heads;
+  std::optional<Survey> survey;
+  std::vector<SurveyBlock> blocks;
+  SurveyRun run;
+};
+
+/// Reads the mission and what it names, but for the scene, of which only the digest is taken. Throws Error(content)
+/// with the file for a mission that cannot be: pings too close to one another, a head above the surface.
+SurveySetup set_up_survey(const SurveyOptions& options);
+
+/// Bytes of a ping's pressure in the cube.
+std::size_t pressure_bytes(const SonarHead& head);
+
+/// The scene of a survey: loaded and prepared once. Of a mesh or tiles every ping takes what it needs; tiles are kept
+/// for the pings after, 256 MiB of them at most.
+class SurveyScene : public SceneSource {
+ public:
+  /// Throws as load_scene, and Error(content) for a head that is farther from the scene than it can listen.
+  SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress);
+  SurveyScene(const SurveyScene&) = delete;
+  SurveyScene& operator=(const SurveyScene&) = delete;
+
+  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
+  /// Whether all pings have the same scene.
+  bool is_shared() const { return prepared_ != nullptr; }
+
+ private:
+  PingOptions options_;  // of a ping
+  LoadedScene loaded_;
+  std::optional<TiledScene> tiles_;
+  std::shared_ptr<const PreparedScene> prepared_;  // absent: every ping has a scene of its own
+};
+
+}  // namespace insonify::tool

@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <atomic>
+#include <ctime>
+#include <filesystem>
+#include <iterator>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "store/csv_tables.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/command/shared_options.hpp"
+#include "tool/command/verb.hpp"
+#include "tool/survey/survey_blocks.hpp"
+#include "tool/survey/survey_status.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+void add_options(OptionList list, SurveyOptions& o) {
+  list.add("MISSION", &o.mission, "TOML file: scene, trajectory, heads, legs (docs/survey.md)", {.required = true});
+  list.add("-o,--output", &o.output,
+           "folder of the survey: a new one, or one of this mission, whose finished blocks are kept");
+  list.add("--shard", &o.shard,
+           "I/N: make every Nth block of pings, beginning with block I, from 0 to N-1; counted head after head");
+  list.add("--pings-per-block", &o.pings_per_block,
+           "stored together, so that as many are made again after a kill; 0: those of a survey that is gone on with, "
+           "else as "
+           "many as fill 32 MiB, at most 64",
+           {.within = std::pair(0, 100000), .shown_as = "INT"});
+  list.add("--plan", &o.plan,
+           "only print how many pings, bytes and CPU hours; makes one to five pings of each head to measure, as many "
+           "as take a "
+           "twentieth of the survey");
+  add_common(list, o.common);
+  list.add("-j,--threads", &o.common.threads,
+           "pings at once, at most 1024; 0: as many as cores (results do not depend on it)",
+           {.within = std::pair(0, 1024)});
+}
+
+/// --shard.
+struct Shard {
+  std::size_t index = 0, of = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const std::size_t slash = text.find('/');
+  const bool numbers = slash != text.npos && to_number(std::string_view(text).substr(0, slash), shard.index) &&
+                       to_number(std::string_view(text).substr(slash + 1), shard.of);
+  if (!numbers || shard.index >= shard.of)
+    fail(ErrorKind::argument, "--shard = '", text, "' is not I/N with I from 0 to N-1, e.g. --shard 0/8");
+  return shard;
+}
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// A ping that may be tried, and what its plan expects of it; 1 each where there is no plan.
+struct PlannedPing {
+  SurveyPing ping;
+  double seconds = 1, scatterers = 1;
+};
+
+/// What the pings of a head cost: of a few, evenly spaced, some are made, and the others count as their plans compare.
+struct HeadTrial {
+  std::size_t pings = 0, tried = 0;
+  std::vector<PlannedPing> planned;  ///< the most typical first
+  double cpu = 0, first_cpu = 0, scatterers = 0, soundings = 0;
+
+  /// All pings over those tried, by a number of their plans.
+  double part(double PlannedPing::*number) const {
+    double all = 0, made = 0;
+    for (std::size_t k = 0; k < planned.size(); ++k)
+      all += planned[k].*number, made += k < tried ? planned[k].*number : 0;
+    const double n = static_cast<double>(pings);
+    return made > 0    ? n * all / (made * static_cast<double>(planned.size()))
+           : tried > 0 ? n / static_cast<double>(tried)
+                       : 0;
+  }
+
+  /// CPU time of all pings [s]. The first one also makes what the others use again, which a second one shows.
+  double cpu_of_all() const {
+    double later = 0;
+    for (std::size_t k = 1; k < tried; ++k) later += planned[k].seconds;
+    if (!(later > 0)) return cpu * part(&PlannedPing::seconds);
+    double mean = 0;
+    for (const PlannedPing& p : planned) mean += p.seconds / static_cast<double>(planned.size());
+    const double rate = (cpu - first_cpu) / later;
+    return std::max(0.0, first_cpu - rate * planned.front().seconds) + rate * mean * static_cast<double>(pings);
+  }
+};
+
+std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene) {
+  constexpr std::size_t most = 5;
+  std::vector<HeadTrial> trials(s.heads.size());
+  for (std::size_t h = 0; h < trials.size(); ++h) {
+    HeadTrial& trial = trials[h];
+    std::vector<SurveyPing> pings;
+    std::copy_if(s.survey->pings().begin(), s.survey->pings().end(), std::back_inserter(pings),
+                 [h](const auto& p) { return p.head == h; });
+    trial.pings = pings.size();
+    const std::size_t places = std::min(most, pings.size());
+    double mean = 0;
+    for (std::size_t k = 0; k < places; ++k) {
+      PlannedPing planned{pings[(2 * k + 1) * pings.size() / (2 * places)]};
+      if (scene.is_shared()) {
+        const PingSimulator simulator = s.survey->simulator_of(planned.ping);
+        const PingEvent event = s.survey->event_of(planned.ping);
+        const PingPlan plan = simulator.plan(*scene.scene_for(simulator, event), event);
+        planned.seconds = plan.seconds, planned.scatterers = plan.scatterers;
+      }
+      mean += planned.seconds / static_cast<double>(places);
+      trial.planned.push_back(planned);
+    }
+    const auto off = [mean](const PlannedPing& p) { return std::abs(p.seconds - mean); };
+    std::stable_sort(trial.planned.begin(), trial.planned.end(),
+                     [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  }
+  return trials;
+}
+
+/// Makes a ping of each head, then more, as long as the plan takes at most a twentieth of the survey. `begun` is the CPU time
+/// when the scene began to be loaded.
+void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double begun,
+               std::vector<HeadTrial>& trials) {
+  constexpr double most_of_survey = 0.04;  // of a forecast that may fall when more than the first ping is known
+  const auto is_cheap = [&](const HeadTrial& next) {
+    double survey = 0;
+    for (const HeadTrial& trial : trials) survey += trial.cpu_of_all() / cores;
+    return cpu_seconds() - begun + next.cpu / static_cast<double>(next.tried) <= most_of_survey * survey;
+  };
+  bool more = true;
+  for (bool first = true; std::exchange(more, false); first = false)
+    for (HeadTrial& trial : trials) {
+      if (trial.tried >= trial.planned.size() || (!first && !is_cheap(trial))) continue;
+      const double begin = cpu_seconds();
+      const PingOutcome made = s.survey->simulate(trial.planned[trial.tried].ping, scene);
+      trial.cpu += cpu_seconds() - begin;
+      if (trial.tried == 0) trial.first_cpu = trial.cpu;
+      trial.scatterers += static_cast<double>(made.scatterers);
+      trial.soundings += static_cast<double>(made.soundings.size());
+      ++trial.tried, more = true;
+    }
+}
+
+ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::size_t h) {
+  constexpr double row_bytes = 76;  // of returns.ply
+  const double n = static_cast<double>(trial.pings), part = trial.part(&PlannedPing::scatterers);
+  return {{"name", s.file.mission.heads[h].name},
+          {"pings", trial.pings},
+          {"pings_tried", trial.tried},
+          {"echoes", std::llround(trial.scatterers * part)},
+          {"returns", std::llround(trial.soundings * part)},
+          {"bytes", std::llround(n * static_cast<double>(pressure_bytes(s.heads[h].setup.head.head)) +
+                                 trial.soundings * part * row_bytes)},
+          {"cpu_hours", trial.cpu_of_all() / 3600}};
+}
+
+void print_plan(const ordered_json& plan) {
+  fmt::print("{:<16} {:>9} {:>11} {:>11} {:>10} {:>10}\n", "head", "pings", "echoes", "returns", "MB", "CPU hours");
+  const auto print_row = [](const ordered_json& row) {
+    fmt::print("{:<16} {:>9} {:>11.3g} {:>11.3g} {:>10.4g} {:>10.3g}\n", row["name"].get<std::string>(),
+               row["pings"].get<std::size_t>(), row["echoes"].get<double>(), row["returns"].get<double>(),
+               row["bytes"].get<double>() / 1e6, row["cpu_hours"].get<double>());
+  };
+  for (const auto& head : plan["heads"]) print_row(head);
+  if (plan["heads"].size() > 1) print_row(plan["all"]);
+  fmt::print("{} blocks; about {:.3g} hours on {} cores\n", plan["blocks"].get<std::size_t>(),
+             plan["hours"].get<double>(), plan["cores"].get<int>());
+}
+
+void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, double begun) {
+  const int cores = thread_count(o.common.threads);
+  std::vector<HeadTrial> trials = trials_of(s, scene);
+  try_pings(s, scene, cores, begun, trials);
+  ordered_json heads = ordered_json::array(), all = {{"name", "all"}};
+  for (std::size_t h = 0; h < s.heads.size(); ++h) heads.push_back(cost_of_head(s, trials[h], h));
+  for (const char* key : {"pings", "echoes", "returns", "bytes", "cpu_hours"}) {
+    double sum = 0;
+    for (const auto& head : heads) sum += head[key].get<double>();
+    all[key] = sum;
+  }
+  const ordered_json plan = {{"heads", heads},
+                             {"all", all},
+                             {"blocks", s.blocks.size()},
+                             {"cores", cores},
+                             {"hours", all["cpu_hours"].get<double>() / cores},
+                             {"cpu_seconds_to_plan", cpu_seconds() - begun}};
+  print_result(o.common, plan, [&] { print_plan(plan); });
+}
+
+/// Writes the blocks of a survey into its folder, and says how far it is.
+class FolderStore : public SurveyStore {
+ public:
+  FolderStore(const SurveyBlocks& blocks, SurveyStatus& status) : blocks_(blocks), status_(status) {}
+
+  BlockOutcomes resume(const SurveyBlock& block) override { return blocks_.resume(block); }
+  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override { blocks_.keep(block, outcomes); }
+  void ping_done(const PingOutcome* made) override {
+    silent_ += made && made->failure.empty() && made->scatterers == 0;
+    status_.ping_done(made);
+  }
+  bool stopped() override { return is_interrupted(); }
+  /// Pings made that hear nothing.
+  std::size_t silent() const { return silent_; }
+
+ private:
+  const SurveyBlocks& blocks_;
+  SurveyStatus& status_;
+  std::atomic<std::size_t> silent_ = 0;
+};
+
+/// What is still to be made by a shard.
+struct Todo {
+  std::vector<SurveyBlock> blocks;
+  std::size_t pings = 0, done = 0;  ///< of the shard; of these, in finished blocks
+};
+
+Todo blocks_of(const SurveySetup& s, const SurveyBlocks& store, const Shard& shard) {
+  Todo todo;
+  for (std::size_t b = shard.index; b < s.blocks.size(); b += shard.of) {
+    const std::size_t pings = s.blocks[b].end - s.blocks[b].begin;
+    todo.pings += pings;
+    if (store.is_done(s.blocks[b]))
+      todo.done += pings;
+    else
+      todo.blocks.push_back(s.blocks[b]);
+  }
+  return todo;
+}
+
+/// The failed pings of the shard's blocks, as "head ping: reason".
+std::vector<std::string> failures_of(const SurveyOptions& o, const SurveySetup& s, const Shard& shard) {
+  std::vector<std::string> failures;
+  for (std::size_t b = shard.index; b < s.blocks.size(); b += shard.of) {
+    const std::string& name = s.file.mission.heads[s.blocks[b].head].name;
+    if (const auto mark = find_mark(block_files(o.output, name, s.blocks[b].number), s.run.mission_sha256))
+      for (const FailedPing& ping : mark->failed)
+        failures.push_back(fmt::format("{} ping {}: {}", name, ping.number, ping.reason));
+  }
+  return failures;
+}
+
+void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard, Progress& progress) {
+  // A scene that does not fit is refused before there is a folder; of a survey that is done it is not read at all.
+  std::optional<SurveyScene> scene;
+  const auto load = [&] {
+    progress.step("loading " + s.file.scene);
+    scene.emplace(s, o.common, progress);
+  };
+  if (!is_survey_run(o.output)) load();
+  open_survey_run(o.output, s.run);
+  write_survey_settings(s, o.output);
+  const SurveyBlocks store(s, o.output);
+  const Todo todo = blocks_of(s, store, shard);
+  const std::string name = shard.of == 1 ? "status.json" : fmt::format("status-{}-of-{}.json", shard.index, shard.of);
+  SurveyStatus status(progress, (std::filesystem::path(o.output) / name).string(), o.shard, todo.pings, todo.done);
+
+  bool whole = true;
+  std::size_t silent = 0;
+  if (!todo.blocks.empty()) {
+    if (!scene) load();
+    progress.step("pinging");
+    FolderStore folder(store, status);
+    finish_on_interrupt("finished pings are kept; the same command goes on from there");
+    whole = simulate_survey(*s.survey, todo.blocks, *scene, folder, o.common.threads);
+    silent = folder.silent();
+  }
+  const std::vector<std::string> failures = failures_of(o, s, shard);
+  status.write(whole ? "done" : "interrupted");
+  if (!whole)
+    throw Interrupted{fmt::format("{} of {} pings of {} are {}; the same command goes on from there",
+                                  todo.done + status.made(), todo.pings, o.output,
+                                  s.file.coverage ? "made, those of whole blocks kept" : "kept")};
+  if (silent > 0)
+    progress.note(
+        fmt::format("{} of {} pings made are silent: nothing of the scene is inside fan and range; `insonify image {} "
+                    "--ping N` shows "
+                    "one; turn the head, lengthen its range, or make those parts of the way a transit (active = false)",
+                    silent, status.made(), o.output));
+  const ordered_json result = {{"folder", o.output}, {"pings", todo.pings}, {"made", status.made()},
+                               {"silent", silent},   {"failed", failures},  {"seconds", status.seconds()}};
+  print_summary(o.common, result,
+                fmt::format("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}", o.output,
+                            status.made(), todo.pings, status.seconds(), o.output));
+  if (!failures.empty())
+    throw SomeFailed{fmt::format("{} of {} pings failed: {}", failures.size(), todo.pings, joined(failures, "; "))};
+}
+
+void survey(const SurveyOptions& o) {
+  const Shard shard = parse_shard(o.shard);
+  if (o.output.empty() != o.plan)
+    fail(ErrorKind::argument, "--output or --plan must be given, one of them: a folder for the survey, or a forecast");
+  Progress progress(o.common, 3);
+  const SurveySetup s = set_up_survey(o);
+  for (const SurveyHead& head : s.heads)
+    for (const std::string& note : head.setup.head.notes) progress.note(note);
+  if (lower_case(s.file.trajectory).ends_with(".csv"))
+    for (const std::string& note : trajectory_notes(s.file.trajectory)) progress.note(note);
+  if (!o.plan) return make_pings(o, s, shard, progress);
+  progress.step("loading " + s.file.scene);
+  const double begun = cpu_seconds();
+  const SurveyScene scene(s, o.common, progress);
+  progress.step("planning");
+  plan_survey(o, s, scene, begun);
+}
+
+}  // namespace
+
+Verb survey_verb() {
+  return make_verb<SurveyOptions>("survey", "all pings of a mission: a vehicle with sonars along a trajectory",
+                                  {"insonify survey mission.toml --plan", "insonify survey mission.toml -o run",
+                                   "insonify survey mission.toml -o run --shard 3/8", "insonify merge run"},
+                                  add_options, survey);
+}
+
+}  // namespace insonify::tool
