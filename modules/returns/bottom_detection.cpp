@@ -9,6 +9,7 @@
 #include "core/require.hpp"
 #include "core/units.hpp"
 #include "returns/bottom_ping_internal.hpp"
+#include "returns/echo_place.hpp"
 
 namespace insonify {
 namespace {
@@ -18,12 +19,12 @@ constexpr const char* bottom_call = "detect_bottom";
 /// The place of a sounding in the world.
 Eigen::Vector3d place_of(const Ping& ping, const BottomOptions& options, std::size_t beam, double range) {
   const Eigen::Vector3d axis = unit_vector({ping.fan.azimuth[beam], ping.fan.elevation[beam]});
-  if (!options.profile) return ping.world_from_head * (range * axis);
-  const Eigen::Vector3d away = ping.world_from_head.linear() * axis;
-  const RayEnd end = shoot_ray(*options.profile, options.head_depth, std::asin(std::clamp(away.z(), -1.0, 1.0)),
-                               range / options.sound_speed);
-  const double level = std::hypot(away.x(), away.y());
   const Eigen::Vector3d head = ping.world_from_head.translation();
+  const Eigen::Vector3d away = way_of_echo(ping, axis, range, options.sound_speed);
+  if (!options.profile) return head + away;
+  const double distance = away.norm(), level = std::hypot(away.x(), away.y());
+  const RayEnd end = shoot_ray(*options.profile, options.head_depth,
+                               std::asin(std::clamp(away.z() / distance, -1.0, 1.0)), distance / options.sound_speed);
   const Eigen::Vector2d ahead = level > 0 ? Eigen::Vector2d(away.head<2>() / level) : Eigen::Vector2d(0, 0);
   return {head.x() + end.horizontal * ahead.x(), head.y() + end.horizontal * ahead.y(),
           head.z() - (end.depth - options.head_depth)};

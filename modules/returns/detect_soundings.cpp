@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
+#include "returns/echo_place.hpp"
 #include "returns/strongest_contributors_internal.hpp"
 
 namespace insonify {
@@ -122,12 +123,21 @@ class Detector {
   std::vector<double> factor_;  // above the sum of so many cells
 };
 
+/// The way from the head at transmission to a sounding [m], in world axes. Beams point as the head lies at reception,
+/// directions of contributors as it lay at transmission.
+Eigen::Vector3d way_of(const Ping& ping, double range, const Direction& direction, bool at_transmission) {
+  const Eigen::Vector3d axis = unit_vector(direction);
+  if (ping.motion.none()) return ping.world_from_head.linear() * (range * axis);
+  if (!at_transmission) return way_of_echo(ping, axis, range, ping.sound_speed);
+  return distance_of_echo(ping, axis, range, ping.sound_speed) * (ping.world_from_head.linear() * axis);
+}
+
 /// Appends the sounding of one detection, in the direction of its strongest contributor or, without one, of the beam.
 void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const StrongestContributor& from) {
   const double range = ping.gate.centre(cell.bin) + static_cast<double>(cell.offset) * ping.gate.bin_size;
   const bool known = from.power > 0;
   const Direction axis{ping.fan.azimuth[beam], ping.fan.elevation[beam]};
-  s.position.push_back(ping.world_from_head * (range * unit_vector(known ? from.direction : axis)));
+  s.position.push_back(ping.world_from_head.translation() + way_of(ping, range, known ? from.direction : axis, known));
   s.level_db.push_back(cell.level_db);
   s.range.push_back(static_cast<float>(range));
   s.azimuth.push_back(static_cast<float>(axis.azimuth));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/motion.hpp"
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "returns/pixel_labels.hpp"
@@ -45,6 +46,7 @@ struct Ping {
   std::optional<ScanPlace> scan{};  ///< of a scanning head; its turn is part of world_from_head
   double sound_speed = 0;           ///< of the water at the head [m/s], by which delays are ranges; 0: not known
   double absorption_db_per_m = 0;   ///< of the water at the head, at the centre frequency
+  Motion motion{};                  ///< of the head from transmission on, as its echoes have it
 };
 
 /// Notes the water that a ping was made in.

@@ -101,6 +101,7 @@ void LayerSum::finish(SimulatedPing& result) {
                  ping_.head.fan,     ping_.head.gate,  stored_pressure(sum_, "PingSimulator"),
                  std::move(layers_)};
   result.ping.expected_level = incoherent_;
+  if (ping_.options.effects.moving == Choice::always) result.ping.motion = ping_.event.motion;
   note_water(ping_.sent.medium, result.ping);
   if (split_) result.ping.split_phase = phase_between(port_, starboard_);
   result.report.layers = std::move(report_);

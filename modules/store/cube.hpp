@@ -47,6 +47,7 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// scales are /ping, /azimuth and /range; pressures say in `convention` how a level follows from them.
 /// Where the water differs from ping to ping, /sound_speed [m/s] and /absorption_db_per_m [dB/m] (pings) are the pings'
 /// own; a ping that does not know its water has that of the cube.
+/// Where a head moves, /velocity [m/s] and /turn_rate [rad/s] (pings x 3, world axes) are Ping::motion.
 /// Pings of a scanning head add /scan_angle [rad] and /sweep (pings), /beam_time [s] (pings x beams) and /beam_pose
 /// (pings x beams x 4 x 4).
 /// /unknown and labels are deflated. With fewer keep_bits than all, /pressure and /layers are rounded to so many significant
@@ -78,6 +79,7 @@ struct TrackPoint {
   std::optional<ScanPlace> scan{};  ///< of a scanning head
   double sound_speed = 0;           ///< as Ping::sound_speed
   double absorption_db_per_m = 0;   ///< as Ping::absorption_db_per_m
+  Motion motion{};                  ///< as Ping::motion
 };
 
 /// The pings of a cube without their images; errors as read_cube.

@@ -13,7 +13,8 @@ void pass(Stream& stream, BeamFan& fan) {
 
 template <typename Stream>
 void pass(Stream& stream, TrackPoint& point) {
-  stream(point.number, point.time, point.world_from_head, point.scan, point.sound_speed, point.absorption_db_per_m);
+  stream(point.number, point.time, point.world_from_head, point.scan, point.sound_speed, point.absorption_db_per_m,
+         point.motion.velocity, point.motion.turn_rate);
 }
 
 /// Every member but the pings.

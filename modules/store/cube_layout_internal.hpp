@@ -52,6 +52,10 @@ constexpr DatasetName ping_name{"/ping", "", "number of the ping"};
 constexpr DatasetName sound_speed_name{"/sound_speed", "m/s", "of the water at the head of each ping"};
 constexpr DatasetName absorption_name{"/absorption_db_per_m", "dB/m",
                                       "of the water at the head of each ping, one way, at the centre frequency"};
+/// Of heads of which one moves while it listens.
+constexpr DatasetName velocity_name{"/velocity", "m/s", "of the head in the world while it listens, x, y, z"};
+constexpr DatasetName turn_rate_name{"/turn_rate", "rad/s",
+                                     "rotation vector of the head in the world per second, x, y, z"};
 /// Of a scanning head alone: time and pose of every beam, and the head's own turn.
 constexpr DatasetName beam_time_name{"/beam_time", "s", "of transmission, of every beam"};
 constexpr DatasetName beam_pose_name{"/beam_pose", "1, 1, 1, m", "of every beam, as pose"};
@@ -85,6 +89,8 @@ constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}
                                          {pose_name, {"ping"}},
                                          {time_name, {"ping"}},
                                          {ping_name, {"ping"}},
+                                         {velocity_name, {"ping"}},
+                                         {turn_rate_name, {"ping"}},
                                          {beam_time_name, {"ping", "beam"}},
                                          {beam_pose_name, {"ping", "beam"}},
                                          {scan_angle_name, {"ping"}},

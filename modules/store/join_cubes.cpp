@@ -22,8 +22,12 @@ namespace {
 struct Track {
   DatasetName name;
   bool whole_numbers;
-  bool as_attribute = false;  ///< a part without it has the root attribute of its name, one value for all its pings
-  Extent extent{};            ///< of all parts; empty: the first part has none
+  enum class Without {
+    nothing,    ///< a part without it has nothing
+    attribute,  ///< has the root attribute of its name, one value for all its pings
+    rest        ///< is of a head at rest: zeros
+  } without = Without::nothing;
+  Extent extent{};  ///< of all parts; empty: the first part has none
   std::vector<char> bytes{};
 
   hid_t type(bool in_file) const { return whole_numbers ? type_of<std::int64_t>(in_file) : type_of<double>(in_file); }
@@ -44,8 +48,10 @@ struct JoinedCube {
   std::vector<Track> tracks = {{time_name, false},
                                {pose_name, false},
                                {ping_name, true},
-                               {sound_speed_name, false, true},
-                               {absorption_name, false, true},
+                               {sound_speed_name, false, Track::Without::attribute},
+                               {absorption_name, false, Track::Without::attribute},
+                               {velocity_name, false, Track::Without::rest},
+                               {turn_rate_name, false, Track::Without::rest},
                                {scan_angle_name, false},
                                {sweep_name, true},
                                {beam_time_name, false},
@@ -73,11 +79,12 @@ Extent whole_extent(const Place& place, hid_t dataset, const char* name) {
 Extent read_values_of(const Place& place, hid_t file, Track& track, hsize_t pings) {
   const std::size_t before = track.bytes.size();
   if (H5Lexists(file, track.name.path, H5P_DEFAULT) <= 0) {
-    if (!track.as_attribute) return {};
-    const std::vector<double> same(pings, read_number(place, file, track.name.path + 1));
+    if (track.without == Track::Without::nothing) return {};
+    const bool rest = track.without == Track::Without::rest;
+    const std::vector<double> same(rest ? 3 * pings : pings, rest ? 0 : read_number(place, file, track.name.path + 1));
     track.bytes.resize(before + 8 * same.size());
     std::memcpy(track.bytes.data() + before, same.data(), 8 * same.size());
-    return {pings};
+    return rest ? Extent{pings, 3} : Extent{pings};
   }
   const Handle dataset = open_dataset(place, file, track.name);
   const Extent extent = whole_extent(place, dataset, track.name.path);
@@ -155,18 +162,18 @@ void copy_axes(const Place& place, const Place& from, hid_t first, hid_t file) {
   }
 }
 
-/// Whether all pings have the value of the root attribute, which says it then.
-bool is_attribute(const Place& from, hid_t first, const Track& track) {
-  if (!track.as_attribute) return false;
+/// Whether the values are those of all pings of a cube without this track.
+bool goes_without(const Place& from, hid_t first, const Track& track) {
+  if (track.without == Track::Without::nothing) return false;
   std::vector<double> values(track.bytes.size() / 8);
   std::memcpy(values.data(), track.bytes.data(), track.bytes.size());
-  const double same = read_number(from, first, track.name.path + 1);
+  const double same = track.without == Track::Without::rest ? 0 : read_number(from, first, track.name.path + 1);
   return std::all_of(values.begin(), values.end(), [same](double value) { return value == same; });
 }
 
 void write_tracks(const Place& place, hid_t file, const JoinedCube& joined, const Place& from, hid_t first) {
   for (const Track& track : joined.tracks) {
-    if (track.extent.empty() || is_attribute(from, first, track)) continue;
+    if (track.extent.empty() || goes_without(from, first, track)) continue;
     const Handle dataset = create_dataset(place, file, track.name, track.type(true), track.extent);
     place.checked(H5Dwrite(dataset, track.type(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, track.bytes.data()),
                   track.name.path);

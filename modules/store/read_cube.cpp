@@ -72,12 +72,28 @@ std::vector<double> water_of(const Place& place, hid_t file, const DatasetName& 
   return values;
 }
 
+// World vectors of every ping, zero in a cube without them.
+std::vector<Eigen::Vector3d> vectors_of(const Place& place, hid_t file, const DatasetName& name, hsize_t pings) {
+  std::vector<Eigen::Vector3d> vectors(pings, Eigen::Vector3d::Zero());
+  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return vectors;
+  const auto values = read_all<double>(place, file, name, {pings, 3}, H5T_NATIVE_DOUBLE);
+  for (std::size_t p = 0; p < pings; ++p) {
+    vectors[p] = Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * p);
+    if (!vectors[p].allFinite())
+      fail(place.kind, place.path, ": ", name.path, " of ping ", p, " = ", vectors[p].transpose(), " ", name.unit,
+           ", must be finite");
+  }
+  return vectors;
+}
+
 std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
   const auto pose = read_all<double>(place, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
   const auto time = read_all<double>(place, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
   const auto number = read_all<std::int64_t>(place, file, ping_name, {pings}, H5T_NATIVE_INT64);
   const auto speed = water_of(place, file, sound_speed_name, pings);
   const auto absorption = water_of(place, file, absorption_name, pings);
+  const auto velocity = vectors_of(place, file, velocity_name, pings);
+  const auto turn_rate = vectors_of(place, file, turn_rate_name, pings);
   const bool scans = H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) > 0;
   std::vector<double> angle;
   std::vector<std::int64_t> sweep;
@@ -91,6 +107,7 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
     track[p].time = time[p];
     track[p].sound_speed = speed[p];
     track[p].absorption_db_per_m = absorption[p];
+    track[p].motion = {velocity[p], turn_rate[p]};
     if (scans) track[p].scan = ScanPlace{sweep[p], angle[p]};
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
@@ -120,6 +137,7 @@ std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
     ping.time = point.time, ping.number = point.number, ping.world_from_head = point.world_from_head;
     ping.scan = point.scan;
     ping.sound_speed = point.sound_speed, ping.absorption_db_per_m = point.absorption_db_per_m;
+    ping.motion = point.motion;
   }
   return pings;
 }

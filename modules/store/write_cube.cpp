@@ -213,6 +213,18 @@ void write_water(const Place& place, hid_t file, const Cube& cube) {
   write_numbers(place, file, absorption_name, {absorption.size()}, absorption.data());
 }
 
+// How the head moves in every ping, if it does in any.
+void write_motion(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+  if (std::all_of(pings.begin(), pings.end(), [](const Ping& ping) { return ping.motion.none(); })) return;
+  std::vector<Eigen::Vector3d> velocity, turn_rate;
+  for (const Ping& ping : pings) {
+    velocity.push_back(ping.motion.velocity);
+    turn_rate.push_back(ping.motion.turn_rate);
+  }
+  write_numbers(place, file, velocity_name, {pings.size(), 3}, velocity.front().data());
+  write_numbers(place, file, turn_rate_name, {pings.size(), 3}, turn_rate.front().data());
+}
+
 // Of a scanning head: its own turn, and time and pose of every beam.
 void write_scan(const Place& place, hid_t file, const std::vector<Ping>& pings) {
   if (!pings.front().scan) return;
@@ -270,6 +282,7 @@ void write_cube(const std::string& path, const Cube& cube) {
     write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
     write_track(place, file, cube.pings);
     write_water(place, file, cube);
+    write_motion(place, file, cube.pings);
     write_scan(place, file, cube.pings);
     write_pressures(place, file, pressure_name, cube,
                     [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });

@@ -67,6 +67,8 @@ PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const 
     const Pose moved = believed * outcome.ping.world_from_head.inverse();
     for (Eigen::Vector3d& position : outcome.soundings.position) position = moved * position;
     outcome.ping.world_from_head = believed;
+    Motion& motion = outcome.ping.motion;
+    motion = {moved.linear() * motion.velocity, moved.linear() * motion.turn_rate};
   }
   if (mission.heads[ping.head].scan) outcome.ping.scan = ScanPlace{ping.sweep, ping.scan_angle};
   return outcome;

@@ -220,6 +220,30 @@ TEST(Cube, keeps_the_water_of_pings_that_differ_from_it) {
   EXPECT_EQ(error_of_cube(path), "content: cube.h5: /sound_speed = -1 m/s, must be finite and >= 0");
 }
 
+TEST(Cube, keeps_the_motion_of_pings) {
+  Cube cube = random_cube();
+  for (const Ping& ping : read_cube(write(cube)).pings) EXPECT_TRUE(ping.motion.none());
+  EXPECT_LT(H5Lexists(RawFile(own_path("cube.h5")), "/velocity", H5P_DEFAULT), 1) << "all are at rest";
+  cube.pings[1].motion = {{0.25, -1.5, 0.75}, {0.01, 0.02, -0.03}};
+  const std::string path = write(cube);
+  const Cube back = read_cube(path);
+  EXPECT_TRUE(back.pings[0].motion.none());
+  EXPECT_EQ(back.pings[1].motion.velocity, cube.pings[1].motion.velocity);
+  EXPECT_EQ(back.pings[1].motion.turn_rate, cube.pings[1].motion.turn_rate);
+  EXPECT_EQ(read_track(path)[1].motion.turn_rate, cube.pings[1].motion.turn_rate);
+  {
+    const RawFile file(path);
+    EXPECT_EQ(raw_extent(file, "/turn_rate"), (std::vector<hsize_t>{3, 3}));
+    EXPECT_EQ(raw_text(file, "/velocity", "units"), "m/s");
+    EXPECT_EQ(raw_text(file, "/turn_rate", "units"), "rad/s");
+    const hid_t dataset = H5Dopen2(file, "/velocity", H5P_DEFAULT);
+    const double damaged[9] = {0, 0, 0, 1, HUGE_VAL, 0};
+    EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, damaged), 0);
+    H5Dclose(dataset);
+  }
+  EXPECT_EQ(error_of_cube(path), "content: cube.h5: /velocity of ping 1 =   1 inf   0 m/s, must be finite");
+}
+
 TEST(Cube, names_the_dataset_that_is_missing) {
   for (const char* name : {"/pressure", "/range", "/azimuth", "/elevation", "/pose", "/time", "/ping"}) {
     const std::string path = write(random_cube());

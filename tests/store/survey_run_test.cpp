@@ -132,6 +132,27 @@ TEST(JoinCubes, keeps_the_water_of_each_ping) {
   }
 }
 
+// The first part is of a head at rest.
+TEST(JoinCubes, keeps_the_motion_of_each_ping) {
+  const auto going = [](Cube cube, std::size_t from) {
+    for (std::size_t p = from < 2 ? 2 - from : 0; p < cube.pings.size(); ++p)
+      cube.pings[p].motion = {{1, -2, 0.25 * static_cast<double>(from + p)}, {0.5, 0, -0.125}};
+    return cube;
+  };
+  write_cube(own_path("0.h5"), cube_of(0, 2, {}, false));
+  write_cube(own_path("1.h5"), going(cube_of(2, 3, {}, false), 2));
+  write_cube(own_path("once.h5"), going(cube_of(0, 5, {}, false), 0));
+  for (const bool copy : {false, true}) {
+    join_cubes(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")}, copy);
+    const Cube all = read_cube(own_path("all.h5"));
+    EXPECT_TRUE(all.pings[1].motion.none());
+    EXPECT_EQ(all.pings[4].motion.velocity, Eigen::Vector3d(1, -2, 1));
+    EXPECT_EQ(all.pings[4].motion.turn_rate, Eigen::Vector3d(0.5, 0, -0.125));
+    write_cube(own_path("again.h5"), all);
+    EXPECT_EQ(file_bytes(own_path("again.h5")), file_bytes(own_path("once.h5")));
+  }
+}
+
 TEST(JoinCubes, may_be_moved_with_its_parts_but_not_without) {
   fs::create_directories(own_path("run/parts"));
   write_cube(own_path("run/parts/0.h5"), cube_of(0, 2, {}, false));

@@ -6,6 +6,7 @@
 
 #include "core/units.hpp"
 #include "formats/gsf_file.hpp"
+#include "returns/echo_place.hpp"
 #include "tool/export/product_run.hpp"
 
 namespace insonify::tool {
@@ -55,15 +56,28 @@ GsfMounting mounting_of(const Pose& ship_from_head) {
   return {{at.x(), -at.y(), -at.z()}, std::atan2(-axes.ahead.y(), axes.ahead.x()), axes.pitch, axes.roll};
 }
 
-/// A sounding where it lies on the globe, in level axes of the ship below its head.
-GsfBeam placed_beam(const PlacedRun& run, const Anchor& here, const BottomSoundings& found, std::size_t i,
-                    double sound_speed, GsfBeam beam) {
+/// Where a beam points, as one at nadir of a level ship.
+GsfBeam pointing_beam(const ShipAxes& ship, const Eigen::Vector3d& way) {
+  GsfBeam beam;
+  beam.angle = std::acos(std::clamp(-way.z() / way.norm(), -1.0, 1.0));
+  beam.azimuth = std::atan2(way.dot(ship.ahead), way.dot(ship.starboard));
+  return beam;
+}
+
+/// A sounding where it lies on the globe, in level axes of the ship below its head. Angles and travel time are those of a
+/// head that stays where it transmitted.
+GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship, const Anchor& here,
+                    const BottomSoundings& found, std::size_t i) {
+  const std::size_t b = found.beam[i];
+  const Eigen::Vector3d way =
+      way_of_echo(ping, unit_vector({ping.fan.azimuth[b], ping.fan.elevation[b]}), found.range[i], ping.sound_speed);
+  GsfBeam beam = pointing_beam(ship, way);
   const Eigen::Vector3d away = world_from_geo(here, geo_from_world(run.reference(), found.position[i]));
   const auto deviation = static_cast<double>(found.deviation[i]);
   beam.detected = true;
   beam.depth = -found.position[i].z();
   beam.along = away.x(), beam.across = -away.y();
-  beam.travel_time = 2 * found.range[i] / sound_speed;
+  beam.travel_time = 2 * way.norm() / ping.sound_speed;
   beam.level_db = static_cast<double>(found.level_db[i]);
   beam.quality = static_cast<double>(found.quality[i]);
   beam.vertical_deviation = deviation * std::cos(beam.angle);
@@ -82,12 +96,9 @@ std::vector<GsfBeam> beams_of(const PlacedRun& run, const Ping& ping, const Bott
     const Eigen::Vector3d axis =
         ping.world_from_head.linear() * unit_vector({ping.fan.azimuth[b], ping.fan.elevation[b]});
     const double across = axis.dot(ship.starboard);
-    GsfBeam beam;
-    beam.angle = std::acos(std::clamp(-axis.z(), -1.0, 1.0));
-    beam.azimuth = std::atan2(axis.dot(ship.ahead), across);
-    if (next == found.size() || found.beam[next] != b) beams.emplace_back(across, beam);
+    if (next == found.size() || found.beam[next] != b) beams.emplace_back(across, pointing_beam(ship, axis));
     for (; next < found.size() && found.beam[next] == b; ++next)  // each a beam of its own
-      beams.emplace_back(across, placed_beam(run, here, found, next, ping.sound_speed, beam));
+      beams.emplace_back(across, placed_beam(run, ping, ship, here, found, next));
   }
   std::stable_sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<GsfBeam> sorted;
