@@ -1,5 +1,6 @@
 // Options of a ping are refused by name, before any work.
 #include "simulate/plan_ping.hpp"
+#include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
