@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "core/stop_watch.hpp"
 #include "core/work_progress.hpp"
 #include "simulate/average_looks_internal.hpp"
@@ -67,13 +67,13 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
   begin_stage("echoes");
-  const EchoSource direct = direct_source(scene.scene(), ping, parts);
+  const auto direct = direct_stream(scene.scene(), ping, parts);
   seconds.acoustics = watch.lap();
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
   LayerSum layers(ping, shared_->synthesizers);
-  layers.add("direct", direct);
+  layers.add("direct", *direct);
   add_multipath(scene, ping, parts, layers);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (ping.options.effects.noise) layers.add_noise();
@@ -83,7 +83,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What an operator would mark: detections, as points in the world.
   begin_stage("detection");
-  result.soundings = detect_soundings(result.ping, direct, ping.detection);
+  result.soundings = detect_soundings(result.ping, *direct, ping.detection);
   seconds.detection = watch.lap();
 
   // What the options ask for besides, and how the ping came about.

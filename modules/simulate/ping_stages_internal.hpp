@@ -1,7 +1,8 @@
 #pragma once
+#include <memory>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/visible_surfels.hpp"
 #include "simulate/resolve_ping.hpp"
@@ -30,7 +31,7 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
 
 /// Returns the direct echoes of all patches, moved if the options say so. Refers to all arguments, of which it changes
 /// parts.direct.
-EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
+std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
 /// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.bounced. Sound by a boundary may come by a main lobe from what a side lobe hears
 /// directly, so all that is seen is split for that as in main lobes, apart from the direct echoes: theirs are the same with

@@ -8,9 +8,9 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "sampling/sampled_cells.hpp"
-#include "simulate/heard_energy_internal.hpp"
 #include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
+#include "simulate/surfel_energy_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -135,7 +135,7 @@ constexpr std::size_t range_intervals = 64, fan_intervals = 16;
 void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Scatterers& patches, SceneSample& s) {
   const View& view = ping.view;
   const SampledCells cells(view.fan, view.gate, view.sampling);
-  const HeardEnergy heard = heard_energy(ping, sampled.scene.materials);
+  const std::shared_ptr<const SurfelEnergy> energy = surfel_energy(ping, sampled.scene.materials);
   const std::size_t sides = cells.width_of_shares() < 2 ? fan_intervals : 1;
   const double interval = (view.gate.max_range - view.gate.min_range) / range_intervals;
   const double shares_in_interval =
@@ -162,7 +162,7 @@ void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Sc
     const Eigen::Vector3d p = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
     const SampledCells::Widths widths = cells.widths(p, std::sqrt(area / pi));
     counted.push_back({cells.parts(patches.range[i], area, cosine, widths),
-                       heard ? heard(p, cosine, area, patches.material[i]) : 0, widths, interval_of(p)});
+                       energy ? energy->of(p, cosine, area, patches.material[i]) : 0, widths, interval_of(p)});
     received[sampled.kind[surfel]][counted[i].interval] += times * counted[i].energy;
   }
   double none = 0;
@@ -175,7 +175,7 @@ void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Sc
     double heard_there = received[in_view][c.interval];
     if (kind == off_azimuth || kind == off_elevation) heard_there += received[kind][c.interval];
     const double of_cell = heard_there / shares_in_interval;
-    const double by_share = heard && of_cell > 0 ? cells.parts_of_share(c.energy / of_cell, c.widths) : HUGE_VAL;
+    const double by_share = energy && of_cell > 0 ? cells.parts_of_share(c.energy / of_cell, c.widths) : HUGE_VAL;
     *numbers[kind] += sampled.stands_for[surfel] * std::max(1.0, std::min(c.by_cells, by_share));
   }
 }

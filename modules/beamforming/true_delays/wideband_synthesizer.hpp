@@ -2,7 +2,7 @@
 #include <memory>
 #include <span>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/sonar_head.hpp"
 
@@ -40,7 +40,7 @@ class WidebandSynthesizer {
   ComplexGrid pressure(const Echoes& echoes) const;
   /// The same, to the byte, of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c.
   /// Chunks are made again for each block that they reach into; memory does not grow with their number.
-  ComplexGrid pressure_of(const EchoSource& source) const;
+  ComplexGrid pressure(const EchoStream& stream) const;
 
   /// |u| of echoes up to which one plan is used; for others there is one of all directions.
   static double usual_extent(const SonarHead& head);
