@@ -133,17 +133,6 @@ ordered_json sampling_json(const SimulatedPing& p) {
           {"noise_floor_db", p.report.noise_floor_db}};
 }
 
-ordered_json level_error_json(const ConvergenceReport& c) {
-  return {{"wanted_db", c.wanted_db},
-          {"reached", c.reached},
-          {"reached_db", c.reached_db},
-          {"share_below", c.share_below},
-          {"cells", c.judged},
-          {"samplings", c.samplings},
-          {"scatterers_per_cell", c.scatterers_per_cell},
-          {"rays_per_beam", c.rays_per_beam}};
-}
-
 ordered_json holes_json(const HoleReport& holes) {
   return {{"directions", holes.directions},
           {"unknown", holes.unknown},

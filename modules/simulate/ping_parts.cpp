@@ -7,7 +7,6 @@
 #include "acoustics/bend_paths.hpp"
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/echo_stream.hpp"
-#include "simulate/converge_sampling_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/surfel_energy_internal.hpp"
@@ -77,6 +76,13 @@ Echoes echoes_of(const SceneCloud& scene, const ResolvedPing& ping, const Scatte
   return echoes;
 }
 
+Sampling sample_view(const PreparedScene& prepared, const View& view) {
+  if (view.sampling.kind == SamplingKind::rays)
+    return find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+  const VisibleSurfels visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+  return {make_parts(prepared.scene(), view.world_from_head, visible), visible.report};
+}
+
 /// Removes the patches of the surfels `which` that are not wanted.
 void keep_wanted(const EchoSink& sink, const VisibleSurfels& visible, std::span<const std::uint32_t> which,
                  Scatterers& patches) {
@@ -140,8 +146,7 @@ class DirectStream final : public EchoStream {
 
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
   return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
-         o.sampling.kind == SamplingKind::rays || o.sampling.level_error_db > 0 || ping.environment.profile ||
-         !streamed(ping.head, o.synthesis.method);
+         o.sampling.kind == SamplingKind::rays || ping.environment.profile || !streamed(ping.head, o.synthesis.method);
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report) {
@@ -150,7 +155,7 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
   view.sampling.energy = surfel_energy(ping, prepared.scene().materials);
   parts.stored = needs_all_patches(ping, ping.options);
   if (parts.stored) {
-    parts.sampling = sample_view(prepared, ping, report.convergence);
+    parts.sampling = sample_view(prepared, view);
     report.refraction = refract(ping, parts.sampling.scatterers);
   } else {
     parts.visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);

@@ -26,7 +26,7 @@ struct PingParts {
 /// Whether, with these options, some stage asks for all patches or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& options);
 
-/// Samples the view, where rays are bent if the options say so; reports refraction and convergence.
+/// Samples the view, where rays are bent if the options say so; reports refraction.
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report);
 
 /// Returns the direct echoes of all patches, moved if the options say so. Refers to all arguments, of which it changes
@@ -46,7 +46,7 @@ struct Reverberation {
 std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping);
 
 /// Moves the sampling into `result`, whose ping is complete, and adds medium, noise floor and notes; and what the
-/// options ask for: level error and mask of holes, contributors (E63), paths of sound.
+/// options ask for: mask of holes, contributors (E63), paths of sound.
 void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, PingParts parts, SimulatedPing& result);
 
 }  // namespace insonify
