@@ -76,13 +76,6 @@ Echoes echoes_of(const SceneCloud& scene, const ResolvedPing& ping, const Scatte
   return echoes;
 }
 
-Sampling sample_view(const PreparedScene& prepared, const View& view) {
-  if (view.sampling.kind == SamplingKind::rays)
-    return find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
-  const VisibleSurfels visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
-  return {make_parts(prepared.scene(), view.world_from_head, visible), visible.report};
-}
-
 /// Removes the patches of the surfels `which` that are not wanted.
 void keep_wanted(const EchoSink& sink, const VisibleSurfels& visible, std::span<const std::uint32_t> which,
                  Scatterers& patches) {
@@ -149,19 +142,27 @@ bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
          o.sampling.kind == SamplingKind::rays || ping.environment.profile || !streamed(ping.head, o.synthesis.method);
 }
 
-PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report) {
+VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping) {
   View& view = ping.view;
-  PingParts parts;
   view.sampling.energy = surfel_energy(ping, prepared.scene().materials);
+  return find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+}
+
+PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report) {
+  const View& view = ping.view;
+  PingParts parts;
   parts.stored = needs_all_patches(ping, ping.options);
-  if (parts.stored) {
-    parts.sampling = sample_view(prepared, view);
-    report.refraction = refract(ping, parts.sampling.scatterers);
+  if (view.sampling.kind == SamplingKind::rays) {
+    parts.sampling = find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
   } else {
-    parts.visible = find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
-    widen_bounds(ping, parts.visible.bounds);
+    parts.visible = visible_surfels(prepared, ping);
     parts.sampling.report = parts.visible.report;
+    if (parts.stored) parts.sampling.scatterers = make_parts(prepared.scene(), view.world_from_head, parts.visible);
   }
+  if (parts.stored)
+    report.refraction = refract(ping, parts.sampling.scatterers);
+  else
+    widen_bounds(ping, parts.visible.bounds);
   return parts;
 }
 

@@ -41,7 +41,17 @@ ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& ev
 }
 
 PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {
-  return plan_of(scene.scene(), &scene, resolve(scene.whole(), event));
+  return plan_of(scene, resolve(scene.whole(), event));
+}
+
+SamplingReport PingSimulator::count(const PreparedScene& scene, const PingEvent& event) const {
+  ResolvedPing ping = resolve(scene.whole(), event);
+  decide_effects(scene, ping);
+  SamplingReport report = visible_surfels(scene, ping).report;
+  const SamplingOptions& sampling = ping.view.sampling;
+  if (sampling.kind == SamplingKind::rays)
+    report.scatterers = ping.head.fan.beams() * static_cast<std::size_t>(sampling.rays_per_beam);
+  return report;
 }
 
 InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& event) const {

@@ -26,6 +26,9 @@ struct PingParts {
 /// Whether, with these options, some stage asks for all patches or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& options);
 
+/// The surfels that the head sees, counted; sets ping.view.sampling.energy.
+VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping);
+
 /// Samples the view, where rays are bent if the options say so; reports refraction.
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report);
 

@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 #include "simulate/resolve_ping_internal.hpp"
 
@@ -65,7 +64,7 @@ SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
 
 /// One stage, judged: open ones by the budget, which sets `settled`.
 PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& settled) {
-  auto [included, why, bound, seconds, only_if_forced] = stage.judge(facts);
+  auto [included, why, bound, only_if_forced] = stage.judge(facts);
   if (stage.by == DecidedBy::budget) {
     const Choice asked = stage.asked(facts.ping.options);
     if (asked != Choice::as_needed) why = asked == Choice::always ? "asked for" : "off by the options";
@@ -73,14 +72,14 @@ PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double s
     Environment unchanged = facts.ping.environment;
     if (asked == Choice::as_needed) stage.force(included, unchanged, settled);
   }
-  return {stage.name, stage.by, included, std::move(why), bound, level_of(bound), seconds};
+  return {stage.name, stage.by, included, std::move(why), bound, level_of(bound)};
 }
 
 }  // namespace
 
-PingPlan plan_of(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
+PingPlan plan_of(const PreparedScene& prepared, const ResolvedPing& ping) {
   const SimulationOptions& options = ping.options;
-  const PlanFacts facts{scene, ping, sample_scene(scene, prepared, ping), gridding_of_a_row(ping)};
+  const PlanFacts facts{prepared.scene(), ping, sample_scene(prepared, ping), gridding_of_a_row(ping)};
   const std::vector<PlanStage> stages = all_stages();
   PingPlan plan;
   plan.options = options;
@@ -93,18 +92,13 @@ PingPlan plan_of(const SceneCloud& scene, const PreparedScene* prepared, const R
     if (stage.by == DecidedBy::budget && !planned.included) left_out += planned.bound_relative * planned.bound_relative;
   }
   plan.left_out_db = level_of(std::sqrt(left_out));
-  plan.surfels_in_view = static_cast<std::size_t>(facts.sample.surfels);
-  plan.scatterers = scatterers_of(facts, plan.options);
-  const PingCost cost = cost_of(facts, plan.options);
-  plan.seconds = cost.seconds;
-  plan.mib = cost.bytes / 0x1p20;
   return plan;
 }
 
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options) {
-  require_valid(scene, "plan_ping");
-  return plan_of(scene, nullptr, resolve_ping(whole_of(scene), head, event, environment, options, "plan_ping"));
+  const PreparedScene prepared(scene, options.threads);
+  return plan_of(prepared, resolve_ping(prepared.whole(), head, event, environment, options, "plan_ping"));
 }
 
 namespace {
@@ -125,8 +119,7 @@ SimulationOptions settled_by(const PlanFacts& facts) {
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {
   const std::vector<PlanStage> stages = all_stages();
   if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, ping.options); })) return;
-  const SceneCloud& scene = prepared.scene();
-  ping.options = settled_by({scene, ping, sample_scene(scene, &prepared, ping), {}});
+  ping.options = settled_by({prepared.scene(), ping, sample_scene(prepared, ping), {}});
   derive(prepared.whole(), ping);
 }
 

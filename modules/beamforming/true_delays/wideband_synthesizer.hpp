@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <span>
 
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesize.hpp"
@@ -49,18 +48,6 @@ class WidebandSynthesizer {
   struct Plan;
   std::unique_ptr<Plan> plan_;
 };
-
-/// What one image takes on one core.
-struct WidebandCost {
-  double seconds = 0;           ///< tables, sums and transforms, whatever the number of echoes
-  double seconds_per_echo = 0;  ///< beside making it
-  double bytes = 0;             ///< beside image and echoes
-};
-
-/// Estimate for echoes from about `ranges` [m], some of all, and |u| up to `widest`: sums of the sizes of its steps with
-/// coefficients fitted to measured times. Blocks without echoes cost nothing; echoes nearer than blocks reach cost much.
-WidebandCost wideband_cost(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest,
-                           std::span<const double> ranges);
 
 /// A WidebandSynthesizer made for this one image. Throws Error as it does.
 ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,
