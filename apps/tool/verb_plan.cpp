@@ -27,10 +27,12 @@ void plan(const PingCommand& command) {
   const PingPlan plan = simulator.plan(scene, ready.event);
   const SamplingReport count = simulator.count(scene, ready.event);
   nlohmann::ordered_json json = plan_json(plan);
-  json["surfels_in_view"] = count.visible, json["scatterers"] = count.scatterers;
+  json["surfels_in_view"] = count.visible, json["back_facing"] = count.back_facing;
+  json["scatterers"] = count.scatterers;
   print_result(o.common, json, [&] {
     print_plan(plan);
-    fmt::print("{} surfels in view, {} scatterers\n", count.visible, count.scatterers);
+    fmt::print("{} surfels in view, {} more turn away; {} scatterers\n", count.visible, count.back_facing,
+               count.scatterers);
   });
 }
 

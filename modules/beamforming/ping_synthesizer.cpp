@@ -11,6 +11,7 @@
 #include "beamforming/narrow_band/windowed_sum_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/numerics/synthesis_precision_internal.hpp"
+#include "beamforming/row_echoes_internal.hpp"
 #include "core/error.hpp"
 
 namespace insonify {
@@ -114,6 +115,10 @@ ComplexGrid PingSynthesizer::pressure(const EchoStream& stream) const {
   if (!plan_->sums_directly(stream.size()))
     if (auto image = plan_->accurate(stream)) return std::move(*image);
   return pressure(all_echoes(stream));
+}
+
+SynthesisChoice choice_of_a_row(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
+  return PingSynthesizer(line_head(head, fan_rows(head.fan).front()), medium, options).choice();
 }
 
 ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, const Medium& medium,

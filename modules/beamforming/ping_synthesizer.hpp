@@ -49,4 +49,7 @@ class PingSynthesizer {
   std::unique_ptr<Plan> plan_;
 };
 
+/// What a PingSynthesizer chooses for the first row of beams of any head.
+SynthesisChoice choice_of_a_row(const SonarHead& head, const Medium& medium, const SynthesisOptions& options);
+
 }  // namespace insonify

@@ -135,12 +135,14 @@ class DirectStream final : public EchoStream {
   std::vector<std::uint32_t> first_surfel_{0};  // of each chunk
 };
 
-}  // namespace
-
-bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& o) {
+/// Whether some stage asks for all patches, or for a synthesis that takes all echoes at once.
+bool needs_all_patches(const ResolvedPing& ping) {
+  const SimulationOptions& o = ping.options;
   return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
          o.sampling.kind == SamplingKind::rays || ping.environment.profile || !streamed(ping.head, o.synthesis.method);
 }
+
+}  // namespace
 
 VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping) {
   View& view = ping.view;
@@ -151,7 +153,7 @@ VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report) {
   const View& view = ping.view;
   PingParts parts;
-  parts.stored = needs_all_patches(ping, ping.options);
+  parts.stored = needs_all_patches(ping);
   if (view.sampling.kind == SamplingKind::rays) {
     parts.sampling = find_scatterers(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
   } else {
@@ -180,9 +182,8 @@ void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, Ping
   view.sampling.energy = nullptr;
   Scatterers seen;
   if (view.sampling.kind == SamplingKind::surfels) {
-    std::vector<std::uint32_t> surfels = parts.stored ? parts.sampling.scatterers.surfel : parts.visible.surfel;
+    std::vector<std::uint32_t> surfels = parts.visible.surfel;
     std::sort(surfels.begin(), surfels.end());
-    surfels.erase(std::unique(surfels.begin(), surfels.end()), surfels.end());
     seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
     refract(ping, seen);
   }

@@ -1,12 +1,14 @@
 // A ping: the whole signal path. Start reading at PingSimulator::ping.
 #include "simulate/ping_simulator.hpp"
 
+#include <complex>
+#include <limits>
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
 #include "core/stop_watch.hpp"
 #include "core/work_progress.hpp"
-#include "simulate/average_looks_internal.hpp"
+#include "returns/looks.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
@@ -24,6 +26,27 @@ struct PingSimulator::Shared {
 namespace {
 
 constexpr const char* me = "PingSimulator";
+
+Grid<double> intensity_of(const Ping& ping) { return ping.pressure.cast<std::complex<double>>().abs2(); }
+
+/// Gives a ping the intensity of its looks (E71), if its options ask for more than one: its own and that of further pulses
+/// with seeds of their own, each made by simulate(ResolvedPing), averaged over pulses and bins.
+template <typename Simulate>
+void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& simulate) {
+  const OutputSettings& wanted = resolved.options.outputs;
+  if (wanted.looks_range == 1 && wanted.looks_pings == 1) return;
+  Grid<double> sum = intensity_of(ping);
+  // Only the pressure counts.
+  ResolvedPing look = resolved;
+  look.options.outputs = {};
+  look.detection.threshold_db = std::numeric_limits<double>::infinity();
+  for (int k = 1; k < wanted.looks_pings; ++k) {
+    look.options.seed += 0x9e3779b97f4a7c15;  // the golden ratio: far from the seeds of other pings
+    look.sent.echo_options.seed = look.view.sampling.seed = look.options.seed;
+    sum += intensity_of(simulate(look));
+  }
+  ping.intensity = mean_over_bins(sum / wanted.looks_pings, wanted.looks_range);
+}
 
 }  // namespace
 

@@ -17,14 +17,11 @@ class LayerSum;
 /// they are used.
 struct PingParts {
   bool stored = false;
-  VisibleSurfels visible{};  ///< if not stored
+  VisibleSurfels visible{};  ///< if sampled by surfels
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
   Multipath bounced{};
 };
-
-/// Whether, with these options, some stage asks for all patches or for a synthesis that takes all echoes at once.
-bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& options);
 
 /// The surfels that the head sees, counted; sets ping.view.sampling.energy.
 VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping);

@@ -12,8 +12,7 @@ using O = SimulationOptions;
 
 StageVerdict judge_back_faces(const PlanFacts& facts) {
   if (!facts.scene.normals_oriented) return {true, "normals have no side: both sides reflect", 0};
-  const auto away = static_cast<long long>(facts.sample.back_facing);
-  return {false, std::to_string(away) + " surfels in view turn away: Lambert's law gives nothing", 0};
+  return {false, "of surfels that turn away Lambert's law gives nothing", 0};
 }
 
 StageVerdict judge_other_ranges(const PlanFacts& facts) {

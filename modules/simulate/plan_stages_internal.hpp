@@ -19,9 +19,6 @@ struct PlanFacts {
   SynthesisChoice synthesis;  ///< for one row of beams
 };
 
-/// The head with the beams of its first row only, as a line array.
-SonarHead head_of_a_row(const SonarHead& head);
-
 /// Factor in amplitude between the error expected of the sample and its bound.
 constexpr double plan_margin = 2;
 

@@ -136,7 +136,6 @@ void derive(const WholeScene& scene, ResolvedPing& ping) {
   ping.view = {ping.event.world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
                sampling_of(scene, ping)};
   ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
-  ping.sector = insonified_sector(head.fan, ping.view.sampling);
   ping.region = region_of(ping);
   ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
 }

@@ -16,7 +16,6 @@ struct ResolvedPing {
   SimulationOptions options;
   Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by
   View view{};                  ///< pose, fan, sampled ranges and sampling
-  Sector sector{};              ///< that is sampled
   InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. What
                                 ///< is left as needed counts as in here, and as out elsewhere
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]

@@ -59,7 +59,6 @@ struct Sampled {
   SceneCloud scene;
   std::vector<Kind> kind;
   std::vector<double> stands_for;  ///< so many surfels
-  double back_facing = 0;          ///< of those in view, for the whole scene
 };
 
 Sampled sampled_surfels(const PreparedScene& prepared, const ResolvedPing& ping, const Sorter& sorter) {
@@ -97,9 +96,6 @@ Sampled sampled_surfels(const PreparedScene& prepared, const ResolvedPing& ping,
       keep.push_back(members[k][i]);
       sampled.kind.push_back(static_cast<Kind>(k));
       sampled.stands_for.push_back(static_cast<double>(n) / count);
-      const Eigen::Vector3d p = shift + scene.point[members[k][i]].cast<double>();
-      const bool away = p.dot(scene.normal[members[k][i]].cast<double>()) >= 0;
-      if (k == in_view && away && scene.normals_oriented) sampled.back_facing += sampled.stands_for.back();
     }
   }
   sampled.scene = subset(scene, keep);
@@ -193,7 +189,6 @@ SceneSample sample_scene(const PreparedScene& prepared, const ResolvedPing& ping
     s.energy.back() = energy;
     s.power.back() = power;
   }
-  s.back_facing = sampled.back_facing;
   s.scene = std::move(sampled.scene);
   s.places = std::move(patches);
   return s;

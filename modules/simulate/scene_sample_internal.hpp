@@ -19,8 +19,6 @@ struct SceneSample {
   std::vector<double> energy;             ///< of each of `places` [Pa^2, as above]; 0 outside the view
   std::vector<double> power;              ///< the same at one element, without the beams [Pa^2]
   std::vector<double> power_off_azimuth;  ///< of those off_azimuth; empty if these are out by the options
-
-  double back_facing = 0;  ///< in view but turned away, estimated
 };
 
 /// Given echoes of patches or targets at `places` as such a sample, of the head's gate alone: only places, energy, power

@@ -111,8 +111,7 @@ bool PlanarSynthesizer::suits(const SonarHead& head, const SynthesisOptions& opt
 PlanarSynthesizer::PlanarSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   // As many as a row of beams would rather sum.
-  const std::size_t direct =
-      PingSynthesizer(line_head(head, fan_rows(head.fan).front()), medium, options).choice().direct_echoes;
+  const std::size_t direct = choice_of_a_row(head, medium, options).direct_echoes;
   plan_ = std::make_unique<Plan>(head, medium, options,
                                  PlanarTolerance{expected_share(head.array, wavelength, beam_cosines(head.fan)),
                                                  expected_share(*head.column, wavelength, row_sines(head.fan))},
