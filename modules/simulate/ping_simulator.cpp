@@ -12,7 +12,7 @@
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
-#include "simulate/resolve_ping_internal.hpp"
+#include "simulate/resolve_ping.hpp"
 
 namespace insonify {
 
@@ -60,7 +60,7 @@ const Environment& PingSimulator::environment() const { return shared_->environm
 const SimulationOptions& PingSimulator::options() const { return shared_->options; }
 
 ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& event) const {
-  return resolve_valid_ping(scene, shared_->head, event, shared_->environment, shared_->options, me);
+  return resolve_ping(scene, shared_->head, event, shared_->environment, shared_->options, me);
 }
 
 PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "simulate/plan_stages_internal.hpp"
-#include "simulate/resolve_ping_internal.hpp"
+#include "simulate/resolve_ping.hpp"
 
 namespace insonify {
 

@@ -48,4 +48,11 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
                           const Environment& environment, const SimulationOptions& options = {},
                           const char* who = "resolve_ping");
 
+/// Throws Error(argument) for an invalid head or option, and for multipath without a boundary.
+void require_valid(const SonarHead& head, const Environment& environment, const SimulationOptions& options,
+                   const char* who);
+
+/// Derives again all that follows from ping.options.
+void derive(const WholeScene& scene, ResolvedPing& ping);
+
 }  // namespace insonify
