@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures what the plan promises and writes docs/plan.md. Takes about a minute; times are those of this machine.
+# Measures what the plan promises and writes docs/plan.md. Takes about a minute.
 #   docs/make_plan.sh [build/release/bin]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -68,7 +68,7 @@ Default options.
 - **refraction** and **motion** turn phases at once; in wherever there is a profile or a moving head;
 - **multipath** is in where pattern and pose let an echo by a boundary be received;
 - **true delays** are in for nearly every line array: a band of 5 % of the carrier, or a range of a hundred lengths of the array, costs more than their share;
-  those of planar arrays, which are summed row by row, in a minute for 64 rows, stay out unless asked for (`--with true-delays`), and the plan says what that costs.
+  those of planar arrays, which are summed row by row, in a minute for 64 rows, stay out unless asked for (`--with true-delays`).
 
 | scene | outer elevations | outer azimuths | absorption's slope | refraction | motion | multipath | true delays | left out |
 |---|---|---|---|---|---|---|---|---|
@@ -78,15 +78,6 @@ plan "harbour and surface, p900-45" "$work/harbour.ply" --sonar p900-45 --pose=0
 plan "plane, p900-45" "$work/plane.ply" --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:12
 plan "plane, oculus-m750d" "$work/plane.ply" --sonar oculus-m750d --pose=0,0,3,0,15,0 --range 1:12
 plan "deep water, em2040" "$work/deep.ply" --sonar em2040 --pose=40,0,25,0,0,0 --range 20:40 --set water.depth_m=1000 --set water.temperature_c=3
-cat <<TEXT
-
-## Time and memory
-
-What the plan says of a ping, and what it takes on one thread of this machine ($(nproc) cores, load $(cut -d' ' -f1 /proc/loadavg)); memory beside the scene. The cost
-model was fitted to these pings. A test holds memory within a factor of 1.5; time depends on the machine.
-
-TEXT
-"$bin/plan_table" costs
 } >"$work/plan.md"
 mv "$work/plan.md" docs/plan.md
 echo "docs/plan.md written"

@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
 #include "beamforming/narrow_band/windowed_sum_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/numerics/synthesis_precision_internal.hpp"
+#include "beamforming/row_echoes_internal.hpp"
 #include "core/error.hpp"
 
 namespace insonify {
@@ -58,15 +59,15 @@ struct PingSynthesizer::Plan {
   }
   /// The gridded image, unless its error cannot be kept. Where the beams receive a smaller fraction of the gridded
   /// energy than expected, the relative error may exceed the tolerance: again with a kernel of lower tolerance.
-  template <typename EchoesOrSource>
-  std::optional<ComplexGrid> accurate(const EchoesOrSource& echoes) const {
+  template <typename EchoesOrStream>
+  std::optional<ComplexGrid> accurate(const EchoesOrStream& echoes) const {
     GriddedImage image = gridded(echoes);
     if (image.share >= 0.5 * share) return std::move(image.pressure);
     if (options.tolerance * image.share < min_kernel_tolerance) return std::nullopt;
     return Plan(head, medium, options, image.share).gridded(echoes).pressure;
   }
-  template <typename EchoesOrSource>
-  GriddedImage gridded(const EchoesOrSource& echoes) const {
+  template <typename EchoesOrStream>
+  GriddedImage gridded(const EchoesOrStream& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
   }
   /// The direct sum with pulses cut at the tolerance, or later if the echoes cancel.
@@ -109,11 +110,15 @@ ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
   return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
 }
 
-ComplexGrid PingSynthesizer::pressure_of(const EchoSource& source) const {
-  if (source.stored) return pressure(*source.stored);
-  if (!plan_->sums_directly(source.size()))
-    if (auto image = plan_->accurate(source)) return std::move(*image);
-  return pressure(all_echoes(source));
+ComplexGrid PingSynthesizer::pressure(const EchoStream& stream) const {
+  if (stream.stored()) return pressure(*stream.stored());
+  if (!plan_->sums_directly(stream.size()))
+    if (auto image = plan_->accurate(stream)) return std::move(*image);
+  return pressure(all_echoes(stream));
+}
+
+SynthesisChoice choice_of_a_row(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
+  return PingSynthesizer(line_head(head, fan_rows(head.fan).front()), medium, options).choice();
 }
 
 ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, const Medium& medium,

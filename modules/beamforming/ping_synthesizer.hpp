@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesis_choice.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/sonar_head.hpp"
@@ -37,7 +37,7 @@ class PingSynthesizer {
   ComplexGrid pressure(const Echoes& echoes) const;
   /// The same of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c. Chunks are made
   /// again for each slab of bins that they reach into.
-  ComplexGrid pressure_of(const EchoSource& source) const;
+  ComplexGrid pressure(const EchoStream& stream) const;
 
   /// Returns what the constructor has chosen for head, medium and tolerance.
   SynthesisChoice choice() const;
@@ -48,5 +48,8 @@ class PingSynthesizer {
   struct Plan;
   std::unique_ptr<Plan> plan_;
 };
+
+/// What a PingSynthesizer chooses for the first row of beams of any head.
+SynthesisChoice choice_of_a_row(const SonarHead& head, const Medium& medium, const SynthesisOptions& options);
 
 }  // namespace insonify

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numeric>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -43,6 +43,32 @@ Echoes turned(const Echoes& echoes, double phase_per_u) {
   return here;
 }
 
+/// The echoes of a stream with the phase of a half.
+class TurnedEchoes final : public EchoStream {
+ public:
+  TurnedEchoes(const EchoStream& stream, double phase_per_u) : stream_(stream), phase_per_u_(phase_per_u) {}
+  std::span<const ChunkBounds> chunks() const override { return stream_.chunks(); }
+  bool moving() const override { return stream_.moving(); }
+  void visit(std::size_t chunk, EchoSink& sink) const override {
+    TurningSink turning(sink, phase_per_u_);
+    stream_.visit(chunk, turning);
+  }
+
+ private:
+  struct TurningSink final : EchoSink {
+    EchoSink& next;
+    double phase_per_u;
+    TurningSink(EchoSink& sink, double phase) : next(sink), phase_per_u(phase) {}
+    bool wants(const SurfelBounds& bounds) const override { return next.wants(bounds); }
+    bool chooses_patches() const override { return next.chooses_patches(); }
+    void take(const Scatterers& patches, const Echoes& echoes) override {
+      next.take(patches, turned(echoes, phase_per_u));
+    }
+  };
+  const EchoStream& stream_;
+  double phase_per_u_;
+};
+
 void steer_rows(ComplexGrid& pressure, const BeamFan& fan, double phase_per_u) {
   for (std::size_t b = 0; b < fan.beams(); ++b) {
     const double u = std::cos(fan.elevation[b]) * std::sin(fan.azimuth[b]);
@@ -67,16 +93,11 @@ SplitAperture split_aperture(const SonarHead& head, const char* who) {
   return split;
 }
 
-ComplexGrid half_pressure(const EchoSource& source, const SplitAperture& split, ApertureSide side, const Medium& medium,
+ComplexGrid half_pressure(const EchoStream& stream, const SplitAperture& split, ApertureSide side, const Medium& medium,
                           const SynthesisOptions& options) {
   const double per_u = phase_per_cosine(split, side, medium);
-  if (source.stored) return half_pressure(*source.stored, split, side, medium, options);
-  EchoSource here = source;
-  here.visit = [&source, per_u](std::size_t chunk, const EchoSource::Filter& wanted, const EchoSource::Visitor& visit) {
-    source.visit(chunk, wanted,
-                 [&](const Scatterers& patches, const Echoes& echoes) { visit(patches, turned(echoes, per_u)); });
-  };
-  ComplexGrid pressure = PingSynthesizer(split.head, medium, options).pressure_of(here);
+  if (stream.stored()) return half_pressure(*stream.stored(), split, side, medium, options);
+  ComplexGrid pressure = PingSynthesizer(split.head, medium, options).pressure(TurnedEchoes(stream, per_u));
   steer_rows(pressure, split.head.fan, per_u);
   return pressure;
 }

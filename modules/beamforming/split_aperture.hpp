@@ -1,5 +1,5 @@
 #pragma once
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/grid.hpp"
 #include "sonar/sonar_head.hpp"
@@ -24,7 +24,7 @@ enum class ApertureSide { port, starboard };
 /// Returns the image of one half, beams x bins [Pa], as synthesize_gridded of an array at its own place: echoes arrive with
 /// the phase exp(-+i k b u), as their delays give it (E61), and beams are steered with exp(+-i k b u_b), b the half
 /// baseline, above for port (E92). Narrow band, far field.
-ComplexGrid half_pressure(const EchoSource& source, const SplitAperture& split, ApertureSide side, const Medium& medium,
+ComplexGrid half_pressure(const EchoStream& stream, const SplitAperture& split, ApertureSide side, const Medium& medium,
                           const SynthesisOptions& options);
 /// The same of stored echoes.
 ComplexGrid half_pressure(const Echoes& echoes, const SplitAperture& split, ApertureSide side, const Medium& medium,

@@ -1,6 +1,6 @@
 #include "beamforming/synthesize.hpp"
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesizer.hpp"
 
 namespace insonify {
@@ -10,9 +10,9 @@ ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium
   return Synthesizer(head, medium, method, options).pressure(echoes);
 }
 
-ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium, SynthesisMethod method,
+ComplexGrid synthesize(const EchoStream& stream, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options) {
-  return Synthesizer(head, medium, method, options).pressure(source);
+  return Synthesizer(head, medium, method, options).pressure(stream);
 }
 
 bool streamed(const SonarHead& head, SynthesisMethod method) {

@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-struct EchoSource;
+class EchoStream;
 
 /// Method of synthesis; all but `incoherent` give the complex pressure of the synthesizers below, `incoherent` the
 /// expected level without speckle (synthesize_intensity).
@@ -44,7 +44,7 @@ ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium
                        const SynthesisOptions& options = {});
 
 /// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made first.
-ComplexGrid synthesize(const EchoSource& source, const SonarHead& head, const Medium& medium, SynthesisMethod method,
+ComplexGrid synthesize(const EchoStream& stream, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options = {});
 /// Whether the pressure of `head` is formed without all echoes at once: methods `gridded` and `true_delays` of one row of
 /// beams, and `gridded` of a planar array with Gaussian pulses.

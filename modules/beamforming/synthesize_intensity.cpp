@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace insonify {
@@ -61,14 +59,14 @@ LineInput squared(LineInput image) {
   return image;
 }
 
-/// Samples of |G|^(2 power) of one echo, beginning at bin `first`.
-struct PulsePower {
+/// Samples of |G|^2 of one echo, beginning at bin `first`.
+struct SquaredPulse {
   std::size_t first = 0;
   std::vector<double> sample;
 };
 
-/// Direct sum of (|A|^2 |B|^2 |G|^2)^power over echoes.
-Grid<double> sum_directly(const LineInput& image, int power, int threads) {
+/// Direct sum of |A|^2 |B|^2 |G|^2 over echoes.
+Grid<double> sum_directly(const LineInput& image, int threads) {
   const auto& [echoes, head, medium] = image;
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   const std::vector<double> u_beam = beam_cosines(head.fan);
@@ -77,7 +75,7 @@ Grid<double> sum_directly(const LineInput& image, int power, int threads) {
   Grid<double> sum = Grid<double>::Zero(head.fan.beams(), axis.bins);
   for (std::size_t first = 0; first < echoes.size(); first += intensities_at_once) {
     const std::size_t count = std::min(intensities_at_once, echoes.size() - first);
-    std::vector<PulsePower> pulses(count);
+    std::vector<SquaredPulse> pulses(count);
     parallel_for(count, threads, [&](std::size_t k) {
       const double delay = echoes.delay[first + k];
       const EchoEnvelope envelope = shapes.of(delay, echoes.doppler_of(first + k));
@@ -85,13 +83,13 @@ Grid<double> sum_directly(const LineInput& image, int power, int threads) {
       pulses[k].first = begin;
       for (std::size_t n = begin; n < end; ++n) {
         const double t = axis.start + static_cast<double>(n) * axis.step - delay;
-        pulses[k].sample.push_back(std::pow(std::norm(envelope.at(t)), power));
+        pulses[k].sample.push_back(std::norm(envelope.at(t)));
       }
     });
     parallel_for(head.fan.beams(), threads, [&](std::size_t b) {
       for (std::size_t k = 0; k < count; ++k) {
         const double response = array_response(head.array, wavelength, echoes.u[first + k], u_beam[b]);
-        const double weight = std::pow(std::norm(echoes.amplitude[first + k]) * response * response, power);
+        const double weight = std::norm(echoes.amplitude[first + k]) * response * response;
         double* at = &sum(static_cast<Eigen::Index>(b), 0) + pulses[k].first;
         for (const double sample : pulses[k].sample) *at++ += weight * sample;  // (E65)
       }
@@ -100,12 +98,12 @@ Grid<double> sum_directly(const LineInput& image, int power, int threads) {
   return sum;
 }
 
-/// Sum of (|A|^2 |B|^2 |G|^2)^power over the echoes of a line array, power 1 or 2.
-Grid<double> sum_of_powers(const Echoes& echoes, const SonarHead& head, const Medium& medium, int power,
-                           const SynthesisOptions& options) {
+/// Sum of |A|^2 |B|^2 |G|^2 over the echoes of a line array.
+Grid<double> sum_of_squares(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                            const SynthesisOptions& options) {
   LineInput image{echoes, head, medium};
-  if (head.pulse.shape == PulseShape::linear_fm) return sum_directly(image, power, options.threads);
-  for (int k = 0; k < power; ++k) image = squared(std::move(image));
+  if (head.pulse.shape == PulseShape::linear_fm) return sum_directly(image, options.threads);
+  image = squared(std::move(image));
   return synthesize_gridded(image.echoes, image.head, image.medium, options).real().max(0);
 }
 
@@ -118,29 +116,7 @@ Grid<double> synthesize_intensity(const Echoes& echoes, const SonarHead& head, c
                                  options.threads};
   return image_by_rows<Grid<double>>(
       echoes, head, medium, row_cutoff(options.tolerance, fan_rows(head.fan).size()), options.threads,
-      [&](const Echoes& of_row, const SonarHead& line) { return sum_of_powers(of_row, line, medium, 1, squares); });
-}
-
-Grid<float> predict_level_error_db(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                   const LevelErrorOptions& options) {
-  if (!(options.dynamic_range_db > 0 && options.dynamic_range_db <= 50))
-    fail(ErrorKind::argument, "predict_level_error_db: dynamic_range_db = ", options.dynamic_range_db,
-         " dB, must be within (0, 50]");
-  require_synthesis(echoes, head, medium, {1e-3, options.threads}, "predict_level_error_db");
-  // Tolerance of 1 % of the weakest cell judged.
-  const double weakest = std::pow(10, -0.1 * options.dynamic_range_db);
-  const auto sum = [&](int power) {
-    const SynthesisOptions fine{std::max(min_gridding_tolerance, 0.01 * std::pow(weakest, power)), options.threads};
-    return image_by_rows<Grid<double>>(
-        echoes, head, medium, row_cutoff(weakest, fan_rows(head.fan).size()), options.threads,
-        [&](const Echoes& of_row, const SonarHead& line) { return sum_of_powers(of_row, line, medium, power, fine); });
-  };
-  const Grid<double> once = sum(1), twice = sum(2);
-  const double least = weakest * once.maxCoeff(), db_per_part = 10 / std::numbers::ln10;
-  return once.binaryExpr(twice, [&](double w, double w2) {
-    if (!(w > 0 && w >= least)) return std::numeric_limits<float>::quiet_NaN();
-    return static_cast<float>(db_per_part * std::sqrt(w2) / w);  // (E66)
-  });
+      [&](const Echoes& of_row, const SonarHead& line) { return sum_of_squares(of_row, line, medium, squares); });
 }
 
 }  // namespace insonify

@@ -19,23 +19,4 @@ namespace insonify {
 Grid<double> synthesize_intensity(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                   const SynthesisOptions& options = {});
 
-/// Options of predict_level_error_db.
-struct LevelErrorOptions {
-  double dynamic_range_db = 40;  ///< cells further below the strongest one are NaN; within (0, 50]
-  int threads = 0;               ///< 0: all cores; the result does not depend on it
-};
-
-/// Returns the standard error of the expected level due to the finite number of sample points, beams x bins [dB] (E66):
-///
-///   sigma = (10 / ln 10) sqrt(sum_i w_i^2) / sum_i w_i,   w_i = |A_i|^2 |B_b(u_i)|^2 |G_i(t_n)|^2
-///
-/// NaN for cells that are silent or more than dynamic_range_db below the strongest one. Assumes independent points,
-/// whose number in a cell is Poisson distributed: 100 equal ones give 0.43 dB. For stratified points (split surfels,
-/// jittered rays) it is an upper estimate. It does not include surfaces that no point samples, nor speckle. First order
-/// in sigma: values above about 2 dB only indicate that points are too few. Amplitudes and sweeps as in
-/// synthesize_intensity, at twice its cost; the virtual head has 4N - 3 elements. Accurate to 2 % of the sums above.
-/// Throws Error as synthesize_intensity does, or for a dynamic range out of bounds.
-Grid<float> predict_level_error_db(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                   const LevelErrorOptions& options = {});
-
 }  // namespace insonify

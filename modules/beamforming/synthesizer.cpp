@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
@@ -82,14 +82,14 @@ ComplexGrid Synthesizer::pressure(const Echoes& echoes) const {
       [&](const Echoes& of_row, const SonarHead& row) { return pressure_of_row(of_row, row, rows == 1); });
 }
 
-ComplexGrid Synthesizer::pressure(const EchoSource& source) const {
-  if (source.stored) return pressure(*source.stored);
+ComplexGrid Synthesizer::pressure(const EchoStream& stream) const {
+  if (stream.stored()) return pressure(*stream.stored());
   const bool planar = PlanarSynthesizer::suits(head_, options_);
-  if (!streamed(head_, method_) || (head_.column && !planar)) return pressure(all_echoes(source));
+  if (!streamed(head_, method_) || (head_.column && !planar)) return pressure(all_echoes(stream));
   if (method_ == SynthesisMethod::true_delays)
-    return engines_->true_delays.of(head_, medium_, options_).pressure_of(source);
-  if (planar) return engines_->planar.of(head_, medium_, options_).pressure_of(source);
-  return engines_->narrow_band.of(head_, medium_, options_).pressure_of(source);
+    return engines_->true_delays.of(head_, medium_, options_).pressure(stream);
+  if (planar) return engines_->planar.of(head_, medium_, options_).pressure(stream);
+  return engines_->narrow_band.of(head_, medium_, options_).pressure(stream);
 }
 
 }  // namespace insonify

@@ -19,7 +19,7 @@ class Synthesizer {
   ComplexGrid pressure(const Echoes& echoes) const;
   /// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made
   /// first.
-  ComplexGrid pressure(const EchoSource& source) const;
+  ComplexGrid pressure(const EchoStream& stream) const;
 
  private:
   struct Engines;

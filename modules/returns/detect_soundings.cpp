@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
@@ -157,7 +157,7 @@ double background_factor(double false_alarm_rate, int cells) {
   return cells * std::expm1(-std::log(false_alarm_rate) / cells);  // (E78)
 }
 
-Soundings detect_soundings(const Ping& ping, const EchoSource& source, const DetectionOptions& options) {
+Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options) {
   require(options.false_alarm_rate > 0 && options.false_alarm_rate <= 1, me, "false_alarm_rate",
           options.false_alarm_rate, "", "above 0 and at most 1");
   require(options.range_resolution >= 0, me, "range_resolution", options.range_resolution, "m", ">= 0");
@@ -170,7 +170,7 @@ Soundings detect_soundings(const Ping& ping, const EchoSource& source, const Det
   std::vector<Pixel> pixels;
   for (std::size_t b = 0; b < of_beam.size(); ++b)
     for (const Cell cell : of_beam[b]) pixels.push_back({static_cast<std::uint32_t>(b), cell.bin});
-  const auto from = strongest_contributors(pixels, source, ping.fan, ping.gate, options.threads);
+  const auto from = strongest_contributors(pixels, stream, ping.fan, ping.gate, options.threads);
   Soundings all;
   auto contributor = from.begin();
   for (std::size_t b = 0; b < of_beam.size(); ++b)
@@ -180,7 +180,7 @@ Soundings detect_soundings(const Ping& ping, const EchoSource& source, const Det
 
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
                            const DetectionOptions& options) {
-  return detect_soundings(ping, stored_source(scatterers, echoes, me), options);
+  return detect_soundings(ping, StoredEchoes(scatterers, echoes, me), options);
 }
 
 }  // namespace insonify

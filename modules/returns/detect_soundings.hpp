@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-struct EchoSource;
+class EchoStream;
 
 /// Thresholds of detect_soundings.
 struct DetectionOptions {
@@ -37,16 +37,16 @@ double background_factor(double false_alarm_rate, int cells);
 /// Maxima are a resolution cell apart at least, rounded up to bins.
 /// Range and level of a maximum are those of the parabola through its level and those beside it (E72): exact for a
 /// Gaussian pulse alone, whose peak bins as long as the pulse sample up to 3 dB low. With all_bins they are those of the
-/// bin. The ping alone decides: noise, reverberation and side lobes are detected as any echo. `source` gives only the
+/// bin. The ping alone decides: noise, reverberation and side lobes are detected as any echo. `stream` gives only the
 /// columns true_..., and the direction in which the cloud shows a sounding: those of the strongest contributing scatterer
 /// within one bin length, searched in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in
 /// elevation for a fan of several rows or a planar array).
 ///
-/// source   patches and echoes the ping was synthesized from; may be empty
+/// stream   patches and echoes the ping was synthesized from; may be empty
 ///
 /// Cost: two reads of the ping, and the parts of surfels near detections made again. The result does not depend on
 /// options.threads. Throws Error for a rate outside (0, 1], or a resolution or reach that is not >= 0.
-Soundings detect_soundings(const Ping& ping, const EchoSource& source, const DetectionOptions& options = {});
+Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options = {});
 
 /// The same for patches and echoes that are stored, index by index; throws Error if their numbers differ.
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,

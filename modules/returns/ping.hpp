@@ -38,7 +38,6 @@ struct Ping {
   bool expected_level = false;  ///< `pressure` is the root of an expected intensity (E65), without speckle and phase;
                                 ///< squares of the layers add up
   Grid<float> intensity{};  ///< mean of |pressure|^2 over the looks of a display, beams x bins [Pa^2] (E71); or empty
-  Grid<float> level_error_db{};  ///< sampling error, beams x bins [dB] (E66), NaN where not judged; or empty
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
   Grid<float>
       split_phase{};     ///< between the halves of the array [rad], beams x bins, positive towards port (E92); or empty

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "returns/strongest_contributors_internal.hpp"
@@ -90,16 +90,18 @@ class PixelTable {
   std::vector<std::uint32_t> sum_;
 };
 
-/// The pixels of bins [first, end): for each echo those that it may contribute to.
-class SlabSearch {
+/// The pixels of bins [first, end): offers each echo as contributor to those that it may contribute to, in order.
+class SlabSearch final : public EchoSink {
  public:
   SlabSearch(const std::vector<Pixel>& pixels, const std::vector<std::size_t>& beam_begin,
-             const std::vector<BeamRegion>& regions, const RangeGate& gate, std::size_t first, std::size_t end)
+             const std::vector<BeamRegion>& regions, const RangeGate& gate, std::size_t first, std::size_t end,
+             std::vector<StrongestContributor>& found)
       : regions_(regions),
         gate_(gate),
         bins_(static_cast<double>(gate.bins())),
         first_(first),
         end_(std::min(end, gate.bins())),
+        found_(found),
         begin_(end_ - first + 1, 0) {
     for (const BeamRegion& region : regions) widest_ = std::max(widest_, region.width.u);
     const auto below = [](const Pixel& p, std::size_t bin) { return p.bin < bin; };
@@ -123,20 +125,16 @@ class SlabSearch {
   }
 
   bool empty() const { return wanted_.empty(); }
-  bool overlaps(const EchoSource::Chunk& chunk) const {
+  bool overlaps(const ChunkBounds& chunk) const {
     return last_bin(chunk.max_range) >= first_ && first_bin(chunk.min_range) < end_;
   }
-  /// Whether a pixel is near a surfel.
-  bool near(const PatchPlace& place) const {
-    const std::size_t low = first_bin(place.range - place.reach), high = last_bin(place.range + place.reach);
-    return may_hold(low, high + 1, place.u, widest_ + place.reach_u);
+  /// Whether a pixel is near.
+  bool wants(const SurfelBounds& s) const override {
+    const std::size_t low = first_bin(s.range - s.reach), high = last_bin(s.range + s.reach);
+    return may_hold(low, high + 1, s.u, widest_ + s.reach_u);
   }
-  /// Whether a pixel is near a patch of a surfel.
-  bool near(const PatchPlace& surfel, double range) const {
-    return may_hold(first_bin(range), last_bin(range) + 1, surfel.u, widest_ + surfel.reach_u);
-  }
-  /// Offers echoes as contributors of all pixels of the slab, in order.
-  void offer(const Scatterers& s, const Echoes& echoes, std::vector<StrongestContributor>& found) const {
+  bool chooses_patches() const override { return true; }
+  void take(const Scatterers& s, const Echoes& echoes) override {
     for (std::size_t i = 0; i < echoes.size(); ++i) {
       // The first and the last bin include echoes up to one bin outside the gate.
       const double n = std::floor((s.range[i] - gate_.min_range) / gate_.bin_size);
@@ -145,7 +143,7 @@ class SlabSearch {
       if (bin + 1 < first_ || bin > end_) continue;
       const std::size_t low = std::max(bin, first_ + 1) - 1 - first_, high = std::min(bin + 2, end_) - first_;
       if (!may_hold(low + first_, high + first_, echoes.u[i], widest_)) continue;
-      for (std::size_t row = low; row < high; ++row) offer(s, echoes, i, row, found);
+      for (std::size_t row = low; row < high; ++row) offer(s, echoes, i, row);
     }
   }
 
@@ -167,8 +165,7 @@ class SlabSearch {
     return static_cast<std::size_t>(std::clamp(n, 0.0, bins_));
   }
 
-  void offer(const Scatterers& s, const Echoes& echoes, std::size_t i, std::size_t row,
-             std::vector<StrongestContributor>& found) const {
+  void offer(const Scatterers& s, const Echoes& echoes, std::size_t i, std::size_t row) {
     const auto end = wanted_.begin() + static_cast<std::ptrdiff_t>(begin_[row + 1]);
     auto at = std::lower_bound(wanted_.begin() + static_cast<std::ptrdiff_t>(begin_[row]), end, echoes.u[i] - widest_,
                                [](const Wanted& w, double u) { return w.u < u; });
@@ -178,7 +175,7 @@ class SlabSearch {
       if (!(du <= region.width.u && up <= region.width.elevation)) continue;
       const bool own = du <= region.share.u && up <= region.share.elevation;
       const double power = std::norm(echoes.amplitude[i]);
-      StrongestContributor& best = found[at->pixel];
+      StrongestContributor& best = found_[at->pixel];
       if (own == best.own_share ? power > best.power : own && power > 0)
         best = {power, own, {s.azimuth[i], s.elevation[i]}, static_cast<std::uint32_t>(s.id[i] >> 32), s.material[i]};
     }
@@ -189,6 +186,7 @@ class SlabSearch {
   double bins_;
   std::size_t first_, end_;
   double widest_ = 0;
+  std::vector<StrongestContributor>& found_;
   std::vector<std::size_t> begin_;  // of the pixels of each bin, in wanted_
   std::vector<Wanted> wanted_;      // by bin, then direction cosine of the beam
   std::optional<PixelTable> table_;
@@ -196,23 +194,20 @@ class SlabSearch {
 
 }  // namespace
 
-std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoSource& source,
+std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoStream& stream,
                                                          const BeamFan& fan, const RangeGate& gate, int threads) {
   const std::vector<BeamRegion> regions = beam_regions(fan);
   std::vector<std::size_t> beam_begin(fan.beams() + 1, 0);
   for (const Pixel& p : pixels) ++beam_begin[p.beam + 1];
   for (std::size_t b = 0; b < fan.beams(); ++b) beam_begin[b + 1] += beam_begin[b];
   std::vector<StrongestContributor> found(pixels.size());
+  const std::span<const ChunkBounds> chunks = stream.chunks();
   // Each slab of bins is searched by one thread, which visits the chunks that reach into it, in order.
   parallel_blocks(gate.bins(), slab_bins(gate), threads, [&](std::size_t first, std::size_t end) {
-    const SlabSearch search(pixels, beam_begin, regions, gate, first, end);
+    SlabSearch search(pixels, beam_begin, regions, gate, first, end, found);
     if (search.empty()) return;
-    for (std::size_t c = 0; c < source.chunks.size(); ++c)
-      if (search.overlaps(source.chunks[c]))
-        source.visit(c,
-                     {[&](const PatchPlace& place) { return search.near(place); },
-                      [&](const PatchPlace& place, double range) { return search.near(place, range); }},
-                     [&](const Scatterers& s, const Echoes& echoes) { search.offer(s, echoes, found); });
+    for (std::size_t c = 0; c < chunks.size(); ++c)
+      if (search.overlaps(chunks[c])) stream.visit(c, search);
   });
   return found;
 }

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "returns/ping.hpp"
 
 namespace insonify {
@@ -28,7 +28,7 @@ struct StrongestContributor {
 /// `threads`.
 ///
 /// pixels   ordered by beam, and within a beam by bin
-std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoSource& source,
+std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoStream& stream,
                                                          const BeamFan& fan, const RangeGate& gate, int threads);
 
 }  // namespace insonify

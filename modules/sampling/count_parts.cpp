@@ -52,7 +52,7 @@ struct ByCells {
 
 PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                        const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options) {
-  const bool by_shares = options.heard && cells.scatterers_per_cell() > 0;
+  const bool by_shares = options.energy && cells.scatterers_per_cell() > 0;
   const auto inner = options.inner_sector ? std::optional<SectorBounds>(*options.inner_sector) : std::nullopt;
   const auto beyond = [&inner](const Vector3d& p) -> std::uint8_t {
     return inner ? (inner->in_cones(p) ? 0 : 1) | (inner->in_elevations(p) ? 0 : 2) : 0;
@@ -65,7 +65,7 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
       const SampledCells::Widths widths = cells.widths(seen.position, seen.radius);
       by_cells[s] = {cells.parts(seen.range, seen.area, seen.cosine, widths), widths};
       if (by_shares)
-        heard[s] = seen.heard(options.heard(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]),
+        heard[s] = seen.heard(options.energy->of(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]),
                               beyond(seen.position));
     }
   });

@@ -170,7 +170,7 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
     std::uint32_t at;  // in surfels, which ascend
   };
   constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
-  UnsetVector<PatchPlace> place(surfels.size());
+  UnsetVector<SurfelBounds> bounds(surfels.size());
   UnsetVector<std::uint32_t> band(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
@@ -178,7 +178,7 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
       band[s] = static_cast<std::uint32_t>(
           std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands));
-      place[s] = {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)};
+      bounds[s] = {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)};
     }
   });
   // Each band by itself.
@@ -187,9 +187,9 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   std::partial_sum(first.begin(), first.end(), first.begin());
   UnsetVector<Key> keys(surfels.size());
   std::vector<std::size_t> next = first;
-  for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {place[s].u, s};
+  for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {bounds[s].u, s};
   sorted.surfel.resize(surfels.size());
-  sorted.place.resize(surfels.size());
+  sorted.bounds.resize(surfels.size());
   UnsetVector<std::uint16_t> sorted_parts(surfels.size());
   parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
     const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
@@ -197,7 +197,7 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
     std::sort(begin, end, [](const Key& a, const Key& c) { return std::tuple(a.u, a.at) < std::tuple(c.u, c.at); });
     for (std::size_t k = first[b]; k < first[b + 1]; ++k) {
       const std::uint32_t s = keys[k].at;
-      sorted.surfel[k] = surfels[s], sorted.place[k] = place[s], sorted_parts[k] = parts[s];
+      sorted.surfel[k] = surfels[s], sorted.bounds[k] = bounds[s], sorted_parts[k] = parts[s];
     }
   });
   sorted.first = first_parts(sorted_parts, view.options.scatterers_per_cell);

@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
@@ -29,9 +29,14 @@ enum class Projection {
   automatic     ///< raster or kdtree, by estimated cost
 };
 
-/// Energy that is received of a surfel, in any unit: by its place in head axes, the cosine of incidence, its area [m^2]
-/// and material.
-using HeardEnergy = std::function<double(const Eigen::Vector3d&, double, double, std::size_t)>;
+/// Energy that is received from surfels.
+class SurfelEnergy {
+ public:
+  virtual ~SurfelEnergy() = default;
+  /// Returns it in any unit, for a surfel at `position` in head axes, with the cosine of its angle of incidence, its area
+  /// [m^2] and the number of its material. Called by several threads.
+  virtual double of(const Eigen::Vector3d& position, double cosine, double area, std::size_t material) const = 0;
+};
 
 /// Options of find_scatterers.
 struct SamplingOptions {
@@ -54,7 +59,7 @@ struct SamplingOptions {
   std::optional<Sector> inner_sector{};
   /// Surfels that give little of what is heard from their range, for a fan also their direction in u, are split less
   /// (E127); empty: all are split alike.
-  HeardEnergy heard = nullptr;
+  std::shared_ptr<const SurfelEnergy> energy{};
 };
 
 /// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin and

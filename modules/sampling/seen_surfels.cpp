@@ -71,7 +71,7 @@ Scatterers split_listed(const SceneCloud& scene, const Pose& world_from_head, co
   const HeadFrame head(scene, world_from_head);
   const SampledCells cells(fan, gate, options);
   SamplingOptions alike = options;
-  alike.heard = nullptr;
+  alike.energy = nullptr;
   const PartCounts counts = count_parts(scene, head, surfels, cells, gate, alike);
   return split_surfels(scene, head, surfels, first_parts(counts.parts, cells.scatterers_per_cell()),
                        cells.range_resolution(), options.seed, options.threads);

@@ -9,9 +9,9 @@
 
 namespace insonify {
 
-/// A surfel: all of its parts stand within `reach` of `range` [m], and within `reach_u` of the direction cosine `u`
+/// Bounds of the parts of a surfel: all stand within `reach` of `range` [m], and within `reach_u` of the direction cosine `u`
 /// along the array.
-struct PatchPlace {
+struct SurfelBounds {
   double range, reach, u, reach_u;
 };
 
@@ -19,7 +19,7 @@ struct PatchPlace {
 struct VisibleSurfels {
   std::vector<std::uint32_t> surfel;  ///< index in the scene; by bands of range, and inside each by u
   std::vector<std::size_t> first;     ///< number of the first part of each, and of all parts
-  std::vector<PatchPlace> place;      ///< of each
+  std::vector<SurfelBounds> bounds;   ///< of each
   SamplingReport report;
   SamplingOptions options;  ///< with the outer scale of the relief that was left open
   std::optional<ReliefField> relief;

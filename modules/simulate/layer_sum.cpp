@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/split_aperture.hpp"
 #include "beamforming/synthesize_noise.hpp"
@@ -33,30 +33,43 @@ std::shared_ptr<const Synthesizer> LayerSum::half(ApertureSide side) const {
                           {o.synthesis.tolerance, o.threads});
 }
 
-void LayerSum::add(const std::string& name, const Echoes& echoes) {
+template <typename Image>
+void LayerSum::add_halves(const Image& image) {
+  if (!split_) return;
+  for (const ApertureSide side : {ApertureSide::port, ApertureSide::starboard}) {
+    ComplexGrid& sum = side == ApertureSide::port ? port_ : starboard_;
+    ComplexGrid pressure = image(side);
+    if (sum.size() == 0)
+      sum = std::move(pressure);
+    else
+      sum += pressure;
+  }
+}
+
+template <typename EchoesOrStream>
+void LayerSum::add_image(const std::string& name, const EchoesOrStream& echoes) {
   const SimulationOptions& o = ping_.options;
-  const Medium& medium = ping_.sent.medium;
-  const double tolerance = o.synthesis.tolerance;
+  const SynthesisOptions gridding{std::max(o.synthesis.tolerance, min_gridding_tolerance), o.threads};
   add_pressure(name, echoes.size(), whole()->pressure(echoes));
-  add_halves([&](const SplitAperture& split, ApertureSide side) {
+  add_halves([&](ApertureSide side) {
     if (o.synthesis.method == SynthesisMethod::true_delays) return half(side)->pressure(echoes);
-    return half_pressure(echoes, split, side, medium, {std::max(tolerance, min_gridding_tolerance), o.threads});
+    return half_pressure(echoes, *split_, side, ping_.sent.medium, gridding);
   });
+}
+
+void LayerSum::add(const std::string& name, const Echoes& echoes) {
+  add_image(name, echoes);
+  const SimulationOptions& o = ping_.options;
   if (!o.outputs.elements) return;
-  ElementSeries series = element_series(echoes, ping_.head, medium, {tolerance, Wavefront::spherical, o.threads});
+  ElementSeries series =
+      element_series(echoes, ping_.head, ping_.sent.medium, {o.synthesis.tolerance, Wavefront::spherical, o.threads});
   if (elements_.pressure.size() > 0) series.pressure += elements_.pressure;
   elements_ = std::move(series);
 }
 
-void LayerSum::add(const std::string& name, const EchoSource& source) {
-  if (source.stored) return add(name, *source.stored);
-  const SimulationOptions& o = ping_.options;
-  const Medium& medium = ping_.sent.medium;
-  add_pressure(name, source.size(), whole()->pressure(source));
-  add_halves([&](const SplitAperture& split, ApertureSide side) {
-    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side)->pressure(source);
-    return half_pressure(source, split, side, medium, {o.synthesis.tolerance, o.threads});
-  });
+void LayerSum::add(const std::string& name, const EchoStream& stream) {
+  if (stream.stored()) return add(name, *stream.stored());
+  add_image(name, stream);
 }
 
 void LayerSum::add_noise() {
@@ -67,22 +80,10 @@ void LayerSum::add_noise() {
                incoherent_ ? ComplexGrid(ComplexGrid::Constant(head.fan.beams(), head.gate.bins(), root_mean_square))
                            : synthesize_noise(head, ping_.sent.medium, ping_.element_noise_db,
                                               {o.seed, ping_.event.number, o.threads}));
-  add_halves([&](const SplitAperture& split, ApertureSide side) {
-    return synthesize_noise(with_one_half(head, split, side), ping_.sent.medium, ping_.element_noise_db,
+  add_halves([&](ApertureSide side) {
+    return synthesize_noise(with_one_half(head, *split_, side), ping_.sent.medium, ping_.element_noise_db,
                             {o.seed, ping_.event.number, o.threads});
   });
-}
-
-void LayerSum::add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image) {
-  if (!split_) return;
-  for (const ApertureSide side : {ApertureSide::port, ApertureSide::starboard}) {
-    ComplexGrid& sum = side == ApertureSide::port ? port_ : starboard_;
-    ComplexGrid pressure = image(*split_, side);
-    if (sum.size() == 0)
-      sum = std::move(pressure);
-    else
-      sum += pressure;
-  }
 }
 
 void LayerSum::add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure) {

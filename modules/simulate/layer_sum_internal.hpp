@@ -1,10 +1,9 @@
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/split_aperture.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulated_ping.hpp"
@@ -20,8 +19,8 @@ class LayerSum {
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
-  /// The same of a source, whose echoes need not be stored for a head and method that are `streamed`.
-  void add(const std::string& name, const EchoSource& source);
+  /// The same of a stream, whose echoes need not be stored for a head and method that are `streamed`.
+  void add(const std::string& name, const EchoStream& stream);
   /// Adds the noise of all elements; for SynthesisMethod::incoherent, its expected intensity.
   void add_noise();
 
@@ -34,8 +33,11 @@ class LayerSum {
   /// Forms beams of all the array, or of one half of it.
   std::shared_ptr<const Synthesizer> whole() const;
   std::shared_ptr<const Synthesizer> half(ApertureSide side) const;
-  /// Adds what `image` gives of either half of a split aperture, if its phase is asked for.
-  void add_halves(const std::function<ComplexGrid(const SplitAperture&, ApertureSide)>& image);
+  /// Adds image(side) of either half of a split aperture, if its phase is asked for.
+  template <typename Image>
+  void add_halves(const Image& image);
+  template <typename EchoesOrStream>
+  void add_image(const std::string& name, const EchoesOrStream& echoes);
 
   const ResolvedPing& ping_;
   SynthesizerTable& synthesizers_;

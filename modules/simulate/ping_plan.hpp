@@ -25,21 +25,16 @@ struct PlannedStage {
   std::string why;
   double bound_relative = 0;  ///< relative L2 error of the image from leaving it out; 0 exactly where nothing is lost
   double bound_db = 0;        ///< the same as a level, 20 log10(1 + bound_relative)
-  double seconds = 0;         ///< what having it in costs on one core, estimated
 };
 
 /// What a ping will compute and leave out.
 struct PingPlan {
   std::vector<PlannedStage> stages;
-  SimulationOptions options;        ///< the given ones with nothing left open: a ping of them is the ping of this plan
-  double share_relative = 0;        ///< of the budget, for each stage that it decides
-  double share_db = 0;              ///< 20 log10(1 + share_relative)
-  double left_out_db = 0;           ///< bound of all that the budget decides and that is out, together
-  SynthesisChoice synthesis;        ///< for one row of beams
-  std::size_t surfels_in_view = 0;  ///< estimated from a sample of the scene: visible, inside fan and gate
-  double scatterers = 0;            ///< estimated number after splitting
-  double seconds = 0;               ///< estimate of the time on one core, with the method of `options`
-  double mib = 0;                   ///< estimate of the memory beside the scene
+  SimulationOptions options;  ///< the given ones with nothing left open: a ping of them is the ping of this plan
+  double share_relative = 0;  ///< of the budget, for each stage that it decides
+  double share_db = 0;        ///< 20 log10(1 + share_relative)
+  double left_out_db = 0;     ///< bound of all that the budget decides and that is out, together
+  SynthesisChoice synthesis;  ///< for one row of beams
 };
 
 }  // namespace insonify

@@ -1,16 +1,18 @@
 // A ping: the whole signal path. Start reading at PingSimulator::ping.
 #include "simulate/ping_simulator.hpp"
 
+#include <complex>
+#include <limits>
 #include <utility>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "core/stop_watch.hpp"
 #include "core/work_progress.hpp"
-#include "simulate/average_looks_internal.hpp"
+#include "returns/looks.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
-#include "simulate/resolve_ping_internal.hpp"
+#include "simulate/resolve_ping.hpp"
 
 namespace insonify {
 
@@ -25,6 +27,27 @@ namespace {
 
 constexpr const char* me = "PingSimulator";
 
+Grid<double> intensity_of(const Ping& ping) { return ping.pressure.cast<std::complex<double>>().abs2(); }
+
+/// Gives a ping the intensity of its looks (E71), if its options ask for more than one: its own and that of further pulses
+/// with seeds of their own, each made by simulate(ResolvedPing), averaged over pulses and bins.
+template <typename Simulate>
+void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& simulate) {
+  const OutputSettings& wanted = resolved.options.outputs;
+  if (wanted.looks_range == 1 && wanted.looks_pings == 1) return;
+  Grid<double> sum = intensity_of(ping);
+  // Only the pressure counts.
+  ResolvedPing look = resolved;
+  look.options.outputs = {};
+  look.detection.threshold_db = std::numeric_limits<double>::infinity();
+  for (int k = 1; k < wanted.looks_pings; ++k) {
+    look.options.seed += 0x9e3779b97f4a7c15;  // the golden ratio: far from the seeds of other pings
+    look.sent.echo_options.seed = look.view.sampling.seed = look.options.seed;
+    sum += intensity_of(simulate(look));
+  }
+  ping.intensity = mean_over_bins(sum / wanted.looks_pings, wanted.looks_range);
+}
+
 }  // namespace
 
 PingSimulator::PingSimulator(SonarHead head, Environment environment, SimulationOptions options)
@@ -37,11 +60,21 @@ const Environment& PingSimulator::environment() const { return shared_->environm
 const SimulationOptions& PingSimulator::options() const { return shared_->options; }
 
 ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& event) const {
-  return resolve_valid_ping(scene, shared_->head, event, shared_->environment, shared_->options, me);
+  return resolve_ping(scene, shared_->head, event, shared_->environment, shared_->options, me);
 }
 
 PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {
-  return plan_of(scene.scene(), &scene, resolve(scene.whole(), event));
+  return plan_of(scene, resolve(scene.whole(), event));
+}
+
+SamplingReport PingSimulator::count(const PreparedScene& scene, const PingEvent& event) const {
+  ResolvedPing ping = resolve(scene.whole(), event);
+  decide_effects(scene, ping);
+  SamplingReport report = visible_surfels(scene, ping).report;
+  const SamplingOptions& sampling = ping.view.sampling;
+  if (sampling.kind == SamplingKind::rays)
+    report.scatterers = ping.head.fan.beams() * static_cast<std::size_t>(sampling.rays_per_beam);
+  return report;
 }
 
 InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& event) const {
@@ -67,13 +100,13 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
   begin_stage("echoes");
-  const EchoSource direct = direct_source(scene.scene(), ping, parts);
+  const auto direct = direct_stream(scene.scene(), ping, parts);
   seconds.acoustics = watch.lap();
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
   LayerSum layers(ping, shared_->synthesizers);
-  layers.add("direct", direct);
+  layers.add("direct", *direct);
   add_multipath(scene, ping, parts, layers);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (ping.options.effects.noise) layers.add_noise();
@@ -83,7 +116,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What an operator would mark: detections, as points in the world.
   begin_stage("detection");
-  result.soundings = detect_soundings(result.ping, direct, ping.detection);
+  result.soundings = detect_soundings(result.ping, *direct, ping.detection);
   seconds.detection = watch.lap();
 
   // What the options ask for besides, and how the ping came about.

@@ -32,6 +32,9 @@ class PingSimulator {
   /// What a ping will compute and leave out, as plan_ping; nothing is simulated.
   PingPlan plan(const PreparedScene& scene, const PingEvent& event) const;
 
+  /// Counts the surfels and scatterers that a ping will sample; of rays, those that are cast. Nothing is simulated.
+  SamplingReport count(const PreparedScene& scene, const PingEvent& event) const;
+
   /// Simulates a ping: the whole signal path, which reads in ping_simulator.cpp. Effects set to as_needed are computed where
   /// the plan of the ping needs them for options().accuracy_db; effects without a cause in the environment are skipped. The
   /// result does not depend on the number of threads. Throws Error for an invalid event, and for an environment that this

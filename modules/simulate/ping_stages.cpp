@@ -10,7 +10,6 @@
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
 #include "sampling/seen_surfels.hpp"
-#include "simulate/converge_sampling_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/pulse_spectrum_internal.hpp"
 
@@ -180,7 +179,6 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   report.sampling = parts.sampling.report;
   const Scatterers& patches = parts.sampling.scatterers;
 
-  result.ping.level_error_db = std::move(report.convergence.level_error_db);
   if (wanted.mask) mark_holes(prepared, ping, result);
   if (wanted.contributors > 0) {
     StopWatch watch;
@@ -192,7 +190,6 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (ping.view.sampling.kind == SamplingKind::rays) report.notes = gap_notes(scene, ping.view, patches);
   for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
     report.notes.push_back(std::move(note));
-  for (std::string& note : convergence_notes(report.convergence)) report.notes.push_back(std::move(note));
   if (wanted.scatterers) result.outputs.scatterers = std::move(parts.sampling.scatterers);
 }
 

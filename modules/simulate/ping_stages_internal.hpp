@@ -1,7 +1,8 @@
 #pragma once
+#include <memory>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/visible_surfels.hpp"
 #include "simulate/resolve_ping.hpp"
@@ -16,21 +17,21 @@ class LayerSum;
 /// they are used.
 struct PingParts {
   bool stored = false;
-  VisibleSurfels visible{};  ///< if not stored
+  VisibleSurfels visible{};  ///< if sampled by surfels
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
   Multipath bounced{};
 };
 
-/// Whether, with these options, some stage asks for all patches or for a synthesis that takes all echoes at once.
-bool needs_all_patches(const ResolvedPing& ping, const SimulationOptions& options);
+/// The surfels that the head sees, counted; sets ping.view.sampling.energy.
+VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping);
 
-/// Samples the view, where rays are bent if the options say so; reports refraction and convergence.
+/// Samples the view, where rays are bent if the options say so; reports refraction.
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report);
 
 /// Returns the direct echoes of all patches, moved if the options say so. Refers to all arguments, of which it changes
 /// parts.direct.
-EchoSource direct_source(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
+std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
 /// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.bounced. Sound by a boundary may come by a main lobe from what a side lobe hears
 /// directly, so all that is seen is split for that as in main lobes, apart from the direct echoes: theirs are the same with
@@ -45,7 +46,7 @@ struct Reverberation {
 std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping);
 
 /// Moves the sampling into `result`, whose ping is complete, and adds medium, noise floor and notes; and what the
-/// options ask for: level error and mask of holes, contributors (E63), paths of sound.
+/// options ask for: mask of holes, contributors (E63), paths of sound.
 void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, PingParts parts, SimulatedPing& result);
 
 }  // namespace insonify

@@ -8,7 +8,6 @@
 #include "acoustics/motion.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "core/units.hpp"
-#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 #include "simulate/pulse_spectrum_internal.hpp"
 #include "simulate/received_energy_internal.hpp"
@@ -75,8 +74,7 @@ StageVerdict judge_absorption_slope(const PlanFacts& facts) {
       error += node.weight * std::pow(std::expm1(-path * node.frequency * (full.a1 + full.a2 * node.frequency)), 2);
     return error;
   };
-  return {false, "each frequency of the pulse has its own absorption", changed_bound(facts, change),
-          seconds_of_own_shapes(facts)};
+  return {false, "each frequency of the pulse has its own absorption", changed_bound(facts, change)};
 }
 
 StageVerdict judge_refraction(const PlanFacts& facts) {
@@ -86,8 +84,7 @@ StageVerdict judge_refraction(const PlanFacts& facts) {
   bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
              ping.options.threads);
   return {false, "rays are bent: echoes arrive at other times and angles",
-          difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent)),
-          seconds_of_bent_rays(facts)};
+          difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent))};
 }
 
 StageVerdict judge_motion(const PlanFacts& facts) {
@@ -98,8 +95,7 @@ StageVerdict judge_motion(const PlanFacts& facts) {
   Echoes moved = still;
   move_echoes(motion, ping.view.world_from_head, facts.sample.places, ping.head.pulse.centre_frequency,
               ping.sent.medium.sound_speed, moved);
-  return {false, "the head moves while sound is under way", difference_bound(facts, still, moved),
-          seconds_of_moved_echoes(facts)};
+  return {false, "the head moves while sound is under way", difference_bound(facts, still, moved)};
 }
 
 /// Energy of the echoes by the boundaries, of the sample.
@@ -120,8 +116,7 @@ StageVerdict judge_multipath(const PlanFacts& facts) {
     energy += std::norm(bounced.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
               received.at(bounced.u[i], bounced.v.empty() ? 0 : bounced.v[i]);
   }
-  return {false, "sound also comes by way of surface or bottom", added_bound(facts, energy),
-          seconds_of_multipath(facts)};
+  return {false, "sound also comes by way of surface or bottom", added_bound(facts, energy)};
 }
 
 StageVerdict by_strength(bool given) {

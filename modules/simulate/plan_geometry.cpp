@@ -2,7 +2,6 @@
 // beams receive of a sample of the scene outside sector and gate with that from inside.
 #include <limits>
 
-#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 
 namespace insonify {
@@ -13,8 +12,7 @@ using O = SimulationOptions;
 
 StageVerdict judge_back_faces(const PlanFacts& facts) {
   if (!facts.scene.normals_oriented) return {true, "normals have no side: both sides reflect", 0};
-  const auto away = static_cast<long long>(facts.sample.back_facing);
-  return {false, std::to_string(away) + " surfels in view turn away: Lambert's law gives nothing", 0};
+  return {false, "of surfels that turn away Lambert's law gives nothing", 0};
 }
 
 StageVerdict judge_other_ranges(const PlanFacts& facts) {
@@ -25,12 +23,11 @@ StageVerdict judge_other_ranges(const PlanFacts& facts) {
 StageVerdict judge_outer_elevations(const PlanFacts& facts) {
   const auto floor_db = static_cast<int>(facts.ping.options.sampling.elevation_floor_db);
   return {false, "the elevation pattern is below " + std::to_string(floor_db) + " dB there",
-          added_bound(facts, facts.sample.off_elevation), seconds_of_scatterers(facts, facts.sample.outer_elevations)};
+          added_bound(facts, facts.sample.off_elevation)};
 }
 
 StageVerdict judge_outer_azimuths(const PlanFacts& facts) {
-  return {false, "side lobes of the beams receive it", added_bound(facts, facts.sample.off_azimuth),
-          seconds_of_scatterers(facts, facts.sample.outer_azimuths)};
+  return {false, "side lobes of the beams receive it", added_bound(facts, facts.sample.off_azimuth)};
 }
 
 StageVerdict judge_occlusion(const PlanFacts& facts) {

@@ -8,9 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
-#include "simulate/resolve_ping_internal.hpp"
+#include "simulate/resolve_ping.hpp"
 
 namespace insonify {
 
@@ -18,17 +17,6 @@ double added_bound(const PlanFacts& facts, double energy) {
   if (energy == 0) return 0;
   const double in_view = facts.sample.in_view;
   return in_view > 0 ? plan_margin * std::sqrt(energy / in_view) : std::numeric_limits<double>::infinity();
-}
-
-SonarHead head_of_a_row(const SonarHead& head) {
-  SonarHead row = head;
-  const std::vector<std::size_t> beams = fan_rows(head.fan).front().beams;
-  row.column.reset();
-  row.fan.row_width = 0;
-  row.fan.azimuth.clear();
-  for (const std::size_t b : beams) row.fan.azimuth.push_back(head.fan.azimuth[b]);
-  row.fan.elevation.assign(beams.size(), head.fan.elevation[beams.front()]);
-  return row;
 }
 
 const char* decided_by_name(DecidedBy by) {
@@ -58,75 +46,66 @@ bool is_open(const PlanStage& stage, const SimulationOptions& options) {
 
 /// How one row of beams is gridded, or would be if the method is another: those may ask for more than gridding can.
 SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
-  return PingSynthesizer(head_of_a_row(ping.head), ping.sent.medium,
-                         {std::max(ping.options.synthesis.tolerance, min_gridding_tolerance), 1})
-      .choice();
+  return choice_of_a_row(ping.head, ping.sent.medium,
+                         {std::max(ping.options.synthesis.tolerance, min_gridding_tolerance), 1});
 }
 
-/// One stage, judged: open ones by the budget, which sets `settled`.
-PlannedStage plan_stage(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& settled) {
-  auto [included, why, bound, seconds, only_if_forced] = stage.judge(facts);
-  if (stage.by == DecidedBy::budget) {
-    const Choice asked = stage.asked(facts.ping.options);
-    if (asked != Choice::as_needed) why = asked == Choice::always ? "asked for" : "off by the options";
-    included = asked == Choice::always || (asked == Choice::as_needed && bound > share && !only_if_forced);
-    Environment unchanged = facts.ping.environment;
-    if (asked == Choice::as_needed) stage.force(included, unchanged, settled);
+/// The stages, or only those that are open, judged: open ones by the budget, which sets `decided`.
+std::vector<PlannedStage> judge_stages(const PlanFacts& facts, bool only_open, SimulationOptions& decided) {
+  const SimulationOptions& options = facts.ping.options;
+  const std::vector<PlanStage> stages = all_stages();
+  const double share = budget_share(stages, options.accuracy_db);
+  std::vector<PlannedStage> judged;
+  for (const PlanStage& stage : stages) {
+    if (only_open && !is_open(stage, options)) continue;
+    auto [included, why, bound, only_if_forced] = stage.judge(facts);
+    if (is_open(stage, options)) {
+      included = bound > share && !only_if_forced;
+      Environment unchanged = facts.ping.environment;
+      stage.force(included, unchanged, decided);
+    } else if (stage.by == DecidedBy::budget) {
+      included = stage.asked(options) == Choice::always;
+      why = included ? "asked for" : "off by the options";
+    }
+    judged.push_back({stage.name, stage.by, included, std::move(why), bound, level_of(bound)});
   }
-  return {stage.name, stage.by, included, std::move(why), bound, level_of(bound), seconds};
+  return judged;
+}
+
+/// The options with what is open decided.
+SimulationOptions decided_by(const PlanFacts& facts) {
+  SimulationOptions decided = facts.ping.options;
+  judge_stages(facts, true, decided);
+  return decided;
 }
 
 }  // namespace
 
-PingPlan plan_of(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
-  const SimulationOptions& options = ping.options;
-  const PlanFacts facts{scene, ping, sample_scene(scene, prepared, ping), gridding_of_a_row(ping)};
-  const std::vector<PlanStage> stages = all_stages();
+PingPlan plan_of(const PreparedScene& prepared, const ResolvedPing& ping) {
+  const PlanFacts facts{prepared.scene(), ping, sample_scene(prepared, ping), gridding_of_a_row(ping)};
   PingPlan plan;
-  plan.options = options;
+  plan.options = ping.options;
   plan.synthesis = facts.synthesis;
-  plan.share_relative = budget_share(stages, options.accuracy_db);
+  plan.share_relative = budget_share(all_stages(), ping.options.accuracy_db);
   plan.share_db = level_of(plan.share_relative);
+  plan.stages = judge_stages(facts, false, plan.options);
   double left_out = 0;
-  for (const PlanStage& stage : stages) {
-    const PlannedStage& planned = plan.stages.emplace_back(plan_stage(stage, facts, plan.share_relative, plan.options));
-    if (stage.by == DecidedBy::budget && !planned.included) left_out += planned.bound_relative * planned.bound_relative;
-  }
+  for (const PlannedStage& stage : plan.stages)
+    if (stage.by == DecidedBy::budget && !stage.included) left_out += stage.bound_relative * stage.bound_relative;
   plan.left_out_db = level_of(std::sqrt(left_out));
-  plan.surfels_in_view = static_cast<std::size_t>(facts.sample.surfels);
-  plan.scatterers = scatterers_of(facts, plan.options);
-  const PingCost cost = cost_of(facts, plan.options);
-  plan.seconds = cost.seconds;
-  plan.mib = cost.bytes / 0x1p20;
   return plan;
 }
 
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options) {
-  require_valid(scene, "plan_ping");
-  return plan_of(scene, nullptr, resolve_ping(whole_of(scene), head, event, environment, options, "plan_ping"));
+  const PreparedScene prepared(scene, options.threads);
+  return plan_of(prepared, resolve_ping(prepared.whole(), head, event, environment, options, "plan_ping"));
 }
-
-namespace {
-
-/// The options with their open stages judged.
-SimulationOptions settled_by(const PlanFacts& facts) {
-  const SimulationOptions& options = facts.ping.options;
-  const std::vector<PlanStage> stages = all_stages();
-  const double share = budget_share(stages, options.accuracy_db);
-  SimulationOptions settled = options;
-  for (const PlanStage& stage : stages)
-    if (is_open(stage, options)) plan_stage(stage, facts, share, settled);
-  return settled;
-}
-
-}  // namespace
 
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {
   const std::vector<PlanStage> stages = all_stages();
   if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, ping.options); })) return;
-  const SceneCloud& scene = prepared.scene();
-  ping.options = settled_by({scene, ping, sample_scene(scene, &prepared, ping), {}});
+  ping.options = decided_by({prepared.scene(), ping, sample_scene(prepared, ping), {}});
   derive(prepared.whole(), ping);
 }
 
@@ -141,7 +120,7 @@ SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echo
   synthesis.sampling.outer_elevations = synthesis.sampling.outer_azimuths = Choice::never;
   synthesis.effects.multipath = synthesis.effects.refraction = synthesis.effects.moving = Choice::never;
   const ResolvedPing ping = resolve_ping({}, head, {}, water, synthesis, me);
-  const SimulationOptions settled = settled_by({SceneCloud{}, ping, sample_of(places, echoes, ping), {}});
+  const SimulationOptions settled = decided_by({SceneCloud{}, ping, sample_of(places, echoes, ping), {}});
   SimulationOptions result = options;
   result.effects.absorption_order = settled.effects.absorption_order;
   result.synthesis = settled.synthesis;

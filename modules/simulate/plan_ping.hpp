@@ -24,7 +24,7 @@ namespace insonify {
 /// does not show. A bound is 0 where an effect has no cause (no boundary, no motion, no profile). bound_relative may
 /// exceed 1: then the stage changes the image altogether. docs/plan.md compares bounds with effects.
 ///
-/// The time is that of one core of the machine named in docs/plan.md. Throws Error as simulate_ping does.
+/// Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options = {});
 

@@ -19,9 +19,6 @@ struct PlanFacts {
   SynthesisChoice synthesis;  ///< for one row of beams
 };
 
-/// The head with the beams of its first row only, as a line array.
-SonarHead head_of_a_row(const SonarHead& head);
-
 /// Factor in amplitude between the error expected of the sample and its bound.
 constexpr double plan_margin = 2;
 
@@ -44,7 +41,6 @@ struct StageVerdict {
   bool included;  ///< counts unless the budget decides
   std::string why;
   double bound;                 ///< relative error of the image without it
-  double seconds = 0;           ///< what it costs on one core
   bool only_if_forced = false;  ///< whatever the budget
 };
 
@@ -70,7 +66,7 @@ constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 /// what is open is judged, at a cost that grows with what the head may reach.
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping);
 
-/// The plan of a ping of a valid scene; `prepared`: the same scene, or nullptr.
-PingPlan plan_of(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping);
+/// The plan of a ping.
+PingPlan plan_of(const PreparedScene& prepared, const ResolvedPing& ping);
 
 }  // namespace insonify

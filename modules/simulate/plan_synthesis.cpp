@@ -12,7 +12,6 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "simulate/narrow_band_loops_internal.hpp"
-#include "simulate/ping_cost_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 #include "simulate/pulse_spectrum_internal.hpp"
 
@@ -159,7 +158,7 @@ StageVerdict judge_true_delays(const PlanFacts& facts) {
   return {false,
           planar ? "a planar array is summed row by row for them, at that cost: only by --with true-delays"
                  : "elements receive wide bands and near echoes at other times: one pattern does not hold",
-          narrow_band_bound(facts), seconds_of_true_delays(facts), planar};
+          narrow_band_bound(facts), planar};
 }
 
 /// What the plan does where the narrow-band image is not good enough.

@@ -1,10 +1,11 @@
+#include "simulate/resolve_ping.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "simulate/resolve_ping_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -136,19 +137,8 @@ void derive(const WholeScene& scene, ResolvedPing& ping) {
   ping.view = {ping.event.world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
                sampling_of(scene, ping)};
   ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
-  ping.sector = insonified_sector(head.fan, ping.view.sampling);
   ping.region = region_of(ping);
   ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
-}
-
-ResolvedPing resolve_valid_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
-                                const Environment& surroundings, const SimulationOptions& options, const char* who) {
-  require_valid(event, who);
-  ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
-  ping.element_noise_db = element_noise_level_db(ping.environment, head.pulse);
-  ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
-  derive(scene, ping);
-  return ping;
 }
 
 void require_valid(const SonarHead& head, const Environment& environment, const SimulationOptions& options,
@@ -161,9 +151,14 @@ void require_valid(const SonarHead& head, const Environment& environment, const 
 }
 
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
-                          const Environment& environment, const SimulationOptions& options, const char* who) {
-  require_valid(head, environment, options, who);
-  return resolve_valid_ping(scene, head, event, environment, options, who);
+                          const Environment& surroundings, const SimulationOptions& options, const char* who) {
+  require_valid(head, surroundings, options, who);
+  require_valid(event, who);
+  ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
+  ping.element_noise_db = element_noise_level_db(ping.environment, head.pulse);
+  ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
+  derive(scene, ping);
+  return ping;
 }
 
 }  // namespace insonify

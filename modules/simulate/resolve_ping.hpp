@@ -16,7 +16,6 @@ struct ResolvedPing {
   SimulationOptions options;
   Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by
   View view{};                  ///< pose, fan, sampled ranges and sampling
-  Sector sector{};              ///< that is sampled
   InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. What
                                 ///< is left as needed counts as in here, and as out elsewhere
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
@@ -48,5 +47,12 @@ bool has_boundary(const Environment& environment);
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
                           const Environment& environment, const SimulationOptions& options = {},
                           const char* who = "resolve_ping");
+
+/// Throws Error(argument) for an invalid head or option, and for multipath without a boundary.
+void require_valid(const SonarHead& head, const Environment& environment, const SimulationOptions& options,
+                   const char* who);
+
+/// Derives again all that follows from ping.options.
+void derive(const WholeScene& scene, ResolvedPing& ping);
 
 }  // namespace insonify

@@ -7,8 +7,6 @@
 #include "acoustics/direct_echoes.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "sampling/sampled_cells.hpp"
-#include "simulate/heard_energy_internal.hpp"
 #include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
@@ -61,28 +59,18 @@ struct Sampled {
   SceneCloud scene;
   std::vector<Kind> kind;
   std::vector<double> stands_for;  ///< so many surfels
-  double back_facing = 0;          ///< of those in view, for the whole scene
 };
 
-/// The surfels that may be within `farthest` of the head; all of a scene that is not prepared.
-SurfelMarks marks_within(double farthest, const SceneCloud& scene, const PreparedScene* prepared,
-                         const Eigen::Vector3d& shift, int threads) {
-  const auto reaches = [&](const SurfelBlock& block) {
-    return (shift + block.centre.cast<double>()).norm() <= farthest + block.radius;
-  };
-  if (prepared) return prepared->marks_of(reaches, threads);
-  SurfelMarks all{std::vector<std::uint64_t>((scene.size() + 63) / 64, ~std::uint64_t{0})};
-  if (scene.size() % 64 != 0) all.words.back() >>= 64 - scene.size() % 64;
-  return all;
-}
-
-Sampled sampled_surfels(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping,
-                        const Sorter& sorter) {
+Sampled sampled_surfels(const PreparedScene& prepared, const ResolvedPing& ping, const Sorter& sorter) {
+  const SceneCloud& scene = prepared.scene();
   const Eigen::Matrix3d to_head = ping.view.world_from_head.linear().transpose();
   const Eigen::Vector3d shift = scene.origin - ping.view.world_from_head.translation();
   const double legs = has_boundary(ping.environment) ? longest_leg(ping.environment, ping.view, ping.sent) : 0;
   const double farthest = std::max(sorter.reach().max_range, legs);
-  const SurfelMarks marks = marks_within(farthest, scene, prepared, shift, ping.options.threads);
+  const auto reaches = [&](const SurfelBlock& block) {
+    return (shift + block.centre.cast<double>()).norm() <= farthest + block.radius;
+  };
+  const SurfelMarks marks = prepared.marks_of(reaches, ping.options.threads);
   // Block by block, joined in the order of the scene.
   using Members = std::array<std::vector<std::uint32_t>, kinds>;
   std::vector<Members> blocks((marks.words.size() + words_at_once - 1) / words_at_once);
@@ -108,9 +96,6 @@ Sampled sampled_surfels(const SceneCloud& scene, const PreparedScene* prepared, 
       keep.push_back(members[k][i]);
       sampled.kind.push_back(static_cast<Kind>(k));
       sampled.stands_for.push_back(static_cast<double>(n) / count);
-      const Eigen::Vector3d p = shift + scene.point[members[k][i]].cast<double>();
-      const bool away = p.dot(scene.normal[members[k][i]].cast<double>()) >= 0;
-      if (k == in_view && away && scene.normals_oriented) sampled.back_facing += sampled.stands_for.back();
     }
   }
   sampled.scene = subset(scene, keep);
@@ -126,58 +111,6 @@ double left_in_gate(const ResolvedPing& ping, double r) {
   const double gap = r > gate.max_range ? r - gate.max_range : gate.min_range - r;
   if (gap <= 0) return 1;
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
-}
-
-// Intervals of range and of u, over which what is heard is taken to be even.
-constexpr std::size_t range_intervals = 64, fan_intervals = 16;
-
-/// Counts the scatterers that the whole scene would be split into, by cells (E17) and by shares (E127).
-void count_scatterers(const ResolvedPing& ping, const Sampled& sampled, const Scatterers& patches, SceneSample& s) {
-  const View& view = ping.view;
-  const SampledCells cells(view.fan, view.gate, view.sampling);
-  const HeardEnergy heard = heard_energy(ping, sampled.scene.materials);
-  const std::size_t sides = cells.width_of_shares() < 2 ? fan_intervals : 1;
-  const double interval = (view.gate.max_range - view.gate.min_range) / range_intervals;
-  const double shares_in_interval =
-      interval / cells.range_resolution() * 2 / (static_cast<double>(sides) * cells.width_of_shares());
-  const auto interval_of = [&](const Eigen::Vector3d& p) {
-    const auto within = [](double place, std::size_t n) {
-      return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(n) - 1));
-    };
-    return within((p.norm() - view.gate.min_range) / interval, range_intervals) * sides +
-           within(0.5 * (p.y() / p.norm() + 1) * static_cast<double>(sides), sides);
-  };
-  struct Counted {
-    double by_cells, energy;
-    SampledCells::Widths widths;
-    std::size_t interval;
-  };
-  std::vector<Counted> counted;
-  std::array<std::vector<double>, kinds> received;
-  received.fill(std::vector<double>(range_intervals * sides, 0));
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    const std::uint32_t surfel = patches.surfel[i];
-    const double times = sampled.stands_for[surfel], cosine = patches.cos_incidence[i];
-    const double area = sampled.scene.area[surfel] / times;
-    const Eigen::Vector3d p = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
-    const SampledCells::Widths widths = cells.widths(p, std::sqrt(area / pi));
-    counted.push_back({cells.parts(patches.range[i], area, cosine, widths),
-                       heard ? heard(p, cosine, area, patches.material[i]) : 0, widths, interval_of(p)});
-    received[sampled.kind[surfel]][counted[i].interval] += times * counted[i].energy;
-  }
-  double none = 0;
-  double* const numbers[] = {&s.scatterers, &none, &s.outer_azimuths, &s.outer_elevations, &none};
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    const std::uint32_t surfel = patches.surfel[i];
-    const Counted& c = counted[i];
-    const Kind kind = sampled.kind[surfel];
-    // What lies inside shares what is heard from inside (SamplingOptions::inner_sector).
-    double heard_there = received[in_view][c.interval];
-    if (kind == off_azimuth || kind == off_elevation) heard_there += received[kind][c.interval];
-    const double of_cell = heard_there / shares_in_interval;
-    const double by_share = heard && of_cell > 0 ? cells.parts_of_share(c.energy / of_cell, c.widths) : HUGE_VAL;
-    *numbers[kind] += sampled.stands_for[surfel] * std::max(1.0, std::min(c.by_cells, by_share));
-  }
 }
 
 /// Whether beams are formed of all frequencies of the pulse, or may be as far as the options say.
@@ -222,16 +155,16 @@ class ReceivedOfDisc {
 
 }  // namespace
 
-SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping) {
+SceneSample sample_scene(const PreparedScene& prepared, const ResolvedPing& ping) {
   const Sorter sorter(ping);
-  Sampled sampled = sampled_surfels(scene, prepared, ping, sorter);
+  Sampled sampled = sampled_surfels(prepared, ping, sorter);
   const View& view = ping.view;
   Scatterers patches =
       find_scatterers(sampled.scene, view.world_from_head, view.fan, sorter.reach(), Sorter::widest(ping)).scatterers;
   EchoOptions mean_power = ping.sent.echo_options;
   mean_power.amplitude = SurfaceAmplitude::mean_power;
   const Medium& medium = ping.sent.medium;
-  const Echoes echoes = direct_echoes(patches, scene.materials, ping.sent.pulse, medium, mean_power);
+  const Echoes echoes = direct_echoes(patches, sampled.scene.materials, ping.sent.pulse, medium, mean_power);
 
   // Energies and numbers, by where the echoes come from.
   SceneSample s;
@@ -253,14 +186,9 @@ SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared,
     *energies[kind] += energy;
     if (kind == off_azimuth && with_off_azimuth) s.power_off_azimuth[i] = power;
     if (kind != in_view) continue;
-    s.surfels += times;
     s.energy.back() = energy;
     s.power.back() = power;
   }
-  count_scatterers(ping, sampled, patches, s);
-  if (view.sampling.kind == SamplingKind::rays)
-    s.scatterers = static_cast<double>(ping.head.fan.beams()) * view.sampling.rays_per_beam;
-  s.back_facing = sampled.back_facing;
   s.scene = std::move(sampled.scene);
   s.places = std::move(patches);
   return s;

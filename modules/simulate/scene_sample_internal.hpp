@@ -19,12 +19,6 @@ struct SceneSample {
   std::vector<double> energy;             ///< of each of `places` [Pa^2, as above]; 0 outside the view
   std::vector<double> power;              ///< the same at one element, without the beams [Pa^2]
   std::vector<double> power_off_azimuth;  ///< of those off_azimuth; empty if these are out by the options
-
-  double scatterers = 0;        ///< in view after splitting, estimated
-  double outer_azimuths = 0;    ///< the same of off_azimuth
-  double outer_elevations = 0;  ///< and of off_elevation
-  double surfels = 0;           ///< in view and visible, estimated
-  double back_facing = 0;       ///< in view but turned away, estimated
 };
 
 /// Given echoes of patches or targets at `places` as such a sample, of the head's gate alone: only places, energy, power
@@ -32,8 +26,7 @@ struct SceneSample {
 SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const ResolvedPing& ping);
 
 /// Samples at most 4096 surfels of each kind of place, evenly strided. Kinds are sampled one by one: what a part of the
-/// scene gives does not depend on whether other parts were loaded. A prepared scene gives the same, but visits only the
-/// blocks within reach; nullptr: the scene is not prepared.
-SceneSample sample_scene(const SceneCloud& scene, const PreparedScene* prepared, const ResolvedPing& ping);
+/// scene gives does not depend on whether other parts were loaded. Only the blocks within reach are visited.
+SceneSample sample_scene(const PreparedScene& prepared, const ResolvedPing& ping);
 
 }  // namespace insonify

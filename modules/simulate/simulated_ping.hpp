@@ -32,20 +32,6 @@ struct LayerReport {
   std::size_t echoes = 0;
 };
 
-/// How the sampling was refined for SamplingSettings::level_error_db.
-struct ConvergenceReport {
-  double wanted_db = 0;            ///< 0: it was not refined
-  int samplings = 0;               ///< number of samplings made
-  double scatterers_per_cell = 0;  ///< at the last
-  int rays_per_beam = 0;           ///< at the last, of rays
-  std::size_t scatterers = 0;      ///< at the last
-  std::size_t judged = 0;          ///< cells within 40 dB of the strongest
-  double share_below = 0;          ///< of these, below wanted_db
-  double reached_db = 0;           ///< 99 % of them are at or below
-  bool reached = false;
-  Grid<float> level_error_db{};  ///< of each cell, beams x bins; moved to the ping
-};
-
 /// How much of the scene is not known (find_holes).
 struct HoleReport {
   std::size_t directions = 0;  ///< looked at; 0: none
@@ -66,7 +52,6 @@ struct PingReport {
   Medium medium;              ///< water at the head's depth, with the absorption that was used
   SamplingReport sampling;
   RefractionReport refraction;
-  ConvergenceReport convergence;
   HoleReport holes;
   std::vector<LayerReport> layers;  ///< in the order in which they were added
   double noise_floor_db = 0;        ///< of a beam, used by the detection [dB re 1 uPa]

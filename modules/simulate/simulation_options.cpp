@@ -35,8 +35,6 @@ void require_valid(const SamplingSettings& s, const char* who) {
   check.require(s.rays_per_beam >= 1, "rays_per_beam", s.rays_per_beam, "at least 1");
   check.require(s.elevation_floor_db < 0, "elevation_floor_db", s.elevation_floor_db, "< 0 dB");
   check.require(at_least_0(s.azimuth_margin), "azimuth_margin", s.azimuth_margin, "finite and >= 0 rad");
-  check.require(at_least_0(s.level_error_db), "level_error_db", s.level_error_db,
-                "finite and > 0 dB; 0: the sampling is taken as it is");
 }
 
 void require_valid(const SynthesisSettings& s, bool elements, const char* who) {

@@ -21,12 +21,8 @@ struct SamplingSettings {
   double scatterers_per_cell = SamplingOptions{}.scatterers_per_cell;
   int rays_per_beam = 64;  ///< of sampling by rays, and of the mask of holes
   bool occlusion = true;
-  double elevation_floor_db = -40;  ///< elevations where the two-way pattern is lower are not sampled; < 0
-  double azimuth_margin = 0;        ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
-  /// The sampling is refined until 99 % of the cells have a smaller error (E66): points are multiplied (surfels:
-  /// scatterers per cell; rays: rays per beam) by what the error asks for, up to six samplings and 2^23 scatterers or
-  /// rays (about 1.5 GiB). 0: the sampling is taken as it is.
-  double level_error_db = 0;
+  double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
+  double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
   Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are sampled too
   Choice outer_azimuths = Choice::as_needed;    ///< always: all that side lobes receive is sampled, whatever the margin
 };

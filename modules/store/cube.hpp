@@ -40,7 +40,7 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 /// /elevation [rad], /pose (pings x 4 x 4, world_from_head, row-major), /time [s], /ping (numbers) and the root
 /// attributes schema, the members above, beam_width, elevation_width (of a planar array also row_width) [rad],
 /// min_range, max_range, bin_size [m]. Layers are written as /layers/NAME with the extent of /pressure; so are, if the
-/// pings have them, /intensity [Pa^2], /level_error_db (float32), /unknown (uint8) and /split_phase [rad] (float32), and of pings with
+/// pings have them, /intensity [Pa^2], /unknown (uint8) and /split_phase [rad] (float32), and of pings with
 /// labels /label_material (uint16), /label_id (uint32), /label_share (float32) and the attribute label_names, one name a line.
 /// The attribute expected_level marks expected levels; head, start_utc and anchor_latitude_deg, anchor_longitude_deg and
 /// anchor_heading_deg say of a survey what the members do. Datasets have units, long_name and named dimensions, whose

@@ -185,7 +185,6 @@ void send_all_images(const Place& place, hid_t file, const Extent& extent, PingR
   send_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
   send_layers(place, file, extent, pings, to);
   send_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  send_map(place, file, level_error_name, H5T_NATIVE_FLOAT, extent, pings, to);
   send_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
   send_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
   send_labels(place, file, extent, pings, to);
@@ -198,7 +197,6 @@ void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vecto
   for (const std::string& layer : layers)
     for (Ping& ping : pings) receive_image(sent, path, ping.layers.emplace_back(Layer{layer, {}}).pressure);
   receive_map(sent, path, pings, &Ping::intensity);
-  receive_map(sent, path, pings, &Ping::level_error_db);
   receive_map(sent, path, pings, &Ping::unknown);
   receive_map(sent, path, pings, &Ping::split_phase);
   receive_labels(sent, path, pings);

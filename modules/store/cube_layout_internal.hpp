@@ -25,7 +25,6 @@ constexpr const char* layers_group = "/layers";
 constexpr DatasetName intensity_name{"/intensity", "Pa^2",
                                      "mean over the looks of the squared magnitude of the amplitude; level [dB re 1 "
                                      "uPa] = 10 log10(intensity / 2 / 1e-12)"};
-constexpr DatasetName level_error_name{"/level_error_db", "dB", "standard error of the expected level"};
 constexpr DatasetName unknown_name{"/unknown", "", "1 where surface may be missing because the scan has a hole"};
 constexpr DatasetName split_phase_name{"/split_phase", "rad",
                                        "phase of the port half of the array against its starboard half"};
@@ -77,7 +76,6 @@ struct CubeDataset {
 };
 constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}},
                                          {intensity_name, {"ping", "beam", "bin"}},
-                                         {level_error_name, {"ping", "beam", "bin"}},
                                          {unknown_name, {"ping", "beam", "bin"}},
                                          {split_phase_name, {"ping", "beam", "bin"}},
                                          {label_material_name, {"ping", "beam", "bin"}},

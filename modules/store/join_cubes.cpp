@@ -62,8 +62,8 @@ std::vector<std::string> images_of(const Place& place, hid_t file) {
   std::vector<std::string> images{pressure_name.path};
   for (const std::string& layer : names_in(place, file, layers_group))
     images.push_back(std::string(layers_group) + "/" + layer);
-  for (const DatasetName& map : {intensity_name, level_error_name, unknown_name, split_phase_name, label_material_name,
-                                 label_id_name, label_share_name})
+  for (const DatasetName& map :
+       {intensity_name, unknown_name, split_phase_name, label_material_name, label_id_name, label_share_name})
     if (H5Lexists(file, map.path, H5P_DEFAULT) > 0) images.emplace_back(map.path);
   return images;
 }

@@ -56,7 +56,6 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
     drop_unless([map](const Ping& ping) { return (ping.*map).size() > 0; }, [map](Ping& ping) { ping.*map = {}; });
   };
   drop_map(&Ping::intensity);
-  drop_map(&Ping::level_error_db);
   drop_map(&Ping::unknown);
   drop_map(&Ping::split_phase);
   // Numbers of materials mean the same in all pings only if their names do.

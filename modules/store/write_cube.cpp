@@ -39,7 +39,6 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
            like.size() == 0 ? ": absent" : ", one cell for each of its pressure");
   };
   require(ping.intensity, first.intensity, "intensity");
-  require(ping.level_error_db, first.level_error_db, "level_error_db");
   require(ping.unknown, first.unknown, "unknown");
   require(ping.split_phase, first.split_phase, "split_phase");
   require(ping.labels.material, first.labels.material, "labels");
@@ -156,7 +155,6 @@ void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) 
           place, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; }, packing);
   };
   write(intensity_name, &Ping::intensity, Packing::none);
-  write(level_error_name, &Ping::level_error_db, Packing::none);
   write(unknown_name, &Ping::unknown, Packing::deflate);
   write(split_phase_name, &Ping::split_phase, Packing::none);
   const PixelLabels& first = pings.front().labels;

@@ -179,7 +179,6 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
     facts.contributions = contributions_of(data.contributors[ping_index], place, data);
   }
   if (ping.unknown.size() > 0) facts.unknown = ping.unknown(row, column) != 0;
-  if (ping.level_error_db.size() > 0) facts.level_error_db = static_cast<double>(ping.level_error_db(row, column));
   if (data.scene.size() > 0) {
     facts.visibility = look_at_pixel(data, ping, place);
     facts.seen_material = most_common_material(data, facts.visibility->seen);
@@ -198,7 +197,6 @@ std::string explain_pixel(const PixelFacts& facts) {
   if (std::isfinite(facts.level_db)) {
     text += printed("Level %.1f dB re 1 µPa\n", facts.level_db);
     text += printed("  %.1f dB range compensated\n", facts.compensated_level_db);
-    if (std::isfinite(facts.level_error_db)) text += printed("  sampling error %.2f dB\n", facts.level_error_db);
   } else {
     text += "Level: no sound at all\n";
   }

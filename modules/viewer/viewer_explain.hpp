@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,10 +44,9 @@ struct PixelFacts {
   double compensated_level_db = 0;          ///< dB re 1 uPa at 1 m, range compensated (E20)
   std::vector<Contribution> contributions;  ///< strongest first; empty: none, or unknown
   bool contributions_known = false;
-  double level_error_db = std::numeric_limits<double>::quiet_NaN();  ///< sampling error; NaN: unknown
-  bool unknown = false;                                              ///< hole of the scan: surface may be missing here
-  std::optional<PixelVisibility> visibility;                         ///< if there is a scene
-  std::string seen_material;  ///< the commonest one of the visible surfels; empty: none visible
+  bool unknown = false;                       ///< hole of the scan: surface may be missing here
+  std::optional<PixelVisibility> visibility;  ///< if there is a scene
+  std::string seen_material;                  ///< the commonest one of the visible surfels; empty: none visible
 };
 /// Throws Error(argument) if ping, beam or bin is not in the data.
 PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping, PixelPlace place);

@@ -1,8 +1,8 @@
 // A planar array gridded in time, u and v at once, against the sum over echoes.
-#include "acoustics/echo_source.hpp"
 #include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
+#include "support/echo_chunks.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
@@ -62,28 +62,6 @@ void expect_promise_of(const PlanarCase& c) {
   EXPECT_GE(gridded, 3);
 }
 
-/// Stored echoes as a source of chunks, ordered by their delay.
-EchoSource in_chunks(const Echoes& echoes) {
-  constexpr std::size_t chunk = 100;
-  EchoSource source;
-  for (std::size_t first = 0; first < echoes.size(); first += chunk) {
-    const std::size_t last = std::min(first + chunk, echoes.size());
-    const auto [low, high] = std::minmax_element(echoes.delay.begin() + static_cast<std::ptrdiff_t>(first),
-                                                 echoes.delay.begin() + static_cast<std::ptrdiff_t>(last));
-    source.chunks.push_back({last - first, 0.5 * planar_c * *low, 0.5 * planar_c * *high});
-  }
-  source.visit = [&echoes](std::size_t c, const EchoSource::Filter&, const EchoSource::Visitor& visit) {
-    const std::size_t first = c * chunk, last = std::min(first + chunk, echoes.size());
-    Echoes some;
-    for (std::size_t i = first; i < last; ++i) {
-      some.delay.push_back(echoes.delay[i]), some.u.push_back(echoes.u[i]), some.v.push_back(echoes.v[i]);
-      some.amplitude.push_back(echoes.amplitude[i]);
-    }
-    visit({}, some);
-  };
-  return source;
-}
-
 }  // namespace
 
 TEST(PlanarSynthesizer, keeps_its_tolerance_against_the_referee) { expect_promise_of({}); }
@@ -121,8 +99,9 @@ TEST(PlanarSynthesizer, gives_the_same_bytes_for_any_threads_stored_or_in_chunks
   const ComplexGrid image = one.pressure(echoes);
   EXPECT_TRUE((image == other.pressure(echoes)).all());
   EXPECT_TRUE((image == one.pressure(echoes)).all()) << "working memory is used again";
-  EXPECT_TRUE((image == other.pressure_of(in_chunks(echoes))).all());
-  EXPECT_TRUE((image == synthesize(in_chunks(echoes), head, c.medium(), SynthesisMethod::gridded, {1e-4, 2})).all());
+  EXPECT_TRUE((image == other.pressure(EchoChunks(echoes, planar_c))).all());
+  EXPECT_TRUE(
+      (image == synthesize(EchoChunks(echoes, planar_c), head, c.medium(), SynthesisMethod::gridded, {1e-4, 2})).all());
 }
 
 TEST(PlanarSynthesizer, adds_a_hundred_thousand_echoes_of_one_place_in_single_precision) {

@@ -1,7 +1,7 @@
 #include "beamforming/split_aperture.hpp"
 
-#include "acoustics/echo_source.hpp"
 #include "beamforming/synthesize_noise.hpp"
+#include "support/echo_chunks.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
@@ -98,17 +98,9 @@ TEST(SplitAperture, noise_of_the_halves_is_that_of_their_elements) {
 TEST(SplitAperture, chunks_give_what_stored_echoes_give) {
   const SonarHead head = line_head({.beams = 9, .elements = 40});
   const SplitAperture split = split_aperture(head, "test");
-  Scatterers patches;
-  for (const double u : {-0.3, 0.02, 0.25}) {
-    patches.range.push_back(2), patches.azimuth.push_back(std::asin(u)), patches.elevation.push_back(0);
-  }
-  Echoes echoes{{2 * 2.0 / 1490, 2 * 2.0 / 1490, 2 * 2.0 / 1490}, {-0.3, 0.02, 0.25}, {1.0, {0, 1}, -0.5}};
-  EchoSource source;
-  source.chunks = {{3, 2, 2}};
-  source.visit = [&](std::size_t, const EchoSource::Filter&, const EchoSource::Visitor& visit) {
-    visit(patches, echoes);
-  };
-  const ComplexGrid streamed = half_pressure(source, split, ApertureSide::port, split_water, {.tolerance = 1e-6});
+  const Echoes echoes{{2 * 2.0 / 1490, 2 * 2.0 / 1490, 2 * 2.0 / 1490}, {-0.3, 0.02, 0.25}, {1.0, {0, 1}, -0.5}};
+  const ComplexGrid streamed = half_pressure(EchoChunks(echoes, split_water.sound_speed), split, ApertureSide::port,
+                                             split_water, {.tolerance = 1e-6});
   const ComplexGrid stored = half_pressure(echoes, split, ApertureSide::port, split_water, {.tolerance = 1e-6});
   EXPECT_LT(relative_l2(streamed, stored), 1e-5);
 }

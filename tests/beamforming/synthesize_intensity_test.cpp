@@ -8,8 +8,6 @@
 
 namespace {
 
-const double db_per_part = 10 / std::numbers::ln10;
-
 SonarSpec intensity_spec(std::size_t beams = 16) {
   SonarSpec s;
   s.name = "test";
@@ -164,77 +162,7 @@ TEST(SynthesizeIntensity, does_not_depend_on_the_number_of_threads) {
   for (const SonarHead& head : {line(), sweep()}) {
     const Echoes echoes = intensity_echoes(head, 60);
     const Grid<double> one = synthesize_intensity(echoes, head, water_of_order(0), {.threads = 1});
-    const Grid<float> error = predict_level_error_db(echoes, head, water_of_order(0), {.threads = 1});
-    for (const int threads : {2, 7}) {
+    for (const int threads : {2, 7})
       EXPECT_TRUE((synthesize_intensity(echoes, head, water_of_order(0), {.threads = threads}) == one).all());
-      const Grid<float> again = predict_level_error_db(echoes, head, water_of_order(0), {.threads = threads});
-      EXPECT_TRUE((again == error || (again.isNaN() && error.isNaN())).all());
-    }
   }
-}
-
-TEST(PredictLevelError, of_equal_points_in_one_place_falls_with_the_root_of_their_number) {
-  const SonarHead head = line();
-  for (const std::size_t n : {1u, 4u, 100u}) {
-    const double delay = 2 * head.gate.centre(20) / c0;
-    const Echoes echoes{std::vector(n, delay), std::vector(n, 0.1), std::vector<std::complex<double>>(n, {0, 0.3})};
-    const Grid<float> error = predict_level_error_db(echoes, head, {c0, {}});
-    const float inside = error(9, 20);
-    EXPECT_NEAR(inside, db_per_part / std::sqrt(static_cast<double>(n)), 0.02 * inside);
-    EXPECT_TRUE(std::isnan(error(9, error.cols() - 1)));  // no echo there
-  }
-}
-
-TEST(PredictLevelError, follows_from_the_sums_of_weights_and_squares) {
-  for (const SonarHead& head : {line(), sweep()})
-    for (const int order : {0, 1}) {
-      const Echoes echoes = intensity_echoes(head, 40);
-      const Medium medium = water_of_order(order);
-      const Grid<double> once = by_definition(echoes, head, medium), twice = by_definition(echoes, head, medium, 2);
-      const Grid<float> error = predict_level_error_db(echoes, head, medium, {.dynamic_range_db = 30});
-      const double least = 1e-3 * once.maxCoeff();
-      for (Eigen::Index k = 0; k < error.size(); ++k) {
-        const double w = once.data()[k], expected = db_per_part * std::sqrt(twice.data()[k]) / w;
-        if (w > 1.02 * least) {
-          EXPECT_NEAR(error.data()[k], expected, 0.02 * expected);
-        } else if (w < 0.98 * least) {
-          EXPECT_TRUE(std::isnan(error.data()[k]));
-        }
-      }
-    }
-}
-
-/// Standard deviation of the level over 200 scenes of independent uniform points with Poisson distributed numbers.
-TEST(PredictLevelError, is_the_spread_of_the_level_over_independent_points) {
-  constexpr int scenes = 200;
-  SonarHead head = line();
-  const double length = head.gate.max_range - head.gate.min_range;
-  double measured = 0, predicted = 0;
-  constexpr Eigen::Index beam = 8, bin = 40;
-  std::vector<double> level;
-  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
-    Echoes e;
-    for (std::size_t i = 0; i < 8000; ++i) {
-      const auto at = random_uniform(seed, RandomStage::scene_points, {i, 0, 0});
-      if (at[2] > 0.7) continue;
-      e.delay.push_back(2 * (head.gate.min_range + length * at[0]) / c0);
-      e.u.push_back(2 * at[1] - 1);
-      e.amplitude.push_back(1);
-    }
-    const Grid<double> w = synthesize_intensity(e, head, {c0, {}}, {.tolerance = 1e-2});
-    level.push_back(db_from_power(w(beam, bin)));
-    if (seed < 10) predicted += std::pow(predict_level_error_db(e, head, {c0, {}})(beam, bin), 2) / 10;
-  }
-  double mean = 0;
-  for (const double l : level) mean += l / scenes;
-  for (const double l : level) measured += std::pow(l - mean, 2) / (scenes - 1);
-  EXPECT_NEAR(std::sqrt(measured / predicted), 1, 0.15);  // a variance from 200 draws is known to 10 %, its root to 5 %
-}
-
-TEST(PredictLevelError, refuses_an_invalid_dynamic_range) {
-  const SonarHead head = line();
-  const Echoes echoes = intensity_echoes(head, 3);
-  for (const double range : {0.0, 51.0, std::nan("")})
-    EXPECT_THAT(error_of([&] { predict_level_error_db(echoes, head, water_of_order(0), {.dynamic_range_db = range}); }),
-                HasSubstr("must be within (0, 50]"));
 }

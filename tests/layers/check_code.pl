@@ -3,6 +3,7 @@
 # - a type of a module is defined twice under one name, in headers or in sources outside unnamed namespaces;
 # - a header of a module is neither listed in its CMakeLists.txt, as public or shared, nor named _internal, or both; a public
 #   header includes one that is not public; a shared one includes an _internal one; or one is included outside its module, but for those in %lent (tests may use all);
+# - a header of the signal path, public or shared, has a std::function;
 # - a file of modules/ has more than 300 lines, or a function of modules/ or apps/ more than 60.
 # It relies on clang-format: what begins and ends in one column belongs together.
 #
@@ -24,6 +25,7 @@ my %lent = (
   'sonar/element_kernels_internal.hpp' => 'beamforming',
   'simulate/stage_options_internal.hpp' => 'accuracy',
 );
+my %signal_path = map { $_ => 1 } qw(sonar sampling acoustics beamforming returns simulate survey);
 my %long_file = ();      # path => why it may be longer
 my %long_function = ();  # "path: first line" => why it may be longer
 
@@ -73,6 +75,8 @@ for my $path (sort @files) {
     if ($public{$path} && m{^#include "((?:[a-z_0-9]+/)+[a-z_0-9]+\.hpp)"} && $1 !~ /_internal/) {
       complain("$path: a public header includes $1, which is not installed") unless $public{"modules/$1"};
     }
+    complain("$path:", $i + 1, ": std::function in a header of the signal path, must be an abstract class")
+      if /std::function\b/ && $listed{$path} && $signal_path{$module};
     if (/^namespace (\S* ?)\{$/) { $namespace .= '::' . ($1 =~ s/ $//r || 'unnamed') }
     if (m{^\}  // namespace}) { $namespace =~ s/^(.*)::(unnamed|.+?)$/$1/ }
     if ($module && $namespace !~ /unnamed/ && /^(?:struct|class|enum(?: class)?|union) ([\w:<> ]*?)(?: final)?(?: : [^{]*)? \{/) {

@@ -19,10 +19,26 @@ SceneCloud facing_surfels(int beside, double step) {
   return scene;
 }
 
+using Energy = std::shared_ptr<const SurfelEnergy>;
+
+/// Energy by position alone.
+Energy energy_by(std::function<double(const Eigen::Vector3d&)> of_position) {
+  struct ByPosition final : SurfelEnergy {
+    std::function<double(const Eigen::Vector3d&)> of_position;
+    double of(const Eigen::Vector3d& p, double, double, std::size_t) const override { return of_position(p); }
+  };
+  const auto energy = std::make_shared<ByPosition>();
+  energy->of_position = std::move(of_position);
+  return energy;
+}
+Energy even_energy() {
+  return energy_by([](const Eigen::Vector3d&) { return 1.0; });
+}
+
 /// Parts of each surfel.
-std::vector<int> parts_of(const SceneCloud& scene, const HeardEnergy& heard, double per_cell = 1000) {
+std::vector<int> parts_of(const SceneCloud& scene, const Energy& energy, double per_cell = 1000) {
   const SamplingOptions options{
-      .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .heard = heard};
+      .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .energy = energy};
   std::vector<int> parts(scene.size(), 0);
   for (const std::uint32_t s : find_scatterers(scene, Pose::Identity(), one_beam, fine_gate, options).scatterers.surfel)
     ++parts[s];
@@ -30,8 +46,8 @@ std::vector<int> parts_of(const SceneCloud& scene, const HeardEnergy& heard, dou
 }
 
 /// Energies by the side: `left` for u > 0.1, 1 elsewhere.
-HeardEnergy louder_by(double left) {
-  return [left](const Eigen::Vector3d& p, double, double, std::size_t) { return p.y() > 0.1 * p.norm() ? left : 1; };
+Energy louder_by(double left) {
+  return energy_by([left](const Eigen::Vector3d& p) { return p.y() > 0.1 * p.norm() ? left : 1; });
 }
 
 }  // namespace
@@ -53,7 +69,7 @@ TEST(PartShares, give_each_surfel_eight_times_its_share_of_what_its_range_gives)
 TEST(PartShares, count_the_surfels_of_one_range_together) {
   // A hundred alike have a hundredth of 8 x 1000 parts each, whatever lies farther off.
   const SceneCloud scene = facing_surfels(100, 0.01);
-  const std::vector<int> by_shares = parts_of(scene, [](auto&, double, double, std::size_t) { return 1.0; });
+  const std::vector<int> by_shares = parts_of(scene, even_energy());
   const std::vector<int> by_cells = parts_of(scene, nullptr);
   ASSERT_GT(by_cells[50], 80);
   for (std::size_t k = 0; k < 100; ++k) EXPECT_EQ(by_shares[k], std::min(by_cells[k], 80)) << k;
@@ -64,19 +80,21 @@ TEST(PartShares, follow_from_cross_section_of_a_tilted_surfel_over_the_ranges_th
   // Seen at 60 degrees a disc of 0.1 m^2 spans 0.31 m: 16 or 17 cells of 2 cm, each with parts of its own.
   SceneCloud scene;
   add_surfel(scene, {10, 0, 0}, {-0.5, 0, std::sqrt(0.75)}, 0.1);
-  const HeardEnergy alike = [](auto&, double, double, std::size_t) { return 1.0; };
-  const std::vector<int> few = parts_of(scene, alike, 1);
+  const std::vector<int> few = parts_of(scene, even_energy(), 1);
   EXPECT_EQ(few[0], parts_of(scene, nullptr, 1)[0]) << "8 parts in each of 16 ranges would be more";
-  std::vector<double> seen;
-  const HeardEnergy note = [&](const Eigen::Vector3d& p, double cosine, double area, std::size_t material) {
-    seen = {p.x(), cosine, area, static_cast<double>(material)};
-    return 1.0;
+  struct Noting final : SurfelEnergy {
+    mutable std::vector<double> seen;
+    double of(const Eigen::Vector3d& p, double cosine, double area, std::size_t material) const override {
+      seen = {p.x(), cosine, area, static_cast<double>(material)};
+      return 1;
+    }
   };
-  parts_of(scene, note);
-  EXPECT_NEAR(seen.at(0), 10, 1e-6);
-  EXPECT_NEAR(seen.at(1), 0.5, 1e-6);
-  EXPECT_NEAR(seen.at(2), 0.1, 1e-6);
-  EXPECT_EQ(seen.at(3), 0);
+  const auto noting = std::make_shared<const Noting>();
+  parts_of(scene, noting);
+  EXPECT_NEAR(noting->seen.at(0), 10, 1e-6);
+  EXPECT_NEAR(noting->seen.at(1), 0.5, 1e-6);
+  EXPECT_NEAR(noting->seen.at(2), 0.1, 1e-6);
+  EXPECT_EQ(noting->seen.at(3), 0);
 }
 
 TEST(PartShares, of_a_fan_are_of_what_one_main_lobe_hears_from_a_range) {
@@ -87,13 +105,11 @@ TEST(PartShares, of_a_fan_are_of_what_one_main_lobe_hears_from_a_range) {
     add_surfel(scene, 10.01 * along, -along, pi * 0.03 * 0.03);
   };
   add(0, 0), add(0, 0.3), add(0.4, 0), add(0.4, 0.3), add(0.3, 0.3);
-  const HeardEnergy quiet_above = [](const Eigen::Vector3d& p, double, double, std::size_t) {
-    return p.z() > 1 ? 1e-3 : 1.0;
-  };
+  const Energy quiet_above = energy_by([](const Eigen::Vector3d& p) { return p.z() > 1 ? 1e-3 : 1.0; });
   const double per_cell = 1e5, share = 1e-3 / 1.001;
-  const auto parts = [&](double field_of_view, const HeardEnergy& heard) {
+  const auto parts = [&](double field_of_view, const Energy& energy) {
     const SamplingOptions options{
-        .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .heard = heard};
+        .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .energy = energy};
     std::vector<int> number(scene.size(), 0);
     const BeamFan fan = make_fan(91, field_of_view, radians(1), radians(60));
     for (const auto s : find_scatterers(scene, Pose::Identity(), fan, {9, 11, 0.01}, options).scatterers.surfel)
@@ -107,9 +123,7 @@ TEST(PartShares, of_a_fan_are_of_what_one_main_lobe_hears_from_a_range) {
   EXPECT_NEAR(of_fan[1], per_cell / 0.3 * share, 1);
   EXPECT_EQ(of_fan[4], by_cells[4]) << "alone in its direction";
   // Main lobes to u = 0.2: beyond, as many as cells ask for.
-  const HeardEnergy silent_above = [](const Eigen::Vector3d& p, double, double, std::size_t) {
-    return p.z() > 1 ? 1e-9 : 1.0;
-  };
+  const Energy silent_above = energy_by([](const Eigen::Vector3d& p) { return p.z() > 1 ? 1e-9 : 1.0; });
   const std::vector<int> of_lobes = parts(radians(20), silent_above);
   EXPECT_EQ(of_lobes[1], 1);
   EXPECT_EQ(of_lobes[3], parts(radians(20), nullptr)[3]);
@@ -123,7 +137,7 @@ TEST(PartShares, leave_parts_where_they_are_and_are_the_same_for_listed_and_stre
     return find_scatterers(scene, Pose::Identity(), one_beam, fine_gate, options).scatterers;
   };
   const Scatterers all = sampled();
-  options.heard = louder_by(1.0 / 99);
+  options.energy = louder_by(1.0 / 99);
   for (const int threads : {1, 3}) {
     options.threads = threads;
     const Scatterers fewer = sampled();

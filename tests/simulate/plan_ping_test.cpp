@@ -305,27 +305,28 @@ TEST(PlanPing, names_the_stages_that_can_be_forced) {
             "absorption-slope, refraction, motion, multipath, volume, surface, bottom, noise, direct-sum, true-delays");
 }
 
-TEST(PlanPing, estimates_what_a_ping_will_hold) {
-  const Situation s = situation(4);
-  const PingPlan plan = plan_of(s);
-  const SimulatedPing p = simulate_event(s.scene, s.head, s.event, s.environment, s.options);
-  EXPECT_NEAR(plan.scatterers / static_cast<double>(p.report.sampling.scatterers), 1, 0.3);
-  EXPECT_GT(plan.seconds, 0);
-  EXPECT_GT(plan.mib, 0);
-}
-
-TEST(PlanPing, estimates_what_a_ping_of_one_beam_and_its_side_lobes_will_hold) {
+TEST(PlanPing, counts_what_a_ping_will_hold) {
+  const auto expect_counted = [](const Situation& s) {
+    const PreparedScene scene(s.scene);
+    const PingSimulator simulator(s.head, s.environment, s.options);
+    const SamplingReport counted = simulator.count(scene, s.event),
+                         sampled = simulator.ping(scene, s.event).report.sampling;
+    EXPECT_GT(counted.scatterers, 100U);
+    EXPECT_EQ(counted.scatterers, sampled.scatterers);
+    EXPECT_EQ(counted.visible, sampled.visible);
+  };
   Situation s = situation(4);
+  expect_counted(s);
   s.head = small_head({.beams = 1, .field_of_view_deg = 2, .elevation_width_deg = 40, .max_range = 8});
   s.options.sampling.outer_azimuths = Choice::always;
-  const SimulatedPing p = simulate_event(s.scene, s.head, s.event, s.environment, s.options);
-  EXPECT_NEAR(plan_of(s).scatterers / static_cast<double>(p.report.sampling.scatterers), 1, 0.3);
+  expect_counted(s);
+  s.options.sampling.kind = SamplingKind::rays;
+  const PreparedScene scene(s.scene);
+  EXPECT_EQ(PingSimulator(s.head, s.environment, s.options).count(scene, s.event).scatterers, 64U);
 }
 
 TEST(PlanPing, of_an_empty_view_is_finite_but_for_what_is_left_out) {
   Situation s = situation(1);
   s.event.world_from_head = pose_from_yaw_pitch_roll({0, 0, 500}, 0, 0, 0);
   const PingPlan plan = plan_of(s);
-  EXPECT_EQ(plan.surfels_in_view, 0U);
-  EXPECT_EQ(plan.scatterers, 0);
 }

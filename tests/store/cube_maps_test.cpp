@@ -20,8 +20,8 @@ TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
   Cube cube = random_cube(2);
   for (Ping& ping : cube.pings) {
     ping.intensity = ping.pressure.abs2();
-    ping.level_error_db = ping.pressure.abs();
-    ping.level_error_db(1, 2) = std::numeric_limits<float>::quiet_NaN();
+    ping.split_phase = ping.pressure.arg();
+    ping.split_phase(1, 2) = std::numeric_limits<float>::quiet_NaN();
     ping.unknown = (ping.pressure.real() > 0.3f).cast<std::uint8_t>();
     ping.expected_level = true;
   }
@@ -29,18 +29,18 @@ TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
   const Cube back = read_cube(path);
   for (std::size_t p = 0; p < 2; ++p) {
     const Ping &a = back.pings[p], &b = cube.pings[p];
-    ASSERT_EQ(a.level_error_db.size(), b.level_error_db.size());
+    ASSERT_EQ(a.split_phase.size(), b.split_phase.size());
     ASSERT_EQ(a.unknown.size(), b.unknown.size());
     const std::size_t cells = static_cast<std::size_t>(b.unknown.size());
-    EXPECT_EQ(std::memcmp(a.level_error_db.data(), b.level_error_db.data(), cells * sizeof(float)), 0);
+    EXPECT_EQ(std::memcmp(a.split_phase.data(), b.split_phase.data(), cells * sizeof(float)), 0);
     EXPECT_TRUE((a.intensity == b.intensity).all());
     EXPECT_EQ(std::memcmp(a.unknown.data(), b.unknown.data(), cells), 0);
     EXPECT_TRUE(a.expected_level);
   }
   const RawFile file(path);
-  EXPECT_EQ(raw_extent(file, "/level_error_db"), raw_extent(file, "/pressure"));
+  EXPECT_EQ(raw_extent(file, "/split_phase"), raw_extent(file, "/pressure"));
   EXPECT_EQ(raw_extent(file, "/unknown"), raw_extent(file, "/pressure"));
-  EXPECT_EQ(raw_text(file, "/level_error_db", "units"), "dB");
+  EXPECT_EQ(raw_text(file, "/split_phase", "units"), "rad");
   EXPECT_EQ(raw_extent(file, "/intensity"), raw_extent(file, "/pressure"));
   EXPECT_EQ(raw_text(file, "/intensity", "units"), "Pa^2");
   EXPECT_EQ(raw_text(file, "/", "expected_level"), "expected level, no speckle");
@@ -49,12 +49,11 @@ TEST(CubeMaps, come_back_bit_for_bit_with_their_holes) {
 TEST(CubeMaps, are_absent_unless_the_pings_have_them) {
   const std::string path = write(random_cube(1));
   const Ping back = read_cube(path).pings[0];
-  EXPECT_EQ(back.level_error_db.size(), 0);
+  EXPECT_EQ(back.split_phase.size(), 0);
   EXPECT_EQ(back.unknown.size(), 0);
   EXPECT_FALSE(back.expected_level);
   const RawFile file(path);
-  for (const char* name : {"/intensity", "/level_error_db", "/unknown"})
-    EXPECT_EQ(H5Lexists(file, name, H5P_DEFAULT), 0);
+  for (const char* name : {"/intensity", "/split_phase", "/unknown"}) EXPECT_EQ(H5Lexists(file, name, H5P_DEFAULT), 0);
   EXPECT_EQ(H5Aexists(file, "expected_level"), 0);
 }
 
@@ -65,8 +64,8 @@ TEST(CubeMaps, must_be_the_same_in_every_ping) {
     return error_with_kind([&] { write(cube); });
   };
   const auto contains = [](const std::string& text, const char* part) { EXPECT_THAT(text, HasSubstr(part)) << text; };
-  contains(error_with([](Ping&, Ping& b) { b.level_error_db.setZero(70, 46); }),
-           "level_error_db of ping 41 has 70 x 46 cells, must be like that of ping 40: absent");
+  contains(error_with([](Ping&, Ping& b) { b.split_phase.setZero(70, 46); }),
+           "split_phase of ping 41 has 70 x 46 cells, must be like that of ping 40: absent");
   contains(error_with([](Ping& a, Ping&) { a.unknown.setZero(70, 46); }),
            "unknown of ping 41 has 0 x 0 cells, must be like that of ping 40, one cell for each of its pressure");
   contains(error_with([](Ping&, Ping& b) { b.intensity.setZero(70, 46); }), "intensity of ping 41 has 70 x 46 cells");
@@ -77,11 +76,11 @@ TEST(CubeMaps, must_be_the_same_in_every_ping) {
 
 TEST(CubeMaps, of_another_type_or_extent_are_refused) {
   Cube cube = random_cube(2);
-  for (Ping& ping : cube.pings) ping.level_error_db.setZero(70, 46);
+  for (Ping& ping : cube.pings) ping.split_phase.setZero(70, 46);
   const std::string path = write(cube);
   {
     const RawFile file(path);
-    H5Lcreate_hard(file, "/level_error_db", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_hard(file, "/split_phase", file, "/unknown", H5P_DEFAULT, H5P_DEFAULT);
   }
   EXPECT_EQ(error_of_cube(path), "content: cube.h5: /unknown must be of uint8");
   {

@@ -27,7 +27,7 @@ Cube full_cube() {
   for (Ping& ping : cube.pings) {
     const auto rows = ping.pressure.rows(), columns = ping.pressure.cols();
     ping.layers = {{"direct", ping.pressure}};
-    ping.intensity = ping.level_error_db = ping.split_phase = Grid<float>::Ones(rows, columns);
+    ping.intensity = ping.split_phase = Grid<float>::Ones(rows, columns);
     ping.unknown = Grid<std::uint8_t>::Ones(rows, columns);
     ping.labels.material = Grid<std::uint16_t>::Zero(rows, columns);
     ping.labels.id = Grid<std::uint32_t>::Zero(rows, columns);
@@ -85,7 +85,7 @@ TEST(CubePage, has_every_dataset_with_its_unit_and_every_attribute) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   const Found found = everything_in(file);
-  EXPECT_EQ(found.datasets.size(), 19U);
+  EXPECT_EQ(found.datasets.size(), 18U);
   for (const std::string& name : found.datasets) {
     SCOPED_TRACE(name);
     const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);

@@ -1,4 +1,4 @@
-// Expected levels, level errors and hole masks through the whole tool.
+// Expected levels and hole masks through the whole tool.
 #include <nlohmann/json.hpp>
 
 #include "store/cube.hpp"
@@ -39,31 +39,16 @@ TEST_F(ExpectedLevelRun, of_scatterers_is_labelled_too) {
   EXPECT_TRUE(ping("one").expected_level);
 }
 
-TEST_F(ExpectedLevelRun, keeps_the_level_error_asked_for_and_says_so) {
-  succeed("ping plane.ply -o out --level-error-db 1 --no-picture" + over);
-  const nlohmann::json error = manifest("out")["level_error"];
-  EXPECT_EQ(error["wanted_db"], 1);
-  EXPECT_EQ(error["reached"], true);
-  EXPECT_GE(error["share_below"], 0.99);
-  EXPECT_LT(error["reached_db"], 1);
-  const Ping p = ping("out");
-  ASSERT_EQ(p.level_error_db.size(), p.pressure.size());
-  EXPECT_EQ((!p.level_error_db.isNaN()).count(), error["cells"].get<Eigen::Index>());
-}
-
 TEST_F(ExpectedLevelRun, keeps_the_mask_of_holes_if_asked) {
   succeed("ping plane.ply -o out --keep mask --no-picture" + over);
   EXPECT_EQ(manifest("out")["holes"]["unknown"], 0);
   const Ping p = ping("out");
   ASSERT_EQ(p.unknown.size(), p.pressure.size());
   EXPECT_EQ(p.unknown.cast<int>().sum(), 0);
-  EXPECT_EQ(p.level_error_db.size(), 0);
 }
 
 TEST_F(ExpectedLevelRun, refuses_what_makes_no_sense) {
   const std::string ping = "ping plane.ply -o out" + over;
   expect_refused(ping + "--method incoherent --keep elements", 2,
                  {"outputs.elements = true", "method incoherent", "use gridded"});
-  expect_refused(ping + "--level-error-db=-1", 2, {"sampling.level_error_db = -1, must be finite"});
-  expect_refused(ping + "--level-error-db=nan", 2, {"level_error_db = nan"});
 }

@@ -84,7 +84,7 @@ TEST_F(RunAgain, the_same_bytes_for_all_kinds_of_options) {
       pose + " --keep contributors,mask,paths,insonification --contributors 2 --layers --threshold 8",
       pose + " --with outer-azimuths --with absorption-slope --without occlusion --all-bins-above 60.5",
       " --trajectory track.csv --time 0.75 --absorption-order 1 --material-field material",
-      pose + " --velocity=1,0.5,0 --turn-rate=0,0,30 --method incoherent --level-error-db 3",
+      pose + " --velocity=1,0.5,0 --turn-rate=0,0,30 --method incoherent",
       pose +
           " --multipath --noise --layers --environment sea.toml --profile ctd.csv --set bottom.height_m=-9 "
           "--set bottom.lambert_mu_db=-23.7 --set wind.speed_m_s=7.3 --set water.temperature_c=4.7"};
@@ -120,6 +120,14 @@ TEST_F(RunAgain, files_are_found_from_the_run) {
   succeed("plan --run site/first/run.toml -q");
 }
 
+TEST_F(RunAgain, reads_a_setting_that_is_gone_where_it_changed_nothing) {
+  succeed(again_head + gate + pose + " -o first");
+  std::string text = read("first/run.toml");
+  write("old.toml", text.replace(text.find("[ping]\n"), 7, "[ping]\nlevel_error_db = 0.0\n"));
+  succeed("ping --run old.toml -o again --no-picture -q");
+  expect_same("first", "again");
+}
+
 TEST_F(RunAgain, refuses_what_is_no_setting) {
   const std::string version = "insonify_version = \"1\"\n";
   const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
@@ -128,6 +136,7 @@ TEST_F(RunAgain, refuses_what_is_no_setting) {
   };
   refused("[ping]\nnoize = true\n", {"run.toml:3: unknown key 'noize'; did you mean 'noise'?"});
   refused("tolerence = 1\n[ping]\n", {"run.toml:2: unknown key 'tolerence'; did you mean 'tolerance'?"});
+  refused("[ping]\nlevel_error_db = 0.5\n", {"run.toml:3: level_error_db is no setting any more; set scatterers_per"});
   refused("[ping]\nsampling = \"ray\"\n", {"run.toml:3: sampling = 'ray', must be one of surfels, rays"});
   refused("[ping]\ncontributors = 300\n", {"run.toml:3: contributors = 300, must be within 1 and 255"});
   refused("[ping]\nkeep = [\"mask\", 1]\n", {"run.toml:3: keep must be text in quotes"});

@@ -93,17 +93,15 @@ TEST(ExplainPixel, names_the_occluder_and_its_range) {
   EXPECT_THAT(explain_pixel(facts), HasSubstr("occluded by a surfel at 6.0"));
 }
 
-TEST(ExplainPixel, reports_a_hole_of_the_scan_and_the_sampling_error) {
+TEST(ExplainPixel, reports_a_hole_of_the_scan) {
   auto made = three_targets();
   Ping& ping = made.pings[0];
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), Not(HasSubstr("Hole")));
   ping.unknown.setZero(ping.pressure.rows(), ping.pressure.cols());
   ping.unknown(3, 4) = 1;
-  ping.level_error_db.setConstant(ping.pressure.rows(), ping.pressure.cols(), 0.25F);
   made.data.pings = PingReel(made.pings);
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), HasSubstr("Hole"));
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), Not(HasSubstr("Hole")));
-  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), HasSubstr("sampling error 0.25 dB"));
 }
 
 TEST(ExplainPixel, silence_has_no_level) {

@@ -59,7 +59,6 @@ struct PingOptions {
   std::string amplitude = "speckle";
   double scatterers_per_cell = library_options.sampling.scatterers_per_cell;
   int rays_per_beam = library_options.sampling.rays_per_beam;
-  double level_error_db = 0;  ///< 0: the sampling is not refined
   bool noise = false;
   bool multipath = false;
   std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"

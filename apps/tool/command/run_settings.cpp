@@ -110,6 +110,12 @@ void read_section(const std::string& path, const TomlValue& table, const std::st
   std::vector<std::string> known = std::move(others);
   for (const RunSetting& setting : settings)
     if (setting.section == section) known.emplace_back(setting.key);
+  if (section == "ping") {  // runs of before have it, nearly all with 0
+    const TomlValue* gone = table.find("level_error_db");
+    if (gone && !(gone->is_number() && gone->number == 0))
+      fail_in_file(path, gone->line, "level_error_db is no setting any more; set scatterers_per_cell or rays_per_beam");
+    known.emplace_back("level_error_db");
+  }
   require_known_keys(path, table, known);
   for (const RunSetting& setting : settings)
     if (const TomlValue* found = setting.section == section ? table.find(setting.key) : nullptr)

@@ -112,8 +112,6 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
        "surfels are split until a resolution cell holds so many"},
       {"ping", "rays_per_beam", "--rays-per-beam", &o.rays_per_beam, "with --sampling rays"},
-      {"ping", "level_error_db", "--level-error-db", &o.level_error_db,
-       "[dB] sampling is refined until 99 % of the cells have a smaller error of their expected level"},
       {"ping", "amplitude", "--amplitude", &o.amplitude, "speckle, random-phase or coherent", amplitudes},
       {"ping", "noise", "--noise", &o.noise,
        "add thermal noise, and the wind's and the platform's if the environment has them"},

@@ -76,7 +76,6 @@ std::vector<SampleField> fields_of(const Ping& ping) {
     fields.push_back({"level_db_" + layer.name,
                       level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure}), level_unit});
   if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping), level_unit});
-  if (ping.level_error_db.size() > 0) fields.push_back({"level_error_db", ping.level_error_db, "dB"});
   if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase, "rad"});
   if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});
   return fields;

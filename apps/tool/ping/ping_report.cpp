@@ -133,17 +133,6 @@ ordered_json sampling_json(const SimulatedPing& p) {
           {"noise_floor_db", p.report.noise_floor_db}};
 }
 
-ordered_json level_error_json(const ConvergenceReport& c) {
-  return {{"wanted_db", c.wanted_db},
-          {"reached", c.reached},
-          {"reached_db", c.reached_db},
-          {"share_below", c.share_below},
-          {"cells", c.judged},
-          {"samplings", c.samplings},
-          {"scatterers_per_cell", c.scatterers_per_cell},
-          {"rays_per_beam", c.rays_per_beam}};
-}
-
 ordered_json holes_json(const HoleReport& holes) {
   return {{"directions", holes.directions},
           {"unknown", holes.unknown},
@@ -181,8 +170,7 @@ ordered_json plan_json(const PingPlan& plan) {
                       {"included", s.included},
                       {"why", s.why},
                       {"bound_db", number(s.bound_db)},
-                      {"bound_relative", number(s.bound_relative)},
-                      {"seconds_on_one_core", s.seconds}});
+                      {"bound_relative", number(s.bound_relative)}});
   return {{"accuracy_db", plan.options.accuracy_db},
           {"share_db", plan.share_db},
           {"left_out_db", number(plan.left_out_db)},
@@ -192,18 +180,14 @@ ordered_json plan_json(const PingPlan& plan) {
             {"precision", plan.synthesis.single_precision ? "single" : "double"},
             {"kernel_width", plan.synthesis.kernel_width},
             {"grid", plan.synthesis.grid},
-            {"pulse_samples", plan.synthesis.pulse_samples}}},
-          {"surfels_in_view", plan.surfels_in_view},
-          {"scatterers", std::llround(plan.scatterers)},
-          {"seconds_on_one_core", plan.seconds},
-          {"memory_mib", plan.mib}};
+            {"pulse_samples", plan.synthesis.pulse_samples}}}};
 }
 
 void print_plan(const PingPlan& plan) {
-  fmt::print("{:<18} {:<4} {:<10} {:<9} {:<9} {}\n", "stage", "", "bound", "share", "cost", "why");
+  fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", "stage", "", "bound", "share", "why");
   for (const PlannedStage& s : plan.stages)
-    fmt::print("{:<18} {:<4} {:<10} {:<9} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s),
-               share_text(s, plan), s.seconds > 0 ? fmt::format("{:.2g} s", s.seconds) : "", s.why);
+    fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s), share_text(s, plan),
+               s.why);
   fmt::print(
       "bound: error of the image without the stage; share: of {} dB, what a stage may cost to be left out, or who "
       "decides instead\n",
@@ -213,8 +197,6 @@ void print_plan(const PingPlan& plan) {
              name_of(method_words, plan.options.synthesis.method),
              plan.synthesis.single_precision ? "single" : "double", plan.synthesis.kernel_width, plan.synthesis.grid,
              plan.synthesis.pulse_samples);
-  fmt::print("about {} surfels in view, {:.2g} scatterers, {:.2g} s on one core, {:.0f} MiB\n", plan.surfels_in_view,
-             plan.scatterers, plan.seconds, plan.mib);
 }
 
 }  // namespace insonify::tool

@@ -14,7 +14,6 @@ namespace insonify::tool {
 
 nlohmann::ordered_json scene_json(const LoadedScene& loaded);
 nlohmann::ordered_json sampling_json(const SimulatedPing& ping);
-nlohmann::ordered_json level_error_json(const ConvergenceReport& convergence);
 nlohmann::ordered_json holes_json(const HoleReport& holes);
 nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
 nlohmann::ordered_json motion_json(const Motion& motion);

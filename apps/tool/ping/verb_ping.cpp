@@ -56,7 +56,6 @@ std::string origin_note(const Eigen::Vector3d& origin) {
 void describe(const SimulatedPing& result, const SimulationOptions& simulation, const Motion& motion,
               ordered_json& manifest) {
   manifest["sampling"] = sampling_json(result);
-  if (simulation.sampling.level_error_db > 0) manifest["level_error"] = level_error_json(result.report.convergence);
   if (simulation.outputs.mask) manifest["holes"] = holes_json(result.report.holes);
   manifest["layers"] = layers_json(result.report.layers);
   if (!motion.none()) manifest["motion"] = motion_json(motion);

@@ -22,8 +22,18 @@ void plan(const PingCommand& command) {
   for (const std::string& note : ready.head.notes) progress.note(note);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   progress.step("planning");
-  const PingPlan plan = plan_ping(loaded.scene, ready.head.head, ready.event, ready.head.environment, ready.simulation);
-  print_result(o.common, plan_json(plan), [&] { print_plan(plan); });
+  const PreparedScene scene(loaded.scene, ready.simulation.threads);
+  const PingSimulator simulator = ready.simulator();
+  const PingPlan plan = simulator.plan(scene, ready.event);
+  const SamplingReport count = simulator.count(scene, ready.event);
+  nlohmann::ordered_json json = plan_json(plan);
+  json["surfels_in_view"] = count.visible, json["back_facing"] = count.back_facing;
+  json["scatterers"] = count.scatterers;
+  print_result(o.common, json, [&] {
+    print_plan(plan);
+    fmt::print("{} surfels in view, {} more turn away; {} scatterers\n", count.visible, count.back_facing,
+               count.scatterers);
+  });
 }
 
 }  // namespace

@@ -31,7 +31,6 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   s.sampling.kind = *find_named(sampling_words, o.sampling);
   s.sampling.scatterers_per_cell = o.scatterers_per_cell;
   s.sampling.rays_per_beam = o.rays_per_beam;
-  s.sampling.level_error_db = o.level_error_db;
   s.amplitude = *find_named(amplitude_words, o.amplitude);
   s.synthesis = asked_synthesis(o.run);
   s.accuracy_db = o.accuracy_db;

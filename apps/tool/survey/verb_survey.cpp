@@ -61,10 +61,11 @@ Shard parse_shard(const std::string& text) {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// A ping that may be tried, and what its plan expects of it; 1 each where there is no plan.
+/// A ping that may be tried, and numbers of what it is made of: scatterers, and with the samples of its image what its time
+/// goes with; 1 each where the scene is not at hand.
 struct PlannedPing {
   SurveyPing ping;
-  double seconds = 1, scatterers = 1;
+  double scatterers = 1, work = 1;
 };
 
 /// What the pings of a head cost: of a few, evenly spaced, some are made, and the others count as their plans compare.
@@ -87,12 +88,12 @@ struct HeadTrial {
   /// CPU time of all pings [s]. The first one also makes what the others use again, which a second one shows.
   double cpu_of_all() const {
     double later = 0;
-    for (std::size_t k = 1; k < tried; ++k) later += planned[k].seconds;
-    if (!(later > 0)) return cpu * part(&PlannedPing::seconds);
+    for (std::size_t k = 1; k < tried; ++k) later += planned[k].work;
+    if (!(later > 0)) return cpu * part(&PlannedPing::work);
     double mean = 0;
-    for (const PlannedPing& p : planned) mean += p.seconds / static_cast<double>(planned.size());
+    for (const PlannedPing& p : planned) mean += p.work / static_cast<double>(planned.size());
     const double rate = (cpu - first_cpu) / later;
-    return std::max(0.0, first_cpu - rate * planned.front().seconds) + rate * mean * static_cast<double>(pings);
+    return std::max(0.0, first_cpu - rate * planned.front().work) + rate * mean * static_cast<double>(pings);
   }
 };
 
@@ -112,13 +113,14 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
       if (scene.is_shared()) {
         const PingSimulator simulator = s.survey->simulator_of(planned.ping);
         const PingEvent event = s.survey->event_of(planned.ping);
-        const PingPlan plan = simulator.plan(*scene.scene_for(simulator, event), event);
-        planned.seconds = plan.seconds, planned.scatterers = plan.scatterers;
+        const SonarHead& head = simulator.head();
+        planned.scatterers = static_cast<double>(simulator.count(*scene.scene_for(simulator, event), event).scatterers);
+        planned.work = planned.scatterers + static_cast<double>(head.fan.beams() * head.gate.bins());
       }
-      mean += planned.seconds / static_cast<double>(places);
+      mean += planned.work / static_cast<double>(places);
       trial.planned.push_back(planned);
     }
-    const auto off = [mean](const PlannedPing& p) { return std::abs(p.seconds - mean); };
+    const auto off = [mean](const PlannedPing& p) { return std::abs(p.work - mean); };
     std::stable_sort(trial.planned.begin(), trial.planned.end(),
                      [&](const auto& a, const auto& b) { return off(a) < off(b); });
   }

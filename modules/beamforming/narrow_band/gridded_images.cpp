@@ -1,4 +1,4 @@
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
 #include "beamforming/narrow_band/image_by_tiles_internal.hpp"
 
@@ -18,8 +18,8 @@ GriddedImage GriddedSynthesis<Real>::image(const Echoes& echoes) const {
 }
 
 template <typename Real>
-GriddedImage GriddedSynthesis<Real>::image(const EchoSource& source) const {
-  return streamed_image(source, plan_, tiles_, reach_of(source.moving), slab_tiles, threads_,
+GriddedImage GriddedSynthesis<Real>::image(const EchoStream& stream) const {
+  return streamed_image(stream, plan_, tiles_, reach_of(stream.moving()), slab_tiles, threads_,
                         [&](auto&... arguments) { return form_beams(arguments...); });
 }
 
@@ -36,7 +36,7 @@ double GriddedSynthesis<Real>::form_beams(GridTile<Real>& tile, double unit, std
 
 template GriddedImage GriddedSynthesis<float>::image(const Echoes&) const;
 template GriddedImage GriddedSynthesis<double>::image(const Echoes&) const;
-template GriddedImage GriddedSynthesis<float>::image(const EchoSource&) const;
-template GriddedImage GriddedSynthesis<double>::image(const EchoSource&) const;
+template GriddedImage GriddedSynthesis<float>::image(const EchoStream&) const;
+template GriddedImage GriddedSynthesis<double>::image(const EchoStream&) const;
 
 }  // namespace insonify

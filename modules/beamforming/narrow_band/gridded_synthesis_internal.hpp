@@ -1,5 +1,5 @@
 #pragma once
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/beam_transform_internal.hpp"
 #include "beamforming/narrow_band/grid_echoes_internal.hpp"
 #include "beamforming/narrow_band/gridded_image_internal.hpp"
@@ -18,7 +18,7 @@ class GriddedSynthesis {
   GriddedImage image(const Echoes& echoes) const;
   /// The same of echoes that are not stored: each thread forms the beams of one slab of bins after another, and visits
   /// the chunks that reach into it, in order.
-  GriddedImage image(const EchoSource& source) const;
+  GriddedImage image(const EchoStream& stream) const;
   const SynthesisChoice& choice() const { return plan_.choice; }
   /// Returns true if the cost model favours the direct sum over gridding for these echoes.
   bool direct_is_cheaper(const Echoes& echoes) const;

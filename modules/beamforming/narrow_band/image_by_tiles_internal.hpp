@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/beam_transform_internal.hpp"
 #include "beamforming/narrow_band/grid_echoes_internal.hpp"
 #include "beamforming/narrow_band/gridded_image_internal.hpp"
@@ -25,7 +26,7 @@ namespace insonify {
 ///
 /// which grids the listed echoes and returns their energy [input.unit^2 bins].
 template <typename Tile, typename Real>
-class Slab {
+class Slab final : public EchoSink {
  public:
   Slab(const GriddingPlan<Real>& plan, TilePool<Tile>& pool, const PulseReach& reach, std::size_t first_bin,
        std::size_t tiles)
@@ -42,8 +43,9 @@ class Slab {
   }
 
   bool reaches(double min_range, double max_range) const { return max_range >= min_range_ && min_range <= max_range_; }
+  bool wants(const SurfelBounds& s) const override { return reaches(s.range - s.reach, s.range + s.reach); }
 
-  void add(const Echoes& echoes) {
+  void take(const Scatterers&, const Echoes& echoes) override {
     require_finite(echoes, "PingSynthesizer");
     for (Place& place : places_) place.list.clear();
     begin_.resize(echoes.size()), end_.resize(echoes.size());
@@ -111,18 +113,17 @@ class Slab {
 /// and visits the chunks that reach into it, in order. form(tile, unit, first bin, last bin, image) forms beams, returns
 /// their energy [unit^2 bins] and leaves the tile empty.
 template <typename Tile, typename Real, typename Form>
-GriddedImage streamed_image(const EchoSource& source, const GriddingPlan<Real>& plan, TilePool<Tile>& pool,
+GriddedImage streamed_image(const EchoStream& stream, const GriddingPlan<Real>& plan, TilePool<Tile>& pool,
                             const PulseReach& reach, std::size_t slab_tiles, int threads, const Form& form) {
   const std::size_t slab_bins = slab_tiles * plan.tile_bins, slabs = (plan.axis.bins + slab_bins - 1) / slab_bins;
+  const std::span<const ChunkBounds> chunks = stream.chunks();
   ComplexGrid pressure(plan.head.fan.beams(), plan.axis.bins);
   std::vector<double> gridded(slabs), received(slabs);
   parallel_for(slabs, threads, [&](std::size_t s) {
     const FlushDenormals flush;
     Slab<Tile, Real> slab(plan, pool, reach, s * slab_bins, slab_tiles);
-    for (std::size_t c = 0; c < source.chunks.size(); ++c)
-      if (slab.reaches(source.chunks[c].min_range, source.chunks[c].max_range))
-        source.visit(c, {[&](const PatchPlace& p) { return slab.reaches(p.range - p.reach, p.range + p.reach); }},
-                     [&](const Scatterers&, const Echoes& echoes) { slab.add(echoes); });
+    for (std::size_t c = 0; c < chunks.size(); ++c)
+      if (slab.reaches(chunks[c].min_range, chunks[c].max_range)) stream.visit(c, slab);
     std::tie(gridded[s], received[s]) =
         slab.finish([&](std::size_t first, std::size_t last, Tile& tile,
                         double unit) { return form(tile, unit, first, last, pressure); },

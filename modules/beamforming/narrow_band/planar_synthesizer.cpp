@@ -2,7 +2,7 @@
 #include <optional>
 #include <utility>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/image_by_tiles_internal.hpp"
 #include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "beamforming/narrow_band/planar_tile_internal.hpp"
@@ -32,8 +32,8 @@ class PlanarGridding {
     const GriddingInput input{echoes, reach(), false, gridding_unit(echoes, across.medium, threads_)};
     return stored_image(input, across, tiles_, threads_, former());
   }
-  GriddedImage image(const EchoSource& source) const {
-    return streamed_image(source, plan_.across, tiles_, reach(), 1, threads_, former());
+  GriddedImage image(const EchoStream& stream) const {
+    return streamed_image(stream, plan_.across, tiles_, reach(), 1, threads_, former());
   }
 
  private:
@@ -81,14 +81,14 @@ struct PlanarSynthesizer::Plan {
       in_double = std::make_unique<PlanarGridding<double>>(head, medium, options, kernels);
   }
 
-  template <typename EchoesOrSource>
-  GriddedImage gridded(const EchoesOrSource& echoes) const {
+  template <typename EchoesOrStream>
+  GriddedImage gridded(const EchoesOrStream& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
   }
   /// The gridded image, unless its error cannot be kept: where the beams receive a smaller fraction of the gridded
   /// energy than expected, again with kernels of lower tolerance.
-  template <typename EchoesOrSource>
-  std::optional<ComplexGrid> accurate(const EchoesOrSource& echoes) const {
+  template <typename EchoesOrStream>
+  std::optional<ComplexGrid> accurate(const EchoesOrStream& echoes) const {
     GriddedImage image = gridded(echoes);
     const double shortfall = image.share / (share.u * share.v);
     if (shortfall >= 0.5) return std::move(image.pressure);
@@ -111,8 +111,7 @@ bool PlanarSynthesizer::suits(const SonarHead& head, const SynthesisOptions& opt
 PlanarSynthesizer::PlanarSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   // As many as a row of beams would rather sum.
-  const std::size_t direct =
-      PingSynthesizer(line_head(head, fan_rows(head.fan).front()), medium, options).choice().direct_echoes;
+  const std::size_t direct = choice_of_a_row(head, medium, options).direct_echoes;
   plan_ = std::make_unique<Plan>(head, medium, options,
                                  PlanarTolerance{expected_share(head.array, wavelength, beam_cosines(head.fan)),
                                                  expected_share(*head.column, wavelength, row_sines(head.fan))},
@@ -129,11 +128,11 @@ ComplexGrid PlanarSynthesizer::pressure(const Echoes& echoes) const {
   return plan_->by_rows(echoes);
 }
 
-ComplexGrid PlanarSynthesizer::pressure_of(const EchoSource& source) const {
-  if (source.stored) return pressure(*source.stored);
-  if (grids(source.size()))
-    if (auto image = plan_->accurate(source)) return std::move(*image);
-  return plan_->by_rows(all_echoes(source));
+ComplexGrid PlanarSynthesizer::pressure(const EchoStream& stream) const {
+  if (stream.stored()) return pressure(*stream.stored());
+  if (grids(stream.size()))
+    if (auto image = plan_->accurate(stream)) return std::move(*image);
+  return plan_->by_rows(all_echoes(stream));
 }
 
 }  // namespace insonify

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesize.hpp"
 
 namespace insonify {
@@ -25,7 +25,7 @@ class PlanarSynthesizer {
   /// Returns the image, beams x bins [Pa], of echoes with v, of which none is NaN. Throws Error if some have no v.
   ComplexGrid pressure(const Echoes& echoes) const;
   /// The same of echoes that are made chunk by chunk, of a head and a scene at rest.
-  ComplexGrid pressure_of(const EchoSource& source) const;
+  ComplexGrid pressure(const EchoStream& stream) const;
 
  private:
   struct Plan;

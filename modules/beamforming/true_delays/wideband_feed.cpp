@@ -2,11 +2,60 @@
 #include <cmath>
 #include <memory>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/true_delays/wideband_feed_internal.hpp"
 
 namespace insonify {
+namespace {
+
+/// Hands on those echoes of chunks that lie in one stretch.
+class StretchSink final : public EchoSink {
+ public:
+  StretchSink(const WidebandStretches& stretches, std::size_t stretch, double sound_speed, const WidebandFeed::Add& add)
+      : start_(stretches.axis.start),
+        step_(stretches.axis.step),
+        first_(stretches.edge[stretch]),
+        last_(stretches.edge[stretch + 1]),
+        // A bin more at either end: edges and ranges are rounded differently.
+        near_(0.5 * sound_speed * stretches.time_of(first_ - 1)),
+        far_(0.5 * sound_speed * stretches.time_of(last_ + 1)),
+        add_(add) {}
+
+  bool reaches(double min_range, double max_range) const { return max_range >= near_ && min_range <= far_; }
+  bool wants(const SurfelBounds& s) const override { return reaches(s.range - s.reach, s.range + s.reach); }
+  void take(const Scatterers&, const Echoes& echoes) override {
+    require_finite(echoes, "WidebandSynthesizer");
+    // As WidebandStretches::of, without a branch: most echoes of a chunk lie in one stretch.
+    const double start = start_, step = step_, first = first_, last = last_;
+    std::size_t count = 0;
+    which_.resize(echoes.size());
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const double bin = (echoes.delay[i] - start) / step;
+      which_[count] = static_cast<std::uint32_t>(i);
+      count += static_cast<std::size_t>(bin >= first) & static_cast<std::size_t>(bin < last);
+    }
+    if (count > 0) add_(echoes, {which_.data(), count});
+  }
+
+ private:
+  double start_, step_, first_, last_;  // of the axis; bins of the stretch
+  double near_, far_;                   // [m]
+  const WidebandFeed::Add& add_;
+  std::vector<std::uint32_t> which_;
+};
+
+/// The largest |u| of echoes; asks only for surfels that may be farther out than what was found so far.
+struct WidestDirection final : EchoSink {
+  double widest;
+  explicit WidestDirection(double least) : widest(least) {}
+  bool wants(const SurfelBounds& s) const override { return std::abs(s.u) + s.reach_u > widest; }
+  void take(const Scatterers&, const Echoes& echoes) override {
+    for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
+  }
+};
+
+}  // namespace
 
 std::size_t WidebandStretches::of(double delay) const {
   const double bin = (delay - axis.start) / axis.step;
@@ -32,41 +81,19 @@ WidebandFeed feed_of(const Echoes& echoes, const WidebandStretches& stretches) {
   }};
 }
 
-WidebandFeed feed_of(const EchoSource& source, const WidebandStretches& stretches, double sound_speed) {
-  return {[&source, stretches, sound_speed](std::size_t stretch, const WidebandFeed::Add& add) {
-    // A bin more at either end: edges and ranges are rounded differently.
-    const double near = 0.5 * sound_speed * stretches.time_of(stretches.edge[stretch] - 1),
-                 far = 0.5 * sound_speed * stretches.time_of(stretches.edge[stretch + 1] + 1);
-    std::vector<std::uint32_t> which;
-    for (std::size_t c = 0; c < source.chunks.size(); ++c) {
-      if (source.chunks[c].max_range < near || source.chunks[c].min_range > far) continue;
-      source.visit(c, {[&](const PatchPlace& p) { return p.range + p.reach >= near && p.range - p.reach <= far; }},
-                   [&](const Scatterers&, const Echoes& echoes) {
-                     require_finite(echoes, "WidebandSynthesizer");
-                     // As `of`, without a branch: most echoes of a chunk lie in one stretch.
-                     const double start = stretches.axis.start, step = stretches.axis.step,
-                                  first = stretches.edge[stretch], last = stretches.edge[stretch + 1];
-                     std::size_t count = 0;
-                     which.resize(echoes.size());
-                     for (std::size_t i = 0; i < echoes.size(); ++i) {
-                       const double bin = (echoes.delay[i] - start) / step;
-                       which[count] = static_cast<std::uint32_t>(i);
-                       count += static_cast<std::size_t>(bin >= first) & static_cast<std::size_t>(bin < last);
-                     }
-                     if (count > 0) add(echoes, {which.data(), count});
-                   });
-    }
+WidebandFeed feed_of(const EchoStream& stream, const WidebandStretches& stretches, double sound_speed) {
+  return {[&stream, stretches, sound_speed](std::size_t stretch, const WidebandFeed::Add& add) {
+    StretchSink sink(stretches, stretch, sound_speed, add);
+    const std::span<const ChunkBounds> chunks = stream.chunks();
+    for (std::size_t c = 0; c < chunks.size(); ++c)
+      if (sink.reaches(chunks[c].min_range, chunks[c].max_range)) stream.visit(c, sink);
   }};
 }
 
-double widest_of(const EchoSource& source, double least) {
-  // Only of surfels that may be farther out than what was found so far.
-  for (std::size_t c = 0; c < source.chunks.size(); ++c)
-    source.visit(c, {[&](const PatchPlace& p) { return std::abs(p.u) + p.reach_u > least; }},
-                 [&](const Scatterers&, const Echoes& echoes) {
-                   for (const double u : echoes.u) least = std::max(least, std::abs(u));
-                 });
-  return least;
+double widest_of(const EchoStream& stream, double least) {
+  WidestDirection sink(least);
+  for (std::size_t c = 0; c < stream.chunks().size(); ++c) stream.visit(c, sink);
+  return sink.widest;
 }
 
 }  // namespace insonify

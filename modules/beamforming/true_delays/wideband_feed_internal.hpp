@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
 #include "beamforming/true_delays/wideband_plan_internal.hpp"
 
@@ -38,11 +38,11 @@ struct WidebandFeed {
 /// Of stored echoes, which must outlive it.
 WidebandFeed feed_of(const Echoes& echoes, const WidebandStretches& stretches);
 
-/// Of a source, which must outlive it, of a head and a scene at rest: delay = 2 range / c. Chunks are made again for each
+/// Of a stream, which must outlive it, of a head and a scene at rest: delay = 2 range / c. Chunks are made again for each
 /// stretch that they reach into. Calls throw Error for an echo that is not finite.
-WidebandFeed feed_of(const EchoSource& source, const WidebandStretches& stretches, double sound_speed);
+WidebandFeed feed_of(const EchoStream& stream, const WidebandStretches& stretches, double sound_speed);
 
-/// The largest |u| of a source's echoes, or `least` if that is more.
-double widest_of(const EchoSource& source, double least);
+/// The largest |u| of a stream's echoes, or `least` if that is more.
+double widest_of(const EchoStream& stream, double least);
 
 }  // namespace insonify

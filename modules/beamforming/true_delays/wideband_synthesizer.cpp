@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/numerics/flush_denormals_internal.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/true_delays/wideband_block_internal.hpp"
@@ -134,10 +134,10 @@ ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
   return plan_->with(widest, [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches)); });
 }
 
-ComplexGrid WidebandSynthesizer::pressure_of(const EchoSource& source) const {
-  if (source.stored) return pressure(*source.stored);
-  return plan_->with(widest_of(source, plan_->widest), [&](const Plan& plan) {
-    return plan.pressure(feed_of(source, plan.stretches, plan.medium.sound_speed));
+ComplexGrid WidebandSynthesizer::pressure(const EchoStream& stream) const {
+  if (stream.stored()) return pressure(*stream.stored());
+  return plan_->with(widest_of(stream, plan_->widest), [&](const Plan& plan) {
+    return plan.pressure(feed_of(stream, plan.stretches, plan.medium.sound_speed));
   });
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 #include <memory>
-#include <span>
 
-#include "acoustics/echo_source.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/sonar_head.hpp"
 
@@ -40,7 +39,7 @@ class WidebandSynthesizer {
   ComplexGrid pressure(const Echoes& echoes) const;
   /// The same, to the byte, of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c.
   /// Chunks are made again for each block that they reach into; memory does not grow with their number.
-  ComplexGrid pressure_of(const EchoSource& source) const;
+  ComplexGrid pressure(const EchoStream& stream) const;
 
   /// |u| of echoes up to which one plan is used; for others there is one of all directions.
   static double usual_extent(const SonarHead& head);
@@ -49,18 +48,6 @@ class WidebandSynthesizer {
   struct Plan;
   std::unique_ptr<Plan> plan_;
 };
-
-/// What one image takes on one core.
-struct WidebandCost {
-  double seconds = 0;           ///< tables, sums and transforms, whatever the number of echoes
-  double seconds_per_echo = 0;  ///< beside making it
-  double bytes = 0;             ///< beside image and echoes
-};
-
-/// Estimate for echoes from about `ranges` [m], some of all, and |u| up to `widest`: sums of the sizes of its steps with
-/// coefficients fitted to measured times. Blocks without echoes cost nothing; echoes nearer than blocks reach cost much.
-WidebandCost wideband_cost(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest,
-                           std::span<const double> ranges);
 
 /// A WidebandSynthesizer made for this one image. Throws Error as it does.
 ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,

@@ -14,8 +14,8 @@
 #include "beamforming/synthesize_intensity.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
-#include "simulate/heard_energy_internal.hpp"
 #include "simulate/resolve_ping.hpp"
+#include "simulate/surfel_energy_internal.hpp"
 #include "store/sonar_file.hpp"
 
 namespace {
@@ -57,7 +57,7 @@ class Bench {
     o.seed = seed, o.scatterers_per_cell = rule.per_cell, o.lobe_margin = rule.lobe_margin;
     o.azimuth_margin = azimuth_margin;
     const View& view = ping_.view;
-    if (rule.by_shares) o.heard = heard_energy(ping_, scene_.scene().materials);
+    if (rule.by_shares) o.energy = surfel_energy(ping_, scene_.scene().materials);
     Scatterers s = find_scatterers(scene_, view.world_from_head, view.fan, view.gate, o).scatterers;
     scatterers = s.size();
     if (rule.alike) share_alike(s);

@@ -1,10 +1,10 @@
 // Prints the tables of docs/plan.md: what the plan promises of each stage and what forcing the stage in does, or,
-// called with `left-out`, what default pings lack, or with `costs`, what it says of time and memory and what pings take.
+// called with `left-out`, what default pings lack.
 #include <algorithm>
 #include <cstdio>
 #include <string>
 
-#include "plan_costs.hpp"
+#include "plan_suite.hpp"
 
 namespace insonify {
 namespace {
@@ -33,28 +33,12 @@ void print_left_out() {
     }
 }
 
-void print_costs() {
-  std::puts(
-      "| ping | sonar | planned | CPU time | ratio | planned | memory | ratio | scatterers, planned / actual |\n"
-      "|---|---|---|---|---|---|---|---|---|");
-  for (const PlanCase& c : cost_cases()) {
-    const PlanCost cost = measure_cost(c);
-    std::printf("| %s | %s | %.2g s | %.2g s | %.2f | %.0f MiB | %.0f MiB | %.2f | %.2f of %.3g |\n", cost.what.c_str(),
-                c.sonar.c_str(), cost.planned_seconds, cost.seconds, cost.planned_seconds / cost.seconds,
-                cost.planned_mib, cost.mib, cost.planned_mib / cost.mib, cost.planned_scatterers / cost.scatterers,
-                cost.scatterers);
-    std::fflush(stdout);
-  }
-}
-
 }  // namespace
 }  // namespace insonify
 
 int main(int count, char** arguments) {
   const std::string what = count > 1 ? arguments[1] : "effects";
-  if (what == "costs")
-    insonify::print_costs();
-  else if (what == "left-out")
+  if (what == "left-out")
     insonify::print_left_out();
   else
     insonify::print_effects();

@@ -1,8 +1,8 @@
 // What is heard of a surfel (E127), against the energy of pings of single surfels, and the error of parts by its share.
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize_intensity.hpp"
-#include "simulate/heard_energy_internal.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "simulate/surfel_energy_internal.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
 #include "support/test.hpp"
@@ -44,13 +44,13 @@ double energy_of_ping(const OneSurfel& surfel, const SonarHead& head = single_be
 double heard_of(const OneSurfel& surfel, const SonarHead& head = single_beam) {
   const SceneCloud scene = scene_of(surfel);
   const ResolvedPing ping = resolve_ping(PreparedScene(scene).whole(), head, {}, {}, all_directions());
-  const HeardEnergy heard = heard_energy(ping, scene.materials);
-  return heard(scene.origin + scene.point[0].cast<double>(), std::cos(surfel.tilt), scene.area[0], surfel.material);
+  return surfel_energy(ping, scene.materials)
+      ->of(scene.origin + scene.point[0].cast<double>(), std::cos(surfel.tilt), scene.area[0], surfel.material);
 }
 
 }  // namespace
 
-TEST(HeardEnergy, is_the_energy_of_echoes_up_to_a_factor) {
+TEST(SurfelEnergy, is_the_energy_of_echoes_up_to_a_factor) {
   const SonarHead fan = small_head({.elevation_width_deg = 40, .max_range = 12});
   // Whole bins apart, since a sum over bins depends on where between two of them an echo lies.
   const double bins = std::round(3.5 / single_beam.gate.bin_size) * single_beam.gate.bin_size;
@@ -65,7 +65,7 @@ TEST(HeardEnergy, is_the_energy_of_echoes_up_to_a_factor) {
   }
 }
 
-TEST(HeardEnergy, is_a_mean_over_a_beam_width_to_either_side) {
+TEST(SurfelEnergy, is_a_mean_over_a_beam_width_to_either_side) {
   const auto mean_of = [](double u, const auto& energy) {
     constexpr int places = 41;
     double sum = 0;
@@ -79,11 +79,11 @@ TEST(HeardEnergy, is_a_mean_over_a_beam_width_to_either_side) {
     EXPECT_NEAR(mean_of(u, of_ping) / heard_of({.u = u}), factor, 0.1 * factor) << u;
 }
 
-TEST(HeardEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {
+TEST(SurfelEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {
   const auto given = [](const SonarHead& head, const SimulationOptions& options, double coherent_fraction = 0) {
     std::vector<Material> materials(1);
     materials[0].coherent_fraction = coherent_fraction;
-    return bool{heard_energy(resolve_ping(WholeScene{}, head, {}, {}, options), materials)};
+    return surfel_energy(resolve_ping(WholeScene{}, head, {}, {}, options), materials) != nullptr;
   };
   EXPECT_TRUE(given(single_beam, {}));
   EXPECT_TRUE(given(small_head({.beams = 2}), {}));
@@ -100,7 +100,7 @@ TEST(HeardEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {
 }
 
 // The foot of a wall, seen in the main lobe, and the bed before it, seen below, are heard at one range.
-TEST(HeardEnergy, lets_a_fan_do_with_fewer_parts) {
+TEST(SurfelEnergy, lets_a_fan_do_with_fewer_parts) {
   SceneCloud scene;
   add_rectangle(scene, {12, -5, -4}, {0, 10, 0}, {0, 0, 8}, {-1, 0, 0}, 0.4, 0.1);
   add_rectangle(scene, {10, -5, -4}, {2, 0, 0}, {0, 10, 0}, {0, 0, 1}, 0.4, 0.1);
@@ -110,7 +110,7 @@ TEST(HeardEnergy, lets_a_fan_do_with_fewer_parts) {
   const auto levels = [&](double per_cell, bool by_shares, std::uint64_t seed) {
     SamplingOptions o = ping.view.sampling;
     o.scatterers_per_cell = per_cell, o.seed = seed;
-    o.heard = by_shares ? heard_energy(ping, scene.materials) : nullptr;
+    o.energy = by_shares ? surfel_energy(ping, scene.materials) : nullptr;
     const Scatterers s = find_scatterers(scene, ping.view.world_from_head, head.fan, ping.view.gate, o).scatterers;
     parts = s.size();
     const Transmission& sent = ping.sent;

@@ -1,0 +1,5 @@
+namespace insonify {
+struct Calls {
+  std::function<void()> call;
+};
+}  // namespace insonify
