@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "beamforming/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "simulate/plan_stages_internal.hpp"
