@@ -137,6 +137,28 @@ TEST(FanPatches, cover_the_gate_without_gaps_and_keep_the_energy) {
   EXPECT_NEAR(energy / whole, 1, 1e-6);
 }
 
+// 100 beams on 80 pixels and 203 bins on 60: groups of one beam and of two bins, of which the last has one alone.
+TEST(RectPatch, combines_cells_below_half_a_pixel_and_keeps_the_energy) {
+  LevelImage image = flat_image(100, 60, 203, 0);
+  std::mt19937 seed(5);
+  std::normal_distribution<float> level(100, 6);
+  for (float& db : image.level_db.reshaped()) db = level(seed);
+  const BeamCells cells = order_beams(image);
+  const CellPatch patch = rect_patch(cells, image.gate, 80, 60);
+  EXPECT_EQ(patch.beams_per_row, 1u);
+  ASSERT_EQ(patch.level_db.rows(), 100);
+  ASSERT_EQ(patch.level_db.cols(), 102);
+  EXPECT_DOUBLE_EQ(patch.columns, 101.5);
+  const auto power = [&](Eigen::Index bin) { return power_from_db(static_cast<double>(cells.level_db(7, bin))); };
+  EXPECT_NEAR(patch.level_db(7, 3), db_from_power((power(6) + power(7)) / 2), 1e-4);
+  EXPECT_NEAR(patch.level_db(7, 101), cells.level_db(7, 202), 1e-4);
+  // Three beams share a row of 20 pixels for 100.
+  const CellPatch narrow = rect_patch(cells, image.gate, 20, 1000);
+  EXPECT_EQ(narrow.beams_per_row, 3u);
+  EXPECT_EQ(narrow.level_db.rows(), 34);
+  EXPECT_EQ(narrow.level_db.cols(), 203);
+}
+
 TEST(RequireDrawable, levels_of_another_size_than_beams_and_bins_are_an_error) {
   LevelImage image = flat_image(4, 60, 10, 0);
   image.level_db.resize(5, 10);

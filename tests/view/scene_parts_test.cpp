@@ -79,9 +79,11 @@ TEST(SceneColours, of_heights_are_world_heights) {
   SceneCloud scene = floor_of(10, 1, 0);
   for (std::size_t i = 0; i < scene.size(); ++i) scene.point[i].z() = 0.1F * static_cast<float>(i % 10);
   scene.origin = {0, 0, 1000};
-  const SceneKey key = colour_surfels(scene, {}, {}, "test").key;
+  const SceneColours colours = colour_surfels(scene, {}, {}, "test");
+  const SceneKey& key = colours.key;
   EXPECT_NEAR(key.scale->min_db, 1000, 1e-6);
   EXPECT_NEAR(key.scale->max_db, 1000.9, 1e-6);
+  EXPECT_NE(colours.colour[0], colours.colour[9]);
 }
 
 TEST(DrawnSurfels, are_chosen_by_id_whatever_the_order) {

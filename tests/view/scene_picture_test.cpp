@@ -69,6 +69,16 @@ TEST_F(ShowScene, from_above_has_x_to_the_right_and_y_up) {
   EXPECT_LT(port.x + 20, starboard.x);
 }
 
+TEST_F(ShowScene, from_the_side_is_seen_from_starboard_with_ahead_to_the_right) {
+  ThreeSpheres spheres(Pose::Identity());
+  spheres.look.camera.preset = ScenePreset::side;
+  const ReadPicture picture = show(spheres.scene, spheres.look);
+  const Blob port = find(picture, colour_of(ThreeSpheres::port_db));
+  const Blob starboard = find(picture, colour_of(ThreeSpheres::starboard_db));  // 3 m farther ahead
+  EXPECT_LT(port.x + 20, starboard.x);
+  EXPECT_GT(starboard.pixels, port.pixels) << "the nearer one is larger";
+}
+
 TEST_F(ShowScene, looks_the_same_in_utm_coordinates) {
   const Eigen::Vector3d far(500000, 5000000, 100);
   const Pose here = pose_from_yaw_pitch_roll({3, -4, -2}, 0.5, 0.25, 0);

@@ -32,6 +32,15 @@ class ShowSoundings : public PictureTest {
 
 }  // namespace
 
+// The bed rises to starboard, which is right.
+TEST_F(ShowSoundings, have_starboard_right_and_height_upwards) {
+  const ReadPicture picture = drawn({0, 0, 0});
+  const auto height = [&](double from, double to) {
+    return find_colour(picture, {20, 84, 158}, from * picture.width, to * picture.width, 0, 0.85 * picture.height).y;
+  };
+  EXPECT_GT(height(0.6, 1), height(0, 0.4) + 50);
+}
+
 TEST_F(ShowSoundings, are_drawn_wherever_they_are) {
   const auto near = points_in(drawn({0, 0, 0}));
   EXPECT_GT(near[0], 200);

@@ -2,6 +2,7 @@
 #include "view/show_track.hpp"
 
 #include "support/test.hpp"
+#include "view/grey_file.hpp"
 #include "view/save_vtk.hpp"
 #include "view/test_pictures.hpp"
 
@@ -50,6 +51,7 @@ TEST_F(ShowTrack, draws_the_way_to_the_scale_of_the_levels) {
   EXPECT_GT(colour_difference(picture.at(middle - length / 4, below), {255, 255, 255}), 60);
   // A quarter of its length from the top of the square, three quarters from the bottom.
   EXPECT_LT(colour_difference(picture.at(middle + length / 4, way.low - 0.7 * length), {255, 255, 255}), 20);
+  EXPECT_GT(colour_difference(picture.at(middle - length / 4, way.low - 0.7 * length), {255, 255, 255}), 60);
 }
 
 TEST_F(ShowTrack, is_the_same_in_utm) {
@@ -68,6 +70,19 @@ TEST_F(ShowTrack, draws_ways_without_levels_and_refuses_nothing_at_all) {
   EXPECT_GT(near_colour(read_png(path), {26, 191, 242}).count, 100);
   map.ways.clear();
   EXPECT_THAT(error_of([&] { show_track(map, options, path); }), HasSubstr("no way has a place"));
+}
+
+// Three cells along x and two along y; the brightest is the second one of the upper row, the others are 45 dB below.
+TEST_F(ShowTrack, a_picture_of_a_map_has_y_up_and_names_the_middle_of_its_upper_left_pixel) {
+  HorizontalMap written{-3, 7, 0.5, {{"strength_db", Grid<float>::Constant(3, 2, -60)}}};
+  written.fields[0].values(1, 1) = -15;
+  save_map_picture(own_path("map"), written, 45);
+  const Grid<std::uint16_t> pixel = load_grey_png(own_path("map.png")).value;  // rows from the top
+  ASSERT_EQ(pixel.rows(), 2);
+  ASSERT_EQ(pixel.cols(), 3);
+  EXPECT_EQ(pixel(0, 1), 255);
+  EXPECT_EQ(pixel(1, 1), 1);
+  EXPECT_EQ(file_bytes(own_path("map.pgw")), "0.5\n0\n0\n-0.5\n-2.75\n7.75\n");
 }
 
 TEST_F(ShowTrack, maps_are_read_as_they_were_written) {

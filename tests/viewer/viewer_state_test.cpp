@@ -94,6 +94,16 @@ TEST(ViewerKeys, escape_lets_go_of_everything) {
   EXPECT_FALSE(state.show_help);
 }
 
+TEST(ViewerKeys, digits_choose_colours_and_angle_brackets_the_speed) {
+  const SceneColour colours[] = {SceneColour::height, SceneColour::material, SceneColour::visibility,
+                                 SceneColour::grazing, SceneColour::incidence};
+  for (const int digit : {1, 2, 3, 4, 5})
+    EXPECT_EQ(after({}, {std::to_string(digit).c_str()}).scene_colour, colours[digit - 1]) << digit;
+  const double speed = ViewerState{}.pings_per_second;
+  EXPECT_DOUBLE_EQ(after({}, {"greater"}).pings_per_second, 2 * speed);
+  EXPECT_DOUBLE_EQ(after({}, {"less"}).pings_per_second, speed / 2);
+}
+
 TEST(ViewerKeys, one_ping_does_not_play) {
   EXPECT_FALSE(apply_key({}, "space", {1, 8, 8}).state.playing);
   EXPECT_TRUE(apply_key({}, "space", {2, 8, 8}).state.playing);
