@@ -1,3 +1,7 @@
+#include "files/peak_memory.hpp"
 #include "tool/command/command_line.hpp"
 
-int main(int argc, char** argv) { return insonify::tool::run_tool(argc, argv); }
+int main(int argc, char** argv) {
+  insonify::keep_freed_memory();
+  return insonify::tool::run_tool(argc, argv);
+}

@@ -14,6 +14,11 @@ void forget_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << "5\n";  // resets VmHWM
 }
 
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc allows
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
 double peak_memory_mib() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)

@@ -10,8 +10,11 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
+#include "files/peak_memory.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
@@ -22,19 +25,32 @@ using namespace insonify;
 
 const Environment fresh_water{};
 
-/// Wall and CPU time of a ping [s], and what it was made of.
+/// Wall and CPU time of a ping [s], pages that it fetched from the system, and what it was made of.
 struct PingTime {
   double wall = 0, cpu = 0;
+  long pages = 0;
   StageSeconds stages;
   std::size_t scatterers = 0, samples = 0;
 };
 
+/// Minor page faults of this process so far.
+long page_faults() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_minflt;
+}
+
 PingTime time_ping(const PingSimulator& simulator, const PreparedScene& scene, const Pose& pose) {
   const std::clock_t begin = std::clock();
+  const long pages = page_faults();
   StopWatch watch;
   const SimulatedPing result = simulator.ping(scene, {pose});
-  PingTime time{watch.lap(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, result.report.seconds,
-                result.report.sampling.scatterers, static_cast<std::size_t>(result.ping.pressure.size())};
+  PingTime time{watch.lap(),
+                static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
+                page_faults() - pages,
+                result.report.seconds,
+                result.report.sampling.scatterers,
+                static_cast<std::size_t>(result.ping.pressure.size())};
   return time;
 }
 
@@ -71,9 +87,10 @@ SonarHead wide_head(double bandwidth, double max_range) {
 
 void print_work(const std::string& name, const PingTime& t) {
   const double n = static_cast<double>(t.scatterers);
-  std::printf("| %s | %zu | %zu | %.0f | %.0f | %.0f | %.0f / %.0f / %.0f |\n", name.c_str(), t.scatterers, t.samples,
-              1e3 * t.wall, 1e3 * t.cpu, 1e9 * t.cpu / n, 100 * (t.stages.sampling + t.stages.acoustics) / t.wall,
-              100 * t.stages.synthesis / t.wall, 100 * t.stages.detection / t.wall);
+  std::printf("| %s | %zu | %zu | %.0f | %.0f | %.0f | %ld | %.0f / %.0f / %.0f |\n", name.c_str(), t.scatterers,
+              t.samples, 1e3 * t.wall, 1e3 * t.cpu, 1e9 * t.cpu / n, t.pages,
+              100 * (t.stages.sampling + t.stages.acoustics) / t.wall, 100 * t.stages.synthesis / t.wall,
+              100 * t.stages.detection / t.wall);
   std::fflush(stdout);
 }
 
@@ -83,8 +100,9 @@ void time_work(const std::string& part) {
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
   const SimulationOptions unsplit{.sampling = {.scatterers_per_cell = 0}};
   std::printf(
-      "| warm ping with detection | scatterers | samples | wall [ms] | CPU [ms] | CPU per scatterer [ns] | sampling / "
-      "synthesis / detection [%% of wall] |\n|---|---|---|---|---|---|---|\n");
+      "| warm ping with detection | scatterers | samples | wall [ms] | CPU [ms] | CPU per scatterer [ns] | page faults "
+      "| "
+      "sampling / synthesis / detection [%% of wall] |\n|---|---|---|---|---|---|---|---|\n");
   const auto time = [&](const std::string& name, const SonarHead& head, const SimulationOptions& options = {}) {
     if (name.find(part) != std::string::npos) print_work(name, median_ping(5, harbour, head, pose, options));
   };
@@ -137,6 +155,7 @@ void time_presets(const std::string& part) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const std::string what = argc > 1 ? argv[1] : "", part = argc > 2 ? argv[2] : "";
   if (what == "work") return time_work(part), 0;
   if (what == "presets") return time_presets(part), 0;
