@@ -21,7 +21,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t echoes_at_once = 4096;
+constexpr std::size_t echoes_at_once = 4096, most_tried = 1024;
 
 void require_valid_call(const char* who, const SoundSpeedProfile& profile, double head_depth, const Pose& pose) {
   require_valid(profile, who);
@@ -190,6 +190,33 @@ std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, cons
     }
   });
   return silenced;
+}
+
+RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                                const Scatterers& scatterers, const Sector& sector, const RangeGate& gate,
+                                int threads) {
+  // Some of those in view.
+  const SectorBounds bounds(sector);
+  Scatterers straight;
+  const std::size_t step = scatterers.size() / most_tried + 1;
+  for (std::size_t i = 0; i < scatterers.size(); i += step) {
+    const double range = scatterers.range[i];
+    const Direction from{scatterers.azimuth[i], scatterers.elevation[i]};
+    if (range < gate.min_range || range > gate.max_range || !bounds.holds(range * unit_vector(from))) continue;
+    straight.range.push_back(range), straight.azimuth.push_back(from.azimuth);
+    straight.elevation.push_back(from.elevation), straight.projected_area.push_back(1);
+  }
+  // How far they seem to move.
+  Scatterers bent = straight;
+  bend_paths(profile, head_depth, world_from_head, bent, threads);
+  RefractionBound most;
+  for (std::size_t i = 0; i < bent.size(); ++i) {
+    const Eigen::Vector3d from = unit_vector({straight.azimuth[i], straight.elevation[i]});
+    const double turned = (unit_vector({bent.azimuth[i], bent.elevation[i]}) - from).norm();
+    most.range = std::max(most.range, std::abs(bent.range[i] - straight.range[i]));
+    most.elevation = std::max(most.elevation, 2 * std::asin(std::min(1.0, 0.5 * turned)));
+  }
+  return most;
 }
 
 }  // namespace insonify

@@ -4,6 +4,8 @@
 #include "acoustics/sound_speed_profile.hpp"
 #include "core/pose.hpp"
 #include "sampling/scatterers.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
 
 namespace insonify {
 
@@ -43,5 +45,11 @@ RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_d
 /// head_depth or pose that is not finite, or a range that is not finite and > 0.
 std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                        Scatterers& scatterers, int threads = 0);
+
+/// Returns what bend_paths does at most to the scatterers inside sector and gate: range and angle at the head, of some
+/// 1000 of them tried. Errors as bend_paths.
+RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                                const Scatterers& scatterers, const Sector& sector, const RangeGate& gate,
+                                int threads = 0);
 
 }  // namespace insonify

@@ -5,13 +5,14 @@
 #include "acoustics/trace_paths.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
+#include "returns/beam_bands.hpp"
 #include "returns/find_contributors.hpp"
 #include "returns/label_pixels.hpp"
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
 #include "sampling/seen_surfels.hpp"
 #include "simulate/ping_stages_internal.hpp"
-#include "simulate/pulse_spectrum_internal.hpp"
+#include "sonar/pulse_spectrum.hpp"
 
 namespace insonify {
 namespace {
@@ -32,63 +33,6 @@ std::vector<Visibility> others_than(const Scatterers& patches, const PreparedSce
   return find_visibility(prepared, view.world_from_head, view.fan, view.gate, asked, view.sampling);
 }
 
-using Bands = std::vector<std::pair<std::size_t, std::size_t>>;
-
-/// Bands of beams [first, end) of whole rows, of which the contributors fit into `mib` together or are of two rows, since
-/// labels know the step between rows; one band if the rows are not one after the other.
-Bands beam_bands(const SonarHead& head, int per_pixel, double mib) {
-  std::vector<std::size_t> ends;
-  std::size_t beams = 0;
-  std::vector<FanRow> rows = fan_rows(head.fan);
-  std::sort(rows.begin(), rows.end(),
-            [](const FanRow& a, const FanRow& b) { return a.beams.front() < b.beams.front(); });
-  for (const FanRow& row : rows) {
-    if (row.beams.front() != beams || row.beams.back() + 1 != beams + row.beams.size()) return {{0, head.fan.beams()}};
-    ends.push_back(beams += row.beams.size());
-  }
-  Bands bands{{0, ends.front()}};
-  std::size_t in_band = 1;
-  for (std::size_t r = 1; r < ends.size(); ++r) {
-    auto& [first, end] = bands.back();
-    const bool fits = contributor_mib((ends[r] - first) * head.gate.bins(), per_pixel) <= mib;
-    // The last row does not stand alone.
-    if (fits || in_band < 2 || r + 1 == ends.size()) {
-      end = ends[r], ++in_band;
-    } else {
-      bands.emplace_back(ends[r - 1], ends[r]), in_band = 1;
-    }
-  }
-  return bands;
-}
-
-/// The head with the beams [first, end) alone.
-SonarHead with_beams(const SonarHead& head, std::size_t first, std::size_t end) {
-  SonarHead part = head;
-  const auto cut = [&](const std::vector<double>& all) {
-    return std::vector(all.begin() + static_cast<long>(first), all.begin() + static_cast<long>(end));
-  };
-  part.fan.azimuth = cut(head.fan.azimuth);
-  part.fan.elevation = cut(head.fan.elevation);
-  return part;
-}
-
-/// Copies the labels of a band into those of all beams.
-void put_labels(PixelLabels part, std::size_t first_beam, std::size_t beams, PixelLabels& all) {
-  if (static_cast<std::size_t>(part.material.rows()) == beams) {
-    all = std::move(part);
-    return;
-  }
-  const auto first = static_cast<Eigen::Index>(first_beam), rows = static_cast<Eigen::Index>(beams);
-  const auto put = [&](const auto& from, auto& to) {
-    to.conservativeResize(rows, from.cols());
-    to.middleRows(first, from.rows()) = from;
-  };
-  put(part.material, all.material);
-  put(part.id, all.id);
-  put(part.share, all.share);
-  all.names = part.names;
-}
-
 /// Finds contributors and labels (E63, E125): of all beams at once, or band by band if the options take them so.
 void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, const PingParts& parts,
                       SimulatedPing& result) {
@@ -101,8 +45,9 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
   ContributorOptions options;
   options.per_pixel = wanted.contributors;
   options.threads = ping.options.threads;
-  const Bands bands = wanted.contributor_sink ? beam_bands(ping.head, options.per_pixel, wanted.contributor_band_mib)
-                                              : Bands{{0, ping.head.fan.beams()}};
+  const BeamBands bands = wanted.contributor_sink
+                              ? beam_bands(ping.head, options.per_pixel, wanted.contributor_band_mib)
+                              : BeamBands{{0, ping.head.fan.beams()}};
   for (const auto& [first, end] : bands) {
     const SonarHead head = with_beams(ping.head, first, end);
     Contributors found = find_contributors(scene, echoes, head, ping.sent.medium, options);
@@ -139,10 +84,6 @@ std::vector<std::string> sparse_notes(const SamplingReport& report, std::size_t 
       " beams see mainly surfels of which a main lobe holds fewer than four: their levels are off by 2 dB and more, "
       "and some may be silent; give a denser cloud, or a mesh without a spacing"};
 }
-
-}  // namespace
-
-namespace {
 
 /// Whether beams formed over the whole band hear beside their sector as in main lobes, at its upper end.
 bool hears_all_ahead(const ResolvedPing& ping) {

@@ -7,10 +7,10 @@
 #include "acoustics/bend_paths.hpp"
 #include "acoustics/motion.hpp"
 #include "acoustics/multipath_echoes.hpp"
+#include "beamforming/received_energy.hpp"
 #include "core/units.hpp"
 #include "simulate/plan_stages_internal.hpp"
-#include "simulate/pulse_spectrum_internal.hpp"
-#include "simulate/received_energy_internal.hpp"
+#include "sonar/pulse_spectrum.hpp"
 
 namespace insonify {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/received_energy.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "simulate/received_energy_internal.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {

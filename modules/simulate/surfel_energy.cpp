@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "acoustics/scattering.hpp"
-#include "simulate/received_energy_internal.hpp"
+#include "beamforming/received_energy.hpp"
 #include "simulate/surfel_energy_internal.hpp"
 
 namespace insonify {

@@ -12,8 +12,9 @@ class ReceivedEnergy {
   /// With `half_width` > 0, means over u +- half_width instead; `over_band`: beams formed by true delays, whose response is
   /// that of each frequency of the pulse.
   ReceivedEnergy(const SonarHead& head, double wavelength, double half_width = 0, bool over_band = false);
+  /// Returns the sum at direction cosines u along the array and v upwards.
   double at(double u, double v);
-  /// Of the array alone.
+  /// Returns that of the array alone.
   double along_array(double u) const;
 
  private:

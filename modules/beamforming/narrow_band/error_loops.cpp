@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "beamforming/narrow_band/error_loops_internal.hpp"
 #include "core/target_clones.hpp"
 #include "core/vector_functions.hpp"
-#include "simulate/narrow_band_loops_internal.hpp"
 
 namespace insonify::kernels {
 namespace {

@@ -1,0 +1,74 @@
+#include "acoustics/direct_stream.hpp"
+
+#include <algorithm>
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t chunk_parts = 2048;  // with their echoes they fit into the cache of a core
+
+/// Removes the patches of the surfels `which` that are not wanted.
+void keep_wanted(const EchoSink& sink, const VisibleSurfels& visible, std::span<const std::uint32_t> which,
+                 Scatterers& patches) {
+  const auto for_each_array = [&patches](const auto& use) {
+    Scatterers& s = patches;
+    use(s.range), use(s.azimuth), use(s.elevation), use(s.cos_incidence), use(s.projected_area), use(s.material);
+    use(s.id), use(s.surfel);
+  };
+  std::size_t at = 0, kept = 0;
+  for (const std::uint32_t k : which) {
+    SurfelBounds bounds = visible.bounds[k];
+    bounds.reach = 0;
+    for (std::size_t end = at + visible.first[k + 1] - visible.first[k]; at < end; ++at) {
+      bounds.range = patches.range[at];
+      if (sink.wants(bounds)) for_each_array([&](auto& a) { a[kept] = a[at]; }), ++kept;
+    }
+  }
+  for_each_array([&](auto& array) { array.resize(kept); });
+}
+
+}  // namespace
+
+Echoes echoes_in_motion(const SceneCloud& scene, const Scatterers& patches, const Pose& world_from_head,
+                        const Motion& motion, const Transmission& sent) {
+  Echoes echoes = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, sent.echo_options);
+  if (!motion.none())
+    move_echoes(motion, world_from_head, patches, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
+  return echoes;
+}
+
+void widen_bounds(const Motion& motion, double c, VisibleSurfels& visible) {
+  if (motion.none()) return;
+  const double part = most_displacement(motion, c);
+  for (SurfelBounds& s : visible.bounds) {
+    s.reach += part * (s.range + s.reach);
+    s.reach_u += 3 * part + motion.turn_rate.norm() * 2 * (s.range + s.reach) / c;
+  }
+}
+
+DirectStream::DirectStream(const SceneCloud& scene, const VisibleSurfels& visible, const Pose& world_from_head,
+                           const Motion& motion, const Transmission& sent)
+    : scene_(scene), visible_(visible), world_from_head_(world_from_head), motion_(motion), sent_(sent) {
+  sent_.echo_options.threads = 1;
+  for (std::uint32_t k = 0; k < visible.surfel.size(); ++k) {
+    const SurfelBounds& s = visible.bounds[k];
+    if (first_surfel_.back() == k) chunks_.push_back({0, s.range - s.reach, s.range + s.reach});
+    ChunkBounds& chunk = chunks_.back();
+    chunk.size += visible.first[k + 1] - visible.first[k];
+    chunk.min_range = std::min(chunk.min_range, s.range - s.reach);
+    chunk.max_range = std::max(chunk.max_range, s.range + s.reach);
+    if (chunk.size >= chunk_parts || k + 1 == visible.surfel.size()) first_surfel_.push_back(k + 1);
+  }
+}
+
+void DirectStream::visit(std::size_t chunk, EchoSink& sink) const {
+  std::vector<std::uint32_t> which;
+  for (std::uint32_t k = first_surfel_[chunk]; k < first_surfel_[chunk + 1]; ++k)
+    if (sink.wants(visible_.bounds[k])) which.push_back(k);
+  if (which.empty()) return;
+  Scatterers patches = make_parts(scene_, world_from_head_, visible_, which, 1);
+  if (sink.chooses_patches()) keep_wanted(sink, visible_, which, patches);
+  sink.take(patches, echoes_in_motion(scene_, patches, world_from_head_, motion_, sent_));
+}
+
+}  // namespace insonify

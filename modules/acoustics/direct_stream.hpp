@@ -1,0 +1,45 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "acoustics/echo_stream.hpp"
+#include "acoustics/motion.hpp"
+#include "acoustics/transmission.hpp"
+#include "core/pose.hpp"
+#include "scene/scene_cloud.hpp"
+
+namespace insonify {
+
+/// Returns the direct echoes of patches (E7) as a head in motion receives them (E44). Errors as direct_echoes and
+/// move_echoes.
+Echoes echoes_in_motion(const SceneCloud& scene, const Scatterers& patches, const Pose& world_from_head,
+                        const Motion& motion, const Transmission& sent);
+
+/// Widens the bounds of visible surfels so that they hold where their echoes appear to a moving head (E44).
+void widen_bounds(const Motion& motion, double sound_speed, VisibleSurfels& visible);
+
+/// The direct echoes of visible surfels: chunks of neighbouring surfels, whose patches and echoes are made when they are
+/// visited.
+class DirectStream final : public EchoStream {
+ public:
+  /// Refers to scene and surfels, whose bounds must hold the motion (widen_bounds).
+  DirectStream(const SceneCloud& scene, const VisibleSurfels& visible, const Pose& world_from_head,
+               const Motion& motion, const Transmission& sent);
+  /// The bounds of all chunks, some 2048 patches each.
+  std::span<const ChunkBounds> chunks() const override { return chunks_; }
+  /// Whether the head moves.
+  bool moving() const override { return !motion_.none(); }
+  /// Makes a chunk's patches and echoes on the calling thread.
+  void visit(std::size_t chunk, EchoSink& sink) const override;
+
+ private:
+  const SceneCloud& scene_;
+  const VisibleSurfels& visible_;
+  Pose world_from_head_;
+  Motion motion_;
+  Transmission sent_;
+  std::vector<ChunkBounds> chunks_;
+  std::vector<std::uint32_t> first_surfel_{0};  // of each chunk
+};
+
+}  // namespace insonify
