@@ -6,6 +6,7 @@
 #include "acoustics/motion.hpp"
 #include "acoustics/transmission.hpp"
 #include "core/pose.hpp"
+#include "sampling/visible_surfels.hpp"
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {

@@ -5,7 +5,6 @@
 
 #include "acoustics/echoes.hpp"
 #include "sampling/scatterers.hpp"
-#include "sampling/visible_surfels.hpp"
 
 namespace insonify {
 

@@ -1,12 +1,10 @@
 #pragma once
-#include "acoustics/echoes.hpp"
+#include "acoustics/echo_stream.hpp"
 #include "core/grid.hpp"
 #include "sonar/sonar_head.hpp"
 #include "sonar/water.hpp"
 
 namespace insonify {
-
-class EchoStream;
 
 /// Method of synthesis; all but `incoherent` give the complex pressure of the synthesizers below, `incoherent` the
 /// expected level without speckle (synthesize_intensity).

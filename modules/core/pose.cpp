@@ -1,7 +1,7 @@
+#include "core/pose.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "core/head_place.hpp"
 
 namespace insonify {
 

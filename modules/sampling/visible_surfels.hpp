@@ -9,12 +9,6 @@
 
 namespace insonify {
 
-/// Bounds of the parts of a surfel: all stand within `reach` of `range` [m], and within `reach_u` of the direction cosine `u`
-/// along the array.
-struct SurfelBounds {
-  double range, reach, u, reach_u;
-};
-
 /// The surfels that find_scatterers splits, counted and not yet split.
 struct VisibleSurfels {
   std::vector<std::uint32_t> surfel;  ///< index in the scene; by bands of range, and inside each by u

@@ -62,46 +62,40 @@ Echoes echoes_of(const PlanFacts& facts, const Scatterers& places) {
 }
 
 /// Error of an echo of the centre frequency's absorption, over the pulse's spectrum.
-StageVerdict judge_absorption_slope(const PlanFacts& facts) {
+double absorption_slope_bound(const PlanFacts& facts) {
   const Environment& environment = facts.ping.environment;
   const Pulse& pulse = facts.ping.head.pulse;
   const Absorption full =
       absorption_about(environment.water, pulse.centre_frequency, 2, environment.absorption_formula);
-  const auto change = [&](std::size_t i) {
+  return changed_bound(facts, [&](std::size_t i) {
     const double path = 2 * facts.sample.places.range[i];
     double error = 0;
     for (const SpectrumNode& node : spectrum_nodes(pulse))
       error += node.weight * std::pow(std::expm1(-path * node.frequency * (full.a1 + full.a2 * node.frequency)), 2);
     return error;
-  };
-  return {false, "each frequency of the pulse has its own absorption", changed_bound(facts, change)};
+  });
 }
 
-StageVerdict judge_refraction(const PlanFacts& facts) {
+double bent_rays_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  if (!ping.environment.profile) return {false, "one sound speed everywhere", 0};
   Scatterers bent = facts.sample.places;
   bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
              ping.options.threads);
-  return {false, "rays are bent: echoes arrive at other times and angles",
-          difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent))};
+  return difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent));
 }
 
-StageVerdict judge_motion(const PlanFacts& facts) {
+double motion_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  const Motion& motion = ping.event.motion;
-  if (motion.none()) return {false, "the head is at rest", 0};
   const Echoes still = echoes_of(facts, facts.sample.places);
   Echoes moved = still;
-  move_echoes(motion, ping.view.world_from_head, facts.sample.places, ping.head.pulse.centre_frequency,
+  move_echoes(ping.event.motion, ping.view.world_from_head, facts.sample.places, ping.head.pulse.centre_frequency,
               ping.sent.medium.sound_speed, moved);
-  return {false, "the head moves while sound is under way", difference_bound(facts, still, moved)};
+  return difference_bound(facts, still, moved);
 }
 
 /// Energy of the echoes by the boundaries, of the sample.
-StageVerdict judge_multipath(const PlanFacts& facts) {
+double multipath_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  if (!has_boundary(ping.environment)) return {false, "no surface and no bottom", 0};
   Transmission sent = ping.sent;
   sent.echo_options.amplitude = SurfaceAmplitude::mean_power;
   View view = ping.view;
@@ -116,88 +110,65 @@ StageVerdict judge_multipath(const PlanFacts& facts) {
     energy += std::norm(bounced.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
               received.at(bounced.u[i], bounced.v.empty() ? 0 : bounced.v[i]);
   }
-  return {false, "sound also comes by way of surface or bottom", added_bound(facts, energy)};
+  return added_bound(facts, energy);
 }
-
-StageVerdict by_strength(bool given) {
-  return {given, given ? "the environment gives its scattering strength" : "no scattering strength given", 0};
-}
-
-bool volume_scatters(const Environment& e) { return e.volume_scattering_db.has_value(); }
-bool surface_scatters(const Environment& e) { return e.surface && e.surface->scattering_strength_db; }
-bool bottom_scatters(const Environment& e) { return e.bottom && e.bottom->lambert_mu; }
-
-StageVerdict judge_volume(const PlanFacts& facts) { return by_strength(volume_scatters(facts.ping.environment)); }
-StageVerdict judge_surface(const PlanFacts& facts) { return by_strength(surface_scatters(facts.ping.environment)); }
-StageVerdict judge_bottom(const PlanFacts& facts) { return by_strength(bottom_scatters(facts.ping.environment)); }
 
 /// Energy of noise in all bins over that of the echoes.
-StageVerdict judge_noise(const PlanFacts& facts) {
+double noise_bound(const PlanFacts& facts) {
   const SonarHead& head = facts.ping.head;
   const double noise = 2 * power_from_db(facts.ping.beam_noise_db) * micropascal * micropascal *
                        static_cast<double>(head.fan.beams() * head.gate.bins());
   const double pulse_bins =
       0.469719 / head.pulse.bandwidth * facts.ping.sent.medium.sound_speed / (2 * head.gate.bin_size);
-  const bool asked = facts.ping.options.effects.noise;
-  return {asked, asked ? "asked for" : "not asked for", added_bound(facts, noise / pulse_bins)};
+  return added_bound(facts, noise / pulse_bins);
 }
 
-bool any_material(const PlanFacts& facts, double Material::*number) {
-  return std::any_of(facts.scene.materials.begin(), facts.scene.materials.end(),
-                     [number](const Material& m) { return m.*number > 0; });
+template <double Material::*number>
+bool any_material(const PlanCause& of) {
+  return std::any_of(of.scene.materials.begin(), of.scene.materials.end(),
+                     [](const Material& m) { return m.*number > 0; });
 }
 
-StageVerdict judge_micro_relief(const PlanFacts& facts) {
-  const bool relief = any_material(facts, &Material::relief_slope);
-  return {relief, relief ? "a material has a relief slope" : "no material has a relief slope", 0};
-}
-
-StageVerdict judge_coherent_part(const PlanFacts& facts) {
-  const bool coherent = any_material(facts, &Material::coherent_fraction);
-  return {coherent, coherent ? "a material has a coherent fraction" : "no material has a coherent fraction", 0};
-}
+constexpr const char* strength_given = "the environment gives its scattering strength";
 
 constexpr PlanStage effects[] = {
-    {"absorption-slope", DecidedBy::budget, judge_absorption_slope,
-     [](bool in, E&, O& o) { o.effects.absorption_order = in ? 2 : 0; }, nullptr,
+    {"absorption-slope", DecidedBy::budget, always, "each frequency of the pulse has its own absorption", "",
+     absorption_slope_bound, [](bool in, E&, O& o) { o.effects.absorption_order = in ? 2 : 0; },
      [](const O& o) {
        return o.effects.absorption_order ? chosen(*o.effects.absorption_order > 0) : Choice::as_needed;
      }},
-    {"refraction", DecidedBy::budget, judge_refraction, [](bool in, E&, O& o) { o.effects.refraction = chosen(in); },
-     [](const E& e, const O&, const PingEvent&) { return e.profile ? nullptr : "there is no sound-speed profile"; },
-     [](const O& o) { return o.effects.refraction; }},
-    {"motion", DecidedBy::budget, judge_motion, [](bool in, E&, O& o) { o.effects.moving = chosen(in); },
-     [](const E&, const O&, const PingEvent& event) { return event.motion.none() ? "the head is at rest" : nullptr; },
-     [](const O& o) { return o.effects.moving; }},
-    {"multipath", DecidedBy::budget, judge_multipath, [](bool in, E&, O& o) { o.effects.multipath = chosen(in); },
-     [](const E& e, const O&, const PingEvent&) {
-       return has_boundary(e) ? nullptr : "there is neither surface nor bottom";
-     },
-     [](const O& o) { return o.effects.multipath; }},
-    {"volume", DecidedBy::choice, judge_volume,
+    {"refraction", DecidedBy::budget, [](const PlanCause& of) { return of.environment.profile.has_value(); },
+     "rays are bent: echoes arrive at other times and angles", "there is no sound-speed profile", bent_rays_bound,
+     [](bool in, E&, O& o) { o.effects.refraction = chosen(in); }, [](const O& o) { return o.effects.refraction; }},
+    {"motion", DecidedBy::budget, [](const PlanCause& of) { return !of.event.motion.none(); },
+     "the head moves while sound is under way", "the head is at rest", motion_bound,
+     [](bool in, E&, O& o) { o.effects.moving = chosen(in); }, [](const O& o) { return o.effects.moving; }},
+    {"multipath", DecidedBy::budget, [](const PlanCause& of) { return has_boundary(of.environment); },
+     "sound also comes by way of surface or bottom", "there is neither surface nor bottom", multipath_bound,
+     [](bool in, E&, O& o) { o.effects.multipath = chosen(in); }, [](const O& o) { return o.effects.multipath; }},
+    {"volume", DecidedBy::choice, [](const PlanCause& of) { return of.environment.volume_scattering_db.has_value(); },
+     strength_given, "volume.scattering_db is not given", nullptr,
      [](bool in, E& e, O&) {
        if (!in) e.volume_scattering_db.reset();
-     },
-     [](const E& e, const O&, const PingEvent&) {
-       return volume_scatters(e) ? nullptr : "volume.scattering_db is not given";
      }},
-    {"surface", DecidedBy::choice, judge_surface,
+    {"surface", DecidedBy::choice,
+     [](const PlanCause& of) { return of.environment.surface && of.environment.surface->scattering_strength_db; },
+     strength_given, "surface.scattering_db is not given", nullptr,
      [](bool in, E& e, O&) {
        if (!in && e.surface) e.surface->scattering_strength_db.reset();
-     },
-     [](const E& e, const O&, const PingEvent&) {
-       return surface_scatters(e) ? nullptr : "surface.scattering_db is not given";
      }},
-    {"bottom", DecidedBy::choice, judge_bottom,
+    {"bottom", DecidedBy::choice,
+     [](const PlanCause& of) { return of.environment.bottom && of.environment.bottom->lambert_mu; }, strength_given,
+     "bottom.lambert_mu_db is not given", nullptr,
      [](bool in, E& e, O&) {
        if (!in && e.bottom) e.bottom->lambert_mu.reset();
-     },
-     [](const E& e, const O&, const PingEvent&) {
-       return bottom_scatters(e) ? nullptr : "bottom.lambert_mu_db is not given";
      }},
-    {"noise", DecidedBy::choice, judge_noise, [](bool in, E&, O& o) { o.effects.noise = in; }},
-    {"micro-relief", DecidedBy::scene, judge_micro_relief},
-    {"coherent-part", DecidedBy::scene, judge_coherent_part}};
+    {"noise", DecidedBy::choice, [](const PlanCause& of) { return of.options.effects.noise; }, "asked for",
+     "not asked for", noise_bound, [](bool in, E&, O& o) { o.effects.noise = in; }},
+    {"micro-relief", DecidedBy::scene, any_material<&Material::relief_slope>, "a material has a relief slope",
+     "no material has a relief slope"},
+    {"coherent-part", DecidedBy::scene, any_material<&Material::coherent_fraction>,
+     "a material has a coherent fraction", "no material has a coherent fraction"}};
 
 }  // namespace
 

@@ -10,41 +10,24 @@ namespace {
 using E = Environment;
 using O = SimulationOptions;
 
-StageVerdict judge_back_faces(const PlanFacts& facts) {
-  if (!facts.scene.normals_oriented) return {true, "normals have no side: both sides reflect", 0};
-  return {false, "of surfels that turn away Lambert's law gives nothing", 0};
-}
-
-StageVerdict judge_other_ranges(const PlanFacts& facts) {
-  return {false, "pulses from there have ended before the gate begins, or begin after it",
-          added_bound(facts, facts.sample.other_ranges)};
-}
-
-StageVerdict judge_outer_elevations(const PlanFacts& facts) {
-  const auto floor_db = static_cast<int>(facts.ping.options.sampling.elevation_floor_db);
-  return {false, "the elevation pattern is below " + std::to_string(floor_db) + " dB there",
-          added_bound(facts, facts.sample.off_elevation)};
-}
-
-StageVerdict judge_outer_azimuths(const PlanFacts& facts) {
-  return {false, "side lobes of the beams receive it", added_bound(facts, facts.sample.off_azimuth)};
-}
-
-StageVerdict judge_occlusion(const PlanFacts& facts) {
-  const bool occlusion = facts.ping.options.sampling.occlusion;
-  return {occlusion, occlusion ? "surfels hide others" : "off by the options", std::numeric_limits<double>::infinity()};
-}
-
 constexpr PlanStage geometry[] = {
-    {"back-faces", DecidedBy::scene, judge_back_faces},
-    {"other-ranges", DecidedBy::scene, judge_other_ranges},
-    {"outer-elevations", DecidedBy::budget, judge_outer_elevations,
-     [](bool in, E&, O& o) { o.sampling.outer_elevations = chosen(in); }, nullptr,
+    {"back-faces", DecidedBy::scene, [](const PlanCause& of) { return !of.scene.normals_oriented; },
+     "normals have no side: both sides reflect", "of surfels that turn away Lambert's law gives nothing"},
+    {"other-ranges", DecidedBy::scene, never, "",
+     "pulses from there have ended before the gate begins, or begin after it",
+     [](const PlanFacts& facts) { return added_bound(facts, facts.sample.other_ranges); }},
+    {"outer-elevations", DecidedBy::budget, always, "the elevation pattern is below elevation_floor_db there", "",
+     [](const PlanFacts& facts) { return added_bound(facts, facts.sample.off_elevation); },
+     [](bool in, E&, O& o) { o.sampling.outer_elevations = chosen(in); },
      [](const O& o) { return o.sampling.outer_elevations; }},
-    {"outer-azimuths", DecidedBy::budget, judge_outer_azimuths,
-     [](bool in, E&, O& o) { o.sampling.outer_azimuths = chosen(in); }, nullptr,
+    {"outer-azimuths", DecidedBy::budget, always, "side lobes of the beams receive it", "",
+     [](const PlanFacts& facts) { return added_bound(facts, facts.sample.off_azimuth); },
+     [](bool in, E&, O& o) { o.sampling.outer_azimuths = chosen(in); },
      [](const O& o) { return o.sampling.outer_azimuths; }},
-    {"occlusion", DecidedBy::choice, judge_occlusion, [](bool in, E&, O& o) { o.sampling.occlusion = in; }}};
+    {"occlusion", DecidedBy::choice, [](const PlanCause& of) { return of.options.sampling.occlusion; },
+     "surfels hide others", "off by the options",
+     [](const PlanFacts&) { return std::numeric_limits<double>::infinity(); },
+     [](bool in, E&, O& o) { o.sampling.occlusion = in; }}};
 
 }  // namespace
 

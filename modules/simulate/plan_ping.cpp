@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "beamforming/ping_synthesizer.hpp"
 #include "core/error.hpp"
@@ -51,25 +52,33 @@ SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
                          {std::max(ping.options.synthesis.tolerance, min_gridding_tolerance), 1});
 }
 
+/// A row judged: an open one by its share of the budget, which sets `decided`.
+PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& decided) {
+  const SimulationOptions& options = facts.ping.options;
+  const bool caused = stage.cause(facts.cause()), by_budget = stage.by == DecidedBy::budget;
+  const double bound = stage.bound && (caused || !by_budget) ? stage.bound(facts) : 0;
+  PlannedStage judged{stage.name, stage.by, caused, caused ? stage.with : stage.without, bound, level_of(bound)};
+  if (is_open(stage, options)) {
+    const bool too_dear = stage.only_if_forced && stage.only_if_forced(facts);
+    judged.included = bound > share && !too_dear;
+    if (too_dear)
+      judged.why += "; a planar array is summed row by row for it, at that cost: only by --with " + judged.name;
+    Environment unchanged = facts.ping.environment;
+    stage.force(judged.included, unchanged, decided);
+  } else if (by_budget) {
+    judged.included = stage.asked(options) == Choice::always;
+    judged.why = judged.included ? "asked for" : "off by the options";
+  }
+  return judged;
+}
+
 /// The stages, or only those that are open, judged: open ones by the budget, which sets `decided`.
 std::vector<PlannedStage> judge_stages(const PlanFacts& facts, bool only_open, SimulationOptions& decided) {
-  const SimulationOptions& options = facts.ping.options;
   const std::vector<PlanStage> stages = all_stages();
-  const double share = budget_share(stages, options.accuracy_db);
+  const double share = budget_share(stages, facts.ping.options.accuracy_db);
   std::vector<PlannedStage> judged;
-  for (const PlanStage& stage : stages) {
-    if (only_open && !is_open(stage, options)) continue;
-    auto [included, why, bound, only_if_forced] = stage.judge(facts);
-    if (is_open(stage, options)) {
-      included = bound > share && !only_if_forced;
-      Environment unchanged = facts.ping.environment;
-      stage.force(included, unchanged, decided);
-    } else if (stage.by == DecidedBy::budget) {
-      included = stage.asked(options) == Choice::always;
-      why = included ? "asked for" : "off by the options";
-    }
-    judged.push_back({stage.name, stage.by, included, std::move(why), bound, level_of(bound)});
-  }
+  for (const PlanStage& stage : stages)
+    if (!only_open || is_open(stage, facts.ping.options)) judged.push_back(judge(stage, facts, share, decided));
   return judged;
 }
 
@@ -135,9 +144,13 @@ void force_stage(const std::string& name, bool included, const PingEvent& event,
     if (!stage.force) continue;
     names += (names.empty() ? "" : ", ") + std::string(stage.name);
     if (name != stage.name) continue;
-    if (const char* obstacle = included && stage.obstacle ? stage.obstacle(environment, options, event) : nullptr)
-      fail(ErrorKind::argument, "force_stage: ", name, " cannot be forced in: ", obstacle);
-    return stage.force(included, environment, options);
+    Environment forced_environment = environment;
+    SimulationOptions forced = options;
+    stage.force(included, forced_environment, forced);
+    if (included && !stage.cause({SceneCloud{}, forced_environment, forced, event}))
+      fail(ErrorKind::argument, "force_stage: ", name, " cannot be forced in: ", stage.without);
+    environment = std::move(forced_environment), options = std::move(forced);
+    return;
   }
   fail(ErrorKind::argument, "force_stage: '", name, "' cannot be forced; these can: ", names);
 }

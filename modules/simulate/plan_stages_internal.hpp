@@ -5,11 +5,20 @@
 #include "simulate/ping_plan.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
-/// The stages of a plan, group by group. A new stage is an entry in the table of its group, in the order of the plan.
+/// The stages of a plan, group by group. A new stage is a row in the table of its group, in the order of the plan.
 ///
-/// The budget: options.accuracy_db as a relative error, shared evenly in squares among the stages of these tables that
-/// the budget decides: budget_share. A stage of a larger bound is in. Nowhere else is a threshold.
+/// The budget: options.accuracy_db as a relative error, shared evenly in squares among the rows that the budget decides
+/// (budget_share). A stage of a larger bound is in. Nowhere else is a threshold.
 namespace insonify {
+
+/// What a ping is asked for.
+struct PlanCause {
+  const SceneCloud& scene;
+  const Environment& environment;
+  const SimulationOptions& options;
+  const PingEvent& event;
+  bool single_precision = false;  ///< of tiles and transforms
+};
 
 /// What stages are judged by.
 struct PlanFacts {
@@ -17,6 +26,9 @@ struct PlanFacts {
   const ResolvedPing& ping;
   SceneSample sample;
   SynthesisChoice synthesis;  ///< for one row of beams
+
+  /// Returns what the ping is asked for.
+  PlanCause cause() const { return {scene, ping.environment, ping.options, ping.event, synthesis.single_precision}; }
 };
 
 /// Factor in amplitude between the error expected of the sample and its bound.
@@ -37,28 +49,31 @@ double changed_bound(const PlanFacts& facts, const Change& change) {
   return energy > 0 ? added_bound(facts, energy) : 0;
 }
 
-struct StageVerdict {
-  bool included;  ///< counts unless the budget decides
-  std::string why;
-  double bound;                 ///< relative error of the image without it
-  bool only_if_forced = false;  ///< whatever the budget
-};
-
+/// A row of the plan.
 struct PlanStage {
   const char* name;
   DecidedBy by;
-  StageVerdict (*judge)(const PlanFacts&);
+  /// Whether there is something to compute, or it is asked for. If not, the stage has no bound, and cannot be forced in.
+  bool (*cause)(const PlanCause&);
+  /// Why it is in or may be, and why not.
+  const char *with, *without;
+  /// Relative error of the image without it; nullptr: 0.
+  double (*bound)(const PlanFacts&) = nullptr;
   /// Sets the options, or takes the cause out of the environment, so that the stage is in or out; nullptr: it cannot.
   void (*force)(bool included, Environment&, SimulationOptions&) = nullptr;
-  /// What keeps it from being forced in; nullptr if nothing does.
-  const char* (*obstacle)(const Environment&, const SimulationOptions&, const PingEvent&) = nullptr;
   /// What the options say of a stage that the budget decides where they leave it open.
   Choice (*asked)(const SimulationOptions&) = nullptr;
+  /// What is too dear for a budget to ask for; nullptr: nothing.
+  bool (*only_if_forced)(const PlanFacts&) = nullptr;
 };
 
 std::span<const PlanStage> geometry_stages();
 std::span<const PlanStage> effect_stages();
 std::span<const PlanStage> synthesis_stages();
+
+/// Causes that do not depend on the ping.
+constexpr bool always(const PlanCause&) { return true; }
+constexpr bool never(const PlanCause&) { return false; }
 
 constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 

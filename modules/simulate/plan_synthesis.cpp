@@ -8,24 +8,20 @@
 namespace insonify {
 namespace {
 
+bool sums_pressures(const SimulationOptions& options) {
+  return options.synthesis.method != SynthesisMethod::incoherent;
+}
+
 /// Sets the direct sum, or leaves it for gridding if it is the one in force; another method stays as it is.
 void force_direct_sum(bool included, Environment&, SimulationOptions& options) {
   SynthesisMethod& method = options.synthesis.method;
-  if (included)
+  if (included && sums_pressures(options))
     method = SynthesisMethod::direct;
   else if (method == SynthesisMethod::direct)
     method = SynthesisMethod::gridded;
 }
 
-const char* sums_intensities(const Environment&, const SimulationOptions& options, const PingEvent&) {
-  return options.synthesis.method == SynthesisMethod::incoherent ? "method incoherent adds intensities, not pressures"
-                                                                 : nullptr;
-}
-
-StageVerdict judge_direct_sum(const PlanFacts& facts) {
-  const bool direct = facts.ping.options.synthesis.method == SynthesisMethod::direct;
-  return {direct, direct ? "asked for" : "gridding keeps the tolerance", facts.ping.options.synthesis.tolerance};
-}
+double tolerance_of(const PlanFacts& facts) { return facts.ping.options.synthesis.tolerance; }
 
 /// Of what is in view, and of what side lobes hear unless it is out by the options.
 double narrow_band_bound(const PlanFacts& facts) {
@@ -37,18 +33,9 @@ double narrow_band_bound(const PlanFacts& facts) {
   return added_bound(facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
 }
 
-StageVerdict judge_true_delays(const PlanFacts& facts) {
-  if (facts.ping.options.synthesis.method == SynthesisMethod::incoherent)
-    return {false, "intensities have no delays across the array", 0};
-  const bool planar = facts.ping.head.column.has_value();
-  return {false,
-          planar ? "a planar array is summed row by row for them, at that cost: only by --with true-delays"
-                 : "elements receive wide bands and near echoes at other times: one pattern does not hold",
-          narrow_band_bound(facts), planar};
-}
-
 /// What the plan does where the narrow-band image is not good enough.
 void force_true_delays(bool included, Environment&, SimulationOptions& options) {
+  if (!sums_pressures(options)) return;
   auto& [method, tolerance, true_delays] = options.synthesis;
   true_delays = chosen(included);
   if (!included) {
@@ -74,17 +61,18 @@ Choice asked_true_delays(const SimulationOptions& options) {
   }
 }
 
-StageVerdict judge_double_precision(const PlanFacts& facts) {
-  const bool single = facts.synthesis.single_precision;
-  const SynthesisSettings& synthesis = facts.ping.options.synthesis;
-  return {synthesis.method == SynthesisMethod::direct || !single,
-          single ? "the tolerance leaves room for single precision" : "the tolerance needs it", synthesis.tolerance};
-}
-
 constexpr PlanStage stages[] = {
-    {"direct-sum", DecidedBy::choice, judge_direct_sum, force_direct_sum, sums_intensities},
-    {"true-delays", DecidedBy::budget, judge_true_delays, force_true_delays, sums_intensities, asked_true_delays},
-    {"double-precision", DecidedBy::scene, judge_double_precision}};
+    {"direct-sum", DecidedBy::choice,
+     [](const PlanCause& of) { return of.options.synthesis.method == SynthesisMethod::direct; }, "asked for",
+     "gridding keeps the tolerance; intensities of method incoherent are no sums of pressures", tolerance_of,
+     force_direct_sum},
+    {"true-delays", DecidedBy::budget, [](const PlanCause& of) { return sums_pressures(of.options); },
+     "elements receive wide bands and near echoes at other times: one pattern does not hold",
+     "intensities have no delays across the array", narrow_band_bound, force_true_delays, asked_true_delays,
+     [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }},
+    {"double-precision", DecidedBy::scene,
+     [](const PlanCause& of) { return of.options.synthesis.method == SynthesisMethod::direct || !of.single_precision; },
+     "the tolerance needs it", "the tolerance leaves room for single precision", tolerance_of}};
 
 }  // namespace
 

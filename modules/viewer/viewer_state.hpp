@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/head_place.hpp"
+#include "core/pose.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify {

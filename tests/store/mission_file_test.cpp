@@ -1,6 +1,6 @@
 #include "store/mission_file.hpp"
 
-#include "core/head_place.hpp"
+#include "core/pose.hpp"
 #include "support/test.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 #include "survey/navigation_errors.hpp"
 
-#include "core/head_place.hpp"
+#include "core/pose.hpp"
 #include "core/units.hpp"
 #include "support/test.hpp"
 

@@ -1,7 +1,7 @@
 // A mission becomes a list of pings, and each ping a place.
 #include "survey/survey_pings.hpp"
 
-#include "core/head_place.hpp"
+#include "core/pose.hpp"
 #include "support/test.hpp"
 #include "survey/waypoint_trajectory.hpp"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/head_place.hpp"
+#include "core/pose.hpp"
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/image/image.hpp"

@@ -1,0 +1,1 @@
+#include "beamforming/synthesize.hpp"

@@ -1,0 +1,1 @@
+#include "returns/ping.hpp"

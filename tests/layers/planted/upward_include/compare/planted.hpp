@@ -1,0 +1,1 @@
+#include "simulate/ping_event.hpp"

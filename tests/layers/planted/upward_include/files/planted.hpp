@@ -1,0 +1,1 @@
+#include "sonar/water.hpp"

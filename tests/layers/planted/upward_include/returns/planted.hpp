@@ -1,0 +1,1 @@
+#include "compare/image_shift.hpp"

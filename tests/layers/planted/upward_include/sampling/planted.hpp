@@ -1,0 +1,1 @@
+#include "acoustics/echoes.hpp"
