@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures error against run time on this machine and writes docs/accuracy.md with its pictures. The numbers are only
+# Measures error against run time on this machine and writes docs/results/accuracy.md with its pictures. The numbers are only
 # meaningful on an otherwise idle machine.
 #   docs/make_accuracy.sh [build/release/bin/insonify] [options of `insonify accuracy`, e.g. --full | --from RUN]
 set -euo pipefail
@@ -51,8 +51,8 @@ ratios() {
 cat <<TEXT
 # Error against run time
 
-Made by [docs/make_accuracy.sh](make_accuracy.sh) from one run of \`insonify accuracy${*:+ $*}\`; do not edit. Raw numbers:
-[sweep.csv](images/accuracy/sweep.csv), [sampling.csv](images/accuracy/sampling.csv).
+Made by [docs/make_accuracy.sh](../make_accuracy.sh) from one run of \`insonify accuracy${*:+ $*}\`; do not edit. Raw numbers:
+[sweep.csv](../images/accuracy/sweep.csv), [sampling.csv](../images/accuracy/sampling.csv).
 
 $(field cpu), $(field cores) cores, load average $(field load_average) when it started; $(field compiler), \`$(field flags)\`; commit $(field commit), version
 $(field insonify_version), $(field threads) threads, seed $(field seed). Absolute times depend on the machine and its load; ratios are more robust.
@@ -81,7 +81,7 @@ This page is about synthesis and sampling. What a ping leaves out as not needed,
 | nearest-bin | delays rounded to bins, carrier phase kept: the error cannot be reduced |
 | pattern-cut | pattern truncated at K null widths: the error falls slowly with K |
 
-![Error against run time](images/accuracy/work_precision.png)
+![Error against run time](../images/accuracy/work_precision.png)
 
 | method | asked for | kernel | error | local error | level error (60 dB window) | time | peak memory |
 |---|---|---|---|---|---|---|---|
@@ -109,7 +109,7 @@ $(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
 pattern. The rows with ratios below 1 show the remaining overhead. Much of
 the ratio to direct is due to direct itself, which evaluates every pulse in every bin and the pattern element by element.
 
-![Run time against scatterers](images/accuracy/crossover.png)
+![Run time against scatterers](../images/accuracy/crossover.png)
 
 | threads | tolerance | time |
 |---|---|---|
@@ -133,11 +133,11 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
   END { for (t in n) printf "%s| %s | %d | %s | %.2f | %s | %.2f |\n", t, t, n[t], w[t], w[t] / t, v[t], v[t] / t }' "$sweep" | sort -gr | sed 's/^[^|]*//'
 cat <<TEXT
 
-![Promise](images/accuracy/promise.png)
+![Promise](../images/accuracy/promise.png)
 
 The error is local: strong near echoes do not degrade weak far ones, as they do with a transform over the whole range axis.
 
-![Local error](images/accuracy/local_error.png)
+![Local error](../images/accuracy/local_error.png)
 
 Absorption that varies over the band (100 kHz about 600 kHz, 60 dB over the gate): error if it is modelled as constant (order 0) or with
 its slope only (order 1).
@@ -154,7 +154,7 @@ Error of the mean level of a flat bottom, without speckle, for a given number of
 The default rays are jittered within equal intervals of elevation and converge faster. The accuracy of surfels follows the density of the cloud; splitting them corrects the speckle, not the
 mean.
 
-![Sampling error](images/accuracy/sampling.png)
+![Sampling error](../images/accuracy/sampling.png)
 
 | sampling | rays per beam, surfels per m2, or scatterers per cell | scatterers per beam | error | level |
 |---|---|---|---|---|
@@ -175,5 +175,5 @@ time of the ping with \`--method gridded\`. Tables are made once for each head; 
 TEXT
 "$(dirname "$tool")/true_delays_accuracy"
 } >"$work/accuracy.md"
-mv "$work/accuracy.md" docs/accuracy.md
-echo "docs/accuracy.md written"
+mv "$work/accuracy.md" docs/results/accuracy.md
+echo "docs/results/accuracy.md written"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws every view of a built-in scene and writes docs/gallery.md with each picture and its command. Needs no display.
+# Draws every view of a built-in scene and writes docs/results/gallery.md with each picture and its command. Needs no display.
 #   docs/make_gallery.sh [build/release/bin/insonify]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -21,7 +21,7 @@ steps() {
 picture() {
   eval "$3"
   keep_picture "$1"
-  printf '\n%s\n\n```\n%s\n```\n\n![%s](images/gallery/%s.png)\n' "$2" "$3" "$2" "$1" >>"$page"
+  printf '\n%s\n\n```\n%s\n```\n\n![%s](../images/gallery/%s.png)\n' "$2" "$3" "$2" "$1" >>"$page"
 }
 
 cat >"$page" <<'PAGE'
@@ -66,7 +66,7 @@ picture waterfall "Waterfall: the strongest beam of every ping, the newest on to
   "insonify image track --view waterfall --beam max --size 900x700 -o waterfall.png"
 printf '\n`insonify image track --animate -o frames` draws every ping with a common colour scale, as frames of a film.\n' >>"$page"
 
-chapter "A side-scan line" "Port and starboard on the ground of a flat bottom: the wreck, pipe and boulders with their shadows, to starboard the pilings; right below, the bed is deeper than assumed. [More on surveys](survey.md)."
+chapter "A side-scan line" "Port and starboard on the ground of a flat bottom: the wreck, pipe and boulders with their shadows, to starboard the pilings; right below, the bed is deeper than assumed. [More on surveys](../survey.md)."
 steps "insonify make-mission lawnmower --scene harbour.ply --sonar starfish-450 --range 1:20 --centre 23,-5,-3.5 --size 20,0 --rate 2 -o line.toml" \
   "sed -i 's/^range/set = [\"sonar.bandwidth_hz=15000\"]\\n&/' line.toml" \
   "insonify survey line.toml -o line" "insonify merge line --mosaic 0.1"
@@ -75,7 +75,7 @@ picture side-scan "A side-scan line along the wreck." \
 picture track "The same line from above: the way over the mosaic of both sides." \
   "insonify image line --view track --size 900x700 -o track.png"
 
-chapter "A swath over a slope and a step" "A bathymetric head above a slope of 45 degrees to port, a level bed, and a step of one metre to starboard. Soundings by centre of gravity and by phase, from the ping alone. [How they are found](equations.md), E92 to E95."
+chapter "A swath over a slope and a step" "A bathymetric head above a slope of 45 degrees to port, a level bed, and a step of one metre to starboard. Soundings by centre of gravity and by phase, from the ping alone. [How they are found](../equations.md), E92 to E95."
 steps "printf 'v %s 24 -8\nv %s 12 -20\nv %s -8 -20\nv %s -8 -19\nv %s -45 -19\n' -2 -2 -2 -2 -2 2 2 2 2 2 > groove.obj" \
   "for i in 1 2 3 4; do echo f \$i \$((i + 1)) \$((i + 6)) \$((i + 5)); done >> groove.obj" \
   "insonify ping groove.obj --sonar r2sonic-2024 --pose=0,0,0,0,0,0 --range 12:48 --split --noise --no-picture -o groove" \
@@ -94,4 +94,4 @@ chapter "The head itself" "The directional response of its array."
 picture pattern "Beam pattern." "insonify beampattern p900-45 --steer=-20 --size 900x500 -o pattern.png"
 
 sed -i "s#$work/##g" "$page"
-echo "docs/gallery.md written"
+echo "docs/results/gallery.md written"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures what the plan promises and writes docs/plan.md. Takes about a minute.
+# Measures what the plan promises and writes docs/results/plan.md. Takes about a minute.
 #   docs/make_plan.sh [build/release/bin]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,7 +27,7 @@ plan() {
 cat <<'TEXT'
 # What the plan promises
 
-Made by [docs/make_plan.sh](make_plan.sh); do not edit.
+Made by [docs/make_plan.sh](../make_plan.sh); do not edit.
 
 `--accuracy-db` (0.1) is the budget of all effects that a ping leaves out as not needed. It is shared evenly in squares, since the effects are independent: of seven
 stages each may cost e / sqrt(7), e = 10^(accuracy / 20) - 1, that is 0.038 dB for 0.1 dB. A stage whose bound exceeds its share is in, every other is out.
@@ -79,5 +79,5 @@ plan "plane, p900-45" "$work/plane.ply" --sonar p900-45 --pose=0,0,3,0,15,0 --ra
 plan "plane, oculus-m750d" "$work/plane.ply" --sonar oculus-m750d --pose=0,0,3,0,15,0 --range 1:12
 plan "deep water, em2040" "$work/deep.ply" --sonar em2040 --pose=40,0,25,0,0,0 --range 20:40 --set water.depth_m=1000 --set water.temperature_c=3
 } >"$work/plan.md"
-mv "$work/plan.md" docs/plan.md
-echo "docs/plan.md written"
+mv "$work/plan.md" docs/results/plan.md
+echo "docs/results/plan.md written"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compares insonify with public records and writes docs/real.md and its pictures. Takes about two minutes.
+# Compares insonify with public records and writes docs/results/comparison-with-records.md and its pictures. Takes about two minutes.
 #   docs/make_real.sh [build/release/bin]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -41,7 +41,7 @@ cp "$work/ship-points/points_without_trend.png" docs/images/real-points-trend.pn
 cat <<'TEXT'
 # How real is it
 
-Made by [docs/make_real.sh](make_real.sh); do not edit. Measures are those of `insonify compare` (E120 to E124, [equations.md](equations.md)).
+Made by [docs/make_real.sh](../make_real.sh); do not edit. Measures are those of `insonify compare` (E120 to E124, [equations.md](../equations.md)).
 
 Figures of likeness mean nothing without their floor: two pings of one scene that differ in nothing but their speckle have a PSNR of 17.6 dB in a window of 60 dB, and
 so would a perfect simulator against reality. `compare` draws that floor for each pair and prints it beside the figures.
@@ -73,7 +73,7 @@ expected: gain, speckle and widths alone can be compared, here with a level, eve
 
 | the record | the bed |
 |---|---|
-| ![The record](images/real-aris.png) | ![A simulated bed](images/real-bed.png) |
+| ![The record](../images/real-aris.png) | ![A simulated bed](../images/real-bed.png) |
 
 ```
 TEXT
@@ -81,7 +81,7 @@ echo "$aris"
 cat <<'TEXT'
 ```
 
-![Levels](images/real-aris-levels.png)
+![Levels](../images/real-aris-levels.png)
 
 Where insonify is off, and what is not its fault:
 
@@ -103,7 +103,7 @@ cat <<'TEXT'
 
 | as they are | without the trends over range |
 |---|---|
-| ![Levels](images/real-points.png) | ![Without trends](images/real-points-trend.png) |
+| ![Levels](../images/real-points.png) | ![Without trends](../images/real-points-trend.png) |
 
 Where insonify is off, and what is not its fault:
 
@@ -118,6 +118,6 @@ Where insonify is off, and what is not its fault:
 ## What is missing
 
 No public record was found that has a scanned scene, the sonar's calibration and its raw levels together. Until then levels in dB are checked against closed forms
-([verification.md](verification.md)), and this page checks statistics and ranks.
+([verification.md](../verification.md)), and this page checks statistics and ranks.
 TEXT
-} > docs/real.md
+} > docs/results/comparison-with-records.md

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws one picture of every sonar preset and writes docs/sonars.md with its numbers. Needs no display.
+# Draws one picture of every sonar preset and writes docs/results/sonars.md with its numbers. Needs no display.
 #   docs/make_sonars.sh [build/release/bin/insonify [NAME...]]     with names: draws only these again
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -50,7 +50,7 @@ row() {
   local without description
   without=$(sed -n 's/^\([a-z_]*\) = { value = .*, status = "\(assumed\|unknown\|recalled\)".*/\1 (\2)/p' "$file" | paste -sd, | sed 's/,/, /g')
   description=$(sed -n 's/^description = "\(.*\)"/\1/p' "$file")
-  printf '| ![%s](images/sonars/%s.png) | `%s`: %s | %s |\n' "$name" "$name" "$name" "$description" "${without:-none}" >>"$page"
+  printf '| ![%s](../images/sonars/%s.png) | `%s`: %s | %s |\n' "$name" "$name" "$name" "$description" "${without:-none}" >>"$page"
 }
 
 cat >"$page" <<'PAGE'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Times pings and surveys and prints docs/speed.md: cold pings as processes (/usr/bin/time), warm pings inside one process
+# Times pings and surveys and prints docs/results/speed.md: cold pings as processes (/usr/bin/time), warm pings inside one process
 # (tests/benchmarks/speed/ping_speed.cpp), and a survey against single calls. Takes five minutes; give it a quiet machine.
-#   docs/make_speed.sh [build/dev/bin] > docs/speed.md
+#   docs/make_speed.sh [build/dev/bin] > docs/results/speed.md
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=$(realpath "${1:-build/dev/bin}")

@@ -1,5 +1,5 @@
 # Sourced by the scripts that make a page of pictures. Needs no display.
-# begin_page NAME TOOL [keep]: the page is docs/NAME.md, its pictures are in docs/images/NAME, which is emptied unless
+# begin_page NAME TOOL [keep]: the page is docs/results/NAME.md, its pictures are in docs/images/NAME, which is emptied unless
 # `keep`; the commands run in a folder of their own. `insonify` is the tool, which says nothing but errors.
 most_bytes=700000  # of a picture
 
@@ -8,7 +8,7 @@ begin_page() {
   tool=$(realpath "$2")
   [[ -f $tool && -x $tool ]] || { echo "$0: $2 is not a program; give the path of insonify" >&2; exit 2; }
   pictures=$root/docs/images/$1
-  page=$root/docs/$1.md
+  page=$root/docs/results/$1.md
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
   [[ ${3:-} == keep ]] || rm -rf "$pictures"

@@ -45,7 +45,7 @@ for file in applications/insonify-view.desktop doc/insonify/copyright doc/insoni
   man/man1/insonify-ping.1 bash-completion/completions/insonify; do
   [[ -s $prefix/usr/share/$file ]] || { echo "no /usr/share/$file" >&2; exit 1; }
 done
-block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$prefix/usr/share/doc/insonify-doc/docs/api.md" | sed '1d;$d'; }
+block() { awk -v fence="\`\`\`$1" '$0 == fence { inside = 1; next } inside && /^\`\`\`/ { exit } inside' "$prefix/usr/share/doc/insonify-doc/docs/api.md"; }
 mkdir my_ping
 block cmake >my_ping/CMakeLists.txt
 block cpp >my_ping/my_ping.cpp

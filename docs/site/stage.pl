@@ -1,7 +1,7 @@
 #!/usr/bin/env perl
 # Puts what Doxygen reads into FOLDER:
 #   insonify/MODULE/*.hpp   the public headers, each in the group of its module; (E12) links to that row of the equations
-#   pages/*.md              README.md and docs/*.md: a page's label is its name, a heading's is NAME-ITS-WORDS
+#   pages/*.md              README.md, docs/*.md and docs/results/*.md: a page's label is its name, a heading's is NAME-ITS-WORDS
 #   files/                  other files that the pages link to
 use strict;
 use warnings;
@@ -38,9 +38,9 @@ for my $path (grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp') {
   spew($path =~ s{^modules}{$stage/insonify}r, $text);
 }
 
-for my $path ('README.md', glob 'docs/*.md') {
+for my $path ('README.md', glob('docs/*.md'), glob('docs/results/*.md')) {
   my $page = $path eq 'README.md' ? 'mainpage' : basename($path, '.md');
-  my $folder = $path eq 'README.md' ? '' : 'docs/';
+  my $folder = $path eq 'README.md' ? '' : dirname($path) . '/';
   my ($fenced, $first, $text, %seen) = (0, 1, '');
   for my $line (split /^/, slurp($path)) {
     if ($line =~ /^\s*```/) { $fenced = !$fenced; $line =~ s/```\w+/$line =~ m{```(cpp|cmake|toml)} && $1 eq 'cpp' ? '```{.cpp}' : '```'/e }
@@ -54,7 +54,7 @@ for my $path ('README.md', glob 'docs/*.md') {
       $first = 0;
     }
     # Pictures, then links.
-    $line =~ s{!\[([^\]]*)\]\((?:docs/)?(images/[^)]+)\)}{'<img src="' . $2 . '" alt="' . ($1 =~ s/"/&quot;/gr) . '"/>'}ge;
+    $line =~ s{!\[([^\]]*)\]\((?:docs/|\.\./)?(images/[^)]+)\)}{'<img src="' . $2 . '" alt="' . ($1 =~ s/"/&quot;/gr) . '"/>'}ge;
     $line =~ s{(?<!!)\[([^\]]*)\]\(([^)\s]+)\)}{link_of($1, $2, $folder, $page)}ge;
     $line =~ s{^\| (E\d+) \|}{| <a id="$1"></a>$1 |} if $page eq 'equations';
     # Outside of code, no word is a command or a tag of Doxygen's.
@@ -76,7 +76,7 @@ for my $path ('README.md', glob 'docs/*.md') {
 # A link of a page: to a page or heading, to the web, or to a file, which is copied.
 sub link_of {
   my ($words, $target, $folder, $page) = @_;
-  $words =~ s{^(?:docs/)?(\w+)\.md$}{$1};
+  $words =~ s{^(?:docs/)?(?:results/)?([\w-]+)\.md$}{$1};
   return "[$words]($target)" if $target =~ m{^https?://};
   my ($path, $heading) = $target =~ /^([^#]*)(?:#(.*))?$/;
   return "[$words](\@ref $page-$heading)" if $path eq '';
@@ -84,7 +84,7 @@ sub link_of {
   for (split m{/}, "$folder$path") { if ($_ eq '..') { pop @parts } else { push @parts, $_ } }
   my $full = join '/', @parts;
   die "$page: $target does not exist\n" unless -e $full;
-  if ($full =~ m{^(?:docs/(\w+)|(README))\.md$}) {
+  if ($full =~ m{^(?:docs/(?:results/)?([\w-]+)|(README))\.md$}) {
     my $name = $1 // 'mainpage';
     return $name eq 'mainpage' ? "[$words](index.html)" : "[$words](\@ref $name" . ($heading ? "-$heading" : '') . ')';
   }

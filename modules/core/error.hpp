@@ -5,7 +5,7 @@
 
 namespace insonify {
 
-/// Category of an error; the command-line tool maps each to an exit code (docs/troubles.md).
+/// Category of an error; the command-line tool maps each to an exit code (docs/troubleshooting.md).
 enum class ErrorKind {
   runtime,   ///< an operation failed at run time (exit code 1)
   argument,  ///< an argument violates a rule (2)

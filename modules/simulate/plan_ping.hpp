@@ -22,7 +22,7 @@ namespace insonify {
 ///
 /// A bound is the effect expected of the sample, over all speckle, with a factor of 2 in amplitude for what the sample
 /// does not show. A bound is 0 where an effect has no cause (no boundary, no motion, no profile). bound_relative may
-/// exceed 1: then the stage changes the image altogether. docs/plan.md compares bounds with effects.
+/// exceed 1: then the stage changes the image altogether. docs/results/plan.md compares bounds with effects.
 ///
 /// Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,

@@ -1,4 +1,4 @@
-// The plan's promise over the suite of docs/plan.md: no effect exceeds its bound, and no bound is idle.
+// The plan's promise over the suite of docs/results/plan.md: no effect exceeds its bound, and no bound is idle.
 #include "benchmarks/accuracy/plan_suite.hpp"
 
 #include <gtest/gtest.h>

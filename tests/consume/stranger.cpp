@@ -1,10 +1,11 @@
 // What a user of PCL writes: a cloud in memory, pings from several threads, soundings back as a PCL cloud; a scene source
-// of one's own.
+// of one's own, and echoes of one's own.
 #include <future>
 #include <iostream>
 #include <memory>
 #include <vector>
 
+#include <insonify/beamforming/synthesizer.hpp>
 #include <insonify/core/units.hpp>
 #include <insonify/scene_io/pcl_bridge.hpp>
 #include <insonify/simulate/ping_simulator.hpp>
@@ -36,6 +37,16 @@ class NearPart : public SceneSource {
   WholeScene whole_;
 };
 
+// Peak of an echo of 1 Pa from 5 m straight ahead, received by an array of one's own [Pa].
+double peak_of_an_echo(SonarSpec spec) {
+  SonarHead head = make_head(spec, 1500);
+  head.array.spacing = 1500 / spec.centre_frequency / 2;
+  head.array.shading.assign(128, 1.0);
+  Echoes echoes;
+  echoes.amplitude = {1}, echoes.delay = {10 / 1500.0}, echoes.u = {0}, echoes.v = {0};
+  return Synthesizer(head, {.sound_speed = 1500}).pressure(echoes).abs().maxCoeff();
+}
+
 int main() {
   pcl::PointCloud<pcl::PointXYZ> cloud;
   for (int i = 0; i < 100; ++i)
@@ -54,7 +65,8 @@ int main() {
       return simulator.ping(scene, {.world_from_head = pose_from_yaw_pitch_roll({0.2 * k, 0, 2}, 0, radians(20), 0)});
     }));
   const NearPart source(loaded.scene);
-  bool good = !colour_map_names().empty();
+  const double peak = peak_of_an_echo(spec);
+  bool good = !colour_map_names().empty() && peak > 0.9 && peak < 1.0001;
   for (int k = 0; k < 4; ++k) {
     const SimulatedPing ping = pings[k].get();
     good = good && to_pcl(ping.soundings).width > 100;

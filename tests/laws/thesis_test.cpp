@@ -1,5 +1,5 @@
 // A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval Postgraduate School): what its
-// equations and figures come to when they are put right. docs/thesis.md has the details.
+// equations and figures come to when they are put right. docs/results/thesis.md has the details.
 #include "thesis/thesis.hpp"
 
 #include "acoustics/scattering.hpp"

@@ -2,7 +2,7 @@
 # of docs/equations.md is not marked by its id in the file it names, or if the code cites an id that the page does not have.
 cmake_minimum_required(VERSION 3.25)
 
-file(GLOB pages "${ROOT}/README.md" "${ROOT}/docs/*.md")
+file(GLOB pages "${ROOT}/README.md" "${ROOT}/docs/*.md" "${ROOT}/docs/results/*.md")
 foreach(page IN LISTS pages)
   file(READ "${page}" text)
   string(REGEX MATCHALL "(modules|apps|tests|data|docs)/[A-Za-z0-9_./-]*[A-Za-z0-9_]+(:[a-z_]+)?" names "${text}")

@@ -28,7 +28,7 @@ inline std::string one_line(std::string text) {
   return text;
 }
 
-/// Runs a program, reports on stderr what it throws, and returns the exit code (docs/troubles.md). `less` says what
+/// Runs a program, reports on stderr what it throws, and returns the exit code (docs/troubleshooting.md). `less` says what
 /// takes less memory.
 inline int run_program(const std::function<int()>& run, const char* less) {
   constexpr int no_memory = 4, exit_codes[] = {1, 2, 3, 4, no_memory};  // of runtime, argument, content, file

@@ -1,4 +1,4 @@
-// Prints the tables of docs/plan.md: what the plan promises of each stage and what forcing the stage in does, or,
+// Prints the tables of docs/results/plan.md: what the plan promises of each stage and what forcing the stage in does, or,
 // called with `left-out`, what default pings lack.
 #include <algorithm>
 #include <cstdio>

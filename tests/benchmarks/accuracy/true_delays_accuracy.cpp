@@ -1,4 +1,4 @@
-// True delays (E68) against element by element: true_delays_accuracy [HEAD] prints the table of docs/accuracy.md, one
+// True delays (E68) against element by element: true_delays_accuracy [HEAD] prints the table of docs/results/accuracy.md, one
 // row for each head, direction and range, and one for each head above a rough height field. Never asserted.
 #include <algorithm>
 #include <cmath>

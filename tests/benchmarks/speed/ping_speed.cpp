@@ -1,4 +1,4 @@
-// How long warm pings of prepared scenes take, as tables in Markdown (docs/speed.md):
+// How long warm pings of prepared scenes take, as tables in Markdown (docs/results/speed.md):
 //   ping_speed work [NAME]     some pings of the harbour of a million surfels: medians of five, or of eleven short ones
 //   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if it takes more
 //                              than a second
