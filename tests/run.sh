@@ -1,8 +1,20 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything with warnings as errors, and runs the tests whose inputs have changed since
-# they last passed; with --all, all of them. Other arguments go to ctest.
+# Installs what is missing, builds with warnings as errors, and runs tests.
+#
+#   tests/run.sh [--full] [--all] [OPTIONS OF CTEST]
+#
+#   --full   also the tests with the label `long` (kills, faults, fuzzing, limits of memory, the commands of the docs), and
+#            whether each public header compiles by itself: what CI runs
+#   --all    also the tests whose inputs have not changed since they last passed
 set -euo pipefail
 cd "$(dirname "$0")/.."
+targets=(all)
+for argument in "$@"; do
+  case $argument in
+    --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0" && exit 0 ;;
+    --full) targets+=(all_verify_interface_header_sets) ;;
+  esac
+done
 
 apps/install_packages.sh --tests
 # Readers of MCAP by others: without npm, or out of its reach, their test is skipped.
@@ -13,5 +25,5 @@ if command -v npm >/dev/null && [[ ! -d build/npm/node_modules ]]; then
 fi
 cmake --preset dev >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 rm -f build-configure.log
-cmake --build --preset dev --target all all_verify_interface_header_sets
+cmake --build --preset dev --target "${targets[@]}"
 tests/run_changed.pl "$@"

@@ -1,7 +1,9 @@
 #!/usr/bin/env perl
 # Runs the tests of build/dev whose inputs differ from those with which they last passed.
 #
-#   tests/run_changed.pl [--all] [OPTIONS OF CTEST]
+#   tests/run_changed.pl [--all] [--full] [OPTIONS OF CTEST]
+#
+# Without --full, tests with the label `long` are left out.
 #
 # Inputs of a test are its command and properties, the files that its command names, those of its REQUIRED_FILES
 # (tests/CMakeLists.txt; a folder stands for all below it), and the installed packages. A test without REQUIRED_FILES is
@@ -15,7 +17,9 @@ use FindBin;
 use JSON::PP;
 
 chdir "$FindBin::Bin/.." or die "$0: $!\n";
-my $all = @ARGV && $ARGV[0] eq "--all" && shift @ARGV;
+my ($all, $full) = map { my $flag = $_; scalar grep { $_ eq $flag } @ARGV } "--all", "--full";
+@ARGV = grep { $_ ne "--all" && $_ ne "--full" } @ARGV;
+my @labels = $full ? () : ("-LE", '^long$');
 my $record = "build/dev/passed_tests.txt";
 
 # Hash of a file, or of all files below a folder.
@@ -50,18 +54,20 @@ $out->autoflush;
 print $out map { "$passed{$_} $_\n" } sort keys %passed;
 
 my (%inputs, @unchanged, $changed);
-my $listing = join "", `ctest --test-dir build/dev --show-only=json-v1`;
+open(my $list, "-|", "ctest", "--test-dir", "build/dev", "--show-only=json-v1", @labels) or die "ctest: $!\n";
+my $listing = join "", <$list>;
+close $list;
 for my $test (@{decode_json($listing)->{tests}}) {
   my $name = $test->{name};
   my $hash = $inputs{$name} = inputs_of($test);
   !$all && $hash && $hash eq ($passed{$name} // "") ? push(@unchanged, $name) : ++$changed;
 }
-my $skipped = @unchanged . " tests not run: nothing has changed since they passed (./tests/run.sh --all runs them)\n";
+my $skipped = @unchanged . " tests not run: nothing has changed since they passed (--all runs them)\n";
 if (!$changed) { print $skipped; exit 0 }
 
 chomp(my $jobs = `nproc`);
 my @exclude = @unchanged ? ("-E", "^(" . join("|", map { quotemeta } @unchanged) . ')$') : ();
-open(my $ctest, "-|", "ctest", "--preset", "dev", "-j", $jobs, @exclude, @ARGV) or die "ctest: $!\n";
+open(my $ctest, "-|", "ctest", "--preset", "dev", "-j", $jobs, @labels, @exclude, @ARGV) or die "ctest: $!\n";
 $| = 1;
 while (<$ctest>) {
   print;

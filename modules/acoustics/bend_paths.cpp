@@ -4,7 +4,7 @@
 //                         where it is 0 nothing else is done
 //   2. place_of           depth and horizontal distance of every scatterer: the problem has two dimensions
 //   3. RefractionTable    eigenrays on a grid of patches over these two, stored less their first order
-//   4. table.see          range and elevation of every scatterer, interpolated, or solved where a patch is not smooth
+//   4. table.apparent          range and elevation of every scatterer, interpolated, or solved where a patch is not smooth
 // Cost: some thousand eigenrays for the table, whatever the number of scatterers, and an interpolation for each; for few
 // scatterers one eigenray each. Blocks of scatterers run in parallel and are independent.
 #include "acoustics/bend_paths.hpp"
@@ -123,7 +123,7 @@ DepthBox box_of(const std::vector<Place>& places) {
 }
 
 // The direction in head axes whose world elevation is that of `seen`, in the vertical plane through `direction`.
-Direction seen_direction(const Pose& pose, const Eigen::Vector3d& direction, const SeenPoint& seen) {
+Direction apparent_direction(const Pose& pose, const Eigen::Vector3d& direction, const ApparentPosition& seen) {
   const Eigen::Vector3d world = pose.linear() * direction;
   const double across = std::hypot(world.x(), world.y());
   if (across == 0) return direction_of(direction);
@@ -177,13 +177,14 @@ std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, cons
   std::atomic<std::size_t> silenced{0};
   parallel_blocks(s.size(), echoes_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto seen = table.see(places[i].depth, places[i].horizontal);
+      const auto seen = table.apparent(places[i].depth, places[i].horizontal);
       if (!seen) {
         s.projected_area[i] = 0;
         ++silenced;
         continue;
       }
-      const Direction direction = seen_direction(world_from_head, unit_vector({s.azimuth[i], s.elevation[i]}), *seen);
+      const Direction direction =
+          apparent_direction(world_from_head, unit_vector({s.azimuth[i], s.elevation[i]}), *seen);
       s.range[i] = seen->range;
       s.azimuth[i] = direction.azimuth;
       s.elevation[i] = direction.elevation;

@@ -25,7 +25,7 @@ struct FlatBottom {
   std::optional<double> lambert_mu{};  ///< [1/sr]; absent: no reverberation from it
 };
 
-/// Everything around head and scene. What is absent has no effect and costs nothing.
+/// Everything around head and scene. An absent part has no effect and costs nothing.
 struct Environment {
   Water
       water;  ///< its depth is that of the head; below a known surface it follows from where the head is (environment_at)
@@ -45,15 +45,15 @@ struct Environment {
 /// Throws Error naming the value, its unit and its rule.
 void require_valid(const Environment& environment, const char* who);
 
-/// World z [m] of the surface of the water, from which depth counts: of the sea surface, else water_level; absent if unknown.
+/// Returns the world z of the surface [m], from which depth counts: that of `surface`, else water_level; empty if both are
+/// absent.
 std::optional<double> surface_height(const Environment& environment);
 
-/// Depth [m] of a head at world height `head_height` [m]: below the surface if it is known, else water.depth. Rounded to
-/// a micrometre, so that rounding errors of a level way do not change the water from ping to ping.
+/// Returns the depth [m] of a head at world z `head_height` [m]: below the surface if that is known, else water.depth. It is
+/// rounded to a micrometre, so that rounding errors on a level track do not change the water from ping to ping.
 double head_depth(const Environment& environment, double head_height);
 
-/// Throws Error(argument), naming `who`, for a profile whose sound speed changes with depth if no surface says what depth
-/// is.
+/// Throws Error(argument), naming `who`, for a profile whose sound speed changes with depth if the surface is unknown.
 void require_depths_known(const Environment& environment, const char* who);
 
 /// The environment with water.depth at a head of world height `head_height` [m] (head_depth). Throws Error(argument) with
@@ -61,12 +61,13 @@ void require_depths_known(const Environment& environment, const char* who);
 /// that depth; and as require_depths_known.
 Environment environment_at(const Environment& environment, double head_height, const char* who);
 
-/// Lowest sound speed [m/s] that a head can meet at any depth: of the profile; or of the water at the surface, where
-/// pressure is lowest; without a surface that of medium_of. Range bins fine enough for it are so at every depth.
+/// Returns the lowest sound speed [m/s] at any depth: of the profile; without a profile, of the water at the surface, where
+/// pressure is lowest; without a surface, of medium_of. Range bins that are fine enough for it are fine enough at every
+/// depth.
 double slowest_sound(const Environment& environment);
 
-/// Medium at the head for a pulse about `centre_frequency` [Hz]; where a profile is given, its sound speed at the
-/// depth water.depth.
+/// Returns the medium at the head for a pulse about `centre_frequency` [Hz]. If there is a profile, the sound speed is the
+/// profile's at water.depth.
 Medium medium_of(const Environment& environment, double centre_frequency, int absorption_order = 0);
 
 /// Level of all noise at one element in the pulse's band [dB re 1 uPa]: thermal (E18), with the wind's (E25) and the

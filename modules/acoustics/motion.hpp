@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// How a head moves while it transmits and listens, in world axes; both stay the same for the whole ping.
+/// The motion of a head during a ping, in world axes. Both parts are constant.
 struct Motion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< of the head's origin [m/s]
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second [rad/s]
@@ -20,7 +20,7 @@ struct Motion {
 /// Throws Error(argument) unless all is finite and the head turns by at most 100 rad/s.
 void require_valid(const Motion& motion, const char* who);
 
-/// Poses along a way: positions linear, attitudes along the shortest turn between neighbours.
+/// Poses along a track. Between entries positions are linear in time, and attitudes follow the shortest turn.
 struct Trajectory {
   std::vector<double> time;  ///< [s], strictly ascending
   std::vector<Pose> pose;    ///< world_from_head
@@ -30,15 +30,16 @@ struct Trajectory {
 /// poses whose rotations are right-handed and orthonormal within 1e-6.
 void require_valid(const Trajectory& trajectory, const char* who);
 
-/// Pose at `time` [s]. Throws Error(argument) outside the trajectory's times, or for an invalid trajectory.
+/// Returns the pose at `time` [s]. Throws Error(argument) outside the trajectory's times, or for an invalid trajectory.
 Pose pose_at(const Trajectory& trajectory, double time);
 
-/// Motion at `time` [s], constant between entries; at an entry that of what follows it, at the last of what led there.
-/// A turn of half a circle between two entries has no one sense: give entries in between. Errors as pose_at.
+/// Returns the motion at `time` [s]. It is constant between entries; at an entry it is that of the next interval, at the last
+/// entry that of the last interval. Give more entries for turns of half a circle and more, whose sense would be ambiguous.
+/// Errors as pose_at.
 Motion motion_at(const Trajectory& trajectory, double time);
 
-/// Turns the echoes of a head at rest at `world_from_head` into those of a moving one (E44): sound leaves it there at
-/// time 0 and is received at time delay, where the head is then. With d the way to the scatterer, r0 = |d|,
+/// Changes the echoes of a head at rest into those of a moving head (E44). Sound leaves the head at `world_from_head` at time 0,
+/// and is received at time delay where the head is then. With d the vector to the scatterer, r0 = |d|,
 ///
 ///   delay = 2 (c r0 - v d) / (c^2 - v^2),  r1 = c delay - r0
 ///   amplitude *= r0 / r1 exp(i k (r1 - r0))                      spreading r0 r1 for r0^2, carrier phase k (r0 + r1)

@@ -84,7 +84,7 @@ double FirstOrderRays::lead(double height, double speed, double gradient) const 
   return height / speed * ((speed - head_speed_) / head_speed_ + log_lag(gradient * height / speed));
 }
 
-SeenPoint FirstOrderRays::see(double depth, double horizontal) const {
+ApparentPosition FirstOrderRays::apparent(double depth, double horizontal) const {
   const double height = depth - head_depth_, distance = std::hypot(height, horizontal);
   if (distance == 0) return {0, 1, 0};
 
@@ -147,17 +147,17 @@ void RefractionTable::fill(const DepthBox& box, int threads) {
   });
 }
 
-std::optional<SeenPoint> RefractionTable::solve(double depth, double horizontal) const {
+std::optional<ApparentPosition> RefractionTable::solve(double depth, double horizontal) const {
   const auto ray = eigenray_between(profile_, head_depth_, depth, horizontal);
   if (!ray) return std::nullopt;
-  return SeenPoint{head_speed_ * ray->travel_time, std::cos(ray->elevation), std::sin(ray->elevation)};
+  return ApparentPosition{head_speed_ * ray->travel_time, std::cos(ray->elevation), std::sin(ray->elevation)};
 }
 
 RefractionTable::Rest RefractionTable::rest(const Frame& frame, double down, double out) const {
   const double depth = frame.depth + down * frame.height, horizontal = frame.horizontal + out * frame.width;
   const auto seen = solve(depth, horizontal);
   if (!seen) return {};
-  const SeenPoint guess = first_order_.see(depth, horizontal);
+  const ApparentPosition guess = first_order_.apparent(depth, horizontal);
   const double sine = seen->up * guess.horizontal - seen->horizontal * guess.up;
   const double cosine = seen->horizontal * guess.horizontal + seen->up * guess.up;
   return {seen->range - guess.range, std::atan2(sine, cosine), true};
@@ -170,24 +170,24 @@ RefractionTable::Rest RefractionTable::between(const Patch& patch, double down, 
     const double weight = over_rows[i / 3] * over_columns[i % 3];
     sum.range += weight * patch.rest[i].range;
     sum.angle += weight * patch.rest[i].angle;
-    sum.lit = sum.lit && patch.rest[i].lit;
+    sum.reachable = sum.reachable && patch.rest[i].reachable;
   }
   return sum;
 }
 
 void RefractionTable::decide(Patch& patch, const Frame& frame, int levels) const {
-  bool any_lit = false, all_close = true;
-  for (const Rest& r : patch.rest) any_lit = any_lit || r.lit;
+  bool any_reachable = false, all_close = true;
+  for (const Rest& r : patch.rest) any_reachable = any_reachable || r.reachable;
   std::array<Rest, 4> middles;
   for (std::size_t q = 0; q < 4; ++q) {
     middles[q] = rest(frame, quarter_down[q], quarter_out[q]);
     const Rest guess = between(patch, quarter_down[q], quarter_out[q]);
-    any_lit = any_lit || middles[q].lit;
-    all_close = all_close && middles[q].lit && guess.lit &&
+    any_reachable = any_reachable || middles[q].reachable;
+    all_close = all_close && middles[q].reachable && guess.reachable &&
                 std::abs(guess.range - middles[q].range) <= tolerated_range &&
                 std::abs(guess.angle - middles[q].angle) <= tolerated_angle;
   }
-  patch.use = !any_lit ? Use::shadow : all_close ? Use::interpolate : levels > 0 ? Use::quarter : Use::solve;
+  patch.use = !any_reachable ? Use::shadow : all_close ? Use::interpolate : levels > 0 ? Use::quarter : Use::solve;
   if (patch.use == Use::quarter) quarter(patch, frame, middles, levels - 1);
 }
 
@@ -207,7 +207,7 @@ void RefractionTable::quarter(Patch& patch, const Frame& frame, const std::array
   }
 }
 
-std::optional<SeenPoint> RefractionTable::see(double depth, double horizontal) const {
+std::optional<ApparentPosition> RefractionTable::apparent(double depth, double horizontal) const {
   if (rows_.empty()) return solve(depth, horizontal);
   const auto below = static_cast<std::size_t>(std::upper_bound(rows_.begin(), rows_.end(), depth) - rows_.begin());
   const std::size_t row = std::clamp<std::size_t>(below, 1, rows_.size() - 1) - 1;
@@ -226,9 +226,10 @@ std::optional<SeenPoint> RefractionTable::see(double depth, double horizontal) c
   if (patch->use == Use::shadow) return std::nullopt;
   if (patch->use == Use::solve) return solve(depth, horizontal);
   const Rest rest = between(*patch, down, out);
-  const SeenPoint guess = first_order_.see(depth, horizontal);
+  const ApparentPosition guess = first_order_.apparent(depth, horizontal);
   const double c = std::cos(rest.angle), s = std::sin(rest.angle);
-  return SeenPoint{guess.range + rest.range, c * guess.horizontal - s * guess.up, c * guess.up + s * guess.horizontal};
+  return ApparentPosition{guess.range + rest.range, c * guess.horizontal - s * guess.up,
+                          c * guess.up + s * guess.horizontal};
 }
 
 }  // namespace insonify

@@ -10,7 +10,7 @@
 namespace insonify {
 
 /// How a point is seen from the head: range [m] and unit vector of the direction from which sound arrives.
-struct SeenPoint {
+struct ApparentPosition {
   double range = 0;
   double horizontal = 0, up = 0;
 };
@@ -26,7 +26,7 @@ struct DepthBox {
 class FirstOrderRays {
  public:
   FirstOrderRays(const SoundSpeedProfile& profile, double head_depth);
-  SeenPoint see(double depth, double horizontal) const;
+  ApparentPosition apparent(double depth, double horizontal) const;
 
  private:
   double lead(double height, double speed, double gradient) const;
@@ -44,13 +44,13 @@ class RefractionTable {
   RefractionTable(const SoundSpeedProfile& profile, double head_depth, const DepthBox& box, int threads);
 
   /// None in a shadow zone.
-  std::optional<SeenPoint> see(double depth, double horizontal) const;
+  std::optional<ApparentPosition> apparent(double depth, double horizontal) const;
 
  private:
   /// Eigenray less first order.
   struct Rest {
     double range = 0, angle = 0;
-    bool lit = false;
+    bool reachable = false;
   };
   enum class Use : char { interpolate, shadow, solve, quarter };
   struct Patch {
@@ -63,7 +63,7 @@ class RefractionTable {
     Frame quarter(std::size_t q) const;
   };
 
-  std::optional<SeenPoint> solve(double depth, double horizontal) const;
+  std::optional<ApparentPosition> solve(double depth, double horizontal) const;
   Rest rest(const Frame& frame, double down, double out) const;
   static Rest between(const Patch& patch, double down, double out);
   void fill(const DepthBox& box, int threads);

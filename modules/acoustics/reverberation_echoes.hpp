@@ -8,19 +8,19 @@
 
 namespace insonify {
 
-/// Cells into which water and boundaries are cut. Each is one echo of complex-normal amplitude at a random place within
-/// the cell: mean level and correlation do not depend on the cells' size, and the sum in a beam is Rayleigh the more
-/// exactly the smaller they are.
+/// How water and boundaries are divided into cells. Each cell gives one echo of complex-normal amplitude from a random place
+/// within it. Mean level and correlation do not depend on the size of cells. The smaller the cells, the closer the sum in
+/// a beam is to a Rayleigh distribution.
 struct ReverberationOptions {
   double cells_per_resolution = 2;  ///< along range and along the fan, per resolution cell
   std::int64_t ping = 0;            ///< water and waves are new in every ping
-  /// How far beyond the outermost beams they reach, in u; 0: 1.5 beam widths, beyond which side lobes of a head of many
-  /// beams hear less than 0.02 dB. An array with further main lobes hears all that lies ahead: pi.
+  /// Extent of the cells beyond the outermost beams, in u; 0: 1.5 beam widths, beyond which side lobes of a head of many beams
+  /// add less than 0.02 dB. For an array with further main lobes: pi, all directions ahead.
   double azimuth_margin = 0;
 };
 
 // All of these fill the gate, and a pulse's reach on either side of it, over the fan's sector in azimuth; the
-// transmitter's pattern (E57) counts where there is one. The scene is left out of account: it casts no shadow on them.
+// transmitter's pattern (E57) counts if there is one. The scene casts no shadow on them.
 // The result does not depend on the thread count. They throw Error if what scatters is absent from the environment,
 // for invalid arguments, and if there would be more than 2^27 cells.
 

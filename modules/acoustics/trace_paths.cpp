@@ -59,8 +59,8 @@ SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, cons
   return paths;
 }
 
-SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
-                         const View& view, const Medium& medium, std::size_t count) {
+SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
+                           const View& view, const Medium& medium, std::size_t count) {
   std::vector<double> heights;  // of the boundaries, as legs count them
   if (environment.surface) heights.push_back(environment.surface->height);
   if (environment.bottom) heights.push_back(environment.bottom->height);

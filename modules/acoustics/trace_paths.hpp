@@ -12,7 +12,7 @@ SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, cons
 
 /// The same of echoes by way of the boundaries, for each pair of legs out and back: they bounce where the line from the head
 /// to the surfel's image meets the boundary (E48).
-SoundPaths bounced_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
-                         const View& view, const Medium& medium, std::size_t count);
+SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
+                           const View& view, const Medium& medium, std::size_t count);
 
 }  // namespace insonify

@@ -69,7 +69,7 @@ class HelperThreads {
 
 }  // namespace
 
-void share_work(std::size_t helpers, const std::function<void()>& work) {
+void run_on_pool(std::size_t helpers, const std::function<void()>& work) {
   static HelperThreads& threads = *new HelperThreads;  // they end with the process, after all static objects
   threads.share(helpers, work);
 }

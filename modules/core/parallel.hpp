@@ -19,7 +19,7 @@ inline int thread_count(int threads) {
 /// Calls work() on this thread and, as far as there are any that are free before this call ends, on up to `helpers` others,
 /// which are kept for later. Returns when all calls have. The calls share out among themselves what is to be done, and must
 /// not throw.
-void share_work(std::size_t helpers, const std::function<void()>& work);
+void run_on_pool(std::size_t helpers, const std::function<void()>& work);
 
 /// Calls body(i) once for every i in [0, n), on up to `threads` threads (0: all cores). body(i) must only write to data
 /// of index i, so the result does not depend on `threads`. If a call throws, calls not yet started are skipped and the
@@ -44,7 +44,7 @@ void parallel_for(std::size_t n, int threads, Body&& body) {
   };
   const std::size_t wanted = std::min(n, static_cast<std::size_t>(thread_count(threads)));
   if (wanted > 1)
-    share_work(wanted - 1, std::ref(work));
+    run_on_pool(wanted - 1, std::ref(work));
   else
     work();
   if (first) std::rethrow_exception(first);

@@ -7,8 +7,8 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "sampling/count_parts_internal.hpp"
-#include "sampling/heard_shares_internal.hpp"
-#include "sampling/unset_vector_internal.hpp"
+#include "sampling/energy_shares_internal.hpp"
+#include "sampling/uninitialized_vector_internal.hpp"
 
 // Counts the parts of surfels:
 //   1. by cells: so many that a cell of the surface holds scatterers_per_cell of them (E17);
@@ -36,7 +36,7 @@ struct Seen {
         cosine(std::min(1.0, std::abs(head.direction(scene.normal[surfel].cast<double>()).dot(position)) / range)),
         radius(std::sqrt(area / pi)) {}
 
-  HeardSurfel heard(double energy, std::uint8_t beyond) const {
+  ReceivedSurfel received(double energy, std::uint8_t beyond) const {
     const double sine = std::sqrt(1 - cosine * cosine);
     return {energy, range, radius * sine + 0.5 * radius * radius / range, position.y() / range, radius / range, beyond};
   }
@@ -57,20 +57,21 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
   const auto beyond = [&inner](const Vector3d& p) -> std::uint8_t {
     return inner ? (inner->in_cones(p) ? 0 : 1) | (inner->in_elevations(p) ? 0 : 2) : 0;
   };
-  UnsetVector<ByCells> by_cells(surfels.size());
-  UnsetVector<HeardSurfel> heard(by_shares ? surfels.size() : 0);
+  UninitializedVector<ByCells> by_cells(surfels.size());
+  UninitializedVector<ReceivedSurfel> received(by_shares ? surfels.size() : 0);
   parallel_blocks(surfels.size(), counted_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const Seen seen(scene, head, surfels[s]);
       const SampledCells::Widths widths = cells.widths(seen.position, seen.radius);
       by_cells[s] = {cells.parts(seen.range, seen.area, seen.cosine, widths), widths};
       if (by_shares)
-        heard[s] = seen.heard(options.energy->of(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]),
-                              beyond(seen.position));
+        received[s] =
+            seen.received(options.energy->of(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]),
+                          beyond(seen.position));
     }
   });
-  std::optional<HeardShares> shares;
-  if (by_shares) shares.emplace(heard, gate, cells, options.threads);
+  std::optional<EnergyShares> shares;
+  if (by_shares) shares.emplace(received, gate, cells, options.threads);
 
   PartCounts counts{std::vector<std::uint16_t>(surfels.size())};
   std::atomic<std::size_t> capped{0};
@@ -79,7 +80,7 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
     for (std::size_t s = begin; s < end; ++s) {
       double wanted = by_cells[s].parts;
       if (by_shares && wanted > 1)
-        wanted = std::min(wanted, cells.parts_of_share(shares->share(heard[s]), by_cells[s].widths));
+        wanted = std::min(wanted, cells.parts_of_share(shares->share(received[s]), by_cells[s].widths));
       counts.parts[s] = static_cast<std::uint16_t>(std::ceil(std::clamp<double>(wanted, 1, most_parts) - rounding));
       capped_here += wanted > most_parts;
     }

@@ -231,7 +231,7 @@ void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threa
     const int y = std::min(face.ny - 1, static_cast<int>((q.y - face.y0) * face.per_y));
     return face.first_tile + static_cast<std::size_t>(y / DirectionTile::side * face.columns + x / DirectionTile::side);
   };
-  UnsetVector<std::uint32_t> tile(queries.size());
+  UninitializedVector<std::uint32_t> tile(queries.size());
   std::vector<std::vector<std::size_t>> next((queries.size() + directions_at_once - 1) / directions_at_once,
                                              std::vector<std::size_t>(tiles_.size(), 0));
   parallel_blocks(queries.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {

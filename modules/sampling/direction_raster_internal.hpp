@@ -132,8 +132,8 @@ class DirectionRaster {
   std::array<Face, 6> faces_;
   std::vector<Tile> tiles_;
   std::vector<std::uint32_t> wide_;
-  UnsetVector<TileBox> boxes_;
-  UnsetVector<std::uint32_t> queries_;
+  UninitializedVector<TileBox> boxes_;
+  UninitializedVector<std::uint32_t> queries_;
   std::vector<std::size_t> first_box_, first_query_;  // begin of each tile, and the end
 };
 

@@ -170,8 +170,8 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
     std::uint32_t at;  // in surfels, which ascend
   };
   constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
-  UnsetVector<SurfelBounds> bounds(surfels.size());
-  UnsetVector<std::uint32_t> band(surfels.size());
+  UninitializedVector<SurfelBounds> bounds(surfels.size());
+  UninitializedVector<std::uint32_t> band(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
@@ -185,12 +185,12 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   std::vector<std::size_t> first(1 + (band.empty() ? 0 : std::size_t{1} + *std::max_element(band.begin(), band.end())));
   for (const std::uint32_t b : band) ++first[b + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
-  UnsetVector<Key> keys(surfels.size());
+  UninitializedVector<Key> keys(surfels.size());
   std::vector<std::size_t> next = first;
   for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {bounds[s].u, s};
   sorted.surfel.resize(surfels.size());
   sorted.bounds.resize(surfels.size());
-  UnsetVector<std::uint16_t> sorted_parts(surfels.size());
+  UninitializedVector<std::uint16_t> sorted_parts(surfels.size());
   parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
     const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
                end = keys.begin() + static_cast<std::ptrdiff_t>(first[b + 1]);

@@ -29,12 +29,12 @@ enum class Projection {
   automatic     ///< raster or kdtree, by estimated cost
 };
 
-/// Energy that is received from surfels.
+/// The energy that a head receives from surfels.
 class SurfelEnergy {
  public:
   virtual ~SurfelEnergy() = default;
-  /// Returns it in any unit, for a surfel at `position` in head axes, with the cosine of its angle of incidence, its area
-  /// [m^2] and the number of its material. Called by several threads.
+  /// Returns the energy of a surfel, in any unit: `position` in head axes [m], cosine of its angle of incidence, area [m^2],
+  /// index of its material. Several threads call it at once.
   virtual double of(const Eigen::Vector3d& position, double cosine, double area, std::size_t material) const = 0;
 };
 
@@ -52,13 +52,13 @@ struct SamplingOptions {
   int threads = 0;                   ///< 0: all cores
   double relief_outer_scale = 0;     ///< longest wavelength of micro-relief [m]; 0: the mean surfel spacing sqrt(area)
   double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
-  /// Beside main lobes, in u and v, surfels are split as inside up to this distance (E17); 2: everywhere.
+  /// Surfels up to this distance from the main lobes, in u and v, are split as finely as inside them (E17); 2: all.
   double lobe_margin = 0;
-  /// Shares (E127) do not depend on how far beyond this sector is sampled: surfels inside share what is heard from inside,
-  /// those beyond its cones, or its elevations, that and what is heard from beyond these. Empty: all share all.
+  /// Shares of energy (E127) are those within this sector, so that they do not depend on how far beyond it is sampled. Surfels
+  /// beyond its cones, or its elevations, share the energy from inside and from there. Empty: shares of all energy.
   std::optional<Sector> inner_sector{};
-  /// Surfels that give little of what is heard from their range, for a fan also their direction in u, are split less
-  /// (E127); empty: all are split alike.
+  /// Surfels that return little of the energy from their range (for a fan, from their range and u) are split less (E127).
+  /// Empty: energy does not count.
   std::shared_ptr<const SurfelEnergy> energy{};
 };
 
@@ -92,10 +92,9 @@ struct Sampling {
 /// Returns the patches of `scene` that are visible from a head at `world_from_head` within fan and gate (E16, E17), in
 /// head axes, with a report of the counts.
 ///
-/// Each surfel occludes exactly its footprint. Hit rule for rays: of the surfels whose footprint contains the
-/// direction, the front cluster counts, and the range is that of the tangent plane of its angularly nearest member. A
-/// surfel is visible unless the disc of another surfel covers it and lies in front of it by more than the roughness of
-/// a surface.
+/// A surfel hides what its footprint covers. A ray hits the front cluster of the surfels whose footprints contain its
+/// direction; its range is that of the tangent plane of the member nearest in angle. A surfel is visible unless the disc of
+/// another surfel covers it and lies in front of it by more than the roughness of a surface.
 ///
 /// Rays tile the insonified sector: the share of a beam ends at the midpoints to its neighbours or at the edge of the
 /// sector. The projected area of a ray is r^2 times its solid angle.

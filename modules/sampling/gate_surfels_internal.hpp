@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/pose.hpp"
-#include "sampling/unset_vector_internal.hpp"
+#include "sampling/uninitialized_vector_internal.hpp"
 #include "scene/prepared_scene.hpp"
 #include "scene/scene_cloud.hpp"
 #include "sonar/beam_fan.hpp"
@@ -38,9 +38,9 @@ struct GatedFacet {
 };
 
 /// Surfels in head axes, and their facets if the scene has them.
-struct GatedSurfels : UnsetVector<GatedSurfel> {
-  using UnsetVector<GatedSurfel>::UnsetVector;
-  UnsetVector<GatedFacet> facet;  ///< empty: surfels hide as discs
+struct GatedSurfels : UninitializedVector<GatedSurfel> {
+  using UninitializedVector<GatedSurfel>::UninitializedVector;
+  UninitializedVector<GatedFacet> facet;  ///< empty: surfels hide as discs
 };
 
 /// Distance from a surfel's centre within which it helps to occlude others, in radii of its disc.

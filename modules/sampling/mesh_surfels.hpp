@@ -14,9 +14,10 @@ inline constexpr std::size_t default_mesh_surfels = std::size_t{1} << 23;
 
 /// What a ping needs of a mesh.
 struct MeshSurfels {
-  SceneCloud scene;       ///< with SceneCloud::part_of = SceneMesh::whole, and the parts as facets
-  double coarsening = 1;  ///< areas are so many times as large as the head asks for, to keep to the number allowed;
-                          ///< infinite: not even one surfel for each triangle was allowed, and there are none
+  SceneCloud scene;  ///< with SceneCloud::part_of = SceneMesh::whole, and the parts as facets
+  double coarsening =
+      1;  ///< factor by which areas exceed what the head resolves, so that most_surfels holds; infinite if
+          ///< there are more triangles than most_surfels, and then no surfels
 };
 
 /// Samples the triangles within `region` as finely as the head resolves them (E70): parts of a triangle, made by bisecting
@@ -24,10 +25,9 @@ struct MeshSurfels {
 /// is at most that of a resolution cell (E17), of a square half as wide as a main lobe, and a sixteenth of a main lobe,
 /// all at its range; and the square of its longest edge at most eight times that.
 ///
-/// The areas of a triangle's parts add up to its area. A part stands where it stands in every ping, with its id, and so
-/// does the speckle; of a part that is bisected, one half keeps place and id. Neither region nor threads change that. Ids
-/// are unique; there are 2^32 in all, shared out by area, which limits parts to 1.2 cm on 400 m x 400 m: below that
-/// find_scatterers splits the surfels.
+/// The areas of a triangle's parts add up to its area. A part has the same place and id in every ping, so speckle is bound
+/// to the mesh; of a part that is bisected, one half keeps place and id. Region and threads do not change that. The 2^32 ids
+/// are distributed by area, which limits parts to 1.2 cm on 400 m x 400 m; find_scatterers splits further.
 ///
 /// region        ResolvedPing::region
 /// options       range_resolution, seed and threads; range_resolution 0: two bins of the region's gate
@@ -42,8 +42,8 @@ struct EvenSurfels {
   std::vector<std::uint32_t> corner;
 };
 
-/// Samples all triangles alike: parts of them, as of mesh_surfels, whose area is `spacing`^2 [m^2] in the mean and at most 1.4
-/// times that; a smaller triangle has one surfel. The result does not depend on `threads` (0: all cores). Throws Error for an
+/// Samples all triangles evenly: parts as in mesh_surfels, with a mean area of `spacing`^2 [m^2] and at most 1.4 times
+/// that; a smaller triangle has one surfel. The result does not depend on `threads` (0: all cores). Throws Error for an
 /// invalid mesh or spacing.
 EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed = 1, int threads = 0);
 

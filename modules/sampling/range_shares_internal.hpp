@@ -5,18 +5,18 @@
 
 namespace insonify {
 
-/// Shares of a disc's surface for points on it, so that each range has the surface that it should (E128).
+/// Divides a disc's surface among points on it, so that each range gets the surface that lies there (E128).
 ///
-/// Points of a sequence over a disc are too few and too many by turns along the line of sight, more so the finer the range
-/// resolution. Here a point stands for what is nearest to it along that line, the strip of the disc between the middles
-/// to its neighbours there. Holds the memory for one disc after the other; not for several threads.
+/// Points of a sequence over a disc are too dense and too sparse by turns along the line of sight. Each point therefore
+/// stands for the strip of the disc that is nearest to it along that line, up to the middles between it and its neighbours.
+/// Keeps its buffers from disc to disc; not for several threads.
 class RangeShares {
  public:
-  /// Shares of points at `along`, how far each is from the middle along the line of sight, from -1 to 1 at the disc's
-  /// ends: in [0, 1], in their order; their sum is 1 but for rounding. O(points), the same for the same points.
-  /// Accuracy 2e-5. For no points, none. Valid until the next call.
+  /// Returns the fraction of the surface of each point, in their order; the sum is 1 but for rounding. Accuracy 2e-5, O(points).
+  /// Valid until the next call.
   ///
-  /// strips: from 0, for all shares alike, to 1, for those of the strips; between them, a mean of both.
+  /// along    distance of each point from the middle along the line of sight, from -1 to 1 at the ends of the disc
+  /// strips   1: strips; 0: equal fractions; between them, a mean of both
   std::span<const float> operator()(std::span<const float> along, double strips);
 
  private:

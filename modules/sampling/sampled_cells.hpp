@@ -17,9 +17,9 @@ namespace insonify {
 /// the cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x
 /// range x the narrower of both widths.
 ///
-/// What side lobes alone receive adds up in one bin from everywhere, so no part of it need be as narrow as a main lobe: at
-/// a distance d from the end of the nearest main lobe, in u (of a planar array's rows in v), the width is range d / 2 where
-/// that is more. Whatever is the nearest that a bin hears, as many parts lie between there and twice as far off.
+/// Beside the main lobes cells are wider, since a bin adds up the side-lobe echoes of all directions: at a distance d from
+/// the end of the nearest main lobe, in u (for rows of a planar array in v), the width is range d / 2 if that is more. Each
+/// doubling of d then holds equally many scatterers.
 class SampledCells {
  public:
   /// Cells of a fan, as long as options.range_resolution [m], or two bins of the gate if that is 0.
@@ -35,15 +35,15 @@ class SampledCells {
   /// Area of a cell of these widths [m^2].
   double area(double range, double cos_incidence, const Widths& widths) const;
 
-  /// How many parts a surfel needs for scatterers_per_cell parts in a cell: at least 1, not rounded; 1 for 0 per cell.
-  /// Its disc is about `position`; surface [m^2].
+  /// Returns how many parts a surfel needs so that a cell holds scatterers_per_cell: at least 1, not rounded; 1 if
+  /// scatterers_per_cell is 0. Its disc lies about `position`; surface [m^2].
   double parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const;
   /// The same for cells of these widths, as widths() returns them.
   double parts(double range, double surface, double cos_incidence, const Widths& widths) const;
 
-  /// How many parts a surface needs that gives `share` of what is heard from a cell of shares (E127), not rounded: as
-  /// many as its cells ask for if it gives three tenths of what a main lobe of a fan hears, or an eighth of what one beam
-  /// does. Infinite for a fan's cells of side lobes, by their widths: each is heard together with others.
+  /// Returns how many parts a surface needs that returns `share` of the energy of a cell of shares (E127), not rounded. It
+  /// needs all parts of its cells if the share is three tenths (fan) or an eighth (one beam). Infinite for cells of side
+  /// lobes of a fan, since a bin adds up several of them.
   double parts_of_share(double share, const Widths& widths) const;
   /// Width of a cell of shares, in u: a main lobe's; 2, which is all of u, for one beam.
   double width_of_shares() const { return one_beam_ ? 2 : main_lobe_.beam; }

@@ -150,7 +150,7 @@ class DepthTile {
 std::vector<Cover> covers_by_raster(const GatedSurfels& surfels, int threads) {
   const auto asked =
       list_where(surfels.size(), threads, [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing; });
-  UnsetVector<CubePoint> queries(asked.size());
+  UninitializedVector<CubePoint> queries(asked.size());
   parallel_blocks(asked.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) queries[k] = on_cube(surfels[asked[k]].position);
   });

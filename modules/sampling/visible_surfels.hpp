@@ -19,17 +19,17 @@ struct VisibleSurfels {
   std::optional<ReliefField> relief;
 };
 
-/// Returns the visible surfels of a view, of which make_parts makes what find_scatterers would give, in another order;
-/// options.kind does not count. Errors as find_scatterers.
+/// Returns the visible surfels of a view. make_parts makes the scatterers of find_scatterers from them, in another order.
+/// options.kind is ignored. Errors as find_scatterers.
 VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                             const RangeGate& gate, const SamplingOptions& options = {});
 
-/// Returns the scatterers of surfels that are seen (indices in the scene, ascending), split and tilted as by
-/// find_scatterers with these options.
+/// Returns the scatterers of visible surfels (indices in the scene, ascending), split and tilted as by find_scatterers with
+/// these options.
 Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                       const RangeGate& gate, std::span<const std::uint32_t> surfels, const SamplingOptions& options);
 
-/// Returns the scatterers of the given ones of `visible` (indices there).
+/// Returns the scatterers of some of the visible surfels (`which`: indices in `visible`).
 Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
                       std::span<const std::uint32_t> which, int threads);
 /// Returns the scatterers of all of them.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,8 +22,8 @@ struct SurfelBlock {
   std::uint32_t begin = 0, end = 0;  ///< range of indices into PreparedScene::order()
 };
 
-/// Some of the surfels of a scene, one bit each, so that they are visited in its order whatever the order of the blocks:
-/// surfel i is bit i % 64 of word i / 64.
+/// A set of surfels of a scene: surfel i is bit i % 64 of word i / 64. Surfels are visited in the order of the scene, not of
+/// the blocks.
 struct SurfelMarks {
   std::vector<std::uint64_t> words;
 
@@ -50,7 +51,9 @@ class PreparedScene {
   explicit PreparedScene(std::shared_ptr<const SceneCloud> scene, int threads = 0);
   /// The same of a scene that must outlive it unchanged.
   explicit PreparedScene(const SceneCloud& scene, int threads = 0);
-  PreparedScene(SceneCloud&& temporary, int threads = 0) = delete;
+  /// The same of a scene that is moved into it.
+  explicit PreparedScene(SceneCloud&& scene, int threads = 0)
+      : PreparedScene(std::make_shared<const SceneCloud>(std::move(scene)), threads) {}
 
   /// Returns the scene given to the constructor.
   const SceneCloud& scene() const { return *scene_; }

@@ -85,8 +85,8 @@ void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, Ping
     seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
     bend(ping, seen);
   }
-  parts.bounced = multipath_echoes(prepared.scene(), seen, ping.environment, view, ping.sent);
-  layers.add("multipath", parts.bounced.echoes);
+  parts.multipath = multipath_echoes(prepared.scene(), seen, ping.environment, view, ping.sent);
+  layers.add("multipath", parts.multipath.echoes);
 }
 
 }  // namespace insonify

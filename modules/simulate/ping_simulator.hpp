@@ -14,9 +14,9 @@ namespace insonify {
 
 struct ResolvedPing;
 
-/// One head in one environment, ready to ping any scene from any place. Head and options are checked once; plans, tables,
-/// transforms and buffers that form the beams are made in the first ping and used again by those that follow, with the same
-/// bytes. All functions may be called from several threads at once. A copy shares what is made.
+/// One head in one environment, ready to ping any scene from any pose. Head and options are checked once. The first ping makes
+/// the tables, transforms and buffers that form the beams; later pings use them again and have the same bytes as without
+/// them. Several threads may call all functions at once. Copies share tables and buffers.
 class PingSimulator {
  public:
   /// Throws Error(argument) for an invalid head or option, and for multipath without surface or bottom.
@@ -35,13 +35,14 @@ class PingSimulator {
   /// Counts the surfels and scatterers that a ping will sample; of rays, those that are cast. Nothing is simulated.
   SamplingReport count(const PreparedScene& scene, const PingEvent& event) const;
 
-  /// Simulates a ping: the whole signal path, which reads in ping_simulator.cpp. Effects set to as_needed are computed where
-  /// the plan of the ping needs them for options().accuracy_db; effects without a cause in the environment are skipped. The
-  /// result does not depend on the number of threads. Throws Error for an invalid event, and for an environment that this
-  /// head cannot stand in: at or above the surface, a profile without one.
+  /// Simulates a ping: the whole signal path, written out in ping_simulator.cpp. Effects set to as_needed are computed if
+  /// omitting them would exceed their share of options().accuracy_db. Effects without a cause in the environment are skipped.
+  /// The result does not depend on the number of threads. Throws Error for an invalid event, a head at or above the surface,
+  /// and a profile without a surface.
   SimulatedPing ping(const PreparedScene& scene, const PingEvent& event) const;
 
-  /// The part of a scene that a ping can hear or that can hide what it hears: the surfels in there give the same ping.
+  /// Returns the part of a scene that a ping needs: surfels that can return an echo or hide others. They alone give the same
+  /// ping.
   InsonifiedRegion reach(const WholeScene& scene, const PingEvent& event) const;
 
  private:

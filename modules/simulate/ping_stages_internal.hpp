@@ -13,14 +13,14 @@ namespace insonify {
 
 class LayerSum;
 
-/// Patches of surface and their direct echoes: stored if a later stage asks for all of them, else counted and made when
-/// they are used.
+/// Patches of surface and their direct echoes. They are stored if a later stage asks for all of them. Otherwise they are
+/// counted, and made where they are used.
 struct PingParts {
   bool stored = false;
   VisibleSurfels visible{};  ///< if sampled by surfels
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
-  Multipath bounced{};
+  Multipath multipath{};
 };
 
 /// The surfels that the head sees, counted; sets ping.view.sampling.energy.
@@ -33,9 +33,9 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
 /// parts.direct.
 std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
-/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.bounced. Sound by a boundary may come by a main lobe from what a side lobe hears
-/// directly, so all that is seen is split for that as in main lobes, apart from the direct echoes: theirs are the same with
-/// and without these.
+/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.multipath. An echo by a
+/// boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are therefore split
+/// as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
 void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.

@@ -47,7 +47,7 @@ class EchoOverlap {
 /// Bound of what turns the echoes `before` of the sample into those `after`.
 double difference_bound(const PlanFacts& facts, const Echoes& before, const Echoes& after) {
   const EchoOverlap overlap(facts.ping);
-  return changed_bound(facts, [&](std::size_t i) {
+  return bound_of_changed_echoes(facts, [&](std::size_t i) {
     const std::complex<double> ratio = after.amplitude[i] / before.amplitude[i];
     return 1 + std::norm(ratio) -
            2 * ratio.real() *
@@ -67,7 +67,7 @@ double absorption_slope_bound(const PlanFacts& facts) {
   const Pulse& pulse = facts.ping.head.pulse;
   const Absorption full =
       absorption_about(environment.water, pulse.centre_frequency, 2, environment.absorption_formula);
-  return changed_bound(facts, [&](std::size_t i) {
+  return bound_of_changed_echoes(facts, [&](std::size_t i) {
     const double path = 2 * facts.sample.places.range[i];
     double error = 0;
     for (const SpectrumNode& node : spectrum_nodes(pulse))
@@ -101,16 +101,17 @@ double multipath_bound(const PlanFacts& facts) {
   View view = ping.view;
   view.sampling.scatterers_per_cell = 0;
   view.sampling.kind = SamplingKind::surfels;
-  const Echoes bounced = multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
+  const Echoes multipath =
+      multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
   ReceivedEnergy received(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
   double energy = 0;
-  for (std::size_t i = 0; i < bounced.size(); ++i) {
-    const double range = 0.5 * sent.medium.sound_speed * bounced.delay[i];
+  for (std::size_t i = 0; i < multipath.size(); ++i) {
+    const double range = 0.5 * sent.medium.sound_speed * multipath.delay[i];
     if (range < ping.head.gate.min_range || range > ping.head.gate.max_range) continue;
-    energy += std::norm(bounced.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
-              received.at(bounced.u[i], bounced.v.empty() ? 0 : bounced.v[i]);
+    energy += std::norm(multipath.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
+              received.at(multipath.u[i], multipath.v.empty() ? 0 : multipath.v[i]);
   }
-  return added_bound(facts, energy);
+  return bound_of_added_echoes(facts, energy);
 }
 
 /// Energy of noise in all bins over that of the echoes.
@@ -120,7 +121,7 @@ double noise_bound(const PlanFacts& facts) {
                        static_cast<double>(head.fan.beams() * head.gate.bins());
   const double pulse_bins =
       0.469719 / head.pulse.bandwidth * facts.ping.sent.medium.sound_speed / (2 * head.gate.bin_size);
-  return added_bound(facts, noise / pulse_bins);
+  return bound_of_added_echoes(facts, noise / pulse_bins);
 }
 
 template <double Material::*number>

@@ -15,7 +15,7 @@
 
 namespace insonify {
 
-double added_bound(const PlanFacts& facts, double energy) {
+double bound_of_added_echoes(const PlanFacts& facts, double energy) {
   if (energy == 0) return 0;
   const double in_view = facts.sample.in_view;
   return in_view > 0 ? plan_margin * std::sqrt(energy / in_view) : std::numeric_limits<double>::infinity();
@@ -119,9 +119,9 @@ void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {
   derive(prepared.whole(), ping);
 }
 
-SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
+SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
                                     const Environment& environment, const SimulationOptions& options) {
-  constexpr const char* me = "settled_synthesis";
+  constexpr const char* me = "decided_synthesis";
   Environment water = environment;
   water.surface.reset(), water.bottom.reset(), water.water_level.reset();
   if (environment.profile)

@@ -16,27 +16,27 @@ namespace insonify {
 /// most), head, environment and options; the ping itself is not simulated.
 ///
 /// Errors are relative L2 norms e of the complex image, given as levels 20 log10(1 + e): the level of the whole image
-/// cannot change by more. The budget is options.accuracy_db. It is shared out evenly in squares, since the effects are
-/// independent and their errors add as energies: of n stages that it decides, each may cost e / sqrt(n). A stage whose
-/// bound is larger is in, all others are out, unless the options say always or never.
+/// cannot change by more. The budget is options.accuracy_db. Effects are independent, so their errors add as energies, and
+/// each of the n effects that the budget decides may cost e / sqrt(n). An effect is included if its bound is larger than that,
+/// unless the options say always or never.
 ///
-/// A bound is the effect expected of the sample, over all speckle, with a factor of 2 in amplitude for what the sample
-/// does not show. A bound is 0 where an effect has no cause (no boundary, no motion, no profile). bound_relative may
-/// exceed 1: then the stage changes the image altogether. docs/results/plan.md compares bounds with effects.
+/// A bound is twice the amplitude of the effect expected for the sample, over all speckle; the factor covers what the sample
+/// does not show. It is 0 where an effect has no cause (no boundary, no motion, no profile). It may exceed 1: then the
+/// effect changes the image altogether. docs/results/plan.md compares bounds with effects.
 ///
 /// Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options = {});
 
-/// The options for synthesizing these echoes, of patches or targets at `places`, with what is open decided as plan_ping
-/// decides it: whether true delays and absorption over the band are in. The other stages are no part of it. Of the
-/// environment the water counts as it is, whatever its depth. Throws Error as simulate_ping does.
-SimulationOptions settled_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
+/// Returns options for synthesizing given echoes, of patches or targets at `places`: true delays and absorption over the band
+/// are decided as plan_ping decides them. Other effects are not considered. The environment's water is taken as it is,
+/// without regard to depth. Throws Error as simulate_ping does.
+SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
                                     const Environment& environment, const SimulationOptions& options = {});
 
-/// Forces a stage in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another method
-/// changes nothing. Throws Error(argument) for a stage that is unknown or cannot be forced, naming those that can, and
-/// for one that cannot be forced in for this event, naming what is missing.
+/// Forces an effect in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another method
+/// changes nothing. Throws Error(argument) for an effect that is unknown or cannot be forced, naming those that can, and
+/// for one that has no cause in this event and environment, naming what is missing.
 void force_stage(const std::string& name, bool included, const PingEvent& event, Environment& environment,
                  SimulationOptions& options);
 

@@ -36,17 +36,17 @@ constexpr double plan_margin = 2;
 
 /// Bound of an effect that adds independent echoes of this energy to the image, relative to what is in view; infinite
 /// if nothing is.
-double added_bound(const PlanFacts& facts, double energy);
+double bound_of_added_echoes(const PlanFacts& facts, double energy);
 
 /// Bound of an effect that changes the echoes of the sample: `change(i)` is the squared error of the echo of place i,
 /// relative to its energy, expected over speckle.
 template <typename Change>
-double changed_bound(const PlanFacts& facts, const Change& change) {
+double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
   const SceneSample& s = facts.sample;
   double energy = 0;
   for (std::size_t i = 0; i < s.energy.size(); ++i)
     if (s.energy[i] > 0) energy += s.energy[i] * change(i);
-  return energy > 0 ? added_bound(facts, energy) : 0;
+  return energy > 0 ? bound_of_added_echoes(facts, energy) : 0;
 }
 
 /// A row of the plan.

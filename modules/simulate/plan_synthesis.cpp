@@ -30,7 +30,8 @@ double narrow_band_bound(const PlanFacts& facts) {
   const SceneSample& sample = facts.sample;
   const NarrowBandError::Sums inside = error.of(sample.places, sample.power, ping.options.threads),
                               beside = error.of(sample.places, sample.power_off_azimuth, ping.options.threads);
-  return added_bound(facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
+  return bound_of_added_echoes(
+      facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
 }
 
 /// What the plan does where the narrow-band image is not good enough.

@@ -14,12 +14,12 @@ struct ResolvedPing {
   PingEvent event;
   Environment environment;  ///< its water is that at the head's own depth (environment_at)
   SimulationOptions options;
-  Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by
-  View view{};                  ///< pose, fan, sampled ranges and sampling
-  InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. What
-                                ///< is left as needed counts as in here, and as out elsewhere
-  double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
-  double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
+  Transmission sent{};           ///< pulse, medium and the patterns that echoes are weighted by
+  View view{};                   ///< pose, fan, sampled ranges and sampling
+  InsonifiedRegion region{};     ///< all that can be received or block sound; with multipath a ball about the head. It
+                                 ///< includes what effects that are still open may need
+  double element_noise_db = 0;   ///< of all noise in the band, at an element [dB re 1 uPa]
+  double beam_noise_db = 0;      ///< of the same in a beam: less the array's gain (E19)
   DetectionOptions detection{};  ///< with that noise floor and the pulse's resolution, if the options leave them open
 };
 

@@ -11,7 +11,7 @@
 
 namespace insonify {
 
-/// Whether something is done: as the plan of the ping finds it needed for the accuracy asked for, always, or never.
+/// Whether an effect is computed: if the plan of the ping finds that accuracy_db needs it, always, or never.
 enum class Choice { as_needed, always, never };
 
 /// Which points stand for the scene.
@@ -19,7 +19,7 @@ struct SamplingSettings {
   SamplingKind kind = SamplingKind::surfels;
   /// Surfels are split until a resolution cell holds so many; 0: never split.
   double scatterers_per_cell = SamplingOptions{}.scatterers_per_cell;
-  int rays_per_beam = 64;  ///< of sampling by rays, and of the mask of holes
+  int rays_per_beam = 64;  ///< for sampling by rays, and for the mask of holes
   bool occlusion = true;
   double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
@@ -38,9 +38,9 @@ struct SynthesisSettings {
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
-  /// Whether method gridded gives way to true_delays; as_needed: where the narrow-band image's error exceeds its share,
-  /// but not for a planar array, whose rows are then summed one by one.
-  /// For a tolerance finer than that of true_delays it gives way to element_exact, which is slow.
+  /// Whether method true_delays replaces gridded. as_needed: where the error of the narrow-band image exceeds its share of the
+  /// budget, but never for a planar array, whose rows would be summed one by one. If the tolerance is finer than that of
+  /// true_delays, element_exact replaces gridded, which is slow.
   Choice true_delays = Choice::as_needed;
 };
 
@@ -70,15 +70,15 @@ struct OutputSettings {
   bool scatterers = false;  ///< all patches of surface
   bool mask = false;        ///< cells where the scan has holes
   int paths = 0;            ///< so many paths of sound of each kind
-  /// Intensity that a display shows beside the single-look pressure (E71): averaged over so many range bins, which are
-  /// independent looks only if they are longer than the pulse, and over so many pulses. The pulses' speckle is independent,
-  /// and so are noise and relief: as of a head that moves by half its aperture from pulse to pulse, or of a bottom that
-  /// does not keep still. A head at rest before a rigid scene has one look, however many pulses it sends.
+  /// Numbers of range bins and of pulses over which the intensity for a display is averaged (E71), beside the single-look
+  /// pressure. Bins are independent looks only if they are longer than the pulse. Speckle, noise and relief of the pulses are
+  /// independent, as for a head that moves by half its aperture from pulse to pulse. (A head at rest before a rigid
+  /// scene has one look, however many pulses it sends.)
   int looks_range = 1, looks_pings = 1;
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
   int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255
-  /// Takes the contributors band by band instead of PingOutputs::contributors: memory holds one band, of at most so many
-  /// MiB, or of two rows. Must outlive the ping; nullptr: none.
+  /// Takes the contributors in bands of beams, instead of PingOutputs::contributors. A band holds at most
+  /// contributor_band_mib [MiB], or two rows. Must outlive the ping; nullptr: none.
   ContributorSink* contributor_sink = nullptr;
   double contributor_band_mib = 512;
 };

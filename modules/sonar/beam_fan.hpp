@@ -45,19 +45,19 @@ struct FanRow {
 /// with all elevations different has as many rows as beams.
 std::vector<FanRow> fan_rows(const BeamFan& fan);
 
-/// The beam in the middle: of the beams of the middle row the one of middle bearing.
+/// Returns the beam in the middle: the one of middle bearing in the middle row.
 std::size_t middle_beam(const BeamFan& fan);
 
-/// A line array resolves u = cos(elevation) sin(azimuth) alone: what it hears in a beam is a cone about
-/// its own axis. This is the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the
-/// array, pi - asin(u) astern (x < 0) [rad].
+/// Returns the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the array,
+/// pi - asin(u) astern (x < 0) [rad]. A line array resolves u = cos(elevation) sin(azimuth) alone, so a beam is a cone about
+/// the array's axis.
 double cone_azimuth(const Eigen::Vector3d& p);
 
-/// The direction in the cone of this azimuth that is turned by `turn` [rad] about the array's axis, positive upwards; all of
-/// a cone lies within +-pi/2. Solid angle: |cos(cone)| dcone dturn.
+/// Returns a direction on a cone, turned by `turn` [rad] about the array's axis, positive upwards; the whole cone lies within
+/// +-pi/2. Solid angle: |cos(cone)| dcone dturn.
 Direction direction_in_cone(double cone, double turn);
 
-/// Turns between which a cone runs through these elevations [rad], ascending; equal if it does not reach them.
+/// Returns the turns between which a cone lies within these elevations [rad], ascending; equal if it does not reach them.
 std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation);
 
 /// The insonified sector: directions in which beams have their main lobes.
@@ -65,13 +65,14 @@ struct Sector {
   double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad], see cone_azimuth
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
-/// Cones of all beams and, on either side, as much of u as a main lobe fills; ahead only (x > 0), unless a beam looks
-/// astern. Elevations of all beams and the half extent.
+/// Returns the cones of all beams, extended by the margin on either side, and the elevations of all beams, extended by the
+/// half extent. Only directions ahead (x > 0), unless a beam looks astern.
 ///
-/// margin   beyond the outermost beams, in u; 0: 1.5 beam widths, within which a shaded array has its main lobe
+/// margin   beyond the outermost beams, in u; 0: 1.5 beam widths, which hold the main lobe of a shaded array
 Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin = 0);
 
-/// Azimuths that the directions of a sector fill [rad]: more than its cones', if it reaches far up or down.
+/// Returns the interval of azimuth of all directions of a sector [rad]. It exceeds that of its cones if the sector reaches far
+/// up or down.
 std::pair<double, double> azimuths_of(const Sector& sector);
 
 /// Says which places a sector holds, by signed distances: no trigonometry per place. Everything that looks into a sector

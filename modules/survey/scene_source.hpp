@@ -21,7 +21,7 @@ class SceneInMemory : public SceneSource {
  public:
   /// Throws Error for an invalid scene. threads: 0: all cores.
   explicit SceneInMemory(SceneCloud scene, int threads = 0)
-      : scene_(std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(scene)), threads)) {}
+      : scene_(std::make_shared<PreparedScene>(std::move(scene), threads)) {}
   /// Returns that scene.
   std::shared_ptr<const PreparedScene> scene_for(const PingSimulator&, const PingEvent&) const override {
     return scene_;

@@ -27,15 +27,15 @@ class Survey {
   const Mission& mission() const { return mission_; }
   /// All pings, as survey_pings of the mission.
   const std::vector<SurveyPing>& pings() const { return pings_; }
-  /// The pings in blocks of at most `most`, head after head.
+  /// Returns the pings in blocks of at most `most`, head after head.
   std::vector<SurveyBlock> blocks(std::size_t most = 64) const;
-  /// The simulator of a ping: that of its head, but for what is randomised.
+  /// Returns the simulator of a ping: that of its head, with what the mission randomises.
   PingSimulator simulator_of(const SurveyPing& ping) const;
-  /// When and from where it is sent, with what is randomised.
+  /// Returns time, pose and motion of a ping, with what the mission randomises.
   PingEvent event_of(const SurveyPing& ping) const;
 
-  /// Simulates a ping. With navigation errors, its pose and its soundings are where the vehicle believes them to be. May be
-  /// called by several threads at once. Throws Error as PingSimulator::ping.
+  /// Simulates a ping. With navigation errors, pose and soundings are where the vehicle believes them to be. Several threads
+  /// may call it at once. Throws Error as PingSimulator::ping.
   PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
 
  private:
@@ -45,16 +45,16 @@ class Survey {
   std::vector<SurveyPing> pings_;
 };
 
-/// What is stored of a ping of a mission, as Survey::simulate describes it.
+/// Returns what a survey stores of a simulated ping, as Survey::simulate does.
 PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
 
-/// Makes the pings of some blocks, `threads` (0: all cores) of them at once. Pings are begun in the order of the blocks; no
-/// more outcomes are held than those of the blocks begun and not finished. A ping that throws Error or runs out of memory
-/// has failed, which is its outcome. True if no ping is left. The outcomes do not depend on `threads`.
+/// Simulates the pings of some blocks, `threads` (0: all cores) at once, in the order of the blocks. Memory holds the outcomes
+/// of unfinished blocks only. The outcome of a ping that throws Error or runs out of memory is a failure. Returns true
+/// if no ping is left. The outcomes do not depend on `threads`.
 bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
                      SurveyStore& store, int threads = 0);
 
-/// All pings of a survey, in memory; for long ones give simulate_survey a store of your own.
+/// Simulates all pings of a survey and returns them. For long surveys give simulate_survey a store of your own.
 SurveyInMemory simulate_survey(const Survey& survey, const SceneSource& scene, int threads = 0);
 
 }  // namespace insonify

@@ -16,23 +16,23 @@ struct SurveyPing {
   double scan_angle = 0;    ///< of a scanning head [rad], positive to port; else 0
 };
 
-/// All pings of a mission, head after head in its order, those of a head in the order of time: a function of the
-/// mission alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for
+/// Returns all pings of a mission, head after head, and in the order of time for each head. They depend on the mission
+/// alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for
 /// pings of a head closer than its listening time (naming both and the figure), or if there is no ping at all.
 std::vector<SurveyPing> survey_pings(const Mission& mission);
 
-/// When, from where and in what motion a ping is sent: pose and motion of the vehicle at its time (pose_at, motion_at), with
-/// the mounting of the head, whose lever arm moves as the vehicle turns, and its scan angle. Its number is
-/// random_stream_of(ping). Takes time that grows with the logarithm of the trajectory's length. Throws as pose_at.
+/// Returns time, pose and motion of a ping: those of the vehicle (pose_at, motion_at), with mounting and scan angle of the
+/// head, whose lever arm moves as the vehicle turns. Its number is random_stream_of(ping). O(log n) for a trajectory of n
+/// entries. Throws as pose_at.
 PingEvent event_of(const Mission& mission, const SurveyPing& ping);
 
-/// Where the vehicle believes a head to be when it pings: the pose of event_of with the mission's navigation errors.
+/// Returns the pose of event_of with the mission's navigation errors: where the vehicle believes the head to be.
 Pose believed_pose_of(const Mission& mission, const SurveyPing& ping);
 
-/// PingEvent::number of a ping: apart for all pings of all heads, and equal to `number` in its lower 40 bits.
+/// Returns PingEvent::number of a ping: different for all pings of all heads, and equal to `number` in its lower 40 bits.
 std::int64_t random_stream_of(const SurveyPing& ping);
 
-/// Consecutive pings of one head that are stored together: the unit of work that is done or not done.
+/// Consecutive pings of one head that are stored together: the unit of work.
 struct SurveyBlock {
   std::size_t head = 0;
   std::int64_t number = 0;         ///< among the blocks of this head, from 0

@@ -10,20 +10,20 @@
 
 namespace insonify {
 
-/// What a ping of a survey gave, or why it failed.
+/// The result of a ping of a survey, or why it failed.
 struct PingOutcome {
-  Ping ping;  ///< its number is the one among the pings of its head; of a scanning head it knows the scan
+  Ping ping;  ///< numbered among the pings of its head; with the scan angle of a scanning head
   Soundings soundings;
   std::string failure{};                 ///< empty: none
-  std::size_t scatterers = 0;            ///< that the ping was made of; 0: it is silent
+  std::size_t scatterers = 0;            ///< of the ping; 0: it is silent
   std::vector<CoveredSurfel> covered{};  ///< if the survey asks for coverage
 };
 
-/// The outcomes of a block's pings, in their order; absent while a ping is not done.
+/// The outcomes of the pings of a block, in their order; empty while a ping is not done.
 using BlockOutcomes = std::vector<std::optional<PingOutcome>>;
 
-/// What becomes of the pings of a survey. `keep` and `resume` are called by one thread at a time, the others by several.
-/// What they throw ends the survey.
+/// Receives the pings of a survey. One thread at a time calls `keep` and `resume`; several threads call the others. An
+/// exception ends the survey.
 class SurveyStore {
  public:
   virtual ~SurveyStore() = default;

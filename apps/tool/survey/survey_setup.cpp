@@ -181,11 +181,11 @@ std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator&
   if (prepared_) return prepared_;
   if (tiles_) {
     PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
-    return std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(part.loaded.scene)), 1);
+    return std::make_shared<PreparedScene>(std::move(part.loaded.scene), 1);
   }
   MeshSample fine = mesh_sample_for(options_, simulator, event, loaded_);
   if (!fine.scene) return std::make_shared<PreparedScene>(loaded_.scene, 1);
-  return std::make_shared<PreparedScene>(std::make_shared<const SceneCloud>(std::move(*fine.scene)), 1);
+  return std::make_shared<PreparedScene>(std::move(*fine.scene), 1);
 }
 
 }  // namespace insonify::tool

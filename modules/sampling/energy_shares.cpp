@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/parallel.hpp"
-#include "sampling/heard_shares_internal.hpp"
+#include "sampling/energy_shares_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -13,8 +13,8 @@ constexpr std::size_t most_spanned = 256, sums_of_energy = 4;
 
 }  // namespace
 
-HeardShares::HeardShares(std::span<const HeardSurfel> surfels, const RangeGate& gate, const SampledCells& cells,
-                         int threads)
+EnergyShares::EnergyShares(std::span<const ReceivedSurfel> surfels, const RangeGate& gate, const SampledCells& cells,
+                           int threads)
     : width_(std::max(cells.width_of_shares(), 2 / most_places)) {
   const double reach = gate.max_range - gate.min_range, places = std::ceil(2 / width_);
   length_ = std::max(cells.range_resolution(), reach / std::min(most_places, most_cells / places));
@@ -25,8 +25,9 @@ HeardShares::HeardShares(std::span<const HeardSurfel> surfels, const RangeGate& 
   for (std::uint8_t beyond = 0; beyond < energy_.size(); ++beyond) energy_[beyond] = sum_of(surfels, beyond, threads);
 }
 
-std::vector<double> HeardShares::sum_of(std::span<const HeardSurfel> surfels, std::uint8_t beyond, int threads) const {
-  const auto counts = [beyond](const HeardSurfel& s) { return s.beyond == beyond; };
+std::vector<double> EnergyShares::sum_of(std::span<const ReceivedSurfel> surfels, std::uint8_t beyond,
+                                         int threads) const {
+  const auto counts = [beyond](const ReceivedSurfel& s) { return s.beyond == beyond; };
   if (std::none_of(surfels.begin(), surfels.end(), counts)) return {};
   std::vector<std::vector<double>> sums(sums_of_energy);
   parallel_for(sums.size(), threads, [&](std::size_t part) {
@@ -40,7 +41,7 @@ std::vector<double> HeardShares::sum_of(std::span<const HeardSurfel> surfels, st
   return all;
 }
 
-double HeardShares::share(const HeardSurfel& surfel) const {
+double EnergyShares::share(const ReceivedSurfel& surfel) const {
   const Cells cells = spanned(surfel);
   if (cells.number() > most_spanned) return HUGE_VAL;
   if (!(surfel.energy > 0)) return 0;
@@ -57,7 +58,7 @@ double HeardShares::share(const HeardSurfel& surfel) const {
   return shares / static_cast<double>(cells.number()) * size_;  // (E127)
 }
 
-void HeardShares::add(const HeardSurfel& surfel, std::vector<double>& energy) const {
+void EnergyShares::add(const ReceivedSurfel& surfel, std::vector<double>& energy) const {
   const Cells cells = spanned(surfel);
   if (cells.number() > most_spanned) return;
   const double each = surfel.energy / static_cast<double>(cells.number());
@@ -65,7 +66,7 @@ void HeardShares::add(const HeardSurfel& surfel, std::vector<double>& energy) co
     for (std::size_t k = cells.range.first; k <= cells.range.second; ++k) energy[u * ranges_ + k] += each;
 }
 
-HeardShares::Cells HeardShares::spanned(const HeardSurfel& surfel) const {
+EnergyShares::Cells EnergyShares::spanned(const ReceivedSurfel& surfel) const {
   // The cells of which the middle is within `half` of a place, counted in cells; at least the one that it is in.
   const auto span = [](double place, double half, std::size_t number) {
     const double most = static_cast<double>(number - 1), reach = std::max(0.0, half - 0.5);
