@@ -33,7 +33,4 @@ class BeamTransform {
   FftAlongRows<Real> to_elements_, to_beams_;
 };
 
-/// Root of the mean energy per beam over that of all gridded pulses, by tiles; 1 if there are none.
-double share_of(std::span<const double> gridded, std::span<const double> received, std::size_t beams);
-
 }  // namespace insonify

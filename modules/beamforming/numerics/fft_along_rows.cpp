@@ -20,6 +20,15 @@ void destroy_plan(fftw_plan plan) {
 
 }  // namespace
 
+std::size_t fft_length(std::size_t least) {
+  for (std::size_t n = least + least % 2;; n += 2) {
+    std::size_t rest = n;
+    for (const std::size_t factor : {2, 3, 5})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return n;
+  }
+}
+
 template <typename Real>
 FftAlongRows<Real>::FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign) {
   AlignedArray<std::complex<Real>, Real> buffer(n * stride);

@@ -9,6 +9,9 @@
 
 namespace insonify {
 
+/// Returns the smallest even number >= `least` without a prime factor above 5, a fast length for FFTW.
+std::size_t fft_length(std::size_t least);
+
 /// FFTW functions of one precision under common names.
 template <typename Real>
 struct Fftw;

@@ -59,7 +59,6 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
       chunk_(std::max(plan.rows(), plan.chunks.size()) * chunk_row),
       across_(plan.grid * 2 * wideband_tile),
       place_(plan.grid, static_cast<std::uint32_t>(plan.rows())),
-      scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
       beam_(2 * wideband_tile),
       touched_(plan.fine / wideband_tile + 2),
       bins_row_((plan.cycle + wideband_tile - 1) / wideband_tile * wideband_tile + 8) {

@@ -41,11 +41,6 @@ double band_of(const Pulse& pulse, double tolerance) {
   return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
 }
 
-PolynomialPieces<float> pieces_of(const GriddingKernel& kernel) {
-  return PolynomialPieces<float>::fit([&](double x) { return kernel.at(x); },
-                                      -0.5 * static_cast<double>(kernel.width()), kernel.width(), 1e-7);
-}
-
 double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
 
 double longest_reach(const SonarHead& head, const Medium& medium, double tolerance) {
@@ -106,29 +101,18 @@ WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, do
       medium(medium_in),
       shapes(head.pulse, medium),
       u_beam(beam_cosines(head.fan)),
-      kernel(kernel_width, oversampling_for(tolerance)) {
+      kernel(kernel_width, oversampling_for(tolerance)),
+      columns(kernel.pieces<float>(1e-7)) {
   for (std::size_t m = 0; m < head.array.elements(); ++m)
     y.push_back(head.array.spacing * element_place(m, head.array.elements()));
-  plan_pulse();
+  if (head.pulse.shape == PulseShape::gaussian) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
   plan_directions();
   plan_elements();
   plan_band();
 }
 
-void WidebandPlan::plan_pulse() {
-  if (head.pulse.shape == PulseShape::gaussian) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
-  one_shape = medium.absorption.a1 == 0 && medium.absorption.a2 == 0 && head.pulse.shape == PulseShape::gaussian;
-  if (!one_shape) return;
-  half = pulse_half_length(head.pulse, 0.5 * cut);
-  pulse_samples = static_cast<std::size_t>(std::floor(2 * half / fine_step + 1e-9)) + 1;
-  const EchoEnvelope envelope = echo_envelope(head.pulse, {}, 0);
-  pulse = PolynomialPieces<float>::fit([&](double x) { return envelope.at(x * fine_step).real(); }, -half / fine_step,
-                                       pulse_samples, 0.1 * tolerance);
-}
-
 void WidebandPlan::plan_directions() {
   const auto half_width = 0.5 * static_cast<double>(kernel.width());
-  columns = pieces_of(kernel);
   // The trapezoidal rule in s, x = (w / 2) sin(s), as the kernel's transform has it.
   constexpr int steps = 24;
   for (int k = 0; k < steps; ++k) {

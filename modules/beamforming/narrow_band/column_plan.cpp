@@ -2,30 +2,23 @@
 #include <cmath>
 #include <complex>
 
-#include "beamforming/narrow_band/planar_plan_internal.hpp"
+#include "beamforming/narrow_band/column_plan_internal.hpp"
 #include "beamforming/numerics/fft_along_rows_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 
+/// The weight of a line at v in a row at v_b is the response of a column with deconvolved shading to v - v_b.
 template <typename Real>
-PlanarPlan<Real>::PlanarPlan(const SonarHead& head, const Medium& medium, double tolerance, PlanarTolerance kernels)
-    : across(head, medium, tolerance, kernels.u),
-      kernel(kernels.v),
-      lines_of(PolynomialPieces<Real>::fit([this](double x) { return kernel.at(x); },
-                                           -0.5 * static_cast<double>(kernel.width()), kernel.width(),
-                                           0.1 * kernels.v)),
+ColumnPlan<Real>::ColumnPlan(const SonarHead& head, const Medium& medium, const std::vector<FanRow>& rows,
+                             double kernel_tolerance)
+    : kernel(kernel_tolerance),
+      pieces(kernel.pieces<Real>(0.1 * kernel_tolerance)),
       cycle(fft_length(std::max(2 * head.column->elements(), 2 * kernel.width()))),
       lines(cycle + 2 * grid_pad),
       cycles_per_v(head.column->spacing * head.pulse.centre_frequency / medium.sound_speed),
-      element_offset(head.column->elements() % 2 == 0 ? 0.5 : 0.0),
-      rows(fan_rows(head.fan)) {
-  plan_rows(*head.column);
-}
-
-/// The weight of a line at v in a row at v_b is the response of a column with deconvolved shading to v - v_b.
-template <typename Real>
-void PlanarPlan<Real>::plan_rows(const LineArray& column) {
+      element_offset(head.column->elements() % 2 == 0 ? 0.5 : 0.0) {
+  const LineArray& column = *head.column;
   const std::size_t n = column.elements();
   const auto steps = static_cast<double>(cycle);
   AlignedArray<std::complex<double>, double> response(cycle * rows.size());  // cycle x rows
@@ -48,7 +41,7 @@ void PlanarPlan<Real>::plan_rows(const LineArray& column) {
   }
 }
 
-template struct PlanarPlan<float>;
-template struct PlanarPlan<double>;
+template struct ColumnPlan<float>;
+template struct ColumnPlan<double>;
 
 }  // namespace insonify
