@@ -76,11 +76,13 @@ void GriddingPlan<Real>::plan_elements() {
   const std::size_t n = head.array.elements();
   const auto steps = static_cast<double>(grid);
   element.assign(grid, Complex(0));
+  // Transforms have the sign of exp(2 pi i place cycles): places are counted from port.
   for (std::size_t m = 0; m < n; ++m) {
     const double place = element_place(m, n), kernel_transform = kernel.transform(place / steps);
     const auto frequency = static_cast<std::ptrdiff_t>(std::floor(place));
     element[static_cast<std::size_t>(frequency < 0 ? frequency + static_cast<std::ptrdiff_t>(grid) : frequency)] =
-        static_cast<Real>(head.array.shading[m] / (static_cast<double>(n) * kernel_transform * kernel_transform));
+        static_cast<Real>(head.array.shading[n - 1 - m] /
+                          (static_cast<double>(n) * kernel_transform * kernel_transform));
   }
   offset_phase.resize(grid);
   for (std::size_t j = 0; j < grid; ++j)
