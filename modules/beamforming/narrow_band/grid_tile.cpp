@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include "beamforming/narrow_band/grid_tile_internal.hpp"
 
@@ -13,6 +13,7 @@ using kernels::brick_stride;
 
 constexpr std::size_t rows_at_a_time = 48;    // of beams that are formed together; a multiple of kernels::rows_at_once
 constexpr std::size_t flush_interval = 2048;  // echoes added to a brick before its sums are flushed
+constexpr double least_gain = 1e-130;         // of pulses that absorption leaves: squares of its inverse are numbers
 static_assert(rows_at_a_time % kernels::rows_at_once == 0);
 
 template <typename Real>
@@ -79,14 +80,26 @@ typename GridTile<Real>::Brick& GridTile<Real>::flushed(Brick& brick) {
 }
 
 template <typename Real>
-void GridTile<Real>::add(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin) {
-  if (unit_ == 0) {
-    double most = 0;
-    for (const std::uint32_t i : list) most = std::max(most, std::norm(echoes.amplitude[i]));
-    if (most == 0) return;
-    const double loss = plan_.medium.absorption.a0 * plan_.medium.sound_speed * plan_.axis.time_of(first_bin);
-    unit_ = std::exp2(std::max(std::round(0.5 * std::log2(most) - loss * std::numbers::log2e), -1000.0));
+bool GridTile<Real>::set_unit(const Echoes& echoes, List list) {
+  double most = 0, first = std::numeric_limits<double>::infinity(), last = 0;
+  for (const std::uint32_t i : list) {
+    most = std::max(most, std::norm(echoes.amplitude[i]));
+    first = std::min(first, echoes.delay[i]);
+    last = std::max(last, echoes.delay[i]);
   }
+  // The gain of a pulse is convex over its way, so it is largest at an end.
+  const auto gain = [this](double delay) { return std::abs(plan_.shapes.of(std::max(delay, 0.0)).at(0)); };
+  const double sent = std::sqrt(most), level = list.empty() ? 0 : sent * std::max(gain(first), gain(last));
+  if (level == 0) return false;
+  if (unit_ != 0 && level <= unit_ * 0x1p64) return true;
+  clear();  // what is weaker by 2^64 does not count
+  unit_ = std::exp2(std::round(std::log2(std::max(level, least_gain * sent))));
+  return true;
+}
+
+template <typename Real>
+void GridTile<Real>::add(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin) {
+  if (!set_unit(echoes, list)) return;
   if (plan_.longest_rows > 0)
     add_gaussians(echoes, list, first_bin);
   else if (plan_.sweep_re.pieces > 0 && echoes.doppler.empty())

@@ -36,6 +36,8 @@ class GridTile {
     std::size_t since_flush = 0, line = 0;  // echoes added since sums were flushed
   };
 
+  /// Sets the unit of the first echoes, or of others that are so loud that those do not count; false: all are silent.
+  bool set_unit(const Echoes& echoes, List list);
   Brick& brick_at(std::size_t line, std::size_t block);
   /// The brick, ready for an echo more: single precision accumulates a bounded number of terms.
   Brick& flushed(Brick& brick);
@@ -57,7 +59,7 @@ class GridTile {
   std::vector<std::vector<Brick*>> of_block_;
   std::vector<std::unique_ptr<Brick>> room_;
   std::size_t used_ = 0;          // of room_
-  double unit_ = 0, energy_ = 0;  // a power of two, of the first echoes [Pa]; of all echoes [unit^2 bins]
+  double unit_ = 0, energy_ = 0;  // a power of two [Pa]; of all echoes [unit^2 bins]
   GaussianBatch<Real> pulses_;
   std::vector<Real> scratch_;
   AlignedArray<Real, Real> re_, im_;  // of planar arrays: rows x bins x columns of all blocks
