@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
 #include "beamforming/pulses/pulse_loops_internal.hpp"
 #include "core/random.hpp"
@@ -77,7 +77,7 @@ BENCHMARK(interpolate<double>)->Arg(8)->Arg(14);
 template <typename Real>
 void fft_along_rows(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
-  const FftAlongRows<Real> fft(n, 64, FFTW_FORWARD);
+  const Fft<Real> fft({n, 64, 64, 1}, FFTW_FORWARD);
   AlignedArray<std::complex<Real>, Real> data(n * 64);
   for (auto _ : state) {
     fft.run(data.data());

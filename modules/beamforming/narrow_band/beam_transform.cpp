@@ -7,8 +7,8 @@ namespace insonify {
 template <typename Real>
 BeamTransform<Real>::BeamTransform(const GriddingPlan<Real>& plan)
     : plan_(plan),
-      to_elements_(plan.grid, plan.tile_bins, plan.grid_row, FFTW_BACKWARD),
-      to_beams_(plan.grid, plan.tile_bins, plan.grid_row, FFTW_FORWARD) {}
+      to_elements_({plan.grid, plan.tile_bins, plan.grid_row, 1}, FFTW_BACKWARD),
+      to_beams_({plan.grid, plan.tile_bins, plan.grid_row, 1}, FFTW_FORWARD) {}
 
 template <typename Real>
 void BeamTransform<Real>::wrap_and_transpose(GridPlanes<Real> planes, std::complex<Real>* grid) const {

@@ -3,7 +3,7 @@
 #include <complex>
 
 #include "beamforming/narrow_band/column_plan_internal.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -30,7 +30,7 @@ ColumnPlan<Real>::ColumnPlan(const SonarHead& head, const Medium& medium, const 
     for (std::size_t r = 0; r < rows.size(); ++r)
       response[at * rows.size() + r] = std::polar(factor, -2 * pi * place * cycles_per_v * std::sin(rows[r].elevation));
   }
-  FftAlongRows<double>(cycle, rows.size(), FFTW_BACKWARD).run(response.data());
+  Fft<double>({cycle, rows.size(), rows.size(), 1}, FFTW_BACKWARD).run(response.data());
   weight.resize(rows.size() * lines);
   for (std::size_t l = 0; l < lines; ++l) {
     const double step = static_cast<double>(l) - static_cast<double>(grid_pad), wraps = std::floor(step / steps);

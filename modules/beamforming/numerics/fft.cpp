@@ -1,8 +1,8 @@
 
+#include <bit>
 #include <mutex>
 
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
-#include "beamforming/numerics/forward_fft_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -13,63 +13,34 @@ std::mutex& fftw_planner() {
   return planner;
 }
 
-void destroy_plan(fftw_plan plan) {
-  const std::scoped_lock lock(fftw_planner());
-  fftw_destroy_plan(plan);
-}
-
 }  // namespace
 
 std::size_t fft_length(std::size_t least) {
-  for (std::size_t n = least + least % 2;; n += 2) {
-    std::size_t rest = n;
-    for (const std::size_t factor : {2, 3, 5})
-      while (rest % factor == 0) rest /= factor;
-    if (rest == 1) return n;
-  }
+  for (const std::size_t length : {16, 24, 32, 40, 48, 64, 80, 96, 120, 128, 144, 160, 192, 240, 256, 320, 384, 400})
+    if (length >= least) return length;
+  const std::size_t power = std::bit_ceil(least);
+  for (const std::size_t length : {power / 8 * 5, power / 4 * 3})
+    if (length >= least) return length;
+  return power;
 }
 
 template <typename Real>
-FftAlongRows<Real>::FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign) {
-  AlignedArray<std::complex<Real>, Real> buffer(n * stride);
+Fft<Real>::Fft(const FftLayout& layout, int sign) {
+  const std::size_t numbers = layout.length * layout.stride + layout.series * layout.distance;
+  AlignedArray<std::complex<Real>, Real> from(numbers), to(layout.in_place ? 0 : numbers);
   const std::scoped_lock lock(fftw_planner());
-  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), static_cast<int>(stride), buffer.data(), sign);
+  plan_ = Fftw<Real>::make(static_cast<int>(layout.length), static_cast<int>(layout.series),
+                           static_cast<int>(layout.stride), static_cast<int>(layout.distance), from.data(),
+                           layout.in_place ? from.data() : to.data(), sign);
 }
 
 template <typename Real>
-FftAlongRows<Real>::~FftAlongRows() {
+Fft<Real>::~Fft() {
   const std::scoped_lock lock(fftw_planner());
   Fftw<Real>::destroy(plan_);
 }
 
-template <typename Real>
-FftOfRows<Real>::FftOfRows(std::size_t n, std::size_t batch, std::size_t distance, int sign) {
-  AlignedArray<std::complex<Real>, Real> from(batch * distance), to(batch * distance);
-  const std::scoped_lock lock(fftw_planner());
-  plan_ = Fftw<Real>::make(static_cast<int>(n), static_cast<int>(batch), static_cast<int>(distance), from.data(),
-                           to.data(), sign);
-}
-
-template <typename Real>
-FftOfRows<Real>::~FftOfRows() {
-  const std::scoped_lock lock(fftw_planner());
-  Fftw<Real>::destroy(plan_);
-}
-
-ForwardFft::ForwardFft(std::size_t n) : plan_(nullptr, &destroy_plan) {
-  const std::scoped_lock lock(fftw_planner());
-  std::vector<std::complex<double>> buffer(n);
-  auto* raw = reinterpret_cast<fftw_complex*>(buffer.data());
-  plan_.reset(fftw_plan_dft_1d(static_cast<int>(n), raw, raw, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED));
-}
-
-void ForwardFft::run(std::vector<std::complex<double>>& data) const {
-  auto* raw = reinterpret_cast<fftw_complex*>(data.data());
-  fftw_execute_dft(plan_.get(), raw, raw);
-}
-
-template class FftAlongRows<float>;
-template class FftAlongRows<double>;
-template class FftOfRows<float>;
+template class Fft<float>;
+template class Fft<double>;
 
 }  // namespace insonify

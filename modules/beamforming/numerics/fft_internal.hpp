@@ -9,8 +9,15 @@
 
 namespace insonify {
 
-/// Returns the smallest even number >= `least` without a prime factor above 5, a fast length for FFTW.
+/// Returns the smallest length >= `least`, a multiple of 8, that FFTW transforms fast for its size: measured with
+/// FFTW_ESTIMATE, others take up to twice as long.
 std::size_t fft_length(std::size_t least);
+
+/// Where the numbers of some series lie: entry k of series s at k stride + s distance.
+struct FftLayout {
+  std::size_t length, series = 1, stride = 1, distance = 0;
+  bool in_place = true;  ///< else from one array to another
+};
 
 /// FFTW functions of one precision under common names.
 template <typename Real>
@@ -19,42 +26,30 @@ struct Fftw;
 template <>
 struct Fftw<double> {
   using Plan = fftw_plan;
+  static fftw_complex* raw(std::complex<double>* x) { return reinterpret_cast<fftw_complex*>(x); }
   static void destroy(Plan plan) { fftw_destroy_plan(plan); }
-  static Plan make(int n, int batch, int stride, std::complex<double>* buffer, int sign) {
-    auto* raw = reinterpret_cast<fftw_complex*>(buffer);
-    return fftw_plan_many_dft(1, &n, batch, raw, nullptr, stride, 1, raw, nullptr, stride, 1, sign, FFTW_ESTIMATE);
-  }
-  static void run(Plan plan, std::complex<double>* data) {
-    auto* raw = reinterpret_cast<fftw_complex*>(data);
-    fftw_execute_dft(plan, raw, raw);
-  }
-  static Plan make(int n, int batch, int distance, std::complex<double>* from, std::complex<double>* to, int sign) {
-    return fftw_plan_many_dft(1, &n, batch, reinterpret_cast<fftw_complex*>(from), nullptr, 1, distance,
-                              reinterpret_cast<fftw_complex*>(to), nullptr, 1, distance, sign, FFTW_ESTIMATE);
+  static Plan make(int n, int series, int stride, int distance, std::complex<double>* from, std::complex<double>* to,
+                   int sign) {
+    return fftw_plan_many_dft(1, &n, series, raw(from), nullptr, stride, distance, raw(to), nullptr, stride, distance,
+                              sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<double>* from, std::complex<double>* to) {
-    fftw_execute_dft(plan, reinterpret_cast<fftw_complex*>(from), reinterpret_cast<fftw_complex*>(to));
+    fftw_execute_dft(plan, raw(from), raw(to));
   }
 };
 
 template <>
 struct Fftw<float> {
   using Plan = fftwf_plan;
+  static fftwf_complex* raw(std::complex<float>* x) { return reinterpret_cast<fftwf_complex*>(x); }
   static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
-  static Plan make(int n, int batch, int stride, std::complex<float>* buffer, int sign) {
-    auto* raw = reinterpret_cast<fftwf_complex*>(buffer);
-    return fftwf_plan_many_dft(1, &n, batch, raw, nullptr, stride, 1, raw, nullptr, stride, 1, sign, FFTW_ESTIMATE);
-  }
-  static void run(Plan plan, std::complex<float>* data) {
-    auto* raw = reinterpret_cast<fftwf_complex*>(data);
-    fftwf_execute_dft(plan, raw, raw);
-  }
-  static Plan make(int n, int batch, int distance, std::complex<float>* from, std::complex<float>* to, int sign) {
-    return fftwf_plan_many_dft(1, &n, batch, reinterpret_cast<fftwf_complex*>(from), nullptr, 1, distance,
-                               reinterpret_cast<fftwf_complex*>(to), nullptr, 1, distance, sign, FFTW_ESTIMATE);
+  static Plan make(int n, int series, int stride, int distance, std::complex<float>* from, std::complex<float>* to,
+                   int sign) {
+    return fftwf_plan_many_dft(1, &n, series, raw(from), nullptr, stride, distance, raw(to), nullptr, stride, distance,
+                               sign, FFTW_ESTIMATE);
   }
   static void run(Plan plan, std::complex<float>* from, std::complex<float>* to) {
-    fftwf_execute_dft(plan, reinterpret_cast<fftwf_complex*>(from), reinterpret_cast<fftwf_complex*>(to));
+    fftwf_execute_dft(plan, raw(from), raw(to));
   }
 };
 
@@ -90,33 +85,18 @@ class AlignedArray {
   std::vector<T, LineAllocator<T>> data_;
 };
 
-/// In-place FFT of length n of `batch` series; entry k of series s is at index k * stride + s. Plans use FFTW_ESTIMATE,
-/// so bits do not depend on timing.
+/// FFT of some series of one layout. Plans use FFTW_ESTIMATE, so bits do not depend on timing.
 template <typename Real>
-class FftAlongRows {
+class Fft {
  public:
-  /// stride   distance between rows, at least `batch`
-  FftAlongRows(std::size_t n, std::size_t batch, std::size_t stride, int sign);
-  FftAlongRows(std::size_t n, std::size_t batch, int sign) : FftAlongRows(n, batch, batch, sign) {}
-  ~FftAlongRows();
-  FftAlongRows(const FftAlongRows&) = delete;
-  FftAlongRows& operator=(const FftAlongRows&) = delete;
-  /// Transforms `data`, allocated by AlignedArray; may be called concurrently.
-  void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data); }
-
- private:
-  typename Fftw<Real>::Plan plan_;
-};
-
-/// FFT of length n of `batch` series, one after another, `distance` numbers apart, from one array to another.
-template <typename Real>
-class FftOfRows {
- public:
-  FftOfRows(std::size_t n, std::size_t batch, std::size_t distance, int sign);
-  ~FftOfRows();
-  FftOfRows(const FftOfRows&) = delete;
-  FftOfRows& operator=(const FftOfRows&) = delete;
-  /// Both from AlignedArray, or a multiple of 16 bytes into one; may be called concurrently.
+  /// sign   FFTW_FORWARD or FFTW_BACKWARD
+  Fft(const FftLayout& layout, int sign);
+  ~Fft();
+  Fft(const Fft&) = delete;
+  Fft& operator=(const Fft&) = delete;
+  /// Transforms `data` in place, or one array to another, as the layout has it; both begin at a multiple of 16 bytes, as
+  /// memory of operator new does. May be called concurrently.
+  void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data, data); }
   void run(std::complex<Real>* from, std::complex<Real>* to) const { Fftw<Real>::run(plan_, from, to); }
 
  private:

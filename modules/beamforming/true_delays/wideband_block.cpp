@@ -43,10 +43,10 @@ float* floats_of(Complex* numbers) {
 }  // namespace
 
 WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
-    : to_harmonics(plan.grid, wideband_tile, plan.grid_stride, FFTW_FORWARD),
-      to_frequencies(plan.fine, 1, plan.fine, FFTW_FORWARD),
-      to_bins(plan.cycle, 1, plan.cycle, FFTW_BACKWARD),
-      to_directions(plan.grid, wideband_tile, plan.grid_stride, FFTW_BACKWARD) {}
+    : to_harmonics({plan.grid, wideband_tile, 1, plan.grid_stride, false}, FFTW_FORWARD),
+      to_frequencies({.length = plan.fine, .in_place = false}, FFTW_FORWARD),
+      to_bins({.length = plan.cycle, .in_place = false}, FFTW_BACKWARD),
+      to_directions({plan.grid, wideband_tile, 1, plan.grid_stride, false}, FFTW_BACKWARD) {}
 
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
     : plan_(plan),

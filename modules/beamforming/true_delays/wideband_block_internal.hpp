@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "acoustics/echoes.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/pulses/gaussian_batch_internal.hpp"
 #include "beamforming/true_delays/wideband_bend_internal.hpp"
 #include "beamforming/true_delays/wideband_loops_internal.hpp"
@@ -20,7 +20,7 @@ constexpr std::size_t wideband_tile =
 
 /// The transforms of a plan.
 struct WidebandTransforms {
-  FftOfRows<float> to_harmonics, to_frequencies, to_bins, to_directions;
+  Fft<float> to_harmonics, to_frequencies, to_bins, to_directions;
 
   explicit WidebandTransforms(const WidebandPlan& plan);
 };

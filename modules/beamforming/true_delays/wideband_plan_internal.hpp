@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
