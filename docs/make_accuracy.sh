@@ -74,7 +74,7 @@ This page is about synthesis and sampling. What a ping leaves out as not needed,
 
 | method | what it is |
 |---|---|
-| gridded | the narrow band: pulses gridded with a spreading kernel (E60), one FFT per bin; few echoes are summed directly instead, with truncated pulses and the exact pattern |
+| gridded | the narrow band: pulses gridded with a spreading kernel (E60), one FFT per bin |
 | direct | the plain sum over echoes, beams, elements and all bins: the reference, not optimised |
 | windowed-direct | an optimised direct sum: pulses truncated at the tolerance, the pattern from a table. The relevant competitor |
 | spectrum | sum of spectra, one FFT per beam (timed on 4 beams, scaled) |

@@ -175,8 +175,9 @@ void draw_slice(Figures& figures, const Simulated& s, const std::string& name) {
   double worst = 0;
   const auto bin = static_cast<Eigen::Index>((slice_range() - s.head.gate.min_range) / s.head.gate.bin_size);
   for (std::size_t b = 0; b < s.which.beams; ++b) {
-    const double pattern = array_response(s.head.array, wavelength, std::sin(s.object.azimuth[scatterer]),
-                                          std::sin(s.head.fan.azimuth[b]));
+    const double pattern =
+        array_response(s.head.array, wavelength, std::sin(s.object.azimuth[scatterer]), std::sin(s.head.fan.azimuth[b]))
+            .real();
     worst = std::max(worst, std::abs(single(b, bin) / single(centre, bin) - pattern));
   }
   for (std::size_t column = 25; column < s.which.beams; column += s.which.period)

@@ -28,7 +28,7 @@ ComplexGrid plain_loop(const Echoes& echoes, const Case& which, const SonarHead&
   for (std::size_t b = 0; b < which.beams; ++b)
     for (std::size_t column = 0; column < which.beams; ++column) {
       const double u = echoes.u[column * which.rays];
-      const double weight = array_response(head.array, lambda, u, std::sin(head.fan.azimuth[b]));
+      const double weight = array_response(head.array, lambda, u, std::sin(head.fan.azimuth[b])).real();
       for (std::size_t n = 0; n < bins; ++n) beams(b, n) += weight * columns(column, n);
     }
   return beams;

@@ -168,7 +168,7 @@ AccuracyRow AccuracyBench::gridded(double tolerance, int threads) const {
   const PingSynthesizer plan(task_.head, task_.medium, {tolerance, r.threads});
   r.plan_seconds = watch.lap();
   r.tolerance = tolerance;
-  if (!plan.sums_directly(task_.echoes) && plan.choice().single_precision) r.precision = "single";
+  if (plan.choice().single_precision) r.precision = "single";
   r.kernel_width = plan.choice().kernel_width;
   compare(checked(plan.pressure(task_.echoes)), r);
   time_all([&](const Echoes& e) { return plan.pressure(e); }, r);

@@ -16,7 +16,7 @@ struct AccuracyRow {
   std::string precision;  ///< double, or single where the method chose it
   std::size_t scatterers = 0, beams = 0, elements = 0, bins = 0;
   double tolerance = 0;          ///< asked for; 0 if the method takes none
-  std::size_t kernel_width = 0;  ///< of gridded, also where it sums few echoes directly; 0 else
+  std::size_t kernel_width = 0;  ///< of gridded; 0 else
   double error = 0;              ///< ||P - P_ref|| / ||P_ref|| over the checked beams
   double local_error = 0;        ///< the largest of it over those eighths of the range axis that hold an echo
   double seconds = 0, seconds_min = 0, seconds_max = 0;  ///< wall time of one ping; seconds: the median

@@ -24,7 +24,7 @@ class PatternTable {
     step_ = std::pow(128.0 / 3 * 0.1 * tolerance, 0.25) / fastest;
     const auto size = static_cast<std::size_t>(2 / step_) + 5;
     for (std::size_t k = 0; k < size; ++k)
-      value_.push_back(array_response(array, wavelength, (static_cast<double>(k) - 1) * step_, 0));
+      value_.push_back(array_response(array, wavelength, (static_cast<double>(k) - 1) * step_, 0).real());
   }
   double at(double u) const {
     const double x = std::abs(u) / step_, whole = std::floor(x), t = x - whole;

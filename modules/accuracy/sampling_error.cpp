@@ -45,7 +45,8 @@ class Strip {
     const double weight = std::pow(std::cos(0.5 * pi * x), 2), u = std::cos(elevation) * std::sin(azimuth);
     for (std::size_t b = 0; b < power_.size(); ++b) {
       const double response = array_response(head_.array, nominal_sound_speed / head_.pulse.centre_frequency, u,
-                                             std::cos(head_.fan.elevation[b]) * std::sin(head_.fan.azimuth[b]));
+                                             std::cos(head_.fan.elevation[b]) * std::sin(head_.fan.azimuth[b]))
+                                  .real();
       power_[b] += weight * sigma * response * response / std::pow(range, 4);
     }
   }

@@ -8,7 +8,6 @@
 
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/gridded_synthesis_internal.hpp"
-#include "beamforming/narrow_band/windowed_sum_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/numerics/synthesis_precision_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
@@ -17,8 +16,22 @@
 namespace insonify {
 namespace {
 
-/// Least ratio of coherent to incoherent amplitude: cancellation amplifies the error of cut pulses by its inverse.
-constexpr double least_kept = 0.25;
+/// Parts of the tolerance that gridding over u, there and back, and over v of a planar array may use up.
+constexpr double part_of_u = 0.7, part_of_v = 0.5;
+
+/// Expected root of the ratio of a beam's energy to that of an echo: over u, and of a planar array over v.
+struct ExpectedShare {
+  double u, v = 1;
+
+  ExpectedShare(const SonarHead& head, const Medium& medium) {
+    const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
+    u = expected_share(head.array, wavelength, beam_cosines(head.fan));
+    if (!head.column) return;
+    std::vector<double> sines;
+    for (const FanRow& row : fan_rows(head.fan)) sines.push_back(std::sin(row.elevation));
+    v = expected_share(*head.column, wavelength, sines);
+  }
+};
 
 }  // namespace
 
@@ -31,63 +44,64 @@ double expected_share(const LineArray& array, double wavelength, std::span<const
   return std::sqrt(lobe / std::max(*high - *low, lobe));
 }
 
-/// The synthesis in single or double precision, accurate for images whose share is at least half of `share`.
+/// The synthesis in single or double precision, accurate for images whose share is at least half of that expected.
 struct PingSynthesizer::Plan {
   SonarHead head;
   Medium medium;
   SynthesisOptions options;
-  double share;
-  WindowedSum windowed;
+  ExpectedShare share;
+  KernelTolerance kernels;
   std::unique_ptr<GriddedSynthesis<float>> in_single;
   std::unique_ptr<GriddedSynthesis<double>> in_double;
 
-  Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in, double share_in)
-      : head(head_in),
-        medium(medium_in),
-        options(options_in),
-        share(share_in),
-        windowed(head, medium, pulse_cut(options.tolerance), options.threads) {
-    const double kernel_tolerance = options.tolerance * share;
-    if (kernel_tolerance >= single_precision_from)
-      in_single = std::make_unique<GriddedSynthesis<float>>(head, medium, options, kernel_tolerance);
+  Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in)
+      : head(head_in), medium(medium_in), options(options_in), share(head, medium), kernels(kernels_for(1)) {
+    if (std::min(kernels.u, kernels.v) >= single_precision_from)
+      in_single = std::make_unique<GriddedSynthesis<float>>(head, medium, options, kernels);
     else
-      in_double = std::make_unique<GriddedSynthesis<double>>(head, medium, options, kernel_tolerance);
+      in_double = std::make_unique<GriddedSynthesis<double>>(head, medium, options, kernels);
   }
-  template <typename EchoesOrCount>
-  bool sums_directly(const EchoesOrCount& echoes) const {
-    return in_single ? in_single->direct_is_cheaper(echoes) : in_double->direct_is_cheaper(echoes);
-  }
-  /// The gridded image, unless its error cannot be kept. Where the beams receive a smaller fraction of the gridded
-  /// energy than expected, the relative error may exceed the tolerance: again with a kernel of lower tolerance.
-  template <typename EchoesOrStream>
-  std::optional<ComplexGrid> accurate(const EchoesOrStream& echoes) const {
-    GriddedImage image = gridded(echoes);
-    if (image.share >= 0.5 * share) return std::move(image.pressure);
-    if (options.tolerance * image.share < min_kernel_tolerance) return std::nullopt;
-    return Plan(head, medium, options, image.share).gridded(echoes).pressure;
+  KernelTolerance kernels_for(double shortfall) const {
+    const double tolerance = options.tolerance * shortfall;
+    if (!head.column) return {tolerance * share.u, 1};
+    return {part_of_u * tolerance * share.u, part_of_v * tolerance * share.v};
   }
   template <typename EchoesOrStream>
   GriddedImage gridded(const EchoesOrStream& echoes) const {
     return in_single ? in_single->image(echoes) : in_double->image(echoes);
   }
-  /// The direct sum with pulses cut at the tolerance, or later if the echoes cancel.
+  /// The gridded image, unless its error cannot be kept. Where the beams receive a smaller fraction of the gridded
+  /// energy than expected, the relative error may exceed the tolerance: again with a lower one.
+  template <typename EchoesOrStream>
+  std::optional<ComplexGrid> accurate(const EchoesOrStream& echoes) const {
+    GriddedImage image = gridded(echoes);
+    const double shortfall = image.share / (share.u * share.v);
+    if (shortfall >= 0.5) return std::move(image.pressure);
+    const KernelTolerance finer = kernels_for(shortfall);
+    if (!(std::min(finer.u, finer.v) >= min_kernel_tolerance)) return std::nullopt;
+    return Plan(head, medium, {options.tolerance * shortfall, options.threads}).gridded(echoes).pressure;
+  }
+  /// The direct sum; of a planar array, row by row.
   ComplexGrid summed(const Echoes& echoes) const {
-    WindowedImage image = windowed.image(echoes);
-    if (image.kept >= least_kept) return std::move(image.pressure);
-    const double finer = options.tolerance * image.kept;
-    if (finer < min_kernel_tolerance) return synthesize_direct(echoes, head, medium, options);
-    return WindowedSum(head, medium, pulse_cut(finer), options.threads).image(echoes).pressure;
+    if (!head.column) return synthesize_direct(echoes, head, medium, options);
+    const double cutoff = row_cutoff(options.tolerance, fan_rows(head.fan).size());
+    return image_by_rows<ComplexGrid>(
+        echoes, head, medium, cutoff, options.threads,
+        [&](const Echoes& of_row, const SonarHead& line) { return synthesize_gridded(of_row, line, medium, options); });
   }
 };
 
+bool PingSynthesizer::suits(const SonarHead& head) {
+  return head.column ? head.pulse.shape == PulseShape::gaussian : fan_rows(head.fan).size() == 1;
+}
+
 PingSynthesizer::PingSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   require_synthesis({}, head, medium, options, "PingSynthesizer");
-  require_one_row(head, "PingSynthesizer");
+  if (!suits(head)) require_one_row(head, "PingSynthesizer");
   if (!(options.tolerance >= min_gridding_tolerance))
     fail(ErrorKind::argument, "PingSynthesizer: tolerance = ", options.tolerance, ", must be at least ",
          min_gridding_tolerance, "; below that use the direct method");
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  plan_ = std::make_unique<Plan>(head, medium, options, expected_share(head.array, wavelength, beam_cosines(head.fan)));
+  plan_ = std::make_unique<Plan>(head, medium, options);
 }
 
 PingSynthesizer::~PingSynthesizer() = default;
@@ -96,25 +110,22 @@ PingSynthesizer& PingSynthesizer::operator=(PingSynthesizer&&) noexcept = defaul
 
 SynthesisChoice PingSynthesizer::choice() const {
   SynthesisChoice choice = plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();
-  choice.share = plan_->share;
+  choice.share = plan_->share.u * plan_->share.v;
   return choice;
 }
-
-bool PingSynthesizer::sums_directly(const Echoes& echoes) const { return plan_->sums_directly(echoes); }
 
 ComplexGrid PingSynthesizer::pressure(const Echoes& echoes) const {
   const Plan& plan = *plan_;
   require_synthesis(echoes, plan.head, plan.medium, plan.options, "PingSynthesizer");
-  if (plan.sums_directly(echoes)) return plan.summed(echoes);
+  if (plan.head.column) require_elevations(echoes);
   if (auto image = plan.accurate(echoes)) return std::move(*image);
-  return synthesize_direct(echoes, plan.head, plan.medium, plan.options);
+  return plan.summed(echoes);
 }
 
 ComplexGrid PingSynthesizer::pressure(const EchoStream& stream) const {
   if (stream.stored()) return pressure(*stream.stored());
-  if (!plan_->sums_directly(stream.size()))
-    if (auto image = plan_->accurate(stream)) return std::move(*image);
-  return pressure(all_echoes(stream));
+  if (auto image = plan_->accurate(stream)) return std::move(*image);
+  return plan_->summed(all_echoes(stream));
 }
 
 SynthesisChoice choice_of_a_row(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {

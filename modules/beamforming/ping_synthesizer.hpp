@@ -17,23 +17,25 @@ constexpr double min_gridding_tolerance = 1e-13;
 /// transforms the grid into element series, which are deconvolved and shaded, and transformed and interpolated back to
 /// beams with the same kernel. There is no transform along range, hence no wrap-around, and the error is local:
 /// relative to the level at each range. Cost: echoes x pulse samples x kernel width + bins x (grid log grid + beams x
-/// kernel width). A few echoes, for which it is cheaper, are summed directly with the exact pattern and pulses cut at
-/// the tolerance. Kernel errors are distributed evenly over all beams: for the same tolerance, a fan of many narrow
+/// kernel width). The grid of a planar array (E56) has lines over v too, of which each row of beams is a weighted sum: echoes
+/// x pulse samples x both kernels' widths, and the transforms for each row. Kernel errors are distributed evenly over all beams: for the same tolerance, a fan of many narrow
 /// beams needs a wider kernel.
 ///
 /// Constructed once per head, medium and tolerance; `pressure` is const and may be called concurrently.
 class PingSynthesizer {
  public:
-  /// Throws Error for an invalid head or medium, a head with several elevations or a column, or a tolerance outside
-  /// [1e-13, 1).
+  /// Whether a head is gridded at once: one row of beams of a line array, or a planar array with Gaussian pulses.
+  static bool suits(const SonarHead& head);
+
+  /// Throws Error for an invalid head or medium, a head that does not suit, or a tolerance outside [1e-13, 1).
   PingSynthesizer(const SonarHead& head, const Medium& medium, const SynthesisOptions& options = {});
   ~PingSynthesizer();
   PingSynthesizer(PingSynthesizer&&) noexcept;
   PingSynthesizer& operator=(PingSynthesizer&&) noexcept;
 
   /// Returns the image, beams x bins [Pa]. If the image is so weak relative to its echoes (they cancel, or lie outside
-  /// of all beams) that the tolerance may be exceeded, it is computed again with a lower kernel tolerance. Throws Error
-  /// for a NaN in an echo, with the echo's index.
+  /// of all beams) that the tolerance may be exceeded, it is computed again with a lower one. Throws Error for a NaN in an
+  /// echo, with the echo's index, and for echoes of a planar array without v.
   ComplexGrid pressure(const Echoes& echoes) const;
   /// The same of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c. Chunks are made
   /// again for each slab of bins that they reach into.
@@ -41,8 +43,6 @@ class PingSynthesizer {
 
   /// Returns what the constructor has chosen for head, medium and tolerance.
   SynthesisChoice choice() const;
-  /// Returns true if `pressure` sums these echoes directly; decided by a cost model, never by measured time.
-  bool sums_directly(const Echoes& echoes) const;
 
  private:
   struct Plan;

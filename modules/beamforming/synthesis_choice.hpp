@@ -3,14 +3,13 @@
 
 namespace insonify {
 
-/// Parameters that a PingSynthesizer chose for its tolerance; all but direct_echoes concern gridding.
+/// Parameters that a PingSynthesizer chose for its tolerance.
 struct SynthesisChoice {
   bool single_precision = false;  ///< of tiles and transforms; delays and phases are always double
   std::size_t kernel_width = 0;   ///< width of the gridding kernel [grid steps]
   std::size_t grid = 0;           ///< length of the grid over direction
   std::size_t pulse_samples = 0;  ///< bins per gridded pulse
   double pulse_half_length = 0;   ///< distance from the pulse's centre at which it is cut [s]
-  std::size_t direct_echoes = 0;  ///< up to this number of echoes, distributed over the gate, the direct sum is cheaper
   double share = 0;               ///< expected root of the ratio of a beam's energy to the gridded energy
   double bytes_per_thread = 0;    ///< working memory beside the image
 };

@@ -1,6 +1,7 @@
 #include "beamforming/synthesize.hpp"
 
 #include "acoustics/echo_stream.hpp"
+#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/synthesizer.hpp"
 
 namespace insonify {
@@ -16,9 +17,8 @@ ComplexGrid synthesize(const EchoStream& stream, const SonarHead& head, const Me
 }
 
 bool streamed(const SonarHead& head, SynthesisMethod method) {
-  const bool line = !head.column && fan_rows(head.fan).size() == 1;
-  if (method == SynthesisMethod::true_delays) return line;
-  return method == SynthesisMethod::gridded && (head.column ? head.pulse.shape == PulseShape::gaussian : line);
+  if (method == SynthesisMethod::true_delays) return !head.column && fan_rows(head.fan).size() == 1;
+  return method == SynthesisMethod::gridded && PingSynthesizer::suits(head);
 }
 
 }  // namespace insonify

@@ -88,7 +88,7 @@ Grid<double> sum_directly(const LineInput& image, int threads) {
     });
     parallel_for(head.fan.beams(), threads, [&](std::size_t b) {
       for (std::size_t k = 0; k < count; ++k) {
-        const double response = array_response(head.array, wavelength, echoes.u[first + k], u_beam[b]);
+        const double response = array_response(head.array, wavelength, echoes.u[first + k], u_beam[b]).real();
         const double weight = std::norm(echoes.amplitude[first + k]) * response * response;
         double* at = &sum(static_cast<Eigen::Index>(b), 0) + pulses[k].first;
         for (const double sample : pulses[k].sample) *at++ += weight * sample;  // (E65)

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
-#include "beamforming/narrow_band/planar_synthesizer_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/reference/element_series.hpp"
@@ -35,7 +34,6 @@ class Once {
 /// What methods make once: each method uses one of them.
 struct Synthesizer::Engines {
   Once<PingSynthesizer> narrow_band;
-  Once<PlanarSynthesizer> planar;
   Once<WidebandSynthesizer> true_delays;
 };
 
@@ -67,14 +65,13 @@ ComplexGrid Synthesizer::pressure_of_row(const Echoes& echoes, const SonarHead& 
     case SynthesisMethod::gridded:
       break;
   }
-  return only_row ? engines_->narrow_band.of(row, medium_, options_).pressure(echoes)
-                  : PingSynthesizer(row, medium_, options_).pressure(echoes);
+  return PingSynthesizer(row, medium_, options_).pressure(echoes);
 }
 
 ComplexGrid Synthesizer::pressure(const Echoes& echoes) const {
   require_synthesis(echoes, head_, medium_, options_, "synthesize");
-  if (method_ == SynthesisMethod::gridded && PlanarSynthesizer::suits(head_, options_))
-    return engines_->planar.of(head_, medium_, options_).pressure(echoes);
+  if (method_ == SynthesisMethod::gridded && PingSynthesizer::suits(head_))
+    return engines_->narrow_band.of(head_, medium_, options_).pressure(echoes);
   const std::size_t rows = fan_rows(head_.fan).size();
   const double cutoff = method_ == SynthesisMethod::direct ? 0 : row_cutoff(options_.tolerance, rows);
   return image_by_rows<ComplexGrid>(
@@ -84,11 +81,9 @@ ComplexGrid Synthesizer::pressure(const Echoes& echoes) const {
 
 ComplexGrid Synthesizer::pressure(const EchoStream& stream) const {
   if (stream.stored()) return pressure(*stream.stored());
-  const bool planar = PlanarSynthesizer::suits(head_, options_);
-  if (!streamed(head_, method_) || (head_.column && !planar)) return pressure(all_echoes(stream));
+  if (!streamed(head_, method_)) return pressure(all_echoes(stream));
   if (method_ == SynthesisMethod::true_delays)
     return engines_->true_delays.of(head_, medium_, options_).pressure(stream);
-  if (planar) return engines_->planar.of(head_, medium_, options_).pressure(stream);
   return engines_->narrow_band.of(head_, medium_, options_).pressure(stream);
 }
 

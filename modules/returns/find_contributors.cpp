@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "beamforming/head_patterns.hpp"
+#include "core/chebyshev.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
 #include "core/work_progress.hpp"
-#include "returns/chebyshev_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 #include "sonar/pulse.hpp"
 #include "sonar/response_table.hpp"
@@ -26,6 +26,17 @@
 // chunks of groups of bounded memory.
 namespace insonify {
 namespace {
+
+/// Returns the number of Chebyshev nodes over [-half, half] that interpolate a sum of cosines of period >= `period` with
+/// relative error `error`; 0 if more than `most` are needed. The error of n nodes is x^n / (2^(n-1) n!), x = 2 pi half /
+/// period.
+std::size_t chebyshev_nodes(double half, double period, double error, std::size_t most) {
+  const double x = 2 * pi * half / period;
+  double left = x;
+  for (std::size_t n = 1; n <= most; ++n, left *= x / (2 * static_cast<double>(n)))
+    if (left <= error) return n;
+  return 0;
+}
 
 constexpr std::size_t samples_at_once = 1 << 19;  ///< pulse samples in memory
 constexpr double interpolation_error = 1e-6;      ///< error of B^2 between nodes, relative to its size there

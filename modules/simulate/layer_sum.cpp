@@ -16,7 +16,8 @@ LayerSum::LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers)
     : ping_(ping),
       synthesizers_(synthesizers),
       incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
-  if (ping.options.outputs.split_phase) split_ = split_aperture(ping.head, "PingSimulator");
+  // Refused before any work.
+  if (ping.options.outputs.split_phase) half_head(ApertureSide::port);
 }
 
 std::shared_ptr<const Synthesizer> LayerSum::whole() const {
@@ -29,13 +30,17 @@ std::shared_ptr<const Synthesizer> LayerSum::half(ApertureSide side) const {
   const SimulationOptions& o = ping_.options;
   const auto part =
       side == ApertureSide::port ? SynthesizerTable::Part::port_half : SynthesizerTable::Part::starboard_half;
-  return synthesizers_.of(part, with_one_half(ping_.head, *split_, side), ping_.sent.medium, o.synthesis.method,
+  // Expected intensities have no phase: halves have the speckle of one realisation.
+  if (incoherent_)
+    return synthesizers_.of(part, half_head(side), ping_.sent.medium, SynthesisMethod::gridded,
+                            {std::max(o.synthesis.tolerance, min_gridding_tolerance), o.threads});
+  return synthesizers_.of(part, half_head(side), ping_.sent.medium, o.synthesis.method,
                           {o.synthesis.tolerance, o.threads});
 }
 
 template <typename Image>
 void LayerSum::add_halves(const Image& image) {
-  if (!split_) return;
+  if (!ping_.options.outputs.split_phase) return;
   for (const ApertureSide side : {ApertureSide::port, ApertureSide::starboard}) {
     ComplexGrid& sum = side == ApertureSide::port ? port_ : starboard_;
     ComplexGrid pressure = image(side);
@@ -48,13 +53,8 @@ void LayerSum::add_halves(const Image& image) {
 
 template <typename EchoesOrStream>
 void LayerSum::add_image(const std::string& name, const EchoesOrStream& echoes) {
-  const SimulationOptions& o = ping_.options;
-  const SynthesisOptions gridding{std::max(o.synthesis.tolerance, min_gridding_tolerance), o.threads};
   add_pressure(name, echoes.size(), whole()->pressure(echoes));
-  add_halves([&](ApertureSide side) {
-    if (o.synthesis.method == SynthesisMethod::true_delays) return half(side)->pressure(echoes);
-    return half_pressure(echoes, *split_, side, ping_.sent.medium, gridding);
-  });
+  add_halves([&](ApertureSide side) { return half(side)->pressure(echoes); });
 }
 
 void LayerSum::add(const std::string& name, const Echoes& echoes) {
@@ -81,7 +81,7 @@ void LayerSum::add_noise() {
                            : synthesize_noise(head, ping_.sent.medium, ping_.element_noise_db,
                                               {o.seed, ping_.event.number, o.threads}));
   add_halves([&](ApertureSide side) {
-    return synthesize_noise(with_one_half(head, *split_, side), ping_.sent.medium, ping_.element_noise_db,
+    return synthesize_noise(half_head(side), ping_.sent.medium, ping_.element_noise_db,
                             {o.seed, ping_.event.number, o.threads});
   });
 }
@@ -104,7 +104,7 @@ void LayerSum::finish(SimulatedPing& result) {
   result.ping.expected_level = incoherent_;
   if (ping_.options.effects.moving == Choice::always) result.ping.motion = ping_.event.motion;
   note_water(ping_.sent.medium, result.ping);
-  if (split_) result.ping.split_phase = phase_between(port_, starboard_);
+  if (ping_.options.outputs.split_phase) result.ping.split_phase = phase_between(port_, starboard_);
   result.report.layers = std::move(report_);
   result.outputs.elements = std::move(elements_);
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +32,7 @@ class LayerSum {
   /// Forms beams of all the array, or of one half of it.
   std::shared_ptr<const Synthesizer> whole() const;
   std::shared_ptr<const Synthesizer> half(ApertureSide side) const;
+  SonarHead half_head(ApertureSide side) const { return half_aperture(ping_.head, side, "PingSimulator"); }
   /// Adds image(side) of either half of a split aperture, if its phase is asked for.
   template <typename Image>
   void add_halves(const Image& image);
@@ -43,7 +43,6 @@ class LayerSum {
   SynthesizerTable& synthesizers_;
   bool incoherent_;
   ComplexGrid sum_;
-  std::optional<SplitAperture> split_;
   ComplexGrid port_, starboard_;  // the sums of the halves
   std::vector<Layer> layers_;
   std::vector<LayerReport> report_;

@@ -15,7 +15,7 @@ struct Pattern {
   const LineArray& array;
   double wavelength;
 
-  double signed_at(double offset) const { return array_response(array, wavelength, offset, 0); }
+  double signed_at(double offset) const { return array_response(array, wavelength, offset, 0).real(); }
   double at(double offset) const { return std::abs(signed_at(offset)); }
   double lobe() const { return wavelength / (array.spacing * static_cast<double>(array.elements())); }
   double period() const { return wavelength / array.spacing; }
@@ -159,7 +159,7 @@ BeamPatternCurve beam_pattern_curve(const LineArray& array, double wavelength, d
   double before = 0;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double azimuth = pi * (static_cast<double>(i) / static_cast<double>(steps) - 0.5);
-    const double here = array_response(array, wavelength, std::sin(azimuth), std::sin(steering));
+    const double here = array_response(array, wavelength, std::sin(azimuth), std::sin(steering)).real();
     // Insert a point at a null between two samples, where their linear interpolation is zero.
     if (before * here < 0) add(curve.azimuth.back() + (azimuth - curve.azimuth.back()) * before / (before - here), 0);
     add(azimuth, here);

@@ -18,20 +18,22 @@ void require_valid(const LineArray& array, const char* who) {
     fail(ErrorKind::argument, who, ": array.shading adds up to ", sum, ", must add up to the ", n, " elements");
 }
 
-double array_response(const LineArray& array, double wavelength, double u, double u_beam) {
+std::complex<double> array_response(const LineArray& array, double wavelength, double u, double u_beam) {
   const std::size_t n = array.elements();
   const double step = 2 * pi * array.spacing / wavelength * (u - u_beam);
   double sum = 0;
   for (std::size_t m = 0; m < n; ++m) sum += array.shading[m] * std::cos(step * element_place(m, n));
-  return sum / static_cast<double>(n);  // (E10)
+  // Of opposite elements of a symmetric shading nothing is left.
+  double odd = 0;
+  for (std::size_t m = 0; 2 * m + 1 < n; ++m)
+    if (const double w = array.shading[n - 1 - m] - array.shading[m]; w != 0)
+      odd += w * std::sin(step * element_place(m, n));
+  return {sum / static_cast<double>(n), odd / static_cast<double>(n)};  // (E10)
 }
 
 double half_power_offset(const LineArray& array, double wavelength, double most) {
   require_valid(array, "half_power_offset");
-  const auto power = [&](double u) {
-    const double b = array_response(array, wavelength, u, 0);
-    return b * b;
-  };
+  const auto power = [&](double u) { return std::norm(array_response(array, wavelength, u, 0)); };
   if (array.elements() == 1) return most;
   // Step out of the main lobe much finer than its width, then bisect.
   const double step = 0.02 * wavelength / (array.spacing * static_cast<double>(array.elements()));

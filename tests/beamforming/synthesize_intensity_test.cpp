@@ -66,7 +66,7 @@ Grid<double> by_definition(const Echoes& e, const SonarHead& head, const Medium&
     for (std::size_t i = 0; i < e.size(); ++i) {
       const EchoEnvelope envelope = shapes.of(e.delay[i], e.doppler_of(i));
       const double response =
-          array_response(head.array, wavelength, e.u[i], u_b) * (rows || head.column ? row.at(e.v[i]) : 1);
+          array_response(head.array, wavelength, e.u[i], u_b).real() * (rows || head.column ? row.at(e.v[i]) : 1);
       for (std::size_t n = 0; n < head.gate.bins(); ++n) {
         const double g = std::abs(envelope.at(2 * head.gate.centre(n) / c0 - e.delay[i]));
         sum(b, n) += std::pow(std::norm(e.amplitude[i]) * response * response * g * g, power);

@@ -169,4 +169,6 @@ TEST(WidebandSynthesizer, refuses_what_it_cannot_keep) {
   Echoes e = near_echoes(head, 3);
   e.u[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(error_of([&] { synthesize_true_delays(e, head, near_water()); }).find("echo 1"), std::string::npos);
+  e.u[1] = -1.2;
+  EXPECT_THAT(error_of([&] { synthesize_true_delays(e, head, near_water()); }), HasSubstr("u = +-1.2, must be within"));
 }

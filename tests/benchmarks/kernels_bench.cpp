@@ -4,8 +4,9 @@
 #include <benchmark/benchmark.h>
 
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
+#include "beamforming/pulses/pulse_loops_internal.hpp"
 #include "core/random.hpp"
 
 using namespace insonify;
@@ -14,24 +15,19 @@ namespace {
 
 constexpr std::size_t grid = 216, stride = grid + 32, tile_rows = 64 + 40, echoes = 2048;
 
-/// Echoes at random places of a tile.
+/// Echoes at random places of a tile, and samples of their pulses.
 template <typename Real>
-struct Places {
+struct Pulses {
   std::vector<std::uint32_t> row, column;
-  std::vector<Real> row_offset, column_offset, re, im;
+  std::vector<Real> column_offset, re, im;
 
-  explicit Places(std::size_t rows) {
+  explicit Pulses(std::size_t rows) : re(rows * echoes, Real(0.5)), im(rows * echoes, Real(0.25)) {
     for (std::size_t i = 0; i < echoes; ++i) {
       const auto at = random_uniform(1, RandomStage::noise, {i, 0, 0});
       row.push_back(static_cast<std::uint32_t>(at[0] * static_cast<double>(tile_rows - rows)));
       column.push_back(static_cast<std::uint32_t>(at[1] * grid));
-      row_offset.push_back(static_cast<Real>(2 * at[2] - 1));
       column_offset.push_back(static_cast<Real>(2 * at[3] - 1));
-      re.push_back(static_cast<Real>(at[0])), im.push_back(static_cast<Real>(at[1]));
     }
-  }
-  kernels::GridTargets<Real> targets() const {
-    return {row.data(), column.data(), row_offset.data(), column_offset.data(), re.data(), im.data()};
   }
 };
 
@@ -41,19 +37,14 @@ void grid_tile(benchmark::State& state) {
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   const GriddingKernel kernel(tolerance);
   const std::size_t rows = 10 + 2 * static_cast<std::size_t>(state.range(0));
-  const auto fit = [&](std::size_t pieces) {
-    const double width = static_cast<double>(pieces);
-    const double scale = static_cast<double>(kernel.width()) / width;
-    return PolynomialPieces<Real>::fit([&](double x) { return kernel.at(x * scale); }, -0.5 * width, pieces, tolerance);
-  };
-  const PolynomialPieces<Real> across = fit(kernel.width()), along = fit(rows);
-  const Places<Real> places(rows);
+  const PolynomialPieces<Real> across = kernel.pieces<Real>(tolerance);
+  Pulses<Real> pulses(rows);
   AlignedArray<Real, Real> re(tile_rows * stride), im(tile_rows * stride);
-  std::vector<Real> scratch(std::max<std::size_t>(along.lanes, 8));
   for (auto _ : state) {
-    kernels::grid_pulses(places.targets(), echoes, {along.coefficient.data(), along.degree, along.lanes}, rows,
-                         {across.coefficient.data(), across.degree, across.lanes}, scratch.data(), re.data(), im.data(),
-                         stride);
+    kernels::grid_samples(
+        kernels::GaussianPlaces<Real>{pulses.row.data(), pulses.column.data(), pulses.column_offset.data()}, echoes,
+        pulses.re.data(), pulses.im.data(), rows, {across.coefficient.data(), across.degree, across.lanes}, re.data(),
+        im.data(), stride);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * echoes));
@@ -86,7 +77,7 @@ BENCHMARK(interpolate<double>)->Arg(8)->Arg(14);
 template <typename Real>
 void fft_along_rows(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
-  const FftAlongRows<Real> fft(n, 64, FFTW_FORWARD);
+  const Fft<Real> fft({n, 64, 64, 1}, FFTW_FORWARD);
   AlignedArray<std::complex<Real>, Real> data(n * 64);
   for (auto _ : state) {
     fft.run(data.data());

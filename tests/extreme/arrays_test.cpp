@@ -40,7 +40,7 @@ TEST(ExtremeArrays, n24_energy_in_a_beam_falls_as_its_width) {
   const auto energy = [](std::size_t elements) {
     const LineArray array = uniform_array(elements, 0.5);
     double sum = 0;
-    for (int i = 0; i < 20000; ++i) sum += std::pow(array_response(array, 1, (i + 0.5) / 10000 - 1, 0), 2);
+    for (int i = 0; i < 20000; ++i) sum += std::pow(array_response(array, 1, (i + 0.5) / 10000 - 1, 0).real(), 2);
     return sum / 20000;
   };
   for (const std::size_t n : {8UL, 64UL, 512UL, 2048UL}) EXPECT_NEAR(energy(n) * static_cast<double>(n), 1, 1e-3) << n;
@@ -54,7 +54,8 @@ TEST(ExtremeArrays, n25_beam_of_180_degrees_is_one_omnidirectional_element) {
     const SonarHead head = make_head(s, 1500);
     ASSERT_EQ(head.array.elements(), 1U);
     EXPECT_EQ(array_beam_width(head.array, 1500 / s.centre_frequency), pi);
-    for (const double u : {-1.0, -0.3, 0.0, 0.7, 1.0}) EXPECT_EQ(array_response(head.array, 0.1, u, 0.2), 1) << u;
+    for (const double u : {-1.0, -0.3, 0.0, 0.7, 1.0})
+      EXPECT_EQ(array_response(head.array, 0.1, u, 0.2).real(), 1) << u;
   }
   EXPECT_NEAR(directivity_index_db(uniform_array(1, 0.5), 1), 0, 1e-12);
   s.beam_width = radians(181);
@@ -71,7 +72,7 @@ TEST(ExtremeArrays, n26_array_shorter_than_a_wavelength_has_no_null) {
   for (int i = -100; i <= 100; ++i) EXPECT_GT(std::abs(array_response(array, 1, 0.01 * i, 0)), 0.1);
   // The closed form of a uniform row: sin(N x / 2) / (N sin(x / 2)), x = 2 pi d u / lambda.
   const double x = 2 * pi * 0.2 * 0.8;
-  EXPECT_NEAR(array_response(array, 1, 0.8, 0), std::sin(2 * x) / (4 * std::sin(x / 2)), 1e-14);
+  EXPECT_NEAR(array_response(array, 1, 0.8, 0).real(), std::sin(2 * x) / (4 * std::sin(x / 2)), 1e-14);
 }
 
 // Lobes of full height at sin g = sin s + n lambda / d.
@@ -81,7 +82,7 @@ TEST(ExtremeArrays, n27_grating_lobes_stand_where_they_must_and_symmetric) {
     const LineArray array = uniform_array(16, c.spacing);
     const double u = std::sin(radians(c.lobe_deg));
     EXPECT_NEAR(std::abs(array_response(array, 1, u, 0)), 1, 1e-9) << c.spacing;
-    EXPECT_NEAR(array_response(array, 1, u, 0), array_response(array, 1, -u, 0), 1e-9) << c.spacing;
+    EXPECT_NEAR(array_response(array, 1, u, 0).real(), array_response(array, 1, -u, 0).real(), 1e-9) << c.spacing;
   }
   // d = 0.75 lambda: free of lobes when steered up to 19.47 degrees; beyond, one enters from the other side.
   const LineArray array = uniform_array(16, 0.75);
@@ -103,7 +104,7 @@ TEST(ExtremeArrays, n29_patterns_have_their_limits_where_sine_over_sine_is_0_ove
   EXPECT_NEAR(elevation_response(ElevationShape::line, 0.3, 1e-12), 1, 1e-12);
   for (const std::size_t n : {1UL, 2UL, 3UL, 8UL, 101UL})  // x = 2 pi k: the limit is (-1)^(k (N-1))
     for (const int k : {-2, -1, 0, 1, 2})
-      EXPECT_NEAR(array_response(uniform_array(n, 2), 1, 0.5 * k, 0), k % 2 == 0 || n % 2 == 1 ? 1 : -1, 1e-12);
+      EXPECT_NEAR(array_response(uniform_array(n, 2), 1, 0.5 * k, 0).real(), k % 2 == 0 || n % 2 == 1 ? 1 : -1, 1e-12);
 }
 
 TEST(ExtremeArrays, n29_patterns_of_any_width_are_between_minus_1_and_1) {

@@ -113,7 +113,8 @@ TEST(ExtremeGeometry, n13_one_point_has_the_level_of_the_sonar_equation) {
   const Medium medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
   const SonarHead head = single_beam(pulse, 9, 11);
   const Echoes echoes = echoes_of(targets_at({10}), pulse, medium, 0.01);
-  for (const ComplexGrid& p : {synthesize_direct(echoes, head, medium), synthesize_gridded(echoes, head, medium)}) {
+  for (const ComplexGrid& p :
+       {synthesize_direct(echoes, head, medium), synthesize_gridded(echoes, head, medium, {1e-12})}) {
     Eigen::Index beam, bin;
     EXPECT_NEAR(pressure_level_db(p.abs().maxCoeff(&beam, &bin)), 154.010748, 1e-10);
     EXPECT_NEAR(head.gate.centre(static_cast<std::size_t>(bin)), 10, 1e-12);

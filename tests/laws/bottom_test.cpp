@@ -54,7 +54,7 @@ double incoherent_level_db(double r) {
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const EchoEnvelope envelope = echo_envelope(head.pulse, sea.absorption, s.range[i]);
     power += std::norm(echoes.amplitude[i] * envelope.at(2 * r / speed - echoes.delay[i]) *
-                       array_response(head.array, wavelength, echoes.u[i], 0));
+                       array_response(head.array, wavelength, echoes.u[i], 0).real());
   }
   return pressure_level_db(std::sqrt(power));
 }

@@ -27,7 +27,7 @@ double mean_intensity(const Echoes& coherent, const SonarHead& head, std::size_t
   for (std::size_t i = 0; i < coherent.size(); ++i) {
     const double t = now - coherent.delay[i];
     if (std::abs(t) > pulse_half_length(head.pulse, 1e-6)) continue;
-    const double b = array_response(head.array, wavelength, coherent.u[i], u_beam);
+    const double b = array_response(head.array, wavelength, coherent.u[i], u_beam).real();
     sum += std::norm(coherent.amplitude[i] * envelope.at(t)) * b * b;
   }
   return sum;

@@ -116,7 +116,7 @@ TEST(Thesis, constant_of_equation_33_is_0_885893) {
   const LineArray line{thesis_wavelength / 100, uniform_shading(2000)};
   const double length = 20;  // [wavelengths]
   EXPECT_NEAR(2 * half_power_offset(line, thesis_wavelength, 1) * length, 0.885893, 2e-6);
-  EXPECT_NEAR(db_from_amplitude(array_response(line, thesis_wavelength, 0.884 / 2 / length, 0)), -2.996, 1e-3);
+  EXPECT_NEAR(db_from_amplitude(array_response(line, thesis_wavelength, 0.884 / 2 / length, 0).real()), -2.996, 1e-3);
 }
 
 // Figures 17 to 21: a beam of 0.1 rad has its first null at 6.48 degrees.
@@ -153,7 +153,7 @@ TEST(Thesis, slice_through_one_scatterer_is_the_beam_pattern) {
   const std::complex<double> on_target = pressure(76, bin);  // beam 77 looks at column 77
   for (std::size_t b = 0; b < head.fan.beams(); ++b) {
     const double pattern =
-        array_response(head.array, thesis_wavelength, std::sin(azimuth), std::sin(head.fan.azimuth[b]));
+        array_response(head.array, thesis_wavelength, std::sin(azimuth), std::sin(head.fan.azimuth[b])).real();
     ASSERT_NEAR(std::abs(pressure(b, bin) / on_target - pattern), 0, 1e-12);
   }
 }
@@ -171,7 +171,7 @@ TEST(Thesis, lobes_of_figure_21_go_with_the_repeated_scatterers) {
   for (const std::size_t beam : {25, 76, 127, 178, 229}) {
     double sum = 0;  // of the five patterns; the neighbours' side lobes take up to a third off
     for (const double a : azimuth)
-      sum += array_response(head.array, thesis_wavelength, std::sin(a), std::sin(head.fan.azimuth[beam]));
+      sum += array_response(head.array, thesis_wavelength, std::sin(a), std::sin(head.fan.azimuth[beam])).real();
     EXPECT_NEAR(all[beam] / peak, sum, 1e-9) << "beam " << beam + 1;
     EXPECT_GT(sum, 0.65) << "beam " << beam + 1;
   }

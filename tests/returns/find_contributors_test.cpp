@@ -79,7 +79,7 @@ std::map<Key, double> energies_at(const SurfelSet& h, const SonarHead& head, std
   std::map<Key, double> energies;
   for (std::size_t i = 0; i < h.echoes.size(); ++i) {
     const double response =
-        array_response(head.array, wavelength, h.echoes.u[i], u_beam) * (rows ? row.at(h.echoes.v[i]) : 1);
+        array_response(head.array, wavelength, h.echoes.u[i], u_beam).real() * (rows ? row.at(h.echoes.v[i]) : 1);
     const double t = 2 * head.gate.centre(bin) / contributor_medium.sound_speed - h.echoes.delay[i];
     const double energy =
         std::norm(h.echoes.amplitude[i] * response * shapes.of(h.echoes.delay[i], h.echoes.doppler_of(i)).at(t));

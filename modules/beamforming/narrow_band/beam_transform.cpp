@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numeric>
 
 #include "beamforming/narrow_band/beam_transform_internal.hpp"
 
@@ -8,8 +7,8 @@ namespace insonify {
 template <typename Real>
 BeamTransform<Real>::BeamTransform(const GriddingPlan<Real>& plan)
     : plan_(plan),
-      to_elements_(plan.grid, plan.tile_bins, plan.grid_row, FFTW_BACKWARD),
-      to_beams_(plan.grid, plan.tile_bins, plan.grid_row, FFTW_FORWARD) {}
+      to_elements_({plan.grid, plan.tile_bins, plan.grid_row, 1}, FFTW_BACKWARD),
+      to_beams_({plan.grid, plan.tile_bins, plan.grid_row, 1}, FFTW_FORWARD) {}
 
 template <typename Real>
 void BeamTransform<Real>::wrap_and_transpose(GridPlanes<Real> planes, std::complex<Real>* grid) const {
@@ -59,11 +58,6 @@ double BeamTransform<Real>::run(GridPlanes<Real> planes, std::complex<Real>* gri
     bins *= unit;
   }
   return energy;
-}
-
-double share_of(std::span<const double> gridded, std::span<const double> received, std::size_t beams) {
-  const double all = std::accumulate(gridded.begin(), gridded.end(), 0.0) * static_cast<double>(beams);
-  return all > 0 ? std::sqrt(std::accumulate(received.begin(), received.end(), 0.0) / all) : 1;
 }
 
 template class BeamTransform<float>;

@@ -2,7 +2,7 @@
 #include <span>
 
 #include "beamforming/narrow_band/gridding_plan_internal.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "core/grid.hpp"
 
 namespace insonify {
@@ -30,10 +30,7 @@ class BeamTransform {
   void wrap_and_transpose(GridPlanes<Real> planes, std::complex<Real>* grid) const;
 
   const GriddingPlan<Real>& plan_;
-  FftAlongRows<Real> to_elements_, to_beams_;
+  Fft<Real> to_elements_, to_beams_;
 };
-
-/// Root of the mean energy per beam over that of all gridded pulses, by tiles; 1 if there are none.
-double share_of(std::span<const double> gridded, std::span<const double> received, std::size_t beams);
 
 }  // namespace insonify

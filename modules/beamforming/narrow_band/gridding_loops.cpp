@@ -25,21 +25,6 @@ INSONIFY_INLINE void evaluate_some(Pieces<Real> p, std::size_t first, std::size_
 }
 
 template <std::size_t lanes, typename Real>
-INSONIFY_INLINE void grid_all(const GridTargets<Real>& s, std::size_t count, Pieces<Real> rows_of, std::size_t rows,
-                              Pieces<Real> columns_of, Real* __restrict pulse, Real* x_re, Real* x_im,
-                              std::size_t stride) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const KernelLanes<lanes, Real> kernel(columns_of, s.column_offset[i]);
-    evaluate_some(rows_of, 0, rows_of.lanes, s.row_offset[i], pulse);
-    Real *to_re = x_re + s.row[i] * stride + s.column[i], *to_im = x_im + s.row[i] * stride + s.column[i];
-    for (std::size_t n = 0; n < rows; ++n, to_re += stride, to_im += stride) {
-      kernel.add(s.re[i] * pulse[n], to_re);
-      kernel.add(s.im[i] * pulse[n], to_im);
-    }
-  }
-}
-
-template <std::size_t lanes, typename Real>
 INSONIFY_INLINE void grid_some(Real re, Real im, Real row_offset, Real column_offset, Pieces<Real> pulse_re,
                                Pieces<Real> pulse_im, std::size_t first, std::size_t rows, Pieces<Real> columns_of,
                                Real* __restrict scratch, Real* x_re, Real* x_im, std::size_t stride) {
@@ -85,24 +70,6 @@ INSONIFY_INLINE void interpolate_rows(const Real* weight, const std::uint32_t* r
 }
 
 }  // namespace
-
-INSONIFY_CLONES
-void grid_pulses(const GridTargets<float>& s, std::size_t count, Pieces<float> rows_of, std::size_t rows,
-                 Pieces<float> columns_of, float* scratch, float* x_re, float* x_im, std::size_t stride) {
-  if (columns_of.lanes == 8)
-    grid_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
-  else
-    grid_all<16>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
-}
-
-INSONIFY_CLONES
-void grid_pulses(const GridTargets<double>& s, std::size_t count, Pieces<double> rows_of, std::size_t rows,
-                 Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride) {
-  if (columns_of.lanes == 8)
-    grid_all<8>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
-  else
-    grid_all<16>(s, count, rows_of, rows, columns_of, scratch, x_re, x_im, stride);
-}
 
 INSONIFY_CLONES
 void grid_pulse_rows(float re, float im, float row_offset, float column_offset, Pieces<float> pulse_re,
@@ -156,15 +123,6 @@ INSONIFY_CLONES
 void interpolate(const double* weight, const std::uint32_t* row, std::size_t terms, const double* grid,
                  std::size_t stride, std::size_t count, double* sum) {
   interpolate_rows(weight, row, terms, grid, stride, count, sum);
-}
-
-INSONIFY_CLONES
-void add_pulses(const double* weight, PulsePlaces places, const double* sample, std::size_t echoes, double* row) {
-  for (std::size_t i = 0; i < echoes; ++i) {
-    double* __restrict to = row + 2 * places.start[i];
-    const double* __restrict from = sample + places.place[i];
-    for (std::size_t k = 0; k < 2 * places.count[i]; ++k) to[k] += weight[i] * from[k];
-  }
 }
 
 }  // namespace insonify::kernels

@@ -13,23 +13,6 @@ struct Pieces {
   std::size_t degree, lanes;
 };
 
-/// Positions and amplitudes of echoes on the grid: one entry per echo in every array.
-template <typename Real>
-struct GridTargets {
-  const std::uint32_t* row;     ///< first row
-  const std::uint32_t* column;  ///< first column
-  const Real* row_offset;       ///< t in [-1, 1] for the row polynomials
-  const Real* column_offset;    ///< t in [-1, 1] for the column polynomials
-  const Real *re, *im;          ///< amplitude
-};
-
-/// Adds amplitude x pulse(row) x kernel(column) of `count` echoes to the planes x_re, x_im (rows x stride), over `rows`
-/// rows and the lanes of the columns, 8 or 16. `scratch` holds rows_of.lanes numbers.
-void grid_pulses(const GridTargets<float>& targets, std::size_t count, Pieces<float> rows_of, std::size_t rows,
-                 Pieces<float> columns_of, float* scratch, float* x_re, float* x_im, std::size_t stride);
-void grid_pulses(const GridTargets<double>& targets, std::size_t count, Pieces<double> rows_of, std::size_t rows,
-                 Pieces<double> columns_of, double* scratch, double* x_re, double* x_im, std::size_t stride);
-
 /// Adds one echo with a complex pulse, of which only rows [first, first + rows) are gridded; x_re and x_im point to the
 /// first of them. `scratch` holds 2 (rows + 16) numbers.
 void grid_pulse_rows(float re, float im, float row_offset, float column_offset, Pieces<float> pulse_re,
@@ -50,14 +33,5 @@ void interpolate(const float* weight, const std::uint32_t* row, std::size_t term
                  std::size_t stride, std::size_t count, double* sum);
 void interpolate(const double* weight, const std::uint32_t* row, std::size_t terms, const double* grid,
                  std::size_t stride, std::size_t count, double* sum);
-
-/// Where complex pulse samples are added: first bin, number of bins, and index of the first sample; one entry per echo
-/// in every array.
-struct PulsePlaces {
-  const std::uint32_t *start, *count, *place;
-};
-
-/// Adds weight[i] x pulse i to `row` (real and imaginary parts interleaved), one echo after the other.
-void add_pulses(const double* weight, PulsePlaces places, const double* sample, std::size_t echoes, double* row);
 
 }  // namespace insonify::kernels

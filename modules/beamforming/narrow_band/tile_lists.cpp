@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "beamforming/narrow_band/tile_lists_internal.hpp"
 #include "beamforming/pulses/pulse_loops_internal.hpp"
@@ -63,27 +61,6 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
     each_tile(echoes, axis, reach, tile_bins, first, last,
               [&](std::size_t t, std::size_t i) { echo[to[t]++] = static_cast<std::uint32_t>(i); });
   });
-}
-
-std::size_t touched_tiles(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins) {
-  std::vector<bool> touched((axis.bins + tile_bins - 1) / tile_bins, false);
-  each_tile(echoes, axis, reach, tile_bins, 0, echoes.size(), [&](std::size_t t, std::size_t) { touched[t] = true; });
-  return static_cast<std::size_t>(std::count(touched.begin(), touched.end(), true));
-}
-
-double gridding_unit(const Echoes& echoes, const Medium& medium, int threads) {
-  constexpr std::size_t block = 4096;
-  std::vector<double> most((echoes.size() + block - 1) / block, 0);
-  parallel_blocks(echoes.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-    double& here = most[begin / block];  // its square
-    for (std::size_t i = begin; i < end; ++i) {
-      const double sent = std::norm(echoes.amplitude[i]);
-      if (sent > here || echoes.delay[i] < 0)  // else absorption leaves less than that
-        here = std::max(here, sent * std::exp(-2 * medium.absorption.a0 * medium.sound_speed * echoes.delay[i]));
-    }
-  });
-  const double all = most.empty() ? 0 : std::sqrt(*std::max_element(most.begin(), most.end()));
-  return all > std::numeric_limits<double>::min() ? std::exp2(std::round(std::log2(all))) : 1;
 }
 
 }  // namespace insonify

@@ -22,11 +22,4 @@ struct TileLists {
   }
 };
 
-/// Returns the number of tiles that some pulse overlaps, i.e. whose TileLists entry is not empty.
-std::size_t touched_tiles(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins);
-
-/// Returns the largest amplitude after absorption [Pa], rounded to a power of two, the unit of gridding in single
-/// precision; 1 if all are 0.
-double gridding_unit(const Echoes& echoes, const Medium& medium, int threads);
-
 }  // namespace insonify

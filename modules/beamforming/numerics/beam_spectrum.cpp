@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "beamforming/numerics/forward_fft_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -47,7 +47,7 @@ BeamSpectrum beam_spectrum(const ComplexGridF& pressure, std::span<const std::si
     window[n] = std::sin(pi * (static_cast<double>(n) + 0.5) / static_cast<double>(length));
 
   // Every sample is in two segments; the first and last segments extend half a segment beyond the series.
-  const ForwardFft fft(length);
+  const Fft<double> fft({length}, FFTW_FORWARD);
   std::vector<double> power(length, 0);
   std::vector<Complex> piece(length);
   for (const std::size_t beam : beams)
@@ -57,7 +57,7 @@ BeamSpectrum beam_spectrum(const ComplexGridF& pressure, std::span<const std::si
         const bool inside = at >= 0 && at < samples;
         piece[n] = inside ? window[n] * Complex(pressure(static_cast<Eigen::Index>(beam), at)) : Complex(0);
       }
-      fft.run(piece);
+      fft.run(piece.data());
       for (std::size_t k = 0; k < length; ++k) power[k] += std::norm(piece[k]);
     }
 

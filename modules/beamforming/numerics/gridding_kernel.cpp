@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
+#include "core/chebyshev.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -19,14 +20,13 @@ std::size_t width_for(double tolerance) {
 std::vector<double> fit_polynomial(const std::function<double(double)>& f, std::size_t degree) {
   const std::size_t n = degree + 1;
   std::vector<double> values(n), result(n, 0.0);
-  const auto node = [&](std::size_t j) { return pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n); };
-  for (std::size_t j = 0; j < n; ++j) values[j] = f(std::cos(node(j)));
+  for (std::size_t j = 0; j < n; ++j) values[j] = f(chebyshev_node(j, n));
   // Chebyshev coefficients, summed as polynomials by the recurrence T_(k+1) = 2 t T_k - T_(k-1).
   std::vector<double> now(n, 0.0), before(n, 0.0);
   now[0] = 1;
   for (std::size_t k = 0; k < n; ++k) {
     double c = 0;
-    for (std::size_t j = 0; j < n; ++j) c += values[j] * std::cos(static_cast<double>(k) * node(j));
+    for (std::size_t j = 0; j < n; ++j) c += values[j] * std::cos(static_cast<double>(k) * chebyshev_angle(j, n));
     c *= (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
     for (std::size_t p = 0; p < n; ++p) result[p] += c * now[p];
     std::vector<double> next(n, 0.0);

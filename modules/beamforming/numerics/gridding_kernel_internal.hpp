@@ -31,6 +31,12 @@ class GriddingKernel {
   /// Returns the Fourier transform at `frequency` [cycles per grid step], |frequency| <= 1 / (2 oversampling): integral
   /// of phi(x) cos(2 pi f x).
   double transform(double frequency) const;
+  /// Returns the kernel of a point that lies between grid steps: lane l is the l-th step within reach.
+  template <typename Real>
+  PolynomialPieces<Real> pieces(double error) const {
+    return PolynomialPieces<Real>::fit([this](double x) { return at(x); }, -0.5 * static_cast<double>(width_), width_,
+                                       error);
+  }
 
  private:
   std::size_t width_;

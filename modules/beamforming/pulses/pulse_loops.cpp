@@ -12,13 +12,14 @@ constexpr double pi = 3.14159265358979323846;
 
 template <typename Real>
 INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid,
-                                      GaussianState s, GaussianPlaces<Real> at) {
+                                      std::size_t sample, GaussianState s, GaussianPlaces<Real> at) {
   const GaussianGrid g = grid;
   const double turn_step = 2 * pi * g.step, first = g.start + g.half, sign = g.half_places ? 1 : 0;
+  const auto later = static_cast<double>(sample);
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
     // Where: between grid steps, with the sign of whole cycles, and between bins.
-    const double cycles = g.cycles_per_u * echoes.u[i], whole = vec::floor(cycles);
+    const double cycles = g.cycles_per_u * (echoes.u[i] - g.first_u), whole = vec::floor(cycles);
     const double odd = whole - 2 * vec::floor(0.5 * whole);
     const double low_column = (cycles - whole) * g.grid - g.half_width, column = vec::ceil(low_column);
     const double row = vec::ceil((echoes.delay[i] - first) / g.step);
@@ -26,10 +27,10 @@ INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t coun
     at.column_offset[i] = static_cast<Real>(2 * (column - low_column) - 1);
     at.row[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(row - g.first_row));
 
-    // The pulse at its first sample, and from one sample to the next. (E8)
+    // The pulse at this sample, and from one sample to the next. (E8)
     const double range = g.range_per_delay * echoes.delay[i];
     const double a = g.a_sent + 2 * g.a2 * range, b = 2 * g.a1 * range, per_4a = 0.25 / a;
-    const double t = g.start + row * g.step - echoes.delay[i], w = 2 * pi * t;
+    const double t = g.start + (row + later) * g.step - echoes.delay[i], w = 2 * pi * t;
     const double gain =
         (1 - 2 * sign * odd) * std::sqrt(g.a_sent / a) * vec::exp((b * b - w * w) * per_4a - 2 * g.a0 * range);
     const double shift = 2 * b * per_4a - echoes.doppler[i];  // of the carrier [Hz]
@@ -78,15 +79,15 @@ INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPlaces<Real> at, std::size_t coun
 }  // namespace
 
 INSONIFY_CLONES
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
-                     GaussianPlaces<float> places) {
-  place_all(echoes, count, grid, state, places);
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
+                     GaussianState state, GaussianPlaces<float> places) {
+  place_all(echoes, count, grid, sample, state, places);
 }
 
 INSONIFY_CLONES
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
-                     GaussianPlaces<double> places) {
-  place_all(echoes, count, grid, state, places);
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
+                     GaussianState state, GaussianPlaces<double> places) {
+  place_all(echoes, count, grid, sample, state, places);
 }
 
 INSONIFY_CLONES

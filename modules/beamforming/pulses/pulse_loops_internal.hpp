@@ -13,12 +13,14 @@ struct EchoArrays {
   const double *delay, *u, *re, *im, *doppler;
 };
 
-/// What all echoes of a tile of the grid have in common.
+/// A grid of samples by direction, and what absorption does to pulses there. Directions are counted from first_u.
 struct GaussianGrid {
-  double start, step, half, first_row;         ///< time axis [s], half length of pulses [s], first row of the tile
-  double cycles_per_u, grid, half_width, pad;  ///< as GriddingPlan
-  bool half_places;                            ///< elements stand at half-integers: whole cycles have signs
-  double a_sent, range_per_delay, a0, a1, a2;  ///< of EchoEnvelope; absorption
+  double start, step, half, first_row;  ///< time axis [s], half length of pulses [s], first row
+  double first_u, cycles_per_u;         ///< cycles of the grid
+  double grid, half_width, pad;         ///< steps of a cycle; of the kernel; before the first
+  bool half_places;                     ///< elements stand at half-integers: whole cycles have signs
+  double a_sent, range_per_delay;       ///< of the pulse as sent (E8)
+  double a0, a1, a2;                    ///< absorption
 };
 
 /// Working numbers of `count` echoes, an array each; power: of the peak after absorption at the carrier.
@@ -27,18 +29,18 @@ struct GaussianState {
 };
 
 /// Places Gaussian pulses, attenuated and shifted in frequency by absorption and Doppler (E8, E13, E54), on the grid; the
-/// state is that of their first sample.
+/// state is that of sample `sample` of each.
 template <typename Real>
 struct GaussianPlaces {
   std::uint32_t *row, *column;
   Real* column_offset;
 };
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
-                     GaussianPlaces<float> places);
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, GaussianState state,
-                     GaussianPlaces<double> places);
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
+                     GaussianState state, GaussianPlaces<float> places);
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
+                     GaussianState state, GaussianPlaces<double> places);
 
-/// Samples of the pulses, row by row: sample n of echo i at n count + i. Uses up the state.
+/// Samples of the pulses by recurrence, row by row: sample n of echo i at n count + i. Uses up the state.
 void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im);
 void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im);
 

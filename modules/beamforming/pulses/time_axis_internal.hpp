@@ -17,6 +17,9 @@ struct TimeAxis {
   TimeAxis(const RangeGate& gate, double sound_speed)
       : start(2 * gate.centre(0) / sound_speed), step(2 * gate.bin_size / sound_speed), bins(gate.bins()) {}
 
+  /// When bin `bin` is [s].
+  double time_of(std::size_t bin) const { return start + static_cast<double>(bin) * step; }
+
   /// Returns the samples [first, last) within `half` seconds of `delay`, clipped to the axis; empty if outside.
   std::pair<std::size_t, std::size_t> around(double delay, double half) const {
     const double low = vec::ceil((delay - half - start) / step), high = vec::floor((delay + half - start) / step);

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "beamforming/numerics/forward_fft_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/error.hpp"
@@ -48,7 +48,7 @@ class EchoSpectrum {
   Pulse pulse_;
   Absorption absorption_;
   FrequencyGrid grid_;
-  ForwardFft fft_;
+  Fft<double> fft_;
   std::vector<Complex> sent_, replica_;
   double replica_area_ = 0;  ///< integral of the replica's weights [s]
 };
@@ -60,7 +60,7 @@ double gaussian_spectrum(double f, double bandwidth) {
 }
 
 EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid)
-    : pulse_(pulse), absorption_(medium.absorption), grid_(grid), fft_(grid.samples) {
+    : pulse_(pulse), absorption_(medium.absorption), grid_(grid), fft_({grid.samples}, FFTW_FORWARD) {
   if (pulse.shape != PulseShape::linear_fm) return;
   sent_ = sweep_spectrum(false, 0);
   replica_ = sweep_spectrum(true, 0);
@@ -80,7 +80,7 @@ std::vector<Complex> EchoSpectrum::sweep_spectrum(bool weighted, double doppler)
     x[static_cast<std::size_t>(n > 0 ? static_cast<std::ptrdiff_t>(grid_.samples) - n : -n)] =
         std::polar(covered * weight * grid_.step_time, -pi * rate * t * t - 2 * pi * doppler * t);
   }
-  fft_.run(x);
+  fft_.run(x.data());
   return x;
 }
 
@@ -184,14 +184,14 @@ ComplexGrid synthesize_spectrum(const Echoes& echoes, const SonarHead& head, con
   if (!alike) spectra = beam_spectra(echoes, head, medium, grid, u_beam, options.threads);
   ComplexGrid pressure(u_beam.size(), head.gate.bins());
 
-  const ForwardFft fft(grid.samples);
+  const Fft<double> fft({grid.samples}, FFTW_FORWARD);
   parallel_for(u_beam.size(), options.threads, [&](std::size_t b) {
     std::vector<Complex> spectrum;
     if (alike)
       spectrum = gaussian_beam_spectrum(echoes, head, medium, grid, u_beam[b]);
     else
       spectrum.assign(spectra.row(b).data(), spectra.row(b).data() + grid.samples);
-    fft.run(spectrum);  // p(t) = sum_k P(f_k) exp(-2 pi i f_k t)
+    fft.run(spectrum.data());  // p(t) = sum_k P(f_k) exp(-2 pi i f_k t)
     for (std::size_t n = 0; n < head.gate.bins(); ++n)
       pressure(b, n) = spectrum[(n + grid.skipped) * grid.oversampling];
   });

@@ -1,17 +1,11 @@
 #pragma once
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Dense>
 
-#include "core/units.hpp"
+#include "core/chebyshev.hpp"
 
 namespace insonify {
-
-/// Node j of n in [-1, 1], where a function is known by n values.
-inline double chebyshev_node(std::size_t j, std::size_t n) {
-  return std::cos(pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n));
-}
 
 inline Eigen::VectorXd chebyshev_points(std::size_t n) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(n));

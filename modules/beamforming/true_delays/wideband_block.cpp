@@ -43,10 +43,10 @@ float* floats_of(Complex* numbers) {
 }  // namespace
 
 WidebandTransforms::WidebandTransforms(const WidebandPlan& plan)
-    : to_harmonics(plan.grid, wideband_tile, plan.grid_stride, FFTW_FORWARD),
-      to_frequencies(plan.fine, 1, plan.fine, FFTW_FORWARD),
-      to_bins(plan.cycle, 1, plan.cycle, FFTW_BACKWARD),
-      to_directions(plan.grid, wideband_tile, plan.grid_stride, FFTW_BACKWARD) {}
+    : to_harmonics({plan.grid, wideband_tile, 1, plan.grid_stride, false}, FFTW_FORWARD),
+      to_frequencies({.length = plan.fine, .in_place = false}, FFTW_FORWARD),
+      to_bins({.length = plan.cycle, .in_place = false}, FFTW_BACKWARD),
+      to_directions({plan.grid, wideband_tile, 1, plan.grid_stride, false}, FFTW_BACKWARD) {}
 
 WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& transforms)
     : plan_(plan),
@@ -59,7 +59,6 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
       chunk_(std::max(plan.rows(), plan.chunks.size()) * chunk_row),
       across_(plan.grid * 2 * wideband_tile),
       place_(plan.grid, static_cast<std::uint32_t>(plan.rows())),
-      scratch_(std::max<std::size_t>(plan.pulse.lanes, 8)),
       beam_(2 * wideband_tile),
       touched_(plan.fine / wideband_tile + 2),
       bins_row_((plan.cycle + wideband_tile - 1) / wideband_tile * wideband_tile + 8) {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "acoustics/echoes.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
+#include "beamforming/pulses/gaussian_batch_internal.hpp"
 #include "beamforming/true_delays/wideband_bend_internal.hpp"
 #include "beamforming/true_delays/wideband_loops_internal.hpp"
 #include "beamforming/true_delays/wideband_plan_internal.hpp"
@@ -19,7 +20,7 @@ constexpr std::size_t wideband_tile =
 
 /// The transforms of a plan.
 struct WidebandTransforms {
-  FftOfRows<float> to_harmonics, to_frequencies, to_bins, to_directions;
+  Fft<float> to_harmonics, to_frequencies, to_bins, to_directions;
 
   explicit WidebandTransforms(const WidebandPlan& plan);
 };
@@ -50,8 +51,7 @@ class WidebandRoom {
   using Complex = std::complex<float>;
   using Numbers = std::vector<Complex, LineAllocator<Complex>>;
 
-  // Gaussian pulses that are alike, those that are not, and sweeps, sample by sample.
-  void grid_alike(const Echoes& echoes, List list);
+  // At most GaussianBatch::most Gaussian pulses, and sweeps, sample by sample.
   void grid_gaussians(const Echoes& echoes, List list);
   void grid_sweeps(const Echoes& echoes, List list);
   /// Fine samples that hold something.
@@ -82,7 +82,8 @@ class WidebandRoom {
   AlignedFloats across_, mixed_;        ///< by grid step and bin; room of mixes
   std::vector<std::uint32_t> place_;    ///< rows of harmonics of a transform
   std::vector<std::uint32_t> bin_;      ///< first of each chunk
-  std::vector<float> scratch_, samples_, beam_;
+  std::vector<float> beam_;
+  GaussianBatch<float> pulses_;
   std::vector<double> pulse_re_, pulse_im_;
   std::vector<char> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;

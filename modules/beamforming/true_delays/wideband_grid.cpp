@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
@@ -8,8 +7,6 @@
 
 namespace insonify {
 namespace {
-
-constexpr std::size_t wideband_batch = 256;  // echoes handed to the kernel at once
 
 kernels::Pieces<float> wideband_pieces(const PolynomialPieces<float>& p) {
   return {p.coefficient.data(), p.degree, p.lanes};
@@ -32,88 +29,34 @@ void WidebandRoom::add(const Echoes& echoes, List list) {
     if (most == 0) return;
     unit_ = std::exp2(std::round(std::log2(most)));
   }
-  const bool gaussian = plan_.head.pulse.shape == PulseShape::gaussian;
-  const std::size_t at_once = gaussian ? wideband_batch : list.size();
-  for (; !list.empty(); list = list.subspan(std::min(at_once, list.size()))) {
-    const List some = list.first(std::min(at_once, list.size()));
-    if (!gaussian)
-      grid_sweeps(echoes, some);
-    else if (plan_.one_shape && echoes.doppler.empty())
-      grid_alike(echoes, some);
-    else
-      grid_gaussians(echoes, some);
-  }
-}
-
-void WidebandRoom::grid_alike(const Echoes& echoes, List list) {
-  const WidebandPlan& plan = plan_;
-  std::array<std::uint32_t, wideband_batch> row, column;
-  std::array<float, wideband_batch> row_offset, column_offset, re, im;
-  const kernels::GridTargets<float> targets{row.data(),           column.data(), row_offset.data(),
-                                            column_offset.data(), re.data(),     im.data()};
-  const double half_width = 0.5 * static_cast<double>(plan.kernel.width()), c = plan.medium.sound_speed;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::uint32_t i = list[k];
-    const double delay = echoes.delay[i];
-    const double low_column = plan.column_of(echoes.u[i]) - half_width, column_0 = std::ceil(low_column);
-    const double low_row = (delay - plan.half - start_time_) / plan.fine_step, row_0 = std::ceil(low_row);
-    const double gain = std::exp(-plan.medium.absorption.a0 * c * delay) / unit_;
-    column[k] = static_cast<std::uint32_t>(column_0);
-    column_offset[k] = static_cast<float>(2 * (column_0 - low_column) - 1);
-    row[k] = static_cast<std::uint32_t>(row_0);
-    row_offset[k] = static_cast<float>(2 * (row_0 - low_row) - 1);
-    re[k] = static_cast<float>(gain * echoes.amplitude[i].real());
-    im[k] = static_cast<float>(gain * echoes.amplitude[i].imag());
-    touch(row[k], plan.pulse_samples);
-  }
-  kernels::grid_pulses(targets, list.size(), wideband_pieces(plan.pulse), plan.pulse_samples,
-                       wideband_pieces(plan.columns), scratch_.data(), re_.data(), im_.data(), plan.grid_stride);
+  if (plan_.head.pulse.shape != PulseShape::gaussian) return grid_sweeps(echoes, list);
+  for (; !list.empty(); list = list.subspan(std::min(GaussianBatch<float>::most, list.size())))
+    grid_gaussians(echoes, list.first(std::min(GaussianBatch<float>::most, list.size())));
 }
 
 void WidebandRoom::grid_gaussians(const Echoes& echoes, List list) {
   const WidebandPlan& plan = plan_;
-  // Amplitudes and places, gathered; directions are counted from the beginning of the period.
-  std::array<double, 12 * wideband_batch> numbers;
-  const auto array = [&](std::size_t k) { return numbers.data() + k * wideband_batch; };
-  double *delay = array(0), *u = array(1), *re = array(2), *im = array(3), *doppler = array(4);
-  double latest = 0;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::uint32_t i = list[k];
-    delay[k] = echoes.delay[i];
-    u[k] = echoes.u[i] + 0.5 * plan.period;
-    re[k] = echoes.amplitude[i].real() / unit_;
-    im[k] = echoes.amplitude[i].imag() / unit_;
-    doppler[k] = echoes.doppler_of(i);
-    latest = std::max(latest, delay[k]);
-  }
-  plan.shapes.of(latest);  // throws if absorption lets a pulse grow
   const Absorption& absorption = plan.medium.absorption;
-  const kernels::GaussianGrid grid{start_time_,
-                                   plan.fine_step,
-                                   plan.reach,
-                                   0,
-                                   1 / plan.period,
-                                   static_cast<double>(plan.grid),
-                                   0.5 * static_cast<double>(plan.kernel.width()),
-                                   0,
-                                   false,
-                                   plan.spectral_width2,
-                                   0.5 * plan.medium.sound_speed,
-                                   absorption.a0,
-                                   absorption.a1,
-                                   absorption.a2};
-  std::array<std::uint32_t, wideband_batch> row, column;
-  std::array<float, wideband_batch> column_offset;
-  const kernels::GaussianPlaces<float> places{row.data(), column.data(), column_offset.data()};
-  const kernels::GaussianState state{array(5), array(6), array(7), array(8), array(9), array(10), array(11)};
-  kernels::place_gaussians({delay, u, re, im, doppler}, list.size(), grid, state, places);
+  const kernels::GaussianGrid grid{.start = start_time_,
+                                   .step = plan.fine_step,
+                                   .half = plan.reach,
+                                   .first_row = 0,
+                                   .first_u = -0.5 * plan.period,
+                                   .cycles_per_u = 1 / plan.period,
+                                   .grid = static_cast<double>(plan.grid),
+                                   .half_width = 0.5 * static_cast<double>(plan.kernel.width()),
+                                   .pad = 0,
+                                   .half_places = false,
+                                   .a_sent = plan.spectral_width2,
+                                   .range_per_delay = 0.5 * plan.medium.sound_speed,
+                                   .a0 = absorption.a0,
+                                   .a1 = absorption.a1,
+                                   .a2 = absorption.a2};
   const auto rows = static_cast<std::size_t>(std::floor(2 * plan.reach / plan.fine_step)) + 1;
-  for (std::size_t k = 0; k < list.size(); ++k) touch(row[k], rows);
-  samples_.resize(2 * wideband_batch * rows);
-  float *sample_re = samples_.data(), *sample_im = sample_re + wideband_batch * rows;
-  kernels::sample_gaussians(state, list.size(), rows, sample_re, sample_im);
-  kernels::grid_samples(places, list.size(), sample_re, sample_im, rows, wideband_pieces(plan.columns), re_.data(),
-                        im_.data(), plan.grid_stride);
+  pulses_.sample(grid, plan.shapes, echoes, list, unit_, rows);
+  for (std::size_t k = 0; k < list.size(); ++k) touch(pulses_.row[k], rows);
+  kernels::grid_samples(pulses_.places(), list.size(), pulses_.re.data(), pulses_.im.data(), rows,
+                        wideband_pieces(plan.columns), re_.data(), im_.data(), plan.grid_stride);
 }
 
 void WidebandRoom::touch(std::size_t row, std::size_t rows) {

@@ -1,4 +1,3 @@
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -15,15 +14,6 @@ namespace {
 
 using kernels::lines_at_once;
 
-/// The smallest length from `least` on, a multiple of 8, that FFTW transforms fast for its size: measured in single
-/// precision with FFTW_ESTIMATE, others take up to twice as long.
-std::size_t fast_grid_length(std::size_t least) {
-  for (const std::size_t length : {16,  24,  32,  40,  48,  64,  80,  96,   120,  128,  144,  160,  192, 240,
-                                   256, 320, 384, 400, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072})
-    if (length >= least) return length;
-  return std::bit_ceil(least);
-}
-
 /// Others, that take twice as long: good where they are few beside other transforms.
 constexpr std::size_t fair_lengths[] = {300, 480, 600, 960};
 
@@ -39,11 +29,6 @@ double band_of(const Pulse& pulse, double tolerance) {
   if (pulse.shape == PulseShape::linear_fm)
     return pulse.bandwidth * (0.5 + 4 / std::sqrt(pulse.bandwidth * pulse.duration));
   return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
-}
-
-PolynomialPieces<float> pieces_of(const GriddingKernel& kernel) {
-  return PolynomialPieces<float>::fit([&](double x) { return kernel.at(x); },
-                                      -0.5 * static_cast<double>(kernel.width()), kernel.width(), 1e-7);
 }
 
 double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
@@ -70,11 +55,11 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   // Of cycles that hold the block, the one with the fewest samples for its bins.
   const auto fine_of = [this](std::size_t bins) {
     const double lines = 2 * half_band * static_cast<double>(bins) * axis.step;
-    std::size_t length = fast_grid_length(static_cast<std::size_t>(std::ceil(lines)) + 2);
-    while (length % (2 * lines_at_once) != 0) length = fast_grid_length(length + 1);  // no chunk holds both ends
+    std::size_t length = fft_length(static_cast<std::size_t>(std::ceil(lines)) + 2);
+    while (length % (2 * lines_at_once) != 0) length = fft_length(length + 1);  // no chunk holds both ends
     return length;
   };
-  cycle = fast_grid_length(block_bins + 2 * guard);
+  cycle = fft_length(block_bins + 2 * guard);
   fine = fine_of(cycle);
   for (const std::size_t other : fair_lengths)
     if (other >= block_bins + 2 * guard && other < cycle &&
@@ -91,8 +76,8 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   period = 2.02 * widest * finer;
   const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
   most = static_cast<std::size_t>(std::ceil(wavelengths * period + 0.5 * static_cast<double>(kernel_width))) + 1;
-  grid = fast_grid_length(
-      std::max<std::size_t>(64, static_cast<std::size_t>(std::ceil(finer * static_cast<double>(rows())))));
+  grid =
+      fft_length(std::max<std::size_t>(64, static_cast<std::size_t>(std::ceil(finer * static_cast<double>(rows())))));
   grid_stride = grid + 16;
   const double shift =
       0.5 * period * aperture / medium.sound_speed / seconds() * static_cast<double>(lines_at_once - 1);
@@ -106,29 +91,18 @@ WidebandPlan::WidebandPlan(const SonarHead& head_in, const Medium& medium_in, do
       medium(medium_in),
       shapes(head.pulse, medium),
       u_beam(beam_cosines(head.fan)),
-      kernel(kernel_width, oversampling_for(tolerance)) {
+      kernel(kernel_width, oversampling_for(tolerance)),
+      columns(kernel.pieces<float>(1e-7)) {
   for (std::size_t m = 0; m < head.array.elements(); ++m)
     y.push_back(head.array.spacing * element_place(m, head.array.elements()));
-  plan_pulse();
+  if (head.pulse.shape == PulseShape::gaussian) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
   plan_directions();
   plan_elements();
   plan_band();
 }
 
-void WidebandPlan::plan_pulse() {
-  if (head.pulse.shape == PulseShape::gaussian) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
-  one_shape = medium.absorption.a1 == 0 && medium.absorption.a2 == 0 && head.pulse.shape == PulseShape::gaussian;
-  if (!one_shape) return;
-  half = pulse_half_length(head.pulse, 0.5 * cut);
-  pulse_samples = static_cast<std::size_t>(std::floor(2 * half / fine_step + 1e-9)) + 1;
-  const EchoEnvelope envelope = echo_envelope(head.pulse, {}, 0);
-  pulse = PolynomialPieces<float>::fit([&](double x) { return envelope.at(x * fine_step).real(); }, -half / fine_step,
-                                       pulse_samples, 0.1 * tolerance);
-}
-
 void WidebandPlan::plan_directions() {
   const auto half_width = 0.5 * static_cast<double>(kernel.width());
-  columns = pieces_of(kernel);
   // The trapezoidal rule in s, x = (w / 2) sin(s), as the kernel's transform has it.
   constexpr int steps = 24;
   for (int k = 0; k < steps; ++k) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
@@ -67,12 +67,8 @@ struct WidebandPlan : WidebandSizes {
   std::vector<double> y;       ///< places of elements [m], positive to port
   double spectral_width2 = 0;  ///< a of a Gaussian pulse with the spectrum exp(-a f^2) [s^2]; 0: of a sweep
 
-  bool one_shape = false;  ///< all pulses are alike, but for their level
-  double half = 0;         ///< of what is gridded of a pulse, if they are alike [s]
-  std::size_t pulse_samples = 0;
-  PolynomialPieces<float> pulse, columns;
-
   GriddingKernel kernel;             ///< of directions on the grid, and of places between harmonics
+  PolynomialPieces<float> columns;   ///< of the kernel
   std::vector<double> place_factor;  ///< undoes it between harmonics, by step of the grid
   std::vector<float> beam_weight;    ///< of each beam, kernel.width() grid steps
   std::vector<std::uint32_t> beam_row;
@@ -97,7 +93,6 @@ struct WidebandPlan : WidebandSizes {
   std::size_t elements() const { return y.size(); }
 
  private:
-  void plan_pulse();
   void plan_directions();
   void plan_elements();
   void plan_band();

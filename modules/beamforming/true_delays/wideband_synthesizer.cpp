@@ -21,6 +21,7 @@ namespace insonify {
 namespace {
 
 constexpr double finest = 1e-5, coarsest = 0.1;
+constexpr double farthest_out = 1 + 1e-9;    // |u| of echoes, rounded
 constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
 constexpr std::size_t beams_at_once = 8;
 
@@ -105,11 +106,12 @@ struct WidebandSynthesizer::Plan {
                  const std::function<void()>& wait) const;
   /// Adds echoes nearer than blocks reach, element by element.
   void add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const;
-  /// Calls use(plan) with this plan, or with one for all directions if `far_out` is beyond it.
+  /// Calls use(plan) with this plan, or with one for all directions if `far_out` is beyond it. Throws Error beyond 1.
   template <typename Use>
   ComplexGrid with(double far_out, const Use& use) const {
     if (far_out <= widest) return use(*this);
-    if (far_out > 1) return use(Plan(head, medium, options, far_out));
+    if (far_out > farthest_out)
+      fail(ErrorKind::argument, "WidebandSynthesizer: an echo has u = +-", far_out, ", must be within -1 and 1");
     return use(all_around.get([&] { return std::make_unique<Plan>(head, medium, options, 1); }));
   }
 };

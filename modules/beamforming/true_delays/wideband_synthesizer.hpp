@@ -35,7 +35,7 @@ class WidebandSynthesizer {
   WidebandSynthesizer& operator=(WidebandSynthesizer&&) noexcept;
 
   /// beams x bins [Pa]; the bits do not depend on the number of threads. Throws Error for a NaN in an echo, named by
-  /// its number.
+  /// its number, and for |u| > 1.
   ComplexGrid pressure(const Echoes& echoes) const;
   /// The same, to the byte, of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c.
   /// Chunks are made again for each block that they reach into; memory does not grow with their number.

@@ -2,30 +2,23 @@
 #include <cmath>
 #include <complex>
 
-#include "beamforming/narrow_band/planar_plan_internal.hpp"
-#include "beamforming/numerics/fft_along_rows_internal.hpp"
+#include "beamforming/narrow_band/column_plan_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 
+/// The weight of a line at v in a row at v_b is the response of a column with deconvolved shading to v - v_b.
 template <typename Real>
-PlanarPlan<Real>::PlanarPlan(const SonarHead& head, const Medium& medium, double tolerance, PlanarTolerance kernels)
-    : across(head, medium, tolerance, kernels.u),
-      kernel(kernels.v),
-      lines_of(PolynomialPieces<Real>::fit([this](double x) { return kernel.at(x); },
-                                           -0.5 * static_cast<double>(kernel.width()), kernel.width(),
-                                           0.1 * kernels.v)),
+ColumnPlan<Real>::ColumnPlan(const SonarHead& head, const Medium& medium, const std::vector<FanRow>& rows,
+                             double kernel_tolerance)
+    : kernel(kernel_tolerance),
+      pieces(kernel.pieces<Real>(0.1 * kernel_tolerance)),
       cycle(fft_length(std::max(2 * head.column->elements(), 2 * kernel.width()))),
       lines(cycle + 2 * grid_pad),
       cycles_per_v(head.column->spacing * head.pulse.centre_frequency / medium.sound_speed),
-      element_offset(head.column->elements() % 2 == 0 ? 0.5 : 0.0),
-      rows(fan_rows(head.fan)) {
-  plan_rows(*head.column);
-}
-
-/// The weight of a line at v in a row at v_b is the response of a column with deconvolved shading to v - v_b.
-template <typename Real>
-void PlanarPlan<Real>::plan_rows(const LineArray& column) {
+      element_offset(head.column->elements() % 2 == 0 ? 0.5 : 0.0) {
+  const LineArray& column = *head.column;
   const std::size_t n = column.elements();
   const auto steps = static_cast<double>(cycle);
   AlignedArray<std::complex<double>, double> response(cycle * rows.size());  // cycle x rows
@@ -37,7 +30,7 @@ void PlanarPlan<Real>::plan_rows(const LineArray& column) {
     for (std::size_t r = 0; r < rows.size(); ++r)
       response[at * rows.size() + r] = std::polar(factor, -2 * pi * place * cycles_per_v * std::sin(rows[r].elevation));
   }
-  FftAlongRows<double>(cycle, rows.size(), FFTW_BACKWARD).run(response.data());
+  Fft<double>({cycle, rows.size(), rows.size(), 1}, FFTW_BACKWARD).run(response.data());
   weight.resize(rows.size() * lines);
   for (std::size_t l = 0; l < lines; ++l) {
     const double step = static_cast<double>(l) - static_cast<double>(grid_pad), wraps = std::floor(step / steps);
@@ -48,7 +41,7 @@ void PlanarPlan<Real>::plan_rows(const LineArray& column) {
   }
 }
 
-template struct PlanarPlan<float>;
-template struct PlanarPlan<double>;
+template struct ColumnPlan<float>;
+template struct ColumnPlan<double>;
 
 }  // namespace insonify

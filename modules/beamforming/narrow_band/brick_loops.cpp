@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "beamforming/narrow_band/planar_loops_internal.hpp"
+#include "beamforming/narrow_band/brick_loops_internal.hpp"
 #include "beamforming/numerics/kernel_lanes_internal.hpp"
 #include "core/target_clones.hpp"
 
@@ -13,10 +13,10 @@ template <typename Real>
 using Wide = typename Register<Real, 64>::Type;
 
 template <std::size_t lanes, typename Real>
-[[gnu::always_inline]] inline void grid_bricks_by(const PlanarEchoes<Real>& e, std::size_t count, std::size_t rows,
-                                                  Pieces<Real> columns_of, Pieces<Real> lines_of, std::size_t lines,
-                                                  std::size_t plane) {
-  for (std::size_t i = 0; i < count; ++i) {
+[[gnu::always_inline]] inline void grid_bricks_by(const BrickEchoes<Real>& e, std::size_t first, std::size_t last,
+                                                  std::size_t count, std::size_t rows, Pieces<Real> columns_of,
+                                                  Pieces<Real> lines_of, std::size_t lines, std::size_t plane) {
+  for (std::size_t i = first; i < last; ++i) {
     const KernelLanes<lanes, Real> of_column(columns_of, e.column_offset[i]);
     Real of_line[most_lines];
     if (lines_of.lanes == 8)
@@ -61,21 +61,21 @@ template <typename Real>
 }  // namespace
 
 INSONIFY_CLONES
-void grid_bricks(PlanarEchoes<float> echoes, std::size_t count, std::size_t rows, Pieces<float> columns_of,
-                 Pieces<float> lines_of, std::size_t lines, std::size_t plane) {
+void grid_bricks(BrickEchoes<float> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
+                 Pieces<float> columns_of, Pieces<float> lines_of, std::size_t lines, std::size_t plane) {
   if (columns_of.lanes == 8)
-    grid_bricks_by<8>(echoes, count, rows, columns_of, lines_of, lines, plane);
+    grid_bricks_by<8>(echoes, first, last, count, rows, columns_of, lines_of, lines, plane);
   else
-    grid_bricks_by<16>(echoes, count, rows, columns_of, lines_of, lines, plane);
+    grid_bricks_by<16>(echoes, first, last, count, rows, columns_of, lines_of, lines, plane);
 }
 
 INSONIFY_CLONES
-void grid_bricks(PlanarEchoes<double> echoes, std::size_t count, std::size_t rows, Pieces<double> columns_of,
-                 Pieces<double> lines_of, std::size_t lines, std::size_t plane) {
+void grid_bricks(BrickEchoes<double> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
+                 Pieces<double> columns_of, Pieces<double> lines_of, std::size_t lines, std::size_t plane) {
   if (columns_of.lanes == 8)
-    grid_bricks_by<8>(echoes, count, rows, columns_of, lines_of, lines, plane);
+    grid_bricks_by<8>(echoes, first, last, count, rows, columns_of, lines_of, lines, plane);
   else
-    grid_bricks_by<16>(echoes, count, rows, columns_of, lines_of, lines, plane);
+    grid_bricks_by<16>(echoes, first, last, count, rows, columns_of, lines_of, lines, plane);
 }
 
 INSONIFY_CLONES

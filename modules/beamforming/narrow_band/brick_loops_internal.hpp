@@ -14,7 +14,7 @@ constexpr std::size_t rows_at_once = 6;                              // of beams
 
 /// Echoes on the grid of a planar array, one entry per echo in every array; samples as GaussianBatch.
 template <typename Real>
-struct PlanarEchoes {
+struct BrickEchoes {
   Real* const* brick;  ///< brick at its first row and column, `lines` of them per echo; imaginary parts `plane` on
   const Real* column_offset;  ///< t in [-1, 1] for the polynomials of the columns
   const Real* line_offset;    ///< and of the lines
@@ -22,11 +22,11 @@ struct PlanarEchoes {
   const Real *pulse_re, *pulse_im;
 };
 
-/// Adds pulse(row) x kernel(column) x kernel(line) of `count` echoes of `rows` samples to their bricks.
-void grid_bricks(PlanarEchoes<float> echoes, std::size_t count, std::size_t rows, Pieces<float> columns_of,
-                 Pieces<float> lines_of, std::size_t lines, std::size_t plane);
-void grid_bricks(PlanarEchoes<double> echoes, std::size_t count, std::size_t rows, Pieces<double> columns_of,
-                 Pieces<double> lines_of, std::size_t lines, std::size_t plane);
+/// Adds pulse(row) x kernel(column) x kernel(line) of echoes [first, last) of `count` to their bricks, `rows` samples each.
+void grid_bricks(BrickEchoes<float> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
+                 Pieces<float> columns_of, Pieces<float> lines_of, std::size_t lines, std::size_t plane);
+void grid_bricks(BrickEchoes<double> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
+                 Pieces<double> columns_of, Pieces<double> lines_of, std::size_t lines, std::size_t plane);
 
 /// Bricks of one block of columns, line by line, and those of the block before it, whose overlap reaches into this one.
 template <typename Real>

@@ -1,0 +1,69 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "beamforming/narrow_band/beam_transform_internal.hpp"
+#include "beamforming/narrow_band/brick_loops_internal.hpp"
+#include "beamforming/narrow_band/gridding_plan_internal.hpp"
+#include "beamforming/pulses/gaussian_batch_internal.hpp"
+
+namespace insonify {
+
+/// The grid over bins, u and v of one tile of bins. It consists of bricks, each all bins of some columns of one line,
+/// which are there where echoes are: surfaces fill few of those of a planar array. A line array has one line and one brick.
+template <typename Real>
+class GridTile {
+ public:
+  using List = std::span<const std::uint32_t>;
+
+  /// Keeps a reference to `plan`.
+  explicit GridTile(const GriddingPlan<Real>& plan);
+
+  /// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`. Calls may follow one another,
+  /// with the same bits as one of all echoes.
+  void add(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin);
+  /// Forms bins [first, last) of all beams; then the tile is empty. Adds the energies of echoes and beams [Pa^2 bins].
+  void form_beams(const BeamTransform<Real>& transform, std::size_t first, std::size_t last, ComplexGrid& pressure,
+                  double& gridded, double& received);
+
+ private:
+  /// Real and imaginary plane, tile rows x stride numbers each.
+  struct Brick {
+    explicit Brick(std::size_t numbers) : sum(numbers) {}
+    AlignedArray<Real, Real> sum;
+    std::vector<Real> flushed{};            // sums of earlier echoes, if there are many
+    std::size_t since_flush = 0, line = 0;  // echoes added since sums were flushed
+  };
+
+  /// Sets the unit of the first echoes, or of others that are so loud that those do not count; false: all are silent.
+  bool set_unit(const Echoes& echoes, List list);
+  Brick& brick_at(std::size_t line, std::size_t block);
+  /// The brick, ready for an echo more: single precision accumulates a bounded number of terms.
+  Brick& flushed(Brick& brick);
+  void add_gaussians(const Echoes& echoes, List list, std::size_t first_bin);
+  /// Adds the sampled pulses to the one brick of a line array, or to those of a planar array.
+  void add_to_line(std::size_t count);
+  void add_to_lines(const Echoes& echoes, List list);
+  // Sweeps, of each only the samples on this tile: those whose shape absorption keeps, and others, sample by sample.
+  void add_planned_sweeps(const Echoes& echoes, List list, std::size_t first_bin);
+  void add_sampled_sweeps(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin);
+  /// Sets the rows of beams [first, first + rows_at_a_time) on the grid of a line array.
+  void weigh_rows(std::size_t first);
+  void clear();
+
+  const GriddingPlan<Real>& plan_;
+  std::size_t columns_, stride_;  // of a brick; with those that pulses of its last columns reach
+  std::size_t blocks_, plane_;    // of columns; numbers in a plane of a brick
+  std::vector<Brick*> brick_;     // lines x blocks; null: none
+  std::vector<std::vector<Brick*>> of_block_;
+  std::vector<std::unique_ptr<Brick>> room_;
+  std::size_t used_ = 0;          // of room_
+  double unit_ = 0, energy_ = 0;  // a power of two [Pa]; of all echoes [unit^2 bins]
+  GaussianBatch<Real> pulses_;
+  std::vector<Real> scratch_;
+  AlignedArray<Real, Real> re_, im_;  // of planar arrays: rows x bins x columns of all blocks
+  AlignedArray<std::complex<Real>, Real> grid_;
+};
+
+}  // namespace insonify
