@@ -12,6 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
+constexpr int ring_sides = 24;
 constexpr std::size_t sampled_pings = 16;  // for the common scale
 
 // Levels of the beams at one range, by bearing; of a head with rows of beams, those of the row.
@@ -45,14 +46,6 @@ LineChart bearing_chart(const LevelImage& image, PixelPlace place, const Picture
   return chart;
 }
 
-Path ring(Point2 centre, double radius) {
-  Path path;
-  for (int i = 0; i <= 24; ++i)
-    path.push_back({centre.x + radius * std::cos(2 * pi * i / 24), centre.y + radius * std::sin(2 * pi * i / 24)});
-  path.back() = path.front();
-  return path;
-}
-
 Path arc_of(const FanLayout& layout, double range) {
   constexpr int steps = 256;
   Path path;
@@ -65,7 +58,7 @@ void mark_measure(Canvas& canvas, const FanLayout& layout, const Measure& measur
   std::vector<Point2> at;
   for (const Eigen::Vector2d& p : measure.points)
     at.push_back({layout.apex.x + p.x() * layout.pixels_per_metre, layout.apex.y + p.y() * layout.pixels_per_metre});
-  for (const Point2& p : at) canvas.add_lines({ring(p, 4)}, 2, measure_colour, 1);
+  for (const Point2& p : at) canvas.add_lines({ring(p, 4, ring_sides)}, 2, measure_colour, 1);
   if (at.size() < 2) return;
   canvas.add_lines({{at[0], at[1]}}, 2, measure_colour, 1);
   PlacedText length(number_text(measure.length(), 0.001) + " m",
@@ -147,7 +140,8 @@ void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks
                      mark_colour, 0.45);
   if (marks.bearing && marks.range) {
     canvas.add_lines({arc_of(layout, *marks.range)}, 1, mark_colour, 0.45);
-    canvas.add_lines({ring(layout.at(*marks.bearing, *marks.range), 0.55 * options.font_size)}, 2, mark_colour, 1);
+    canvas.add_lines({ring(layout.at(*marks.bearing, *marks.range), 0.55 * options.font_size, ring_sides)}, 2,
+                     mark_colour, 1);
   }
   mark_measure(canvas, layout, marks.measure, options.font_size);
 }
@@ -160,7 +154,7 @@ void mark_waterfall(ViewerPanel& panel, const Axes& axes, double row, std::optio
   if (!range) return;
   const double x = axes.at(*range, axes.low_y).x;
   canvas.add_lines({{{x, axes.frame.bottom}, {x, axes.frame.top}}}, 1, mark_colour, 0.35);
-  canvas.add_lines({ring({x, y}, 0.55 * options.font_size)}, 2, mark_colour, 1);
+  canvas.add_lines({ring({x, y}, 0.55 * options.font_size, ring_sides)}, 2, mark_colour, 1);
 }
 
 void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,

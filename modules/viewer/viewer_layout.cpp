@@ -65,12 +65,10 @@ void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int
   double middle = box.top - line / 2;
   std::istringstream lines(text);
   for (std::string words; std::getline(lines, words) && middle - line / 2 >= box.bottom; middle -= line) {
-    if (words.empty()) continue;
-    const double indent = static_cast<double>(words.find_first_not_of(' ')) * 0.5 * font_size;
-    const FittedText fitted =
-        fit_text(words.substr(std::min(words.find_first_not_of(' '), words.size())), font_size, box.width() - indent);
-    const double width = text_size(fitted.text, fitted.font_size).width;
-    canvas.add_text({fitted.text, {box.left + indent + width / 2, middle}, fitted.font_size});
+    const std::size_t spaces = words.find_first_not_of(' ');
+    if (spaces == words.npos) continue;
+    const double indent = 0.5 * font_size * static_cast<double>(spaces);
+    canvas.add_text_from({box.left + indent, middle}, words.substr(spaces), font_size, box.width() - indent);
   }
 }
 

@@ -48,11 +48,8 @@ double draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, doubl
   const double row = 1.5 * font;
   double middle = top - row / 2;
   for (const LegendEntry& entry : legend) {
-    const Colour colour = {entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0};
-    const FittedText fitted = fit_text(entry.text, font, right - left - 1.6 * font);
-    const double width = text_size(fitted.text, fitted.font_size).width;
-    canvas.add_lines({{{left, middle}, {left + font, middle}}}, font, colour, 1);
-    canvas.add_text({fitted.text, {left + 1.6 * font + width / 2, middle}, fitted.font_size});
+    canvas.add_lines({{{left, middle}, {left + font, middle}}}, font, shares_of(entry.colour), 1);
+    canvas.add_text_from({left + 1.6 * font, middle}, entry.text, font, right - left - 1.6 * font);
     middle -= row;
   }
   return middle + row / 2;
@@ -164,7 +161,7 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
 }
 
 void ViewerScene::reset_camera() {
-  actors_->place_camera(panel_.content, {});
+  actors_->place_camera(panel_.content, ScenePreset::automatic);
   follow_camera();
 }
 

@@ -135,7 +135,7 @@ void image_scene(const ImageOptions& o, const PictureOptions& asked) {
   const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
   Drawing drawing = run ? drawing_of_run(o, progress) : drawing_of_scene(o, progress);
   SceneLook& look = drawing.look;
-  look.camera.preset = *find_named(camera_words, o.camera);
+  look.camera = *find_named(camera_words, o.camera);
   look.normals = o.normals;
   if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, drawing.view, o.common.threads, look);
 
