@@ -12,6 +12,7 @@
 #include <vtkPlotPoints.h>
 #include <vtkTable.h>
 
+#include "core/error.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/line_chart_internal.hpp"
@@ -213,6 +214,13 @@ Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOption
   add_legend(canvas, lines, options.dark, 1.6 * thin, font, axes.frame, axes.frame.top + 0.5 * font + legend_height);
   add_point_labels(canvas, axes, lines, std::max(8, font * 3 / 4));
   return axes;
+}
+
+void limit_levels(LineChart& chart, const PictureOptions& options, const char* who) {
+  if (!std::isnan(options.max_db)) chart.high_y = options.max_db;
+  if (!std::isnan(options.min_db)) chart.low_y = options.min_db;
+  if (!(chart.high_y > chart.low_y))
+    fail(ErrorKind::argument, who, ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y, " dB");
 }
 
 void draw_line_chart(const LineChart& chart, const PictureOptions& options, const char* who,
