@@ -16,9 +16,6 @@ namespace {
 constexpr int min_width = 800, min_height = 600, largest = 8192;
 constexpr double facts_share = 0.19, lower_share = 0.36;
 constexpr double key_letters = 12;  // width of the scene's key in sizes of its letters
-constexpr ViewerPanelName all_panels[] = {ViewerPanelName::fan,     ViewerPanelName::scene, ViewerPanelName::ascan,
-                                          ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::timeline,
-                                          ViewerPanelName::status};
 
 }  // namespace
 
@@ -72,13 +69,6 @@ void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int
   }
 }
 
-const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
-  constexpr Box ViewerLayout::*boxes[] = {&ViewerLayout::fan,     &ViewerLayout::scene, &ViewerLayout::ascan,
-                                          &ViewerLayout::history, &ViewerLayout::facts, &ViewerLayout::timeline,
-                                          &ViewerLayout::status};
-  return layout.*boxes[static_cast<std::size_t>(name)];
-}
-
 ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerParts& parts) {
   if (width < min_width || height < min_height || width > largest || height > largest)
     fail(ErrorKind::argument, "show_viewer: window of ", width, " x ", height, " pixels, must be ", min_width, " x ",
@@ -109,10 +99,8 @@ ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const Viewer
 }
 
 std::optional<ViewerPanelName> panel_at(const ViewerLayout& layout, Point2 place) {
-  for (const ViewerPanelName name : all_panels) {
-    const Box& box = box_of(layout, name);
-    if (place.x >= box.left && place.x < box.right && place.y >= box.bottom && place.y < box.top) return name;
-  }
+  for (const ViewerPanelPlace& panel : viewer_panels)
+    if ((layout.*panel.box).holds(place)) return panel.value;
   return {};
 }
 
