@@ -23,8 +23,8 @@ ViewerOptions options_of(const ViewerCommand& command) {
     std::printf("%s\n", text.c_str());
     std::fflush(stdout);
   };
-  if (!(command.window_db >= 5 && command.window_db <= 150))
-    fail(ErrorKind::argument, "--window = ", command.window_db, " dB, must be 5 to 150");
+  if (const double window = command.start.window_db; !(window >= 5 && window <= 150))
+    fail(ErrorKind::argument, "--window = ", window, " dB, must be 5 to 150");
   if (command.screenshot.empty() && !has_display())
     fail(ErrorKind::runtime,
          "no display: set DISPLAY, run under xvfb-run, or use insonify image (or --screenshot FILE.png)");
@@ -42,8 +42,6 @@ int view(int argc, char** argv) {
   if (!command.common.quiet)
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "insonify: note: %s\n", note.c_str());
   options.start = loaded.start;
-  options.start.colour_map = command.colour_map;
-  options.start.window_db = command.window_db;
   if (command.screenshot.empty()) {
     show_viewer(loaded.data, options);
   } else {

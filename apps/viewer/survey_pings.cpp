@@ -6,10 +6,10 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "returns/sounding_columns.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "store/survey_run.hpp"
+#include "view/ping_record.hpp"
 
 namespace insonify::viewer {
 namespace {
@@ -45,10 +45,7 @@ struct CubeList {
     const std::size_t c = cube_of(ping);
     if (c != returns_of) returns = fs::exists(cubes[c].returns) ? load_soundings(cubes[c].returns) : Soundings{};
     returns_of = c;
-    Soundings own;
-    for (std::size_t i = 0; i < returns.size(); ++i)
-      if (static_cast<std::int64_t>(returns.ping[i]) == number[ping]) append_row(own, returns, i);
-    return own;
+    return soundings_of_ping(returns, number[ping], {});
   }
 };
 
@@ -57,11 +54,11 @@ struct CubeList {
 PingReel reel_of(const std::vector<CubeOfPings>& cubes) {
   const auto list = std::make_shared<CubeList>();
   list->cubes = cubes;
-  std::vector<ReelPlace> places;
+  std::vector<TrackPoint> places;
   for (const CubeOfPings& cube : cubes) {
     list->begin.push_back(places.size());
     for (const TrackPoint& point : read_track(cube.cube)) {
-      places.push_back({point.number, point.time, point.world_from_head, point.scan, point.absorption_db_per_m});
+      places.push_back(point);
       list->number.push_back(point.number);
     }
   }
@@ -100,9 +97,7 @@ std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const s
   found.name = chosen->name;
   found.folder = (folder / chosen->name).string();
   found.blocks = chosen->blocks();
-  for (std::size_t b = 0; b < found.blocks; ++b) {
-    const BlockFiles files = block_files(folder.string(), chosen->name, static_cast<std::int64_t>(b));
-    const auto mark = find_mark(files, run.mission_sha256);
+  for (const auto& [number, files, mark] : stored_blocks(folder.string(), run, *chosen)) {
     if (!mark) continue;
     ++found.done;
     if (!mark->cube_sha256.empty()) found.cubes.push_back({files.cube, files.returns});

@@ -41,10 +41,10 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
   list.add("TARGET", &c.target, "run directory, survey, cube.h5, or a scene to inspect: " + scene_extensions(),
            {.required = true});
   list.add("--head", &c.head, "of a survey: the head to show; default: the first of its mission");
-  list.add("--ping", &c.ping, "which ping to begin with, from 0");
+  list.add("--ping", &c.start.ping, "which ping to begin with, from 0");
   list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");
-  list.add("--colormap", &c.colour_map, joined(colour_map_names()));
-  list.add("--window", &c.window_db, "[dB] from darkest to brightest, 5 to 150");
+  list.add("--colormap", &c.start.colour_map, joined(colour_map_names()));
+  list.add("--window", &c.start.window_db, "[dB] from darkest to brightest, 5 to 150");
   list.add("--scene", &c.scene.path, "scene of a run, if it is not where run.toml says");
   list.add("--no-scene", &c.no_scene, "a run without its scene: starts faster");
   list.add("--sonar", &c.run.sonar, "to inspect: preset, .toml file, or the run.toml of a run");
@@ -154,10 +154,9 @@ PixelPlace loudest_of(const ViewerData& data, std::size_t ping_index, std::size_
 void choose_start(const ViewerCommand& command, LoadedView& view) {
   const ViewerExtent extent = extent_of(view.data);
   ViewerState& start = view.start;
-  if (command.ping >= extent.pings)
-    fail(ErrorKind::argument, "--ping = ", command.ping, ", must be below ", extent.pings, ", the number of pings in ",
+  if (start.ping >= extent.pings)
+    fail(ErrorKind::argument, "--ping = ", start.ping, ", must be below ", extent.pings, ", the number of pings in ",
          command.target);
-  start.ping = command.ping;
   if (!command.beam.empty()) {
     const double beam = tool::parse_number("--beam", command.beam);
     if (!(beam >= 0 && beam < static_cast<double>(extent.beams) && beam == std::floor(beam)))
@@ -188,7 +187,7 @@ LoadedView load_run(const ViewerCommand& command) {
   if (!command.run.sonar.empty() || !command.pose.empty())
     fail(ErrorKind::argument, command.target,
          " is a run, whose sonar and poses are known; leave --sonar and --pose out");
-  LoadedView view;
+  LoadedView view{{}, command.start, {}};
   if (const auto head = find_survey_head(command.target, command.head)) {
     open_cubes(head->cubes, view);
     view.data.title = head->name + ", " + view.data.title;
@@ -221,7 +220,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
     fail(ErrorKind::argument, "--sonar must be given to inspect a scene, e.g. --sonar p900-45; see insonify sonars");
   if (command.pose.empty())
     fail(ErrorKind::argument, "--pose must be given to inspect a scene, e.g. --pose=0,0,-3,0,10,0");
-  LoadedView view;
+  LoadedView view{{}, command.start, {}};
   tool::HeadSetup setup = tool::set_up_head(command.common, command.run);
   view.start.mode = ViewerMode::inspect;
   view.start.head = head_place(tool::parse_pose(command.pose, command.world) * setup.mount);

@@ -17,11 +17,9 @@ struct ViewerCommand {
   std::string target;        ///< run directory, cube.h5, or scene
   std::string pose;
   std::string world = "z-up";
-  std::string head;  ///< of a survey; empty: its first
-  std::uint64_t ping = 0;
-  std::string beam;  ///< number, or empty: nothing is selected
-  std::string colour_map = default_colour_map;
-  double window_db = 45;
+  std::string head;   ///< of a survey; empty: its first
+  std::string beam;   ///< number, or empty: nothing is selected
+  ViewerState start;  ///< with ping, colour map and window
   std::string size = "1600x1000";
   std::string screenshot;  ///< file, or empty: a window
   bool force = false;

@@ -71,17 +71,6 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
 /// as read_cube, of images when their ping is due.
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use);
 
-/// When and from where a ping was sent.
-struct TrackPoint {
-  std::int64_t number = 0;
-  double time = 0;  ///< [s]
-  Pose world_from_head = Pose::Identity();
-  std::optional<ScanPlace> scan{};  ///< of a scanning head
-  double sound_speed = 0;           ///< as Ping::sound_speed
-  double absorption_db_per_m = 0;   ///< as Ping::absorption_db_per_m
-  Motion motion{};                  ///< as Ping::motion
-};
-
 /// The pings of a cube without their images; errors as read_cube.
 std::vector<TrackPoint> read_track(const std::string& path);
 

@@ -164,6 +164,15 @@ std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& m
   return mark;
 }
 
+std::vector<StoredBlock> stored_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head) {
+  std::vector<StoredBlock> blocks;
+  for (std::size_t b = 0; b < head.blocks(); ++b) {
+    StoredBlock& block = blocks.emplace_back(b, block_files(folder, head.name, static_cast<std::int64_t>(b)));
+    block.mark = find_mark(block.files, run.mission_sha256);
+  }
+  return blocks;
+}
+
 void remove_leftovers(const BlockFiles& files) {
   const std::string begin = "." + fs::path(files.mark).stem().string() + ".";
   std::error_code ignored;

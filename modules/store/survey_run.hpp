@@ -63,6 +63,15 @@ void finish_block(const BlockFiles& files, const std::string& mission_sha256, co
 /// mission.
 std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& mission_sha256);
 
+/// A block of a head in the folder of a survey.
+struct StoredBlock {
+  std::size_t number = 0;
+  BlockFiles files;
+  std::optional<BlockMark> mark;  ///< absent: not done
+};
+/// The blocks of a head of a survey in the order of its pings; errors as find_mark.
+std::vector<StoredBlock> stored_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head);
+
 /// Removes unfinished files that a killed process left of the block.
 void remove_leftovers(const BlockFiles& files);
 

@@ -108,12 +108,12 @@ Point2 Axes::at(double x, double y) const {
           frame.bottom + frame.height() * (y - low_y) / (high_y - low_y)};
 }
 
-Path Axes::outline() const {
-  return {{frame.left, frame.bottom},
-          {frame.right, frame.bottom},
-          {frame.right, frame.top},
-          {frame.left, frame.top},
-          {frame.left, frame.bottom}};
+Path outline(const Box& box) {
+  return {{box.left, box.bottom},
+          {box.right, box.bottom},
+          {box.right, box.top},
+          {box.left, box.top},
+          {box.left, box.bottom}};
 }
 
 double room_below(int font_size) { return (to_label + to_title) * font_size + 2 * line_height(font_size); }

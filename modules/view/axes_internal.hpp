@@ -52,8 +52,10 @@ struct Axes {
   std::vector<PlacedText> texts;  ///< labels and axis titles
 
   Point2 at(double x, double y) const;
-  Path outline() const;
 };
+
+/// The corners of a box, and the first again.
+Path outline(const Box& box);
 
 /// Space that labels and title of an axis need below the frame, and left of it [pixels].
 double room_below(int font_size);

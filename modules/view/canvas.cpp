@@ -11,11 +11,11 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTexture.h>
 
 #include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "view/canvas_internal.hpp"
 #include "view/off_screen_internal.hpp"
 
@@ -91,6 +91,34 @@ Point2 half_width_at(const Path& path, std::size_t i, double half_width) {
 Theme theme(bool dark) {
   if (dark) return {{0.055, 0.065, 0.085}, {0.86, 0.88, 0.90}, {0.55, 0.58, 0.62}};
   return {{1, 1, 1}, {0.10, 0.11, 0.13}, {0.35, 0.37, 0.40}};
+}
+
+Path ring(Point2 centre, double radius, int corners) {
+  Path path;
+  for (int i = 0; i <= corners; ++i) {
+    const double turn = 2 * pi * (i % corners) / corners;
+    path.push_back({centre.x + radius * std::cos(turn), centre.y + radius * std::sin(turn)});
+  }
+  return path;
+}
+
+vtkSmartPointer<vtkTextActor> text_actor(const PlacedText& text, const Theme& theme, int coordinates) {
+  auto actor = vtkSmartPointer<vtkTextActor>::New();
+  actor->SetInput(readable_text(text.text).c_str());
+  vtkTextProperty* property = actor->GetTextProperty();
+  set_font(property, text.font_size);
+  property->SetColor(theme.text[0], theme.text[1], theme.text[2]);
+  property->SetOrientation(text.turned ? 90 : 0);
+  if (text.on_plate) {
+    property->SetBackgroundColor(theme.background[0], theme.background[1], theme.background[2]);
+    property->SetBackgroundOpacity(0.65);
+  }
+  const Box box = text.box();
+  actor->GetPositionCoordinate()->SetCoordinateSystem(coordinates);
+  actor->SetPosition(std::round(text.turned ? box.right : box.left), std::round(box.bottom));
+  property->SetJustificationToLeft();
+  property->SetVerticalJustificationToBottom();
+  return actor;
 }
 
 Canvas::Canvas(vtkRenderer* renderer, const PictureOptions& options, const char* who)
@@ -177,8 +205,9 @@ void Canvas::add_lines(const std::vector<Path>& paths, double width, const Colou
 }
 
 void Canvas::add_plate(const Box& box, const Colour& colour, double opacity) {
-  add_quads({{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}}, plate_height,
-            colour, opacity);
+  Path corners = outline(box);
+  corners.pop_back();
+  add_quads(corners, plate_height, colour, opacity);
 }
 
 void Canvas::add_quads(const std::vector<Point2>& corners, double height, const Colour& colour, double opacity) {
@@ -192,26 +221,15 @@ void Canvas::add_quads(const std::vector<Point2>& corners, double height, const 
 void Canvas::add_text(const PlacedText& asked) {
   PlacedText& text = texts_.emplace_back(asked);
   text.centre = {text.centre.x + origin_.x, text.centre.y + origin_.y};
-  const Box box = text.box();
-  vtkNew<vtkTextActor> actor;
-  actor->SetInput(readable_text(text.text).c_str());
-  vtkTextProperty* property = actor->GetTextProperty();
-  set_font(property, text.font_size);
-  property->SetColor(theme_.text[0], theme_.text[1], theme_.text[2]);
-  property->SetOrientation(text.turned ? 90 : 0);
-  if (text.on_plate) {
-    property->SetBackgroundColor(theme_.background[0], theme_.background[1], theme_.background[2]);
-    property->SetBackgroundOpacity(0.65);
-  }
-  // Anchor the text at its first letter on whole pixels, which keeps letters sharp.
-  if (window_)
-    actor->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
-  else  // the camera may move
-    actor->GetPositionCoordinate()->SetCoordinateSystemToWorld();
-  actor->SetPosition(std::round(text.turned ? box.right : box.left), std::round(box.bottom));
-  property->SetJustificationToLeft();
-  property->SetVerticalJustificationToBottom();
-  renderer_->AddActor2D(actor);
+  renderer_->AddActor2D(text_actor(text, theme_, window_ ? VTK_DISPLAY : VTK_WORLD));  // the caller's camera may move
+}
+
+double Canvas::add_text_from(Point2 left, const std::string& text, int font_size, double width) {
+  const FittedText fitted = fit_text(text, font_size, width);
+  PlacedText placed(fitted.text, left, fitted.font_size);
+  placed.centre.x += placed.extent.width / 2;
+  add_text(placed);
+  return left.x + placed.extent.width;
 }
 
 void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width) {
@@ -221,16 +239,12 @@ void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, doub
   colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   auto* to = static_cast<unsigned char*>(colours->GetScalarPointer());
   for (const Rgb& colour : scale.table) to = std::copy(colour.begin(), colour.end(), to);
-  const Box& box = bar.bar;
-  const Point2 low_left{box.left, box.bottom}, low_right{box.right, box.bottom};
-  const Point2 high_left{box.left, box.top}, high_right{box.right, box.top};
-  if (bar.lying)
-    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {1, 0.5}, {1, 0.5}, {0, 0.5}}, colours);
-  else
-    add_textured_strip({low_left, low_right, high_right, high_left}, {{0, 0.5}, {0, 0.5}, {1, 0.5}, {1, 0.5}}, colours);
-
+  Path corners = outline(bar.bar);
   std::vector<Path> lines = bar.ticks;
-  lines.push_back({low_left, low_right, high_right, high_left, low_left});
+  lines.push_back(corners);
+  corners.pop_back();
+  const double right = bar.lying ? 1 : 0, top = 1 - right;  // the colours at these corners
+  add_textured_strip(corners, {{0, 0.5}, {right, 0.5}, {1, 0.5}, {top, 0.5}}, colours);
   add_lines(lines, line_width, theme_.line, 1);
   for (const PlacedText& text : bar.texts) add_text(text);
 }

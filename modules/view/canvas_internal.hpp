@@ -6,8 +6,10 @@
 
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
+#include "view/axes_internal.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/off_screen_internal.hpp"
@@ -25,6 +27,12 @@ Theme theme(bool dark);
 /// Thin lines over the data, visible on dark and bright cells.
 constexpr Colour grid_colour = {0.8, 0.83, 0.86};
 constexpr double grid_opacity = 0.3;
+
+/// The share of red, green and blue in a colour.
+inline Colour shares_of(const Rgb& rgb) { return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0}; }
+
+/// A closed ring of so many corners.
+Path ring(Point2 centre, double radius, int corners);
 
 /// Maps bearing [rad] and range [m] to a place in the picture.
 using PlaneProjection = std::function<Point2(double bearing, double range)>;
@@ -51,6 +59,8 @@ class Canvas {
   /// A filled rectangle behind everything else, in any order of drawing.
   void add_plate(const Box& box, const Colour& colour, double opacity);
   void add_text(const PlacedText& text);
+  /// A text that begins at a place, in the middle of its height, fitted into so many pixels; returns where it ends.
+  double add_text_from(Point2 left, const std::string& text, int font_size, double width);
   void add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width);
 
   vtkRenderer* renderer() { return renderer_; }
@@ -83,6 +93,10 @@ void save_picture(const PictureOptions& options, const char* who, const std::str
 /// Sets the font: DejaVu Sans if installed, else a similar one, else VTK's built-in font (which lacks Greek: see
 /// readable_text).
 void set_font(vtkTextProperty* property, int font_size);
+
+/// The actor of a text in the colours of a theme, anchored at its first letter, which stands on whole pixels to keep
+/// letters sharp; positions are in `coordinates`, VTK_DISPLAY, VTK_VIEWPORT or VTK_WORLD.
+vtkSmartPointer<vtkTextActor> text_actor(const PlacedText& text, const Theme& theme, int coordinates);
 
 /// The text, with µ written as u if only VTK's built-in font is available.
 std::string readable_text(const std::string& text);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct ColourScale {
 /// The 99.9 % quantile of the levels above the lowest one (which is that of empty samples), rounded up to 5 dB. If all
 /// levels are equal, a value that maps them to the lowest colour.
 double automatic_max_db(const Grid<float>& level_db, double window_db);
+
+/// The next multiple of 5 dB above a level, where the axis of a chart ends.
+inline double next_five(double level_db) { return 5 * std::floor(level_db / 5) + 5; }
 
 /// Scale for an image, with the automatic maximum unless one is given. Throws Error(argument) for an unknown map, a
 /// window that is not positive, or max_db <= min_db.

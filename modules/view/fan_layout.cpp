@@ -264,7 +264,7 @@ void draw_cell_frame(Canvas& canvas, const CellFrame& frame, const ColourScale& 
   const double thin = line_width_for(frame.font_size);
   canvas.add_lines(frame.axes.grid, thin, grid_colour, grid_opacity);
   std::vector<Path> lines = frame.axes.ticks;
-  lines.push_back(frame.axes.outline());
+  lines.push_back(outline(frame.axes.frame));
   canvas.add_lines(lines, thin, canvas.colours().line, 1);
   for (const PlacedText& text : frame.axes.texts) canvas.add_text(text);
   if (frame.title) canvas.add_text(*frame.title);

@@ -1,5 +1,6 @@
 #include "view/grey_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -7,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPNGWriter.h>
+#include <vtkTypeTraits.h>
 
 #include "core/error.hpp"
 #include "files/child_process.hpp"
@@ -18,26 +20,29 @@
 namespace insonify {
 namespace {
 
-// VTK's origin is the lower left corner.
-template <typename Value>
-void require_pixels(const Grid<Value>& picture, const std::string& path, const char* who) {
-  if (picture.size() == 0)
-    fail(ErrorKind::argument, who, ": ", path, ": picture of ", picture.rows(), " x ", picture.cols(),
+// Writes pixels of so many channels, rows from the top, each as `put` fills it: VTK's origin is the lower left corner.
+template <typename Value, typename Put>
+void save_pixels(const std::string& path, Eigen::Index rows, Eigen::Index columns, int channels, const char* who,
+                 const Put& put) {
+  if (rows * columns == 0)
+    fail(ErrorKind::argument, who, ": ", path, ": picture of ", rows, " x ", columns,
          " values, must have one at least");
+  const VtkMessages messages;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(columns), static_cast<int>(rows), 1);
+  image->AllocateScalars(vtkTypeTraits<Value>::VTK_TYPE_ID, channels);
+  auto* pixel = static_cast<Value*>(image->GetScalarPointer());
+  for (Eigen::Index row = rows; row-- > 0;)
+    for (Eigen::Index column = 0; column < columns; ++column, pixel += channels) put(row, column, pixel);
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  write_png(writer, path, messages, who);
 }
 
 template <typename Grey>
-void save_png_of(const std::string& path, const Grid<Grey>& grey) {
-  require_pixels(grey, path, "save_grey_png");
-  const VtkMessages messages;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(grey.cols()), static_cast<int>(grey.rows()), 1);
-  image->AllocateScalars(sizeof(Grey) == 1 ? VTK_UNSIGNED_CHAR : VTK_UNSIGNED_SHORT, 1);
-  Eigen::Map<Grid<Grey>>(static_cast<Grey*>(image->GetScalarPointer()), grey.rows(), grey.cols()) =
-      grey.colwise().reverse();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  write_png(writer, path, messages, "save_grey_png");
+void save_grey(const std::string& path, const Grid<Grey>& grey) {
+  save_pixels<Grey>(path, grey.rows(), grey.cols(), 1, "save_grey_png",
+                    [&](Eigen::Index row, Eigen::Index column, Grey* pixel) { *pixel = grey(row, column); });
 }
 
 template <typename Grey>
@@ -102,8 +107,8 @@ GreyPicture load_grey_png(const std::string& path) {
   return picture;
 }
 
-void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { save_png_of(path, grey); }
-void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey) { save_png_of(path, grey); }
+void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { save_grey(path, grey); }
+void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey) { save_grey(path, grey); }
 
 std::array<std::uint8_t, 3> label_colour(std::uint8_t category) {
   if (category == 0) return {0, 0, 0};
@@ -111,18 +116,11 @@ std::array<std::uint8_t, 3> label_colour(std::uint8_t category) {
 }
 
 void save_label_png(const std::string& path, const Grid<std::uint8_t>& category) {
-  require_pixels(category, path, "save_label_png");
-  const VtkMessages messages;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(category.cols()), static_cast<int>(category.rows()), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  auto* pixel = static_cast<std::uint8_t*>(image->GetScalarPointer());
-  for (Eigen::Index row = category.rows() - 1; row >= 0; --row)
-    for (Eigen::Index column = 0; column < category.cols(); ++column)
-      for (const std::uint8_t channel : label_colour(category(row, column))) *pixel++ = channel;
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  write_png(writer, path, messages, "save_label_png");
+  save_pixels<std::uint8_t>(path, category.rows(), category.cols(), 3, "save_label_png",
+                            [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {
+                              const auto colour = label_colour(category(row, column));
+                              std::copy(colour.begin(), colour.end(), pixel);
+                            });
 }
 
 }  // namespace insonify

@@ -12,6 +12,7 @@
 #include <vtkPlotPoints.h>
 #include <vtkTable.h>
 
+#include "core/error.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/line_chart_internal.hpp"
@@ -140,10 +141,8 @@ void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, 
     for (const std::size_t i : row) {
       const double right = left + sample * font;
       add_legend_sample(canvas, lines[i], line_colour(i, dark), line_width, left, right, height);
-      const FittedText name = fit_text(lines[i].name, font, frame.right - right - to_name * font);
-      const double text_width = text_size(name.text, name.font_size).width;
-      canvas.add_text({name.text, {right + to_name * font + text_width / 2, height}, name.font_size});
-      left = right + (to_name + to_next) * font + text_width;
+      const double name = right + to_name * font;
+      left = canvas.add_text_from({name, height}, lines[i].name, font, frame.right - name) + to_next * font;
     }
   }
 }
@@ -207,7 +206,7 @@ Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOption
   const double thin = line_width_for(font);
   canvas.add_lines(axes.grid, thin, canvas.colours().line, 0.25);
   std::vector<Path> ticks = axes.ticks;
-  ticks.push_back(axes.outline());
+  ticks.push_back(outline(axes.frame));
   canvas.add_lines(ticks, thin, canvas.colours().line, 1);
   for (const PlacedText& text : axes.texts) canvas.add_text(text);
   if (title) canvas.add_text(*title);
@@ -215,6 +214,13 @@ Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOption
   add_legend(canvas, lines, options.dark, 1.6 * thin, font, axes.frame, axes.frame.top + 0.5 * font + legend_height);
   add_point_labels(canvas, axes, lines, std::max(8, font * 3 / 4));
   return axes;
+}
+
+void limit_levels(LineChart& chart, const PictureOptions& options, const char* who) {
+  if (!std::isnan(options.max_db)) chart.high_y = options.max_db;
+  if (!std::isnan(options.min_db)) chart.low_y = options.min_db;
+  if (!(chart.high_y > chart.low_y))
+    fail(ErrorKind::argument, who, ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y, " dB");
 }
 
 void draw_line_chart(const LineChart& chart, const PictureOptions& options, const char* who,

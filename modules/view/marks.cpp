@@ -15,16 +15,7 @@ namespace {
 
 constexpr Colour ring_colour = {0.35, 0.88, 1.0}, halo_colour = {0.03, 0.05, 0.08};  // visible on every colour map
 constexpr double ring_radius = 0.45;                                                 // in font sizes
-
-Path ring(Point2 centre, double radius) {
-  constexpr int corners = 32;
-  Path path;
-  for (int i = 0; i <= corners; ++i) {
-    const double turn = 2 * pi * (i % corners) / corners;
-    path.push_back({centre.x + radius * std::cos(turn), centre.y + radius * std::sin(turn)});
-  }
-  return path;
-}
+constexpr int ring_sides = 32;
 
 Box around(Point2 centre, double reach) {
   return {centre.x - reach, centre.x + reach, centre.y - reach, centre.y + reach};
@@ -135,7 +126,7 @@ void draw_marks(Canvas& canvas, const std::vector<Mark>& marks, MarkRoom room) {
   std::vector<Path> lines;
   std::vector<PlacedText> names;
   for (const Mark& mark : marks) {
-    lines.push_back(ring(room.at(mark.bearing, mark.range), radius));
+    lines.push_back(ring(room.at(mark.bearing, mark.range), radius, ring_sides));
     room.taken.push_back(around(room.at(mark.bearing, mark.range), radius + thin));
   }
   for (const Mark& mark : marks) {

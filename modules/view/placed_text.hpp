@@ -39,6 +39,8 @@ struct Box {
   bool overlaps(const Box& other) const {
     return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
   }
+  /// Returns true if a place lies inside, or on the left or lower edge.
+  bool holds(Point2 place) const { return place.x >= left && place.x < right && place.y >= bottom && place.y < top; }
   /// Returns true if `other` lies inside, edges included.
   bool contains(const Box& other) const {
     return left <= other.left && other.right <= right && bottom <= other.bottom && other.top <= top;

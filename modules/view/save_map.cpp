@@ -3,14 +3,14 @@
 #include <sstream>
 
 #include <vtkCellData.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkXMLImageDataWriter.h>
 
 #include "core/error.hpp"
 #include "files/pending_file.hpp"
-#include "view/off_screen_internal.hpp"
+#include "view/grey_file.hpp"
 #include "view/save_vtk.hpp"
 #include "view/xml_file_internal.hpp"
 
@@ -36,12 +36,10 @@ void save_map_image(const std::string& path, const HorizontalMap& map) {
   image->SetOrigin(map.x, map.y, 0);
   image->SetSpacing(map.cell, map.cell, map.cell);
   // Cells are ordered with columns varying fastest.
-  for (const SampleField& field : map.fields) {
-    const Grid<float> values = field.values.transpose();
-    image->GetCellData()->AddArray(
-        cell_array(field.name, values.data(), static_cast<std::size_t>(values.size()), field.unit));
-  }
-  list_units(image, "Points: m", map.fields);
+  UnitList units{"Points: m"};
+  for (const SampleField& field : map.fields)
+    add_array<vtkFloatArray>(image->GetCellData(), field.name, field.values.reshaped(), field.unit, units);
+  list_units(image, units);
   image->GetCellData()->SetActiveScalars(map.fields.front().name.c_str());
   vtkNew<vtkXMLImageDataWriter> writer;
   write_xml(*writer, image, path, "save_map_image");
@@ -52,19 +50,14 @@ void save_map_picture(const std::string& stem, const HorizontalMap& map, double 
   const Grid<float>& values = map.fields.front().values;
   const float highest = values.isFinite().select(values, -std::numeric_limits<float>::infinity()).maxCoeff();
   if (!std::isfinite(highest)) fail(ErrorKind::content, "save_map_picture: ", stem, ": no cell has a value");
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(values.rows()), static_cast<int>(values.cols()), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
+  Grid<std::uint8_t> grey(values.cols(), values.rows());
   for (Eigen::Index row = 0; row < values.cols(); ++row)
     for (Eigen::Index column = 0; column < values.rows(); ++column) {
       const double below = (highest - values(column, row)) / window;
-      *pixel++ = std::isfinite(below) ? static_cast<unsigned char>(std::lround(255 - 254 * std::min(below, 1.0))) : 0;
+      grey(values.cols() - 1 - row, column) =
+          std::isfinite(below) ? static_cast<std::uint8_t>(std::lround(255 - 254 * std::min(below, 1.0))) : 0;
     }
-  const VtkMessages messages;
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  write_png(writer, stem + ".png", messages, "save_map_picture");
+  save_grey_png(stem + ".png", grey);
 
   // The world file holds the size of a pixel and the middle of the upper left one.
   std::ostringstream world;

@@ -1,19 +1,13 @@
-#include <algorithm>
 #include <type_traits>
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include "core/error.hpp"
@@ -22,23 +16,6 @@
 #include "view/xml_file_internal.hpp"
 
 namespace insonify {
-
-namespace {
-
-/// Adds a column to the point data, and its unit to the list of units.
-template <typename Array, typename Column>
-void add_column(vtkPolyData* data, vtkStringArray* units, const std::string& name, const std::string& unit,
-                const Column& column) {
-  const auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>(column.size()));
-  std::copy(column.begin(), column.end(), array->GetPointer(0));
-  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
-  data->GetPointData()->AddArray(array);
-  units->InsertNextValue(name + ": " + unit);
-}
-
-}  // namespace
 
 void save_points(const std::string& path, const Soundings& soundings, const std::vector<PointColumn>& more) {
   const auto count = static_cast<vtkIdType>(soundings.size());
@@ -58,26 +35,25 @@ void save_points(const std::string& path, const Soundings& soundings, const std:
   data->SetPoints(points);
   data->SetVerts(vertices);
 
-  vtkNew<vtkStringArray> units;
-  units->SetName("units");
-  units->InsertNextValue("Points: m");
+  UnitList units{"Points: m"};
+  vtkPointData* columns = data->GetPointData();
   each_column(
       [&](const SoundingColumn& about, const auto& column) {
         require_length(about.name, column.size());
         using Real = std::is_same<typename std::decay_t<decltype(column)>::value_type, float>;
         using Array = std::conditional_t<Real::value, vtkFloatArray, vtkIntArray>;
-        add_column<Array>(data, units, about.name, signed_unit(about), column);
+        add_array<Array>(columns, about.name, column, signed_unit(about), units);
       },
       soundings);
   for (const PointColumn& column : more) {
     require_length(column.name, column.values.size());
     if (column.whole)
-      add_column<vtkIntArray>(data, units, column.name, column.unit, column.values);
+      add_array<vtkIntArray>(columns, column.name, column.values, column.unit, units);
     else
-      add_column<vtkDoubleArray>(data, units, column.name, column.unit, column.values);
+      add_array<vtkDoubleArray>(columns, column.name, column.values, column.unit, units);
   }
-  data->GetPointData()->SetActiveScalars("level_db");
-  data->GetFieldData()->AddArray(units);
+  columns->SetActiveScalars("level_db");
+  list_units(data, units);
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_xml(*writer, data, path, "save_points");
 }

@@ -11,8 +11,6 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -46,23 +44,11 @@ void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, 
   write_file(path, writer.GetOutputString());
 }
 
-void list_units(vtkDataSet* data, const std::string& places, const std::vector<SampleField>& fields) {
-  vtkNew<vtkStringArray> units;
-  units->SetName("units");
-  units->InsertNextValue(places);
-  for (const SampleField& field : fields)
-    if (!field.unit.empty()) units->InsertNextValue(field.name + ": " + field.unit);
-  data->GetFieldData()->AddArray(units);
-}
-
-vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count,
-                                          const std::string& unit) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  if (!unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
-  array->SetName(name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>(count));
-  std::copy(values, values + count, array->GetPointer(0));
-  return array;
+void list_units(vtkDataSet* data, const UnitList& units) {
+  vtkNew<vtkStringArray> array;
+  array->SetName("units");
+  for (const std::string& unit : units) array->InsertNextValue(unit);
+  data->GetFieldData()->AddArray(array);
 }
 
 namespace {
@@ -138,6 +124,7 @@ void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gat
                const std::vector<SampleField>& fields, const Pose& world_from_head, const std::vector<FanRow>& rows) {
   vtkNew<vtkStructuredGrid> grid;
   const std::vector<double> elevations = elevation_edges(rows);
+  UnitList units{"Points: m"};
   for (const SampleField& field : fields) {
     std::vector<float> values;
     for (const FanRow& row : rows) {
@@ -148,9 +135,9 @@ void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gat
                           static_cast<int>(elevations.size()));
       grid->SetPoints(corners(cells.edges, elevations, gate, world_from_head));
     }
-    grid->GetCellData()->AddArray(cell_array(field.name, values.data(), values.size(), field.unit));
+    add_array<vtkFloatArray>(grid->GetCellData(), field.name, values, field.unit, units);
   }
-  list_units(grid, "Points: m", fields);
+  list_units(grid, units);
   grid->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLStructuredGridWriter> writer;
   write_xml(*writer, grid, path, "save_fan_grid");
@@ -195,11 +182,10 @@ void save_sample_image(const std::string& path, const BeamFan& fan, const RangeG
   image->SetOrigin(0, gate.min_range, 0);
   image->SetSpacing(1, gate.bin_size, 1);
   // Cells are ordered with beams varying fastest.
-  for (const SampleField& field : fields) {
-    const Grid<float> values = field.values.transpose();
-    image->GetCellData()->AddArray(cell_array(field.name, values.data(), fan.beams() * gate.bins(), field.unit));
-  }
-  list_units(image, "x: number of the beam, y: range in m", fields);
+  UnitList units{"x: number of the beam, y: range in m"};
+  for (const SampleField& field : fields)
+    add_array<vtkFloatArray>(image->GetCellData(), field.name, field.values.reshaped(), field.unit, units);
+  list_units(image, units);
   image->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLImageDataWriter> writer;
   write_xml(*writer, image, path, "save_sample_image");
@@ -220,8 +206,9 @@ void save_series(const std::string& path, const std::vector<SeriesEntry>& entrie
 void save_lines(const std::string& path, const LineSet& lines) {
   require_valid(lines);
   const vtkSmartPointer<vtkPolyData> data = polylines(lines.points, VTK_DOUBLE);
+  UnitList units;
   for (const LineSet::Field& field : lines.fields)
-    data->GetCellData()->AddArray(cell_array(field.name, field.values.data(), field.values.size()));
+    add_array<vtkFloatArray>(data->GetCellData(), field.name, field.values, "", units);
   if (!lines.fields.empty()) data->GetCellData()->SetActiveScalars(lines.fields.front().name.c_str());
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_xml(*writer, data, path, "save_lines");

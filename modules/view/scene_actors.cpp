@@ -206,11 +206,7 @@ void SceneActors::show_head(const Pose& world_from_head, const BeamFan& fan, con
 }
 
 void SceneActors::make_marks() {
-  holes_ = point_actor(hole_arrays_ = point_arrays({}, {}), {});
-  holes_->GetMapper()->ScalarVisibilityOff();
-  holes_->GetProperty()->SetColor(hole_rgb[0] / 255.0, hole_rgb[1] / 255.0, hole_rgb[2] / 255.0);
-  mapper_of(holes_)->min_pixels = 3 * thin();
-  mapper_of(holes_)->lift = 0.008;
+  holes_ = plain_points(hole_arrays_ = point_arrays({}, {}), shares_of(hole_rgb), 3 * thin(), 0.008);
   normals_ = line_actor(options_.dark ? Colour{0.5, 0.9, 0.6} : Colour{0.1, 0.45, 0.2}, 0.8 * thin());
 }
 

@@ -65,7 +65,7 @@ class SceneActors {
   void show_axes(bool on);
 
   /// Sets the renderer's camera, fitted to the renderer's aspect ratio, and its clipping range.
-  void place_camera(vtkRenderer* renderer, const SceneCamera& camera) const;
+  void place_camera(vtkRenderer* renderer, ScenePreset preset) const;
 
   /// The renderer's camera.
   static CameraView view(vtkRenderer* renderer);

@@ -4,8 +4,6 @@
 
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkTextProperty.h>
 
 #include "core/units.hpp"
 #include "view/canvas_internal.hpp"
@@ -41,30 +39,17 @@ std::vector<AxisLabel> SceneActors::turn_axes(vtkRenderer* renderer) {
 void SceneActors::update_axes(vtkRenderer* renderer) {
   for (const auto& label : labels_) renderer->RemoveActor2D(label);
   labels_.clear();
-  const auto [behind, colour, line] = theme(options_.dark);
   const int* size = renderer->GetSize();
   const Box frame{0, static_cast<double>(size[0]), 0, static_cast<double>(size[1])};
-  for (const PlacedText& text : place_labels(turn_axes(renderer), view(renderer), frame, font_size_for(options_))) {
-    vtkNew<vtkTextActor> actor;
-    actor->SetInput(text.text.c_str());
-    actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
-    actor->SetPosition(std::round(text.box().left), std::round(text.box().bottom));
-    set_font(actor->GetTextProperty(), text.font_size);
-    actor->GetTextProperty()->SetColor(colour[0], colour[1], colour[2]);
-    actor->GetTextProperty()->SetBackgroundColor(behind[0], behind[1], behind[2]);
-    actor->GetTextProperty()->SetBackgroundOpacity(0.65);
-    actor->GetTextProperty()->SetJustificationToLeft();
-    actor->GetTextProperty()->SetVerticalJustificationToBottom();
-    renderer->AddActor2D(actor);
-    labels_.emplace_back(actor);
-  }
+  for (const PlacedText& text : place_labels(turn_axes(renderer), view(renderer), frame, font_size_for(options_)))
+    renderer->AddActor2D(labels_.emplace_back(text_actor(text, theme(options_.dark), VTK_VIEWPORT)));
 }
 
-void SceneActors::place_camera(vtkRenderer* renderer, const SceneCamera& camera) const {
+void SceneActors::place_camera(vtkRenderer* renderer, ScenePreset preset) const {
   const int* size = renderer->GetSize();
   const double narrow = std::min(size[0], size[1]);
   const auto place = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
-    return place_view(scene_, look_, camera, points, size[0], size[1], margin, who_);
+    return place_view(scene_, look_, preset, points, size[0], size[1], margin);
   };
   CameraView view = place(interest_, 0.04 * narrow);
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "view/scene_camera_internal.hpp"
 
@@ -133,35 +132,20 @@ std::vector<Vector3d> points_of_interest(const SceneCloud& scene, const SceneLoo
   return points;
 }
 
-CameraView place_view(const SceneCloud& scene, const SceneLook& look, const SceneCamera& camera,
-                      const std::vector<Vector3d>& points, double width, double height, double margin,
-                      const char* who) {
+CameraView place_view(const SceneCloud& scene, const SceneLook& look, ScenePreset preset,
+                      const std::vector<Vector3d>& points, double width, double height, double margin) {
   CameraView view;
   view.view_angle = radians(30);
-  if (camera.position.has_value() != camera.focal_point.has_value())
-    fail(ErrorKind::argument, who, ": look.camera has only one of position and focal_point; give both or neither");
-  if (camera.position) {
-    const Vector3d along = *camera.focal_point - *camera.position;
-    if (!(along.norm() > 0) || !along.allFinite() || !camera.position->allFinite())
-      fail(ErrorKind::argument, who, ": look.camera looks from (", camera.position->transpose(), ") to (",
-           camera.focal_point->transpose(), ") m, must be finite and distinct");
-    view.position = *camera.position - scene.origin;
-    view.focal_point = *camera.focal_point - scene.origin;
-    const bool upright = std::hypot(along.x(), along.y()) < 1e-6 * along.norm();
-    view.up = upright ? Vector3d::UnitY() : Vector3d::UnitZ();
-    return view;
-  }
-
   const double open_y = std::tan(view.view_angle / 2), pixel = 2 * open_y / height;
   const double room_x = std::max(width / 2 - margin, width / 10), room_y = std::max(height / 2 - margin, height / 10);
   FittingPosition fit;
   const auto look_down = [&](double angle_deg) {
-    const ViewAxes axes = preset_axes(look, camera.preset, angle_deg);
+    const ViewAxes axes = preset_axes(look, preset, angle_deg);
     fit = fitting_position(points, axes, room_x * pixel, room_y * pixel);
     return axes;
   };
   ViewAxes axes = look_down(shallow_deg);
-  if (camera.preset == ScenePreset::automatic && look.head) {
+  if (preset == ScenePreset::automatic && look.head) {
     // A picture that is as tall as wide stays half empty above a flat scene: look down more steeply until it is filled,
     // and show more of what goes on behind.
     const auto filled = [&] {

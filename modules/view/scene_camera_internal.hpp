@@ -21,12 +21,10 @@ struct CameraView {
 /// head, those within its range gate, or all if there are none.
 std::vector<Eigen::Vector3d> points_of_interest(const SceneCloud& scene, const SceneLook& look);
 
-/// The requested camera. A preset is placed as near as possible with all `points` (not empty) inside the window of
-/// width x height pixels, leaving `margin` pixels on every side. Throws Error(argument) if only one of position and
-/// focal point is given, they are not finite, or they coincide.
-CameraView place_view(const SceneCloud& scene, const SceneLook& look, const SceneCamera& camera,
-                      const std::vector<Eigen::Vector3d>& points, double width, double height, double margin,
-                      const char* who);
+/// The camera of a preset, as near as possible with all `points` (not empty) inside the window of width x height pixels,
+/// leaving `margin` pixels on every side.
+CameraView place_view(const SceneCloud& scene, const SceneLook& look, ScenePreset preset,
+                      const std::vector<Eigen::Vector3d>& points, double width, double height, double margin);
 
 /// The image of a point in a window [pixels from its lower left corner] and its distance along the camera's axis [m];
 /// behind the camera distance <= 0 and `at` is undefined.

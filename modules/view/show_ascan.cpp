@@ -17,7 +17,7 @@ ColourScale level_limits(const Grid<float>& level_db, PictureOptions options, co
   for (const float level : level_db.reshaped())
     if (std::isfinite(level)) highest = std::max(highest, static_cast<double>(level));
   if (std::isnan(options.max_db) && std::isfinite(highest)) {
-    options.max_db = 5.0 * std::floor(highest / 5.0) + 5.0;
+    options.max_db = next_five(highest);
     if (options.max_db <= options.min_db) options.max_db = options.min_db + 5.0;
   }
   return colour_scale(level_db, options, who);

@@ -37,9 +37,6 @@ void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::st
 /// The same with 16 bits.
 void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path);
 
-/// Writes pixels (rows x columns, the first row on top) as a grey PNG. Errors as show_grey.
-void save_grey(const Grid<std::uint8_t>& pixels, const std::string& path);
-
 /// Draws the level of one beam against range as a chart with units; the title begins with beam and bearing.
 /// min_db and max_db limit the level axis; an automatic max_db is the next multiple of 5 dB above the beam's
 /// highest level. Files and errors as show_fan; also Error(argument) unless beam < beams.

@@ -37,9 +37,8 @@ void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, const PictureOpt
   const double used = row * static_cast<double>(facts.size());
   double height = (options.height + used) / 2 - row / 2;
   for (const Fact& fact : facts) {
-    canvas.add_text({fact.name, {left + text_size(fact.name, size).width / 2, height}, size});
-    const FittedText value = fit_text(fact.value, size, options.width - font - middle);
-    canvas.add_text({value.text, {middle + text_size(value.text, value.font_size).width / 2, height}, value.font_size});
+    canvas.add_text_from({left, height}, fact.name, size, names);
+    canvas.add_text_from({middle, height}, fact.value, size, options.width - font - middle);
     height -= row;
   }
 }

@@ -22,11 +22,8 @@ void require_pattern(const std::vector<double>& azimuth, const std::vector<doubl
 void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std::vector<double>& level_db,
                   const PictureOptions& options) {
   LineChart chart;
-  chart.low_y = std::isnan(options.min_db) ? -60 : options.min_db;
-  chart.high_y = std::isnan(options.max_db) ? 0 : options.max_db;
-  if (!(chart.high_y > chart.low_y))
-    fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
-         " dB");
+  chart.low_y = -60, chart.high_y = 0;
+  limit_levels(chart, options, canvas.who());
 
   ChartLine& line = chart.lines[0];
   // Azimuths in head axes are positive to port, bearings in pictures to starboard.

@@ -83,8 +83,7 @@ void draw_frame(Canvas& canvas, const SceneFrame& frame, int font) {
   for (const auto& [bar, scale] : frame.bars) canvas.add_colour_bar(bar, scale, line_width_for(font));
   for (const auto& [text, rgb] : frame.legend) {
     const Point2 patch{text.box().left - 0.9 * font, text.centre.y};
-    canvas.add_lines({{{patch.x - 0.5 * font, patch.y}, {patch.x + 0.5 * font, patch.y}}}, font,
-                     {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0}, 1);
+    canvas.add_lines({{{patch.x - 0.5 * font, patch.y}, {patch.x + 0.5 * font, patch.y}}}, font, shares_of(rgb), 1);
     canvas.add_text(text);
   }
   if (frame.title) canvas.add_text(*frame.title);

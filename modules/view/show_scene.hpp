@@ -33,18 +33,13 @@ struct SceneHead {
   RangeGate gate;
 };
 
-/// Predefined camera positions.
+/// From where a scene is looked at.
 enum class ScenePreset {
   automatic,  ///< `behind` if there is a head, looking down more steeply where that fills the picture; else `iso`
   behind,     ///< behind the head and above it, along its heading; port is on the left
   top,        ///< from above, world x to the right and y up
   side,       ///< from starboard of the head, forward to the right; without a head along world y, x to the right
   iso         ///< from above a corner, between -x and -y
-};
-/// From where a scene is looked at.
-struct SceneCamera {
-  ScenePreset preset = ScenePreset::automatic;
-  std::optional<Eigen::Vector3d> position, focal_point;  ///< [m, world]; both or neither, instead of the preset
 };
 
 /// The contents and style of a picture of a scene. Empty members are not drawn.
@@ -60,7 +55,7 @@ struct SceneLook {
   std::vector<std::uint32_t> highlighted;  ///< marked surfels, drawn in front of everything
   std::vector<Eigen::Vector3d> holes;      ///< holes of the scan [m, world], see find_holes; red points
   bool normals = false;                    ///< normals of some 4000 surfels as lines; on both sides if not oriented
-  SceneCamera camera;
+  ScenePreset camera = ScenePreset::automatic;
   double point_size = 1.4;               ///< side of a drawn surfel in units of its spacing sqrt(area)
   bool axes = true;                      ///< box and floor grid, labelled in world metres
   std::size_t most_surfels = 2'000'000;  ///< larger scenes are thinned evenly; 0: draw all
@@ -77,8 +72,8 @@ struct SceneLook {
 ///
 /// Written to a temporary name, then renamed. Throws Error(content) for a scene without surfels; Error(argument) if
 /// level_db or visibility have another length than the scene, a highlighted surfel is not in it, the colour is grazing
-/// or incidence without a head or visibility without `visibility`, only one of the camera's points is given, point_size
-/// is not positive, or, as show_fan, for picture options; Error(runtime) and Error(file) as show_fan.
+/// or incidence without a head or visibility without `visibility`, point_size is not positive, or, as show_fan, for
+/// picture options; Error(runtime) and Error(file) as show_fan.
 void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                 const std::string& png_path);
 

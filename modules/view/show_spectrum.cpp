@@ -44,7 +44,7 @@ std::pair<double, double> limits_of(const std::vector<ChartLine>& lines, double 
     highest = std::max(highest, *high);
   }
   if (!std::isfinite(highest)) return {-window_db, 0};
-  const double top = 5 * std::floor(highest / 5) + 5;
+  const double top = next_five(highest);
   return {std::max(top - window_db, 5 * std::ceil(lowest / 5) - 5), top};
 }
 
@@ -57,14 +57,8 @@ void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const
   chart.low_x = all.front().x.front();
   chart.high_x = all.front().x.back();
   std::tie(chart.low_y, chart.high_y) = limits_of(all, options.window_db);
-  if (!std::isnan(options.max_db)) {
-    chart.high_y = options.max_db;
-    chart.low_y = options.max_db - options.window_db;
-  }
-  if (!std::isnan(options.min_db)) chart.low_y = options.min_db;
-  if (!(chart.high_y > chart.low_y))
-    fail(ErrorKind::argument, canvas.who(), ": max_db = ", chart.high_y, " dB, must exceed min_db = ", chart.low_y,
-         " dB");
+  if (!std::isnan(options.max_db)) chart.low_y = options.max_db - options.window_db;
+  limit_levels(chart, options, canvas.who());
 
   // Zero density is drawn below the chart.
   for (ChartLine& line : all)

@@ -75,11 +75,7 @@ void draw_way(Canvas& canvas, const TrackMap::Way& way, const Axes& axes, const 
   for (std::size_t i = 0; i < way.ahead.size(); i += step)
     strokes.push_back(
         {line[i], {line[i].x + 1.5 * font * way.ahead[i].x(), line[i].y + 1.5 * font * way.ahead[i].y()}});
-  Path ring;
-  for (int k = 0; k <= 24; ++k)
-    ring.push_back({line.back().x + 0.4 * font * std::cos(2 * pi * k / 24),
-                    line.back().y + 0.4 * font * std::sin(2 * pi * k / 24)});
-  canvas.add_lines({line, ring}, 2.5 * thin, colour, 1);
+  canvas.add_lines({line, ring(line.back(), 0.4 * font, 24)}, 2.5 * thin, colour, 1);
   canvas.add_lines(strokes, 1.5 * thin, colour, 0.8);
 }
 

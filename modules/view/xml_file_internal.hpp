@@ -1,8 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include <vtkFloatArray.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkSmartPointer.h>
 
 #include "view/save_vtk.hpp"
@@ -15,11 +19,22 @@ namespace insonify {
 /// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed.
 void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who);
 
-/// Lists the units of fields in the text array `units` of the field data; `places` is what coordinates are.
-void list_units(vtkDataSet* data, const std::string& places, const std::vector<SampleField>& fields);
+/// A list of units, which becomes the text array `units` of the field data, "name: unit" each.
+using UnitList = std::vector<std::string>;
+void list_units(vtkDataSet* data, const UnitList& units);
 
-/// An array of cell data, with its unit as UNITS_LABEL if it has one.
-vtkSmartPointer<vtkFloatArray> cell_array(const std::string& name, const float* values, std::size_t count,
-                                          const std::string& unit = "");
+/// Adds an array of one value per cell or point, with its unit as UNITS_LABEL and in the list if it has one.
+template <typename Array, typename Values>
+void add_array(vtkDataSetAttributes* data, const std::string& name, const Values& values, const std::string& unit,
+               UnitList& units) {
+  const auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data->AddArray(array);
+  if (unit.empty()) return;
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
+  units.push_back(name + ": " + unit);
+}
 
 }  // namespace insonify

@@ -5,33 +5,8 @@
 #include "core/error.hpp"
 
 namespace insonify {
-namespace {
 
-std::vector<ReelPlace> places_of(const std::vector<Ping>& pings) {
-  std::vector<ReelPlace> places;
-  for (const Ping& ping : pings)
-    places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan, ping.absorption_db_per_m});
-  return places;
-}
-
-PingSource source_in_memory(std::vector<Ping> pings) {
-  const auto held = std::make_shared<const std::vector<Ping>>(std::move(pings));
-  PingSource source;
-  source.ping = [held](std::size_t i) { return (*held)[i]; };
-  source.beam = [held](std::size_t first, std::size_t count, std::size_t beam) {
-    ComplexGridF rows(static_cast<Eigen::Index>(count), (*held)[first].pressure.cols());
-    for (std::size_t i = 0; i < count; ++i)
-      rows.row(static_cast<Eigen::Index>(i)) = (*held)[first + i].pressure.row(static_cast<Eigen::Index>(beam));
-    return rows;
-  };
-  return source;
-}
-
-}  // namespace
-
-PingReel::PingReel(std::vector<Ping> pings) : places_(places_of(pings)), source_(source_in_memory(std::move(pings))) {}
-
-PingReel::PingReel(std::vector<ReelPlace> places, PingSource source)
+PingReel::PingReel(std::vector<TrackPoint> places, PingSource source)
     : places_(std::move(places)), source_(std::move(source)) {}
 
 std::shared_ptr<const Ping> PingReel::ping(std::size_t i) const {

@@ -6,19 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "returns/ping.hpp"
 #include "returns/soundings.hpp"
+#include "returns/ping.hpp"
 
 namespace insonify {
-
-/// When and from where a ping of a reel was sent.
-struct ReelPlace {
-  std::int64_t number = 0;
-  double time = 0;  ///< [s]
-  Pose world_from_head = Pose::Identity();
-  std::optional<ScanPlace> scan{};  ///< of a scanning head
-  double absorption_db_per_m = 0;   ///< as Ping::absorption_db_per_m
-};
 
 /// Reads pings by their index in a reel.
 struct PingSource {
@@ -33,19 +24,17 @@ struct PingSource {
 class PingReel {
  public:
   PingReel() = default;
-  /// Pings that are in memory.
-  explicit PingReel(std::vector<Ping> pings);
   /// `source.ping` and `source.beam` must be given.
-  PingReel(std::vector<ReelPlace> places, PingSource source);
+  PingReel(std::vector<TrackPoint> places, PingSource source);
 
   /// Number of pings.
   std::size_t size() const { return places_.size(); }
   /// Whether there is no ping.
   bool empty() const { return places_.empty(); }
   /// When and where ping `i` was sent.
-  const ReelPlace& place(std::size_t i) const { return places_[i]; }
+  const TrackPoint& place(std::size_t i) const { return places_[i]; }
   /// The same of all pings.
-  const std::vector<ReelPlace>& places() const { return places_; }
+  const std::vector<TrackPoint>& places() const { return places_; }
 
   /// Fan of every ping; read with the first one.
   const BeamFan& fan() const { return frame().fan; }
@@ -68,7 +57,7 @@ class PingReel {
   };
   const Frame& frame() const;
 
-  std::vector<ReelPlace> places_;
+  std::vector<TrackPoint> places_;
   PingSource source_;
   mutable std::optional<Frame> frame_;
   mutable std::shared_ptr<const Ping> last_;

@@ -7,20 +7,15 @@ namespace {
 
 constexpr double row_letters = 1.6;  // height of a row in sizes of its letters
 
-void add_left_text(Canvas& canvas, const std::string& words, Point2 left_middle, double room, int font) {
-  const FittedText fitted = fit_text(words, font, room);
-  const double width = text_size(fitted.text, fitted.font_size).width;
-  canvas.add_text({fitted.text, {left_middle.x + width / 2, left_middle.y}, fitted.font_size});
-}
-
 // A plate with its label; returns where it ends.
 double add_button(Canvas& canvas, const ViewerButton& button, Point2 left_middle, int font,
                   std::vector<PlacedButton>& placed) {
-  const double half = 0.68 * font, text = text_size(button.label, font).width;
+  const std::string label = key_label(button.key);
+  const double half = 0.68 * font, text = text_size(label, font).width;
   const double width = std::max(text + 0.8 * font, 1.7 * font);
   const Box box{left_middle.x, left_middle.x + width, left_middle.y - half, left_middle.y + half};
   canvas.add_plate(box, canvas.colours().line, 0.28);
-  canvas.add_text({button.label, {left_middle.x + width / 2, left_middle.y}, font});
+  canvas.add_text({label, {left_middle.x + width / 2, left_middle.y}, font});
   placed.push_back({box, button.key});
   return box.right;
 }
@@ -38,11 +33,8 @@ std::vector<PlacedButton> draw_key_rows(Canvas& canvas, const std::vector<Viewer
     double left = box.left;
     for (const ViewerButton& button : key.buttons)
       left = add_button(canvas, button, {left, middle}, font, placed) + gap;
-    if (key.buttons.empty()) {
-      add_left_text(canvas, key.keys, {left, middle}, box.width() / 3, font);
-      left += std::min(text_size(key.keys, font).width, box.width() / 3) + gap;
-    }
-    add_left_text(canvas, key.action, {left + gap, middle}, box.right - left - gap, font);
+    if (key.buttons.empty()) left = canvas.add_text_from({left, middle}, key.mouse, font, box.width() / 3) + gap;
+    canvas.add_text_from({left + gap, middle}, key.action, font, box.right - left - gap);
     middle -= row;
   }
   return placed;

@@ -5,12 +5,15 @@
 
 namespace insonify {
 
-Point2 ViewerWindow::on_panel(const Box& box, Point2 place) const { return {place.x - box.left, place.y - box.bottom}; }
+Point2 ViewerWindow::on_panel(ViewerPanelName name, Point2 place) const {
+  const Box& box = box_of(layout_, name);
+  return {place.x - box.left, place.y - box.bottom};
+}
 
 // Converts a place in the window to the fan's plane, since its camera may have moved.
 Point2 ViewerWindow::on_fan(Point2 place) const {
-  const Point2 own = on_panel(layout_.fan, place);
-  vtkCamera* camera = fan_.content->GetActiveCamera();
+  const Point2 own = on_panel(ViewerPanelName::fan, place);
+  vtkCamera* camera = panel(ViewerPanelName::fan).content->GetActiveCamera();
   const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
   const double* focus = camera->GetFocalPoint();
   return {focus[0] + (own.x - layout_.fan.width() / 2) * per_pixel,
@@ -19,7 +22,7 @@ Point2 ViewerWindow::on_fan(Point2 place) const {
 
 Point2 ViewerWindow::pixel_of(PixelPlace place) const {
   const Point2 at = fan_layout_.at(-image_->fan.azimuth[place.beam], image_->gate.centre(place.bin));
-  vtkCamera* camera = fan_.content->GetActiveCamera();
+  vtkCamera* camera = panel(ViewerPanelName::fan).content->GetActiveCamera();
   const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
   const double* focus = camera->GetFocalPoint();
   return {layout_.fan.left + layout_.fan.width() / 2 + (at.x - focus[0]) / per_pixel,
@@ -46,14 +49,10 @@ std::optional<Point2> ViewerWindow::pixel_of_button(const std::string& key) cons
 
 void ViewerWindow::click(Point2 place) {
   for (const PlacedButton& button : buttons_)
-    if (place.x >= button.box.left && place.x < button.box.right && place.y >= button.box.bottom &&
-        place.y < button.box.top)
-      return press_key(std::string(button.key));
-  const auto panel = panel_at(layout_, place);
-  if (panel == ViewerPanelName::fan) click_fan(place);
-  if (panel == ViewerPanelName::scene) click_scene(place);
-  if (panel == ViewerPanelName::ascan) click_ascan(place);
-  if (panel == ViewerPanelName::history) click_history(place);
+    if (button.box.holds(place)) return press_key(std::string(button.key));
+  const auto name = panel_at(layout_, place);
+  if (!name) return;
+  if (const auto act = panels_[static_cast<std::size_t>(*name)].click) (this->*act)(place);
 }
 
 void ViewerWindow::click_fan(Point2 place) {
@@ -68,7 +67,7 @@ void ViewerWindow::click_fan(Point2 place) {
 }
 
 void ViewerWindow::click_history(Point2 place) {
-  if (extent_.pings > 1) select_on_waterfall(history_axes_, history_page_, on_panel(layout_.history, place));
+  if (extent_.pings > 1) select_on_waterfall(history_axes_, history_page_, on_panel(ViewerPanelName::history, place));
 }
 
 void ViewerWindow::select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 place) {
@@ -100,7 +99,7 @@ void ViewerWindow::click_scene(Point2 place) {
 }
 
 void ViewerWindow::click_ascan(Point2 place) {
-  const auto bin = bin_at(*image_, ascan_axes_, on_panel(layout_.ascan, place));
+  const auto bin = bin_at(*image_, ascan_axes_, on_panel(ViewerPanelName::ascan, place));
   if (!bin) return;
   ViewerState next = state_;
   next.selected = PixelPlace{shown_place().beam, *bin};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "view/axes_internal.hpp"
+#include "view/drawing_internal.hpp"
 #include "view/off_screen_internal.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_window_internal.hpp"
@@ -15,8 +16,6 @@ constexpr double slider_rows = 13;  // lines of text that the sliders occupy
 bool same_colours(const ViewerState& a, const ViewerState& b) {
   return a.tvg == b.tvg && a.gain_db == b.gain_db && a.window_db == b.window_db && a.colour_map == b.colour_map;
 }
-
-bool same_levels(const ViewerState& a, const ViewerState& b) { return a.ping == b.ping && same_colours(a, b); }
 
 }  // namespace
 
@@ -65,67 +64,85 @@ void ViewerWindow::update_data() {
   explanation_ = explain_pixel(*facts_);
 }
 
+const ViewerWindow::Panel ViewerWindow::panels_[] = {{&ViewerWindow::draw_picture, &ViewerWindow::click_fan},
+                                                     {&ViewerWindow::draw_scene, &ViewerWindow::click_scene},
+                                                     {&ViewerWindow::draw_beam, &ViewerWindow::click_ascan},
+                                                     {&ViewerWindow::draw_history, &ViewerWindow::click_history},
+                                                     {&ViewerWindow::draw_facts},
+                                                     {&ViewerWindow::draw_timeline},
+                                                     {&ViewerWindow::draw_status}};
+
 void ViewerWindow::draw() {
   if (drawn_ && drawn_->show_colour_bars != state_.show_colour_bars) lay_out();
   buttons_.clear();
   update_data();
-  if (state_.mode == ViewerMode::run) {
-    draw_picture(drawn_.has_value());
-    mark_picture();
-    draw_charts();
-  }
-  draw_scene();
-  draw_words();
+  for (const ViewerPanelPlace& place : viewer_panels)
+    if (const Box& box = layout_.*place.box; box.width() > 0 && box.height() > 0)
+      (this->*panels_[static_cast<std::size_t>(place.value)].draw)(panel(place.value), options_for(box));
+  draw_over();
   if (sliders_) sliders_->set(state_.gain_db, state_.window_db, static_cast<double>(state_.ping));
   drawn_ = state_;
   window_->Render();
 }
 
+// True if the panels show the levels of this ping in these colours already.
+bool ViewerWindow::levels_stay() const {
+  return drawn_ && drawn_->ping == state_.ping && same_colours(*drawn_, state_);
+}
+
 // The first panel: fan or sweep of the ping, or the waterfall that it is in.
-void ViewerWindow::draw_picture(bool keep_camera) {
-  PictureOptions options = options_for(layout_.fan);
+void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& asked) {
+  PictureOptions options = asked;
   options.title = data_.title;
   if (picture_ == ViewerPicture::waterfall) {
     const PageOfPings page = page_of(data_.pings, state_.ping);
     const bool stays = drawn_ && same_colours(*drawn_, state_) && page.first == picture_page_.first;
     turn_page(picture_page_, data_.pings, page.first, page.count, 0);
-    if (!stays)
-      picture_axes_ = draw_waterfall_panel(fan_, history_of(data_, picture_page_, state_.tvg), options, keep_camera);
-    return;
+    if (!stays) {
+      Canvas canvas = fresh_canvas(panel.content, options, drawn_.has_value());
+      picture_axes_ = draw_waterfall(canvas, history_of(record_of(data_, picture_page_, state_.tvg)), options);
+    }
+  } else if (!levels_stay()) {
+    if (extent_.pings > 1) options.title += ", ping " + std::to_string(data_.pings.place(state_.ping).number);
+    if (picture_ == ViewerPicture::sweep) sweep_ = sweep_at(data_, state_.ping, state_.tvg, picture_page_);
+    Canvas canvas = fresh_canvas(panel.content, options, drawn_.has_value());
+    fan_layout_ = draw_fan(canvas, picture_ == ViewerPicture::sweep ? sweep_.image : *image_, options);
   }
-  if (drawn_ && same_levels(*drawn_, state_)) return;
-  if (extent_.pings > 1) options.title += ", ping " + std::to_string(data_.pings.place(state_.ping).number);
-  if (picture_ == ViewerPicture::sweep) sweep_ = sweep_at(data_, state_.ping, state_.tvg, picture_page_);
-  fan_layout_ = draw_fan_panel(fan_, picture_ == ViewerPicture::sweep ? sweep_.image : *image_, options, keep_camera);
+  mark_picture(panel, asked);
 }
 
-void ViewerWindow::mark_picture() {
-  const PictureOptions options = options_for(layout_.fan);
+void ViewerWindow::mark_picture(ViewerPanel& panel, const PictureOptions& options) {
   std::optional<double> range;
   if (state_.selected) range = image_->gate.centre(state_.selected->bin);
   if (picture_ == ViewerPicture::waterfall)
-    return mark_waterfall(fan_, picture_axes_, static_cast<double>(state_.ping - picture_page_.first), range, options,
+    return mark_waterfall(panel, picture_axes_, static_cast<double>(state_.ping - picture_page_.first), range, options,
                           true);
   FanMarks marks{{}, range, state_.measure};
   if (picture_ == ViewerPicture::sweep) marks.bearing = -image_->fan.azimuth[0];
   if (state_.selected) marks.bearing = -image_->fan.azimuth[state_.selected->beam];
-  mark_fan(fan_, fan_layout_, marks, options);
+  mark_fan(panel, fan_layout_, marks, options);
 }
 
-void ViewerWindow::draw_charts() {
-  const bool levels_stay = drawn_ && same_levels(*drawn_, state_);
+// The levels of a beam.
+void ViewerWindow::draw_beam(ViewerPanel& panel, const PictureOptions& options) {
   const PixelPlace place = shown_place();
-  if (!levels_stay || drawn_->selected != state_.selected)
-    ascan_axes_ = draw_ascan_panel(ascan_, *image_, place.beam, options_for(layout_.ascan));
-  mark_ascan(ascan_, *image_, ascan_axes_, place, options_for(layout_.ascan));
-  if (parts().history) draw_history(place, levels_stay);
+  if (!levels_stay() || drawn_->selected != state_.selected) {
+    PictureOptions own = options;
+    own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // automatic limits of this beam
+    Canvas canvas = fresh_canvas(panel.content, own, false);
+    ascan_axes_ = draw_ascan(canvas, *image_, place.beam, own);
+  }
+  mark_ascan(panel, *image_, ascan_axes_, place, options);
 }
 
 // One beam ping after ping with the row of the ping; of a single ping the levels across its beams.
-void ViewerWindow::draw_history(PixelPlace place, bool levels_stay) {
-  PictureOptions options = options_for(layout_.history);
+void ViewerWindow::draw_history(ViewerPanel& panel, const PictureOptions& asked) {
+  PictureOptions options = asked;
+  const PixelPlace place = shown_place();
   if (extent_.pings < 2) {
-    if (!levels_stay || drawn_->selected != state_.selected) draw_bearing_panel(history_, *image_, place, options);
+    if (levels_stay() && drawn_->selected == state_.selected) return;
+    Canvas canvas = fresh_canvas(panel.content, options, false);
+    draw_line_chart(canvas, bearing_chart(*image_, place, options), options);
     return;
   }
   const PageOfPings page = page_of(data_.pings, state_.ping);
@@ -133,15 +150,16 @@ void ViewerWindow::draw_history(PixelPlace place, bool levels_stay) {
       drawn_ && same_colours(*drawn_, state_) && page.first == history_page_.first && place.beam == history_page_.beam;
   turn_page(history_page_, data_.pings, page.first, page.count, place.beam);
   options.title = "Beam " + std::to_string(place.beam) + ", ping after ping";
-  if (!stays)
-    history_axes_ = draw_waterfall_panel(history_, history_of(data_, history_page_, state_.tvg), options, false);
+  if (!stays) {
+    Canvas canvas = fresh_canvas(panel.content, options, false);
+    history_axes_ = draw_waterfall(canvas, history_of(record_of(data_, history_page_, state_.tvg)), options);
+  }
   std::optional<double> range;
   if (state_.selected) range = image_->gate.centre(place.bin);
-  mark_waterfall(history_, history_axes_, static_cast<double>(state_.ping - history_page_.first), range, options,
-                 false);
+  mark_waterfall(panel, history_axes_, static_cast<double>(state_.ping - history_page_.first), range, options, false);
 }
 
-void ViewerWindow::draw_scene() {
+void ViewerWindow::draw_scene(ViewerPanel&, const PictureOptions& options) {
   if (!scene_) return;
   scene_->update(state_, head_view_ ? &*head_view_ : nullptr, max_db_[1] - state_.gain_db);
   if (facts_)
@@ -150,14 +168,14 @@ void ViewerWindow::draw_scene() {
     scene_->highlight({*state_.surfel});
   else
     scene_->highlight({});
-  scene_->draw_key(options_for(layout_.scene), layout_.scene_view.width(), state_);
+  scene_->draw_key(options, layout_.scene_view.width(), state_);
 }
 
 std::string ViewerWindow::status_text() const {
   if (!notice_.empty()) return notice_;
   if (state_.mode == ViewerMode::inspect)
     return pose_option(state_.head) + "   p prints it   arrows, PageUp, PageDown move, with shift they turn   h help";
-  const ReelPlace& place = data_.pings.place(state_.ping);
+  const TrackPoint& place = data_.pings.place(state_.ping);
   std::string text = "ping " + std::to_string(state_.ping + 1) + " of " + std::to_string(extent_.pings);
   if (extent_.pings > 1) text += " at " + number_text(place.time, 0.01) + " s";
   if (place.scan) text += ", sweep " + std::to_string(place.scan->sweep);
@@ -169,34 +187,36 @@ std::string ViewerWindow::status_text() const {
   return text + "   h help";
 }
 
-void ViewerWindow::draw_words() {
-  const int font = layout_.font_size;
-  draw_facts();
-  const PictureOptions status_options = panel_options(layout_.status, font);
-  Canvas status = fresh_canvas(status_.content, status_options, false);
-  add_text_lines(status, status_text(),
-                 {font * 1.0, status_options.width - 1.0 * font, 0, status_options.height - 0.25 * font}, font);
+void ViewerWindow::draw_status(ViewerPanel& panel, const PictureOptions& options) {
+  const double font = options.font_size;
+  Canvas canvas = fresh_canvas(panel.content, options, false);
+  add_text_lines(canvas, status_text(), {font, options.width - font, 0, options.height - 0.25 * font},
+                 options.font_size);
+}
 
-  if (parts().timeline) fresh_canvas(timeline_.content, panel_options(layout_.timeline, font), false);
+// An empty ground for the slider.
+void ViewerWindow::draw_timeline(ViewerPanel& panel, const PictureOptions& options) {
+  fresh_canvas(panel.content, options, false);
+}
 
-  // On top of everything: help, or the borders of the panels.
+// On top of everything: help, or the borders of the panels.
+void ViewerWindow::draw_over() {
   const Box whole{0, layout_.facts.right, 0, layout_.facts.top};
-  Canvas over = fresh_canvas(help_.content, panel_options(whole, font), false);
+  Canvas canvas = fresh_canvas(over_.content, panel_options(whole, layout_.font_size), false);
   if (state_.show_help) {
-    buttons_ = draw_help(over, state_.mode, whole, font);
+    buttons_ = draw_help(canvas, state_.mode, whole, layout_.font_size);
     return;
   }
   for (const Box& box : {layout_.fan, layout_.scene, layout_.ascan, layout_.history, layout_.timeline, layout_.facts})
     if (box.width() > 0 && box.height() > 0)
-      over.add_lines({{{box.left, box.top}, {box.left, box.bottom}, {box.right, box.bottom}}}, 1, over.colours().line,
-                     0.35);
+      canvas.add_lines({{{box.left, box.top}, {box.left, box.bottom}, {box.right, box.bottom}}}, 1,
+                       canvas.colours().line, 0.35);
 }
 
 // The explanation, and below it a button for every key as far as there is room.
-void ViewerWindow::draw_facts() {
+void ViewerWindow::draw_facts(ViewerPanel& panel, const PictureOptions& options) {
   const int font = layout_.font_size, small = std::max(9, (9 * font) / 10);
-  const PictureOptions options = panel_options(layout_.facts, font);
-  Canvas facts = fresh_canvas(facts_panel_.content, options, false);
+  Canvas facts = fresh_canvas(panel.content, options, false);
   const double below = sliders_ ? slider_rows * font : font, top = options.height - 0.8 * font;
   std::string words = explanation_;
   if (words.empty())

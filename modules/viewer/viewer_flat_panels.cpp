@@ -2,56 +2,17 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "returns/looks.hpp"
-#include "returns/quantise.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/drawn_cells_internal.hpp"
+#include "view/ping_record.hpp"
 #include "viewer/viewer_flat_panels_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
+constexpr int ring_sides = 24;
 constexpr std::size_t sampled_pings = 16;  // for the common scale
-
-// Levels of the beams at one range, by bearing; of a head with rows of beams, those of the row.
-LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options) {
-  constexpr double same_row = 1e-6;  // [rad]
-  std::vector<std::size_t> order;
-  for (std::size_t b = 0; b < image.fan.beams(); ++b)
-    if (image.fan.row_width == 0 || std::abs(image.fan.elevation[b] - image.fan.elevation[place.beam]) < same_row)
-      order.push_back(b);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return image.fan.azimuth[a] > image.fan.azimuth[b]; });
-  LineChart chart;
-  ChartLine& line = chart.lines[0];
-  double highest = -200;
-  for (const std::size_t b : order) {
-    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(place.bin));
-    line.x.push_back(-degrees(image.fan.azimuth[b]));
-    line.y.push_back(std::isfinite(level) ? level : -200);
-    highest = std::max(highest, line.y.back());
-  }
-  chart.low_x = line.x.front();
-  chart.high_x = std::max(line.x.back(), chart.low_x + 1e-3);
-  chart.high_y = 5 * std::floor(highest / 5) + 5;
-  chart.low_y = chart.high_y - options.window_db;
-  for (double& y : line.y) y = std::max(y, chart.low_y - options.window_db);
-  chart.title = "Across the beams at " + number_text(image.gate.centre(place.bin), 0.01) + " m";
-  if (image.fan.row_width > 0)
-    chart.title += ", row at " + bearing_text(degrees(image.fan.elevation[place.beam]), 0.1) + " elevation";
-  chart.x_title = "Bearing [°], positive to starboard";
-  chart.y_title = "Level, " + image.unit;
-  return chart;
-}
-
-Path ring(Point2 centre, double radius) {
-  Path path;
-  for (int i = 0; i <= 24; ++i)
-    path.push_back({centre.x + radius * std::cos(2 * pi * i / 24), centre.y + radius * std::sin(2 * pi * i / 24)});
-  path.back() = path.front();
-  return path;
-}
 
 Path arc_of(const FanLayout& layout, double range) {
   constexpr int steps = 256;
@@ -65,7 +26,7 @@ void mark_measure(Canvas& canvas, const FanLayout& layout, const Measure& measur
   std::vector<Point2> at;
   for (const Eigen::Vector2d& p : measure.points)
     at.push_back({layout.apex.x + p.x() * layout.pixels_per_metre, layout.apex.y + p.y() * layout.pixels_per_metre});
-  for (const Point2& p : at) canvas.add_lines({ring(p, 4)}, 2, measure_colour, 1);
+  for (const Point2& p : at) canvas.add_lines({ring(p, 4, ring_sides)}, 2, measure_colour, 1);
   if (at.size() < 2) return;
   canvas.add_lines({{at[0], at[1]}}, 2, measure_colour, 1);
   PlacedText length(number_text(measure.length(), 0.001) + " m",
@@ -98,13 +59,10 @@ std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing,
 }  // namespace
 
 LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
-  const auto shown = data.pings.ping(ping_index);
-  const Ping& ping = *shown;
-  LevelImage image{ping.fan, ping.gate, shown_level_db(ping), level_unit(tvg),
-                   looks_down(ping.world_from_head, ping.scan)};
-  if (ping.scan)
-    for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping.scan->angle, 2 * pi);
-  if (tvg) image.level_db = apply_tvg(std::move(image.level_db), ping.gate, {40, ping.absorption_db_per_m});
+  const auto ping = data.pings.ping(ping_index);
+  LevelImage image = level_image(*ping, tvg ? std::optional(Tvg{40, ping->absorption_db_per_m}) : std::nullopt);
+  if (ping->scan)
+    for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping->scan->angle, 2 * pi);
   return image;
 }
 
@@ -117,27 +75,34 @@ std::array<double, 2> common_max_db(const ViewerData& data) {
   return highest;
 }
 
-FanLayout draw_fan_panel(ViewerPanel& panel, const LevelImage& image, const PictureOptions& options, bool keep_camera) {
-  Canvas canvas = fresh_canvas(panel.content, options, keep_camera);
-  return draw_fan(canvas, image, options);
-}
-
-Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t beam, const PictureOptions& options) {
-  PictureOptions own = options;
-  own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // automatic limits of this beam
-  Canvas canvas = fresh_canvas(panel.content, own, false);
-  return draw_ascan(canvas, image, beam, own);
-}
-
-void draw_bearing_panel(ViewerPanel& panel, const LevelImage& image, PixelPlace place, const PictureOptions& options) {
-  Canvas canvas = fresh_canvas(panel.content, options, false);
-  draw_line_chart(canvas, bearing_chart(image, place, options), options);
-}
-
-Axes draw_waterfall_panel(ViewerPanel& panel, const PingHistory& history, const PictureOptions& options,
-                          bool keep_camera) {
-  Canvas canvas = fresh_canvas(panel.content, options, keep_camera);
-  return draw_waterfall(canvas, history, options);
+LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options) {
+  constexpr double same_row = 1e-6;  // [rad]
+  std::vector<std::size_t> order;
+  for (std::size_t b = 0; b < image.fan.beams(); ++b)
+    if (image.fan.row_width == 0 || std::abs(image.fan.elevation[b] - image.fan.elevation[place.beam]) < same_row)
+      order.push_back(b);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return image.fan.azimuth[a] > image.fan.azimuth[b]; });
+  LineChart chart;
+  ChartLine& line = chart.lines[0];
+  double highest = -200;
+  for (const std::size_t b : order) {
+    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(place.bin));
+    line.x.push_back(-degrees(image.fan.azimuth[b]));
+    line.y.push_back(std::isfinite(level) ? level : -200);
+    highest = std::max(highest, line.y.back());
+  }
+  chart.low_x = line.x.front();
+  chart.high_x = std::max(line.x.back(), chart.low_x + 1e-3);
+  chart.high_y = next_five(highest);
+  chart.low_y = chart.high_y - options.window_db;
+  for (double& y : line.y) y = std::max(y, chart.low_y - options.window_db);
+  chart.title = "Across the beams at " + number_text(image.gate.centre(place.bin), 0.01) + " m";
+  if (image.fan.row_width > 0)
+    chart.title += ", row at " + bearing_text(degrees(image.fan.elevation[place.beam]), 0.1) + " elevation";
+  chart.x_title = "Bearing [°], positive to starboard";
+  chart.y_title = "Level, " + image.unit;
+  return chart;
 }
 
 void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks, const PictureOptions& options) {
@@ -147,7 +112,8 @@ void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks
                      mark_colour, 0.45);
   if (marks.bearing && marks.range) {
     canvas.add_lines({arc_of(layout, *marks.range)}, 1, mark_colour, 0.45);
-    canvas.add_lines({ring(layout.at(*marks.bearing, *marks.range), 0.55 * options.font_size)}, 2, mark_colour, 1);
+    canvas.add_lines({ring(layout.at(*marks.bearing, *marks.range), 0.55 * options.font_size, ring_sides)}, 2,
+                     mark_colour, 1);
   }
   mark_measure(canvas, layout, marks.measure, options.font_size);
 }
@@ -160,7 +126,7 @@ void mark_waterfall(ViewerPanel& panel, const Axes& axes, double row, std::optio
   if (!range) return;
   const double x = axes.at(*range, axes.low_y).x;
   canvas.add_lines({{{x, axes.frame.bottom}, {x, axes.frame.top}}}, 1, mark_colour, 0.35);
-  canvas.add_lines({ring({x, y}, 0.55 * options.font_size)}, 2, mark_colour, 1);
+  canvas.add_lines({ring({x, y}, 0.55 * options.font_size, ring_sides)}, 2, mark_colour, 1);
 }
 
 void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
@@ -188,17 +154,9 @@ std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place) {
   return PixelPlace{*beam, static_cast<std::size_t>(bin)};
 }
 
-namespace {
-
-bool within(const Box& frame, Point2 place) {
-  return place.x >= frame.left && place.x <= frame.right && place.y >= frame.bottom && place.y <= frame.top;
-}
-
-}  // namespace
-
 std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place) {
   const Box& frame = axes.frame;
-  if (!within(frame, place)) return {};
+  if (!frame.contains({place.x, place.x, place.y, place.y})) return {};
   const double range = axes.low_x + (axes.high_x - axes.low_x) * (place.x - frame.left) / frame.width();
   const double bin = std::floor((range - image.gate.min_range) / image.gate.bin_size);
   if (!(bin >= 0 && bin < static_cast<double>(image.level_db.cols()))) return {};
@@ -207,7 +165,7 @@ std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Poi
 
 std::optional<std::size_t> row_at(const Axes& axes, Point2 place) {
   const Box& frame = axes.frame;
-  if (!within(frame, place)) return {};
+  if (!frame.contains({place.x, place.x, place.y, place.y})) return {};
   const double row = axes.low_y + (axes.high_y - axes.low_y) * (place.y - frame.bottom) / frame.height();
   return static_cast<std::size_t>(std::clamp(std::floor(row), 0.0, std::max(0.0, axes.high_y - 1)));
 }

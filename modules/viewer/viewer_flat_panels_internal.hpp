@@ -7,6 +7,7 @@
 
 #include "view/axes_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "view/line_chart_internal.hpp"
 #include "view/picture.hpp"
 #include "view/show_image.hpp"
 #include "viewer/viewer_data.hpp"
@@ -15,9 +16,6 @@
 
 namespace insonify {
 
-/// Unit of levels, range compensated if `tvg`.
-inline std::string level_unit(bool tvg) { return tvg ? "dB re 1 µPa at 1 m, range compensated" : "dB re 1 µPa"; }
-
 /// Levels of one ping, range compensated if `tvg`; bearings of a scanning head include its turn.
 LevelImage levels_of(const ViewerData& data, std::size_t ping, bool tvg);
 
@@ -25,14 +23,8 @@ LevelImage levels_of(const ViewerData& data, std::size_t ping, bool tvg);
 /// does not flicker; by at most 16 of them.
 std::array<double, 2> common_max_db(const ViewerData& data);
 
-/// Draw into emptied panels; fan and chart return their layout. `options` gives size, colours and limits.
-FanLayout draw_fan_panel(ViewerPanel& panel, const LevelImage& image, const PictureOptions& options, bool keep_camera);
-Axes draw_ascan_panel(ViewerPanel& panel, const LevelImage& image, std::size_t beam, const PictureOptions& options);
-/// Draws the levels across the beams at the range of a sample; of a head with rows of beams, along its row.
-void draw_bearing_panel(ViewerPanel& panel, const LevelImage& image, PixelPlace place, const PictureOptions& options);
-/// Draws one beam ping after ping; the axes have ranges across and rows upwards, row r from r to r + 1.
-Axes draw_waterfall_panel(ViewerPanel& panel, const PingHistory& history, const PictureOptions& options,
-                          bool keep_camera);
+/// Levels of the beams at the range of a sample, by bearing; of a head with rows of beams, those of its row.
+LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options);
 
 /// What is marked on a fan.
 struct FanMarks {

@@ -16,9 +16,6 @@ namespace {
 constexpr int min_width = 800, min_height = 600, largest = 8192;
 constexpr double facts_share = 0.19, lower_share = 0.36;
 constexpr double key_letters = 12;  // width of the scene's key in sizes of its letters
-constexpr ViewerPanelName all_panels[] = {ViewerPanelName::fan,     ViewerPanelName::scene, ViewerPanelName::ascan,
-                                          ViewerPanelName::history, ViewerPanelName::facts, ViewerPanelName::timeline,
-                                          ViewerPanelName::status};
 
 }  // namespace
 
@@ -65,20 +62,11 @@ void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int
   double middle = box.top - line / 2;
   std::istringstream lines(text);
   for (std::string words; std::getline(lines, words) && middle - line / 2 >= box.bottom; middle -= line) {
-    if (words.empty()) continue;
-    const double indent = static_cast<double>(words.find_first_not_of(' ')) * 0.5 * font_size;
-    const FittedText fitted =
-        fit_text(words.substr(std::min(words.find_first_not_of(' '), words.size())), font_size, box.width() - indent);
-    const double width = text_size(fitted.text, fitted.font_size).width;
-    canvas.add_text({fitted.text, {box.left + indent + width / 2, middle}, fitted.font_size});
+    const std::size_t spaces = words.find_first_not_of(' ');
+    if (spaces == words.npos) continue;
+    const double indent = 0.5 * font_size * static_cast<double>(spaces);
+    canvas.add_text_from({box.left + indent, middle}, words.substr(spaces), font_size, box.width() - indent);
   }
-}
-
-const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
-  constexpr Box ViewerLayout::*boxes[] = {&ViewerLayout::fan,     &ViewerLayout::scene, &ViewerLayout::ascan,
-                                          &ViewerLayout::history, &ViewerLayout::facts, &ViewerLayout::timeline,
-                                          &ViewerLayout::status};
-  return layout.*boxes[static_cast<std::size_t>(name)];
 }
 
 ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerParts& parts) {
@@ -111,10 +99,8 @@ ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const Viewer
 }
 
 std::optional<ViewerPanelName> panel_at(const ViewerLayout& layout, Point2 place) {
-  for (const ViewerPanelName name : all_panels) {
-    const Box& box = box_of(layout, name);
-    if (place.x >= box.left && place.x < box.right && place.y >= box.bottom && place.y < box.top) return name;
-  }
+  for (const ViewerPanelPlace& panel : viewer_panels)
+    if ((layout.*panel.box).holds(place)) return panel.value;
   return {};
 }
 

@@ -21,10 +21,25 @@ struct ViewerLayout {
   Box scene_view;  ///< the part of `scene` that the scene itself fills
 };
 
-/// Names of the panels in scripts.
+/// The panels of a window.
 enum class ViewerPanelName { fan, scene, ascan, history, facts, timeline, status };
+/// A row of the table of panels.
+struct ViewerPanelPlace {
+  const char* name;  ///< in scripts
+  ViewerPanelName value;
+  Box ViewerLayout::*box;
+};
+inline constexpr ViewerPanelPlace viewer_panels[] = {{"fan", ViewerPanelName::fan, &ViewerLayout::fan},
+                                                     {"scene", ViewerPanelName::scene, &ViewerLayout::scene},
+                                                     {"ascan", ViewerPanelName::ascan, &ViewerLayout::ascan},
+                                                     {"history", ViewerPanelName::history, &ViewerLayout::history},
+                                                     {"facts", ViewerPanelName::facts, &ViewerLayout::facts},
+                                                     {"timeline", ViewerPanelName::timeline, &ViewerLayout::timeline},
+                                                     {"status", ViewerPanelName::status, &ViewerLayout::status}};
 /// Returns the box of a panel.
-const Box& box_of(const ViewerLayout& layout, ViewerPanelName name);
+inline const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
+  return layout.*viewer_panels[static_cast<std::size_t>(name)].box;
+}
 
 /// Which panels a window has, besides those that every one of its mode has.
 struct ViewerParts {

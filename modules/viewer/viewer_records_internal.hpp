@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "view/show_image.hpp"
+#include "view/ping_record.hpp"
 #include "viewer/viewer_data.hpp"
 
 namespace insonify {
@@ -25,14 +25,9 @@ struct PageOfPings {
 PageOfPings page_of(const PingReel& pings, std::size_t ping);
 
 /// The levels of a page, range compensated if `tvg`.
-PingHistory history_of(const ViewerData& data, const BeamPage& page, bool tvg);
+BeamRecord record_of(const ViewerData& data, const BeamPage& page, bool tvg);
 
-/// What the display of a scanning head of one beam shows at a ping: every bearing of the sweep as it was heard last;
-/// what was not heard yet is silent.
-struct SweepImage {
-  LevelImage image;
-  std::vector<std::size_t> ping;  ///< by beam of the image: the ping that heard it, or will
-};
+/// What the display of a scanning head of one beam shows at a ping, with places of pings in the reel.
 SweepImage sweep_at(const ViewerData& data, std::size_t ping, bool tvg, BeamPage& page);
 
 }  // namespace insonify

@@ -3,9 +3,9 @@
 
 #include <vtkCamera.h>
 
-#include "returns/sounding_columns.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/fan_layout_internal.hpp"
+#include "view/ping_record.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 
@@ -24,18 +24,10 @@ SceneCloud scene_of_returns(const Soundings& returns) {
 // The returns of one ping, range compensated (E20). Pings are matched by number, or, if none matches, by their index.
 Soundings returns_of(const ViewerData& data, std::size_t ping) {
   const Soundings all = data.pings.has_returns() ? data.pings.returns(ping) : data.returns;
-  const auto count_of = [&](std::int64_t number) { return std::count(all.ping.begin(), all.ping.end(), number); };
-  const std::int64_t number = data.pings.place(ping).number;
-  const auto wanted = static_cast<std::uint32_t>(count_of(number) > 0 ? number : static_cast<std::int64_t>(ping));
-  Soundings own;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all.ping[i] != wanted) continue;
-    const double range = all.range[i];
-    const double gain = 40 * std::log10(range) + 2 * data.pings.place(ping).absorption_db_per_m * range;
-    append_row(own, all, i);
-    own.level_db.back() = static_cast<float>(static_cast<double>(all.level_db[i]) + gain);
-  }
-  return own;
+  const TrackPoint& place = data.pings.place(ping);
+  const bool by_number = std::count(all.ping.begin(), all.ping.end(), place.number) > 0;
+  return soundings_of_ping(all, by_number ? place.number : static_cast<std::int64_t>(ping),
+                           Tvg{40, place.absorption_db_per_m});
 }
 
 // By SceneColour.
@@ -48,11 +40,8 @@ double draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, doubl
   const double row = 1.5 * font;
   double middle = top - row / 2;
   for (const LegendEntry& entry : legend) {
-    const Colour colour = {entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0};
-    const FittedText fitted = fit_text(entry.text, font, right - left - 1.6 * font);
-    const double width = text_size(fitted.text, fitted.font_size).width;
-    canvas.add_lines({{{left, middle}, {left + font, middle}}}, font, colour, 1);
-    canvas.add_text({fitted.text, {left + 1.6 * font + width / 2, middle}, fitted.font_size});
+    canvas.add_lines({{{left, middle}, {left + font, middle}}}, font, shares_of(entry.colour), 1);
+    canvas.add_text_from({left + 1.6 * font, middle}, entry.text, font, right - left - 1.6 * font);
     middle -= row;
   }
   return middle + row / 2;
@@ -69,8 +58,8 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   look.axes = state.show_grid;
   look.point_size = state.point_size;
   look.head = head_of(state);
-  look.level_unit = "dB re 1 µPa at 1 m, range compensated";
-  for (const ReelPlace& place : data.pings.places()) look.track.emplace_back(place.world_from_head.translation());
+  look.level_unit = level_unit(Tvg{});
+  for (const TrackPoint& place : data.pings.places()) look.track.emplace_back(place.world_from_head.translation());
   if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
   PictureOptions coloured = options;
   coloured.colour_map = state.colour_map;
@@ -164,7 +153,7 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
 }
 
 void ViewerScene::reset_camera() {
-  actors_->place_camera(panel_.content, {});
+  actors_->place_camera(panel_.content, ScenePreset::automatic);
   follow_camera();
 }
 

@@ -33,13 +33,10 @@ std::string word_in(std::istringstream& words, const std::string& event, const c
 }
 
 ViewerPanelName panel_in(std::istringstream& words, const std::string& event) {
-  const std::string name = word_in(words, event, "a panel: fan, scene, ascan, history, facts or timeline");
-  constexpr Named<ViewerPanelName> panels[] = {
-      {"fan", ViewerPanelName::fan},     {"scene", ViewerPanelName::scene},
-      {"ascan", ViewerPanelName::ascan}, {"history", ViewerPanelName::history},
-      {"facts", ViewerPanelName::facts}, {"timeline", ViewerPanelName::timeline}};
-  if (const ViewerPanelName* panel = find_named(panels, name)) return *panel;
-  refuse(event, "no panel is called '" + name + "'; there are fan, scene, ascan, history, facts, timeline");
+  const std::string names = joined(viewer_panels, ", ", &ViewerPanelPlace::name);
+  const std::string name = word_in(words, event, ("a panel: " + names).c_str());
+  if (const ViewerPanelName* panel = find_named(viewer_panels, name)) return *panel;
+  refuse(event, "no panel is called '" + name + "'; there are " + names);
 }
 
 Point2 point_in(std::istringstream& words, const std::string& event) {

@@ -20,7 +20,7 @@ struct ViewerEvent {
 
 /// Parses events separated by semicolons or line ends; # starts a comment:
 ///   click PANEL X Y; drag PANEL X Y DX DY; key NAME; select BEAM BIN; wait SECONDS; screenshot FILE.png; quit
-/// PANEL is fan, scene, ascan, history, facts or timeline. Throws Error(argument) naming the event.
+/// PANEL is a name of viewer_panels. Throws Error(argument) naming the event.
 std::vector<ViewerEvent> parse_viewer_script(const std::string& text);
 
 }  // namespace insonify

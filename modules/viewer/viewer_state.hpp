@@ -72,16 +72,22 @@ struct KeyAnswer {
   ViewerRequest request = ViewerRequest::none;
 };
 
-/// A button that presses a key.
+/// A key with a button, and what it does to the state, or asks of the window.
 struct ViewerButton {
-  std::string label, key;  ///< `key`: as apply_key takes it
+  std::string key;                                                ///< as apply_key takes it
+  void (*press)(ViewerState& state, const ViewerExtent& extent);  ///< changes the state
+  std::vector<std::string> also{};                                ///< other keys that do the same
+  ViewerRequest request = ViewerRequest::none;
 };
-/// A row of the table of keys. A row without buttons is about the mouse.
+/// A row of the table of keys, from which help, buttons and apply_key are made. A row without buttons is about the mouse.
 struct ViewerKey {
-  std::string keys, action;
-  std::vector<ViewerButton> buttons{};
+  std::string action;
+  std::vector<ViewerButton> buttons;
+  std::string mouse{};  ///< what the mouse does, of a row without buttons
 };
-/// The table shown as help.
+/// What stands on a key, e.g. "[" for "bracketleft".
+std::string key_label(const std::string& key);
+/// The table of a mode.
 std::vector<ViewerKey> viewer_keys(ViewerMode mode);
 /// The table as text, one row per line.
 std::string viewer_help(ViewerMode mode);

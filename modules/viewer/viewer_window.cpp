@@ -52,13 +52,13 @@ ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options,
   layout_ = lay_out_viewer(options.width, options.height, state_.mode, parts());
   if (state_.mode == ViewerMode::run) max_db_ = common_max_db(data);
   open(options);
-  for (ViewerPanel* panel : {&fan_, &scene_panel_, &ascan_, &history_, &facts_panel_, &timeline_, &status_})
-    *panel = add_panel(window_);
-  fan_.marks->SetActiveCamera(fan_.content->GetActiveCamera());
+  for (ViewerPanel& each : shown_) each = add_panel(window_);
+  const ViewerPanel& fan = panel(ViewerPanelName::fan);
+  fan.marks->SetActiveCamera(fan.content->GetActiveCamera());
   lay_out();
   if (ViewerScene::has_content(data))
-    scene_ =
-        std::make_unique<ViewerScene>(data, scene_panel_, state_, panel_options(layout_.scene_view, layout_.font_size));
+    scene_ = std::make_unique<ViewerScene>(data, panel(ViewerPanelName::scene), state_,
+                                           panel_options(layout_.scene_view, layout_.font_size));
   connect_style();
   if (state_.mode == ViewerMode::run)
     sliders_ = std::make_unique<ViewerSliders>(
@@ -71,9 +71,9 @@ ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options,
           next.ping = std::min(asked, extent_.pings - 1);
           guarded([&] { change(next); });
         });
-  help_ = add_panel(window_);
-  help_.content->SetLayer(1);
-  help_.content->InteractiveOff();
+  over_ = add_panel(window_);
+  over_.content->SetLayer(1);
+  over_.content->InteractiveOff();
   lay_out();
 }
 
@@ -117,7 +117,9 @@ void ViewerWindow::connect_style() {
     if (!moving) draw();
   };
   interactor_->SetInteractorStyle(style_);
-  if (scene_) scene_panel_.content->AddObserver(vtkCommand::StartEvent, scene_.get(), &ViewerScene::follow_camera);
+  if (scene_)
+    panel(ViewerPanelName::scene)
+        .content->AddObserver(vtkCommand::StartEvent, scene_.get(), &ViewerScene::follow_camera);
 }
 
 // Shows an error of a user action in the status line and keeps the window open.
@@ -144,17 +146,11 @@ ViewerParts ViewerWindow::parts() const {
 void ViewerWindow::lay_out() {
   const int* size = window_->GetSize();
   layout_ = lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, parts());
-  place_panel(fan_, layout_.fan, size);
-  place_panel(scene_panel_, layout_.scene, size);
-  if (layout_.scene_view.width() > 0)
-    scene_panel_.content->SetViewport(layout_.scene_view.left / size[0], layout_.scene_view.bottom / size[1],
-                                      layout_.scene_view.right / size[0], layout_.scene_view.top / size[1]);
-  place_panel(timeline_, layout_.timeline, size);
-  place_panel(ascan_, layout_.ascan, size);
-  place_panel(history_, layout_.history, size);
-  place_panel(facts_panel_, layout_.facts, size);
-  place_panel(status_, layout_.status, size);
-  if (help_.content) place_panel(help_, {0, layout_.facts.right, 0, layout_.facts.top}, size);
+  for (const ViewerPanelPlace& each : viewer_panels) place_panel(panel(each.value), layout_.*each.box, size);
+  if (const Box& view = layout_.scene_view; view.width() > 0)
+    panel(ViewerPanelName::scene)
+        .content->SetViewport(view.left / size[0], view.bottom / size[1], view.right / size[0], view.top / size[1]);
+  if (over_.content) place_panel(over_, {0, layout_.facts.right, 0, layout_.facts.top}, size);
   const double font = layout_.font_size;
   if (sliders_)
     sliders_->place({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font, layout_.facts.bottom + 0.5 * font,

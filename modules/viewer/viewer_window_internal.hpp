@@ -66,7 +66,14 @@ class ViewerWindow {
   void guarded(const std::function<void()>& work);
   void say(const std::string& text) const;
 
-  Point2 on_panel(const Box& box, Point2 place) const;
+  /// What a panel draws of the state, and what a click in it does; null: nothing.
+  struct Panel {
+    void (ViewerWindow::*draw)(ViewerPanel& panel, const PictureOptions& options);
+    void (ViewerWindow::*click)(Point2 place) = nullptr;
+  };
+  static const Panel panels_[std::size(viewer_panels)];  ///< in the order of viewer_panels
+
+  Point2 on_panel(ViewerPanelName name, Point2 place) const;
   Point2 on_fan(Point2 place) const;
   PanelMotion motion_at(Point2 place) const;
   void click_fan(Point2 place);
@@ -76,17 +83,22 @@ class ViewerWindow {
   void select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 place);
   void select(PixelPlace place, const Eigen::Vector2d& at);
 
+  ViewerPanel& panel(ViewerPanelName name) { return shown_[static_cast<std::size_t>(name)]; }
+  const ViewerPanel& panel(ViewerPanelName name) const { return shown_[static_cast<std::size_t>(name)]; }
   PictureOptions options_for(const Box& box) const;
   ViewerParts parts() const;
   PixelPlace shown_place() const;
   void update_data();
-  void draw_picture(bool keep_camera);
-  void mark_picture();
-  void draw_charts();
-  void draw_history(PixelPlace place, bool levels_stay);
-  void draw_scene();
-  void draw_words();
-  void draw_facts();
+  bool levels_stay() const;
+  void draw_picture(ViewerPanel& panel, const PictureOptions& options);
+  void mark_picture(ViewerPanel& panel, const PictureOptions& options);
+  void draw_scene(ViewerPanel& panel, const PictureOptions& options);
+  void draw_beam(ViewerPanel& panel, const PictureOptions& options);
+  void draw_history(ViewerPanel& panel, const PictureOptions& options);
+  void draw_facts(ViewerPanel& panel, const PictureOptions& options);
+  void draw_timeline(ViewerPanel& panel, const PictureOptions& options);
+  void draw_status(ViewerPanel& panel, const PictureOptions& options);
+  void draw_over();
   std::string status_text() const;
 
   const ViewerData& data_;
@@ -115,7 +127,8 @@ class ViewerWindow {
   vtkSmartPointer<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkSmartPointer<ViewerStyle> style_;
-  ViewerPanel fan_, scene_panel_, ascan_, history_, facts_panel_, timeline_, status_, help_;
+  std::array<ViewerPanel, std::size(viewer_panels)> shown_;  ///< by ViewerPanelName
+  ViewerPanel over_;                                         ///< help, or borders, on top of all panels
   std::unique_ptr<ViewerScene> scene_;
   std::unique_ptr<ViewerSliders> sliders_;
   double carried_ = 0, last_tick_ = 0;

@@ -1,3 +1,4 @@
+#include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
@@ -26,7 +27,11 @@ struct ActorsInWindow : testing::Test {
     window->AddRenderer(renderer);
     actors = std::make_unique<SceneActors>(scene, look, options, "test");
     actors->add_to(renderer);
-    actors->place_camera(renderer, {{}, scene.origin, scene.origin + Eigen::Vector3d(5, 0, 0)});
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->SetPosition(0, 0, 0);
+    camera->SetFocalPoint(5, 0, 0);
+    camera->SetViewUp(0, 0, 1);
+    renderer->ResetCameraClippingRange();
   }
   Rgb pixel(int x, int y) {
     window->vtkOpenGLRenderWindow::GetPixelData(x, y, x, y, 0, bytes.Get(), 0);

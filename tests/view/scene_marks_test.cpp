@@ -14,7 +14,7 @@ class SceneMarks : public PictureTest {
     add_floor(scene, scene.origin + Eigen::Vector3d(-3, -3, 0), 60, 0.1);
     look.colour = SceneColour::visibility;
     look.visibility.assign(scene.size(), Visibility::outside);
-    look.camera.preset = ScenePreset::top;
+    look.camera = ScenePreset::top;
     look.axes = false;
     options.width = 500, options.height = 400;
   }
@@ -43,7 +43,7 @@ TEST_F(SceneMarks, holes_are_red_where_they_are_and_named_below) {
 }
 
 TEST_F(SceneMarks, normals_are_lines_only_if_asked_for) {
-  look.camera.preset = ScenePreset::side;
+  look.camera = ScenePreset::side;
   const ReadPicture without = show();
   look.normals = true;
   const ReadPicture with = show();

@@ -61,7 +61,7 @@ TEST_F(ShowScene, from_behind_the_head_has_port_on_the_left_and_up_above) {
 
 TEST_F(ShowScene, from_above_has_x_to_the_right_and_y_up) {
   ThreeSpheres spheres(Pose::Identity());
-  spheres.look.camera.preset = ScenePreset::top;
+  spheres.look.camera = ScenePreset::top;
   const ReadPicture picture = show(spheres.scene, spheres.look);
   const Blob port = find(picture, colour_of(ThreeSpheres::port_db));
   const Blob starboard = find(picture, colour_of(ThreeSpheres::starboard_db));
@@ -71,7 +71,7 @@ TEST_F(ShowScene, from_above_has_x_to_the_right_and_y_up) {
 
 TEST_F(ShowScene, from_the_side_is_seen_from_starboard_with_ahead_to_the_right) {
   ThreeSpheres spheres(Pose::Identity());
-  spheres.look.camera.preset = ScenePreset::side;
+  spheres.look.camera = ScenePreset::side;
   const ReadPicture picture = show(spheres.scene, spheres.look);
   const Blob port = find(picture, colour_of(ThreeSpheres::port_db));
   const Blob starboard = find(picture, colour_of(ThreeSpheres::starboard_db));  // 3 m farther ahead
@@ -116,7 +116,7 @@ TEST_F(ShowScene, shows_every_level_in_the_colour_of_the_bar) {
   add_floor(scene, {0, 0, 0}, 10, 1);
   SceneLook look;
   look.colour = SceneColour::level;
-  look.camera.preset = ScenePreset::top;
+  look.camera = ScenePreset::top;
   for (std::size_t i = 0; i < scene.size(); ++i) look.level_db.push_back(50.25F + 0.5F * static_cast<float>(i));
   const ReadPicture picture = show(scene, look);
   for (const float level : look.level_db) EXPECT_GT(find(picture, colour_of(level)).pixels, 20) << level;
@@ -127,7 +127,7 @@ TEST_F(ShowScene, draws_surfels_without_level_grey) {
   add_floor(scene, {0, 0, 0}, 10, 1);
   SceneLook look;
   look.colour = SceneColour::level;
-  look.camera.preset = ScenePreset::top;
+  look.camera = ScenePreset::top;
   look.level_db.assign(scene.size(), std::numeric_limits<float>::quiet_NaN());
   look.level_db[55] = 80;
   const ReadPicture picture = show(scene, look);
@@ -144,7 +144,7 @@ TEST_F(ShowScene, covers_a_plate_without_gaps_thinned_or_not) {
   SceneLook look;
   look.colour = SceneColour::level;
   look.level_db.assign(scene.size(), 80);
-  look.camera.preset = ScenePreset::top;
+  look.camera = ScenePreset::top;
   look.axes = false;
   for (const std::size_t most : {std::size_t{0}, std::size_t{5000}}) {
     look.most_surfels = most;
@@ -163,7 +163,7 @@ TEST_F(ShowScene, shows_soundings_in_the_colour_of_their_level) {
   add_floor(scene, {0, -5, 0}, 50, 0.2);
   SceneLook look;
   look.colour = SceneColour::level;
-  look.camera.preset = ScenePreset::top;
+  look.camera = ScenePreset::top;
   for (int i = 0; i < 5; ++i) {
     look.soundings.position.push_back({2.0 + i, 0.0, 0.0});
     look.soundings.level_db.push_back(72);
@@ -178,7 +178,7 @@ TEST_F(ShowScene, shows_highlighted_surfels_through_what_is_before_them) {
   add_floor(scene, {0, 0, 0}, 40, 0.25);
   add_surfel(scene, {5.0, 5.0, -2.0}, {0, 0, 1}, 0.04);  // under the floor
   SceneLook look;
-  look.camera.preset = ScenePreset::top;
+  look.camera = ScenePreset::top;
   const Rgb magenta = {245, 13, 158};
   EXPECT_EQ(find(show(scene, look), magenta).pixels, 0);
   look.highlighted = {static_cast<std::uint32_t>(scene.size() - 1)};
@@ -252,9 +252,6 @@ TEST_F(ShowScene, refuses_what_it_cannot_draw) {
   look = {};
   look.highlighted = {10};
   EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("surfel 10, must be below 10"));
-  look = {};
-  look.camera.position = Eigen::Vector3d(1, 2, 3);
-  EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("give both or neither"));
   look = {};
   look.point_size = 0;
   EXPECT_THAT(message_of(scene, look, ErrorKind::argument, path), HasSubstr("point_size = 0"));

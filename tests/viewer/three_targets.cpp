@@ -23,6 +23,21 @@ void add_echo(std::vector<Ping>& pings, const Target& target) {
 
 }  // namespace
 
+PingReel reel_in_memory(std::vector<Ping> pings) {
+  std::vector<TrackPoint> places;
+  for (const Ping& ping : pings) places.push_back(track_point_of(ping));
+  const auto held = std::make_shared<const std::vector<Ping>>(std::move(pings));
+  PingSource source;
+  source.ping = [held](std::size_t i) { return (*held)[i]; };
+  source.beam = [held](std::size_t first, std::size_t count, std::size_t beam) {
+    ComplexGridF rows(static_cast<Eigen::Index>(count), (*held)[first].pressure.cols());
+    for (std::size_t i = 0; i < count; ++i)
+      rows.row(static_cast<Eigen::Index>(i)) = (*held)[first + i].pressure.row(static_cast<Eigen::Index>(beam));
+    return rows;
+  };
+  return {std::move(places), std::move(source)};
+}
+
 TargetData three_targets(std::size_t pings, bool with_contributors) {
   TargetData made;
   ViewerData& data = made.data;
@@ -53,7 +68,7 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   made.port = place("iron", port_last ? 33 : 7, 40, 0);
   made.starboard = place("wood", port_last ? 7 : 33, 40, 1);
   made.far = place("rubber", 20, 100, 2);
-  data.pings = PingReel(made.pings);
+  data.pings = reel_in_memory(made.pings);
   if (!with_contributors) return made;
 
   // Two of the port target's own surfels.

@@ -16,6 +16,9 @@ struct TargetData {
   std::vector<Ping> pings;  ///< those of `data`
   Target port, starboard, far;
 };
+/// A reel of pings that are in memory.
+PingReel reel_in_memory(std::vector<Ping> pings);
+
 /// `pings` identical pings with numbers 7, 8, ...
 TargetData three_targets(std::size_t pings = 1, bool with_contributors = false);
 

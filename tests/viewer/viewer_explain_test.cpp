@@ -23,7 +23,7 @@ TEST(ExplainPixel, says_range_bearing_and_levels) {
 TEST(ExplainPixel, gives_back_the_absorption_of_the_water_of_its_ping) {
   auto made = three_targets(2);
   made.pings[1].absorption_db_per_m = 0.5;
-  made.data.pings = PingReel(made.pings);
+  made.data.pings = reel_in_memory(made.pings);
   const auto gain = [&](std::size_t ping) {
     const PixelFacts facts = find_pixel_facts(made.data, ping, made.starboard.place);
     return facts.compensated_level_db - facts.level_db;
@@ -99,7 +99,7 @@ TEST(ExplainPixel, reports_a_hole_of_the_scan) {
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), Not(HasSubstr("Hole")));
   ping.unknown.setZero(ping.pressure.rows(), ping.pressure.cols());
   ping.unknown(3, 4) = 1;
-  made.data.pings = PingReel(made.pings);
+  made.data.pings = reel_in_memory(made.pings);
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 4})), HasSubstr("Hole"));
   EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, {3, 5})), Not(HasSubstr("Hole")));
 }
@@ -107,7 +107,7 @@ TEST(ExplainPixel, reports_a_hole_of_the_scan) {
 TEST(ExplainPixel, silence_has_no_level) {
   auto made = three_targets();
   made.pings[0].pressure(2, 2) = 0;
-  made.data.pings = PingReel(made.pings);
+  made.data.pings = reel_in_memory(made.pings);
   const std::string text = explain_pixel(find_pixel_facts(made.data, 0, {2, 2}));
   EXPECT_THAT(text, HasSubstr("no sound at all"));
   EXPECT_THAT(text, Not(HasSubstr("inf")));

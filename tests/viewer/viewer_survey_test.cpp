@@ -3,6 +3,7 @@
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/test_pictures.hpp"
+#include "viewer/three_targets.hpp"
 #include "viewer/viewer_records_internal.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
@@ -31,7 +32,7 @@ struct CountedReel {
   std::shared_ptr<int> read = std::make_shared<int>(0), beams_read = std::make_shared<int>(0);
 
   PingReel reel(std::size_t count, bool scans) const {
-    std::vector<ReelPlace> places;
+    std::vector<TrackPoint> places;
     for (std::size_t i = 0; i < count; ++i) {
       const Ping ping = one_beam_ping(i, scans);
       places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan});
@@ -89,7 +90,7 @@ TEST(PingReel, refuses_a_ping_of_another_extent) {
   std::vector<Ping> pings{one_beam_ping(0, false), one_beam_ping(1, false)};
   pings[1].gate.max_range = 8;
   pings[1].pressure.conservativeResize(1, 70);
-  const PingReel reel(pings);
+  const PingReel reel = reel_in_memory(pings);
   EXPECT_EQ(reel.fan().beams(), 1U);
   EXPECT_THAT(error_of([&] { reel.ping(1); }, ErrorKind::content), HasSubstr("ping 1 has 1 x 70 samples"));
 }

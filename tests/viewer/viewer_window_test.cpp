@@ -249,6 +249,6 @@ TEST_F(WindowFixture, refuses_what_cannot_be_shown) {
   EXPECT_THAT(refuses({}, {}, ErrorKind::content), HasSubstr("no pings"));
   ViewerData uneven = made_.data;
   made_.pings[0].pressure.resize(3, 3);
-  uneven.pings = PingReel(made_.pings);
+  uneven.pings = reel_in_memory(made_.pings);
   EXPECT_THAT(refuses(uneven, {}, ErrorKind::content), HasSubstr("3 x 3 samples"));
 }

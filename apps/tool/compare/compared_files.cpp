@@ -14,7 +14,8 @@
 #include "formats/npy_file.hpp"
 #include "returns/looks.hpp"
 #include "scene_io/cloud_field.hpp"
-#include "tool/image/image.hpp"
+#include "tool/command/parse_values.hpp"
+#include "tool/run/run_pings.hpp"
 #include "view/grey_file.hpp"
 
 namespace insonify::tool {

@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "files/sha256.hpp"
 #include "store/survey_run.hpp"
-#include "tool/image/image.hpp"
 #include "tool/run/ping_setup.hpp"
+#include "tool/run/run_pings.hpp"
 #include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
@@ -33,10 +33,10 @@ std::vector<DatasetSource> sources_of_survey(const std::string& run) {
   for (std::size_t h = 0; h < survey.heads.size(); ++h) {
     DatasetSource source;
     source.run = run, source.head = survey.heads[h].name, source.head_index = h;
-    for (std::size_t b = 0; b < survey.heads[h].blocks(); ++b) {
-      const BlockFiles files = block_files(run, source.head, static_cast<std::int64_t>(b));
-      if (!find_mark(files, survey.mission_sha256))
-        fail(ErrorKind::content, run, ": block ", b, " of head ", source.head, " is not done; run the survey again");
+    for (const auto& [number, files, mark] : stored_blocks(run, survey, survey.heads[h])) {
+      if (!mark)
+        fail(ErrorKind::content, run, ": block ", number, " of head ", source.head,
+             " is not done; run the survey again");
       if (fs::exists(files.cube)) source.cubes.push_back(files.cube);
     }
     source.randomisation = load_survey_randomisation(mission);

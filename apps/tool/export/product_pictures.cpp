@@ -9,6 +9,7 @@
 #include "returns/looks.hpp"
 #include "tool/export/product_run.hpp"
 #include "tool/run/run_checks.hpp"
+#include "view/grey_file.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {
@@ -28,7 +29,7 @@ std::size_t png_product(const PlacedRun& run, RunDirectory& directory) {
     }
     const std::string number = fmt::format("{:06}.png", manifest["pings"].size());
     const GreyFan fan = grey_fan(ping, GreyScale::tvg_of(ping), scale->window, rows_of_pixels);
-    save_grey(fan.grey, directory.file("fan_" + number));
+    save_grey_png(directory.file("fan_" + number), fan.grey);
     show_grey(quantise_16(apply_tvg(shown_level_db(ping), ping.gate, GreyScale::tvg_of(ping)), scale->window), ping.fan,
               directory.file("samples_" + number));
     manifest["metres_per_pixel"] = fan.pixel;

@@ -3,30 +3,29 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "sonar/sonar_head.hpp"
 #include "store/cube.hpp"
+#include "tool/command/option_list.hpp"
 #include "tool/command/options.hpp"
 #include "tool/command/parse_values.hpp"
-#include "view/show_image.hpp"
-#include "view/show_scene.hpp"
+#include "view/ping_record.hpp"
 
 /// The parts of the verb `image`.
 namespace insonify::tool {
 
 /// Options of `image`.
 struct ImageOptions {
+  ImageOptions() { picture.trim = true; }
+
   CommonOptions common;
   std::string run;
   std::string output;
   std::string view = "fan";
-  std::string layer;  ///< name, or empty: the whole pressure
-  std::string colour_map = default_colour_map;
-  std::string size;  ///< or empty: 1400x1050, of fans what they fill of it
-  std::string title;
-  double window_db = 45;
-  std::string max_db;  ///< or empty: automatic
+  std::string layer;       ///< name, or empty: the whole pressure
+  PictureOptions picture;  ///< size, colours and levels; of fans without --size what they fill
   std::uint64_t ping = 0;
   std::string beam;                     ///< number, a word of the view, or empty: the default of the view
   std::optional<std::string> annotate;  ///< number of maxima, .csv file, or "": five maxima
@@ -40,7 +39,6 @@ struct ImageOptions {
   // Of view waterfall:
   std::string starboard;         ///< run to the right of this one
   std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range
-  bool dark = false;
   // Of view scene:
   std::string scene;               ///< of a run, or empty: where run.toml says
   std::string sonar, pose, range;  ///< to inspect a scene
@@ -48,16 +46,6 @@ struct ImageOptions {
   std::string camera = "auto", colour;  ///< colour empty: the default of run or scene
   bool normals = false;                 ///< drawn as lines
 };
-
-/// Words of --colour and --camera.
-constexpr Named<SceneColour> colour_words[] = {
-    {"height", SceneColour::height}, {"material", SceneColour::material}, {"visibility", SceneColour::visibility},
-    {"level", SceneColour::level},   {"grazing", SceneColour::grazing},   {"incidence", SceneColour::incidence}};
-constexpr Named<ScenePreset> camera_words[] = {{"auto", ScenePreset::automatic},
-                                               {"behind", ScenePreset::behind},
-                                               {"top", ScenePreset::top},
-                                               {"side", ScenePreset::side},
-                                               {"iso", ScenePreset::iso}};
 
 /// What `image` reads of a run.
 struct ImageRun {
@@ -70,24 +58,8 @@ struct ImageRun {
 /// Error(argument) for a layer that is not in it.
 ImageRun read_image_run(const std::string& path, const std::string& layer);
 
-/// The cube of a run directory, or the path itself if it is a file. Throws Error(file) or Error(content).
-std::string run_cube_path(const std::string& run);
-
-/// Reads the cube of a run directory, or a cube file; errors as read_image_run.
-Cube read_run_cube(const std::string& path);
-
-/// Size, colours and window of the options; Error(argument) naming the option that is wrong.
-PictureOptions picture_options(const ImageOptions& options);
-
 /// The levels of a ping with the gain of the options (--tvg, --raw).
 LevelImage levels_of(const ImageRun& run, const ImageOptions& options, std::size_t ping);
-
-/// Sonar, pose, gate, water and settings of one ping of a cube in words.
-std::vector<Fact> facts_of(const Cube& cube, std::size_t ping);
-
-/// Draws `image --view scene`: of a run, its returns over its scene; of a scene alone, its visibility from the sonar.
-/// Throws Error(argument) for options that exclude one another, and as read_run_cube and load_scene.
-void image_scene(const ImageOptions& options, const PictureOptions& picture);
 
 /// One picture to draw: a ping of a run (a waterfall shows all pings), with title and marks in `picture`.
 struct ViewJob {
@@ -105,35 +77,57 @@ struct ChosenBeam {
   std::size_t beam = 0;  ///< of `one`
 };
 
-/// A view: a row of the table from which --view, its help and its checks are made. A new view is a drawing function and
-/// its row in image_views.cpp.
+/// An option that not all views take.
+struct ViewOption {
+  const char* name;
+  std::variant<std::string ImageOptions::*, bool ImageOptions::*, std::optional<std::string> ImageOptions::*> value;
+  std::string help;
+  OptionRules rules = {};
+};
+inline const ViewOption annotate_option{
+    "--annotate",
+    &ImageOptions::annotate,
+    "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text",
+    {.shown_as = "[N|CSV]"}};
+inline const ViewOption animate_option{"--animate", &ImageOptions::animate,
+                                       "one picture per ping in the folder -o, all with the same levels"};
+
+/// A view, from which --view, its options, their help and checks are made. A new view is one file, view_<name>.cpp, that
+/// defines `ViewSpec <name>_view()`, and its name in the list of apps/CMakeLists.txt.
 struct ViewSpec {
   const char* name;
   const char* shows;                           ///< what --help says
-  std::vector<std::string> options = {};       ///< that this view takes and not all views do
+  std::vector<ViewOption> options = {};        ///< that this view takes and not all views do
   void (*draw)(const ViewJob& job) = nullptr;  ///< of a run that has been read
   /// The highest level that the view chooses for a ping if --max is not given; a series of pictures takes the highest
   /// of all pings, so that it does not flicker. Null for a view that makes no series (--animate).
-  double (*max_db)(const ImageRun& run, const ImageOptions& options, std::size_t ping) = nullptr;
+  double (*max_db)(const ViewJob& job) = nullptr;
   const char* beam_word = "";                   ///< that --beam takes beside a number
   BeamChoice beam_choice = BeamChoice::one;     ///< that the word means
   BeamChoice default_choice = BeamChoice::one;  ///< without --beam
   /// Set for a view that reads what it draws by itself, in place of `draw`.
-  void (*draw_alone)(const ImageOptions& options, const PictureOptions& picture) = nullptr;
+  void (*draw_alone)(const ImageOptions& options) = nullptr;
 };
 
 const std::vector<ViewSpec>& all_views();
 const ViewSpec& view_of(const ImageOptions& options);
 
-/// Names of the views that take an option, as "fan, rect or panels".
-std::string views_with(const std::string& option);
-
 /// --beam: a number, the word of the view, or empty: the view's default, of one beam the middle one. Throws
 /// Error(argument).
 ChosenBeam choose_beam(const ImageOptions& options, const BeamFan& fan);
 
-/// The chosen beam in words, with its bearing.
-std::string chosen_beam_text(const ViewJob& job);
+/// Of the picture to draw: its levels, and the fan of its ping.
+LevelImage levels_of(const ViewJob& job);
+const BeamFan& fan_of(const ViewJob& job);
+
+/// As ViewSpec::max_db, of pictures of all samples.
+double max_db_of_image(const ViewJob& job);
+
+/// A beam in words, with its bearing.
+std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan);
+
+/// The levels of the chosen beam in some pings, with the gain of the options.
+BeamRecord beam_record(const ImageRun& run, const ImageOptions& options, const std::vector<std::size_t>& pings);
 
 /// The title of the picture of a ping where the user gives none.
 std::string default_title(const ImageRun& run, const ImageOptions& options, std::size_t ping);

@@ -21,7 +21,4 @@ PingHistory on_flat_bottom(const PingHistory& slant, const std::vector<double>& 
 /// between them where neither has samples. Throws Error(content) unless both have the same gate and number of pings.
 PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard);
 
-/// Draws `image --view waterfall`: one head, or port and starboard (--starboard), by slant or ground range.
-void draw_waterfall(const ViewJob& job);
-
 }  // namespace insonify::tool

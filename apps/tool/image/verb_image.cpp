@@ -9,10 +9,10 @@
 #include "core/units.hpp"
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
+#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/dataset/label_pictures.hpp"
 #include "tool/image/image.hpp"
 #include "tool/run/run_checks.hpp"
 #include "view/show_image.hpp"
@@ -22,19 +22,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The options of view scene, which stand in a group of their own.
-void add_scene_view(OptionList list, ImageOptions& o) {
-  const char* group = "Of view scene";
-  list.add("--scene", &o.scene, "the run's scene, if it is not where run.toml says", {.group = group});
-  list.add("--sonar", &o.sonar, "to inspect a scene: preset, .toml file, or run.toml of a run", {.group = group});
-  list.add("--pose", &o.pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]", {.group = group});
-  list.add("--range", &o.range, "to inspect a scene: MIN:MAX [m]; default: to the end of the scene", {.group = group});
-  list.add("--world", &o.world, "z-up or ned", {.words = {"z-up", "ned"}, .group = group});
-  list.add("--camera", &o.camera, "auto, behind (the head), top, side or iso",
-           {.words = words_of(camera_words), .group = group});
-  list.add("--normals", &o.normals, "draw some 4000 normals as lines", {.group = group});
-  list.add("--colour", &o.colour, "height, material, visibility, level, grazing or incidence; default: what suits",
-           {.words = words_of(colour_words), .group = group});
+/// Names of the views that take an option.
+std::vector<std::string> views_with(const std::string& option) {
+  std::vector<std::string> names;
+  for (const ViewSpec& view : all_views())
+    for (const ViewOption& each : view.options)
+      if (each.name == option) names.emplace_back(view.name);
+  return names;
+}
+
+/// Every option that not all views take, once.
+std::vector<ViewOption> options_of_views() {
+  std::vector<ViewOption> options;
+  for (const ViewSpec& view : all_views())
+    for (const ViewOption& option : view.options)
+      if (view.name == views_with(option.name).front()) options.push_back(option);
+  return options;
+}
+
+/// "fan, rect or panels".
+std::string alternatives(std::vector<std::string> names) {
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : joined(names) + " or " + last;
 }
 
 void add_options(OptionList list, ImageOptions& o) {
@@ -48,39 +58,42 @@ void add_options(OptionList list, ImageOptions& o) {
            {.required = true});
   list.add("--view", &o.view, joined(views, "; "), {.words = names});
   list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
-  list.add("--frame", &o.frame, "of scan: head, as an operator sees it, or world: the vehicle's motion compensated",
-           {.words = {"head", "world"}});
-  list.add("--min-level", &o.min_level, std::string("of labels: ") + min_level_help);
-  list.add("--starboard", &o.starboard, "of waterfall: the run of the starboard head, RUN being the port one");
-  list.add("--altitude", &o.altitude, "[m] of waterfall: ground range on a flat bottom so far below the head");
-  list.add("--bottom", &o.bottom, "[m] of waterfall: the same, with the bottom at this z and the head at its pose",
-           {.excludes = "--altitude"});
   list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
   list.add("--ping", &o.ping, "which ping, from 0");
   list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
   list.add("--raw", &o.raw, "levels as received; default: range compensated; excludes --tvg", {.shown_as = " "});
   list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's",
            {.excludes = "--raw", .shown_as = "FLOAT"});
-  list.add("--window", &o.window_db, "[dB] from darkest to brightest");
-  list.add("--max", &o.max_db, "[dB] brightest level; default: automatic");
-  list.add("--colormap", &o.colour_map, joined(colour_map_names()));
-  list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, of fans as much of it as they fill");
-  list.add("--title", &o.title, "default: sonar and ping");
-  list.add("--dark", &o.dark, "dark background");
-  list.add("--annotate", &o.annotate,
-           "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text",
-           {.shown_as = "[N|CSV]"});
-  list.add("--animate", &o.animate, "one picture per ping in the folder -o, all with the same levels");
+  PictureOptions& picture = o.picture;
+  const auto take_max = [&picture](const std::string& text) { picture.max_db = parse_number("--max", text); };
+  const auto take_size = [&picture](const std::string& text) {
+    std::tie(picture.width, picture.height) = parse_size(text);
+    picture.trim = false;
+  };
+  list.add("--window", &picture.window_db, "[dB] from darkest to brightest");
+  list.add("--max", take_max, "[dB] brightest level; default: automatic");
+  list.add("--colormap", &picture.colour_map, joined(colour_map_names()));
+  list.add("--size", take_size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, of fans as much of it as they fill");
+  list.add("--title", &picture.title, "default: sonar and ping");
+  list.add("--dark", &picture.dark, "dark background");
   list.add("--force", &o.force, "replace existing pictures");
-  add_scene_view(list, o);
+  for (ViewOption& option : options_of_views()) {
+    const std::vector<std::string> takers = views_with(option.name);
+    const std::string group = (takers.size() > 1 ? "Of views " : "Of view ") + alternatives(takers);
+    option.rules.group = group.c_str();
+    std::visit([&](auto member) { list.add(option.name, &(o.*member), option.help, option.rules); }, option.value);
+  }
   add_common(list, o.common);
 }
 
-/// Throws Error(argument) for a title that no picture has room for.
-void require_title(const std::string& title) {
+/// Throws Error(argument) for a number without meaning, or a title that no picture has room for.
+void require_drawable(const ImageOptions& o) {
   constexpr std::size_t most = 1000;
-  if (title.size() > most)
-    fail(ErrorKind::argument, "--title of ", title.size(), " characters, must have at most ", most);
+  if (const double window = o.picture.window_db; !(window > 0 && window <= 1000))
+    fail(ErrorKind::argument, "--window = ", window, " dB, must be > 0 and at most 1000");
+  if (!(std::abs(o.tvg) <= 1000)) fail(ErrorKind::argument, "--tvg = ", o.tvg, " dB, must be within -1000 and 1000");
+  if (const std::size_t size = o.picture.title.size(); size > most)
+    fail(ErrorKind::argument, "--title of ", size, " characters, must have at most ", most);
 }
 
 /// --annotate: how many maxima, or the user's own labels.
@@ -110,7 +123,7 @@ void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions pictur
   picture.marks = annotation.labels;
   if (annotation.maxima > 0)
     picture.marks = strongest_maxima(levels_of(run, o, ping), annotation.maxima, picture.window_db);
-  picture.title = o.title.empty() ? default_title(run, o, ping) : o.title;
+  if (picture.title.empty()) picture.title = default_title(run, o, ping);
   view_of(o).draw({run, o, picture, ping, path});
 }
 
@@ -120,9 +133,10 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
              Progress& progress) {
   const std::size_t pings = run.cube.pings.size();
   if (std::isnan(picture.max_db)) {
-    picture.max_db = view_of(o).max_db(run, o, 0);
-    for (std::size_t ping = 1; ping < pings; ++ping)
-      picture.max_db = std::max(picture.max_db, view_of(o).max_db(run, o, ping));
+    double highest = -std::numeric_limits<double>::infinity();
+    for (std::size_t ping = 0; ping < pings; ++ping)
+      highest = std::max(highest, view_of(o).max_db({run, o, picture, ping, ""}));
+    picture.max_db = highest;
   }
   RunDirectory directory(o.output, o.force, inputs_of(o));
   std::vector<std::string> files;
@@ -142,33 +156,21 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
 
 /// Refuses options that the view does not take.
 void require_options_of_view(const ImageOptions& o) {
-  const std::pair<const char*, bool> given[] = {{"--annotate", o.annotate.has_value()},
-                                                {"--animate", o.animate},
-                                                {"--scene", !o.scene.empty()},
-                                                {"--sonar", !o.sonar.empty()},
-                                                {"--pose", !o.pose.empty()},
-                                                {"--range", !o.range.empty()},
-                                                {"--camera", o.camera != "auto"},
-                                                {"--colour", !o.colour.empty()},
-                                                {"--normals", o.normals},
-                                                {"--frame", o.frame != "head"},
-                                                {"--min-level", !o.min_level.empty()},
-                                                {"--starboard", !o.starboard.empty()},
-                                                {"--altitude", !o.altitude.empty()},
-                                                {"--bottom", !o.bottom.empty()}};
-  const std::vector<std::string>& taken = view_of(o).options;
-  for (const auto& [option, is_given] : given)
-    if (is_given && std::find(taken.begin(), taken.end(), option) == taken.end())
-      fail(ErrorKind::argument, option, " goes with --view ", views_with(option), ", not ", o.view);
+  const ImageOptions none;
+  for (const ViewOption& option : options_of_views()) {
+    const std::vector<std::string> takers = views_with(option.name);
+    const bool given = std::visit([&](auto member) { return o.*member != none.*member; }, option.value);
+    if (given && std::find(takers.begin(), takers.end(), o.view) == takers.end())
+      fail(ErrorKind::argument, option.name, " goes with --view ", alternatives(takers), ", not ", o.view);
+  }
 }
 
 void image(const ImageOptions& o) {
   require_options_of_view(o);
-  const PictureOptions picture = picture_options(o);
-  require_title(o.title);
+  require_drawable(o);
   const Annotation annotation = read_annotation(o);
   if (!o.animate) require_free_file(o.output, o.force, inputs_of(o));
-  if (const auto draw = view_of(o).draw_alone) return draw(o, picture);
+  if (const auto draw = view_of(o).draw_alone) return draw(o);
   const ImageRun run = read_image_run(o.run, o.layer);
   const std::size_t pings = run.cube.pings.size();
   if (o.ping >= pings)
@@ -176,9 +178,9 @@ void image(const ImageOptions& o) {
   choose_beam(o, run.cube.pings.front().fan);
 
   Progress progress(o.common, o.animate ? static_cast<int>(pings) : 1);
-  if (o.animate) return animate(run, o, picture, annotation, progress);
+  if (o.animate) return animate(run, o, o.picture, annotation, progress);
   progress.step("drawing " + o.output);
-  draw_ping(run, o, picture, annotation, o.ping, o.output);
+  draw_ping(run, o, o.picture, annotation, o.ping, o.output);
   print_summary(o.common, {{"output", o.output}, {"view", o.view}, {"ping", o.ping}}, o.output);
 }
 

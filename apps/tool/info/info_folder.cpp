@@ -29,9 +29,8 @@ struct HeadState {
 
 HeadState state_of(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
   HeadState state;
-  for (std::size_t b = 0; b < head.blocks(); ++b)
-    if (const auto mark = find_mark(block_files(run, head.name, static_cast<std::int64_t>(b)), survey.mission_sha256))
-      ++state.done, state.failed += mark->failed.size();
+  for (const StoredBlock& block : stored_blocks(run, survey, head))
+    if (block.mark) ++state.done, state.failed += block.mark->failed.size();
   state.merged = fs::exists(fs::path(run) / head.name / "cube.h5");
   return state;
 }

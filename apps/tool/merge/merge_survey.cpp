@@ -41,12 +41,11 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   std::vector<Finished> finished;
   std::vector<std::string> missing;
   for (const SurveyRunHead& head : run.heads)
-    for (std::size_t b = 0; b < head.blocks(); ++b) {
-      const BlockFiles files = block_files(folder, head.name, static_cast<std::int64_t>(b));
-      if (const auto mark = find_mark(files, run.mission_sha256))
+    for (const auto& [number, files, mark] : stored_blocks(folder, run, head)) {
+      if (mark)
         finished.push_back({&head, files, *mark});
       else
-        missing.push_back(pings_of(head, b));
+        missing.push_back(pings_of(head, number));
     }
   const std::size_t named = std::min<std::size_t>(missing.size(), 5);
   if (named > 0)

@@ -11,10 +11,10 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/export/raster_plane.hpp"
-#include "tool/image/image.hpp"
 #include "tool/merge/merge_companions.hpp"
 #include "tool/merge/merge_survey.hpp"
 #include "tool/run/run_checks.hpp"
+#include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -28,9 +28,7 @@ RunCheck check_survey(const std::string& run) {
   RunCheck check;
   const SurveyRun survey = load_survey_run(run);
   for (const SurveyRunHead& head : survey.heads)
-    for (std::size_t b = 0; b < head.blocks(); ++b) {
-      const BlockFiles files = block_files(run, head.name, static_cast<std::int64_t>(b));
-      const auto mark = find_mark(files, survey.mission_sha256);
+    for (const auto& [number, files, mark] : stored_blocks(run, survey, head)) {
       if (!mark) continue;
       for (const auto& [path, digest] :
            {std::pair(files.cube, mark->cube_sha256), std::pair(files.returns, mark->returns_sha256),

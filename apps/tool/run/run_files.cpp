@@ -12,7 +12,6 @@
 #include "files/sha256.hpp"
 #include "returns/insonification.hpp"
 #include "returns/label_objects.hpp"
-#include "returns/looks.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube_layout_internal.hpp"
@@ -21,6 +20,7 @@
 #include "tool/command/run_settings.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/scene_files.hpp"
+#include "view/ping_record.hpp"
 #include "view/save_vtk.hpp"
 #include "view/show_image.hpp"
 
@@ -113,15 +113,6 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
                        {"sound_speed", ping.sound_speed},
                        {"absorption_db_per_m", ping.absorption_db_per_m}};
   manifest["peak_memory_mib"] = peak_memory_mib();
-}
-
-LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg) {
-  Grid<float> level = shown_level_db(ping);
-  const bool downwards = looks_down(ping.world_from_head, ping.scan);
-  if (!tvg) return {ping.fan, ping.gate, std::move(level), "dB re 1 µPa", downwards};
-  const std::string unit = tvg->spreading == 40 ? "dB re 1 µPa at 1 m, range compensated"
-                                                : fmt::format("dB re 1 µPa, gain {:g} log r", tvg->spreading);
-  return {ping.fan, ping.gate, apply_tvg(std::move(level), ping.gate, *tvg), unit, downwards};
 }
 
 std::string picture_title(const std::string& sonar, const Ping& ping) {

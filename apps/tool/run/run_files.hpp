@@ -7,7 +7,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "returns/ping.hpp"
-#include "returns/quantise.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
@@ -15,7 +14,6 @@
 #include "tool/command/options.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/run/ping_setup.hpp"
-#include "view/picture.hpp"
 
 namespace insonify::tool {
 
@@ -30,9 +28,6 @@ std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::s
 
 /// A cube of simulated pings of one head, at least one; its water is that of the first.
 Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup);
-
-/// Levels of a ping as they are drawn; without `tvg`, as they were received.
-LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 
 /// Title of the picture of a ping: sonar, number, range.
 std::string picture_title(const std::string& sonar, const Ping& ping);

@@ -13,7 +13,6 @@
 #include "store/survey_run.hpp"
 #include "store/toml_tree_internal.hpp"
 #include "tool/command/parse_values.hpp"
-#include "tool/image/image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -93,10 +92,9 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
   const SurveyRun survey = load_survey_run(run);
   const SurveyRunHead& head = head_of_survey(survey, run, head_name);
   RunPings pings;
-  for (std::size_t b = 0; b < head.blocks(); ++b) {
-    const BlockFiles files = block_files(run, head.name, static_cast<std::int64_t>(b));
-    if (!find_mark(files, survey.mission_sha256))
-      fail(ErrorKind::content, run, ": block ", b, " of ", head.name,
+  for (const auto& [number, files, mark] : stored_blocks(run, survey, head)) {
+    if (!mark)
+      fail(ErrorKind::content, run, ": block ", number, " of ", head.name,
            " is not done; run the survey (or its missing shards) again");
     if (fs::exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
     if (fs::exists(files.returns)) pings.returns.push_back(files.returns);
@@ -137,6 +135,16 @@ std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
     if (time >= legs[k].from - rounding) number = k + 1;
   return number;
 }
+
+std::string run_cube_path(const std::string& run) {
+  if (!fs::exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
+  if (!fs::is_directory(run)) return run;
+  std::string path = run + "/cube.h5";
+  if (!fs::exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
+  return path;
+}
+
+Cube read_run_cube(const std::string& path) { return read_cube(run_cube_path(path)); }
 
 RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);

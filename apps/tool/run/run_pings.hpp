@@ -29,6 +29,12 @@ struct RunPings {
   std::vector<MissionLeg> legs{};              ///< of its mission
 };
 
+/// The cube of a run directory, or the path itself if it is a file. Throws Error(file) or Error(content).
+std::string run_cube_path(const std::string& run);
+
+/// Reads the cube of a run directory, or a cube file; errors as run_cube_path and read_cube.
+Cube read_run_cube(const std::string& path);
+
 /// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.
 std::size_t leg_at(const std::vector<MissionLeg>& legs, double time);
 

@@ -1,5 +1,3 @@
-#include "tool/image/track_image.hpp"
-
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -9,6 +7,7 @@
 #include "scene_io/bed_of_returns.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/progress.hpp"
+#include "tool/image/image.hpp"
 #include "view/save_vtk.hpp"
 #include "view/show_track.hpp"
 
@@ -43,9 +42,9 @@ void add_levels(const fs::path& folder, TrackMap& map) {
   }
 }
 
-}  // namespace
-
-void draw_track(const ImageOptions& o, const PictureOptions& options) {
+/// Draws the ways of the heads of a merged survey from above, over its mosaic if there is one, else over its returns.
+/// Throws Error(file) if the run is no survey, Error(content) if it is not merged.
+void draw_track(const ImageOptions& o) {
   const SurveyRun run = load_survey_run(o.run);
   TrackMap map;
   std::size_t pings = 0;
@@ -57,11 +56,18 @@ void draw_track(const ImageOptions& o, const PictureOptions& options) {
     pings += map.ways.back().places.size();
   }
   add_levels(o.run, map);
-  PictureOptions picture = options;
-  picture.title =
-      o.title.empty() ? fmt::format("{} pings of {}", pings, joined(run.heads, ", ", &SurveyRunHead::name)) : o.title;
+  PictureOptions picture = o.picture;
+  if (picture.title.empty())
+    picture.title = fmt::format("{} pings of {}", pings, joined(run.heads, ", ", &SurveyRunHead::name));
   show_track(map, picture, o.output);
   print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
+}
+
+}  // namespace
+
+ViewSpec track_view() {
+  return {
+      .name = "track", .shows = "a merged survey from above: ways, and mosaic or returns", .draw_alone = draw_track};
 }
 
 }  // namespace insonify::tool

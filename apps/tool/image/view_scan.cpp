@@ -1,10 +1,11 @@
-#include "tool/image/scan_image.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "tool/image/scan_image.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -59,18 +60,8 @@ struct PolarRaster {
 }  // namespace
 
 LevelImage sweep_of_head(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
-  const std::vector<Ping>& pings = run.cube.pings;
-  const std::vector<std::size_t> sweep = pings_of_sweep(run, ping);
-  LevelImage image = levels_of(run, o, ping);
-  const Eigen::Index bins = image.level_db.cols();
-  image.level_db.resize(static_cast<Eigen::Index>(sweep.size()), bins);
-  image.fan.azimuth.clear();
-  for (std::size_t k = 0; k < sweep.size(); ++k) {
-    image.level_db.row(static_cast<Eigen::Index>(k)) = levels_of(run, o, sweep[k]).level_db.row(0);
-    image.fan.azimuth.push_back(std::remainder(pings[sweep[k]].scan->angle, 2 * pi));
-  }
-  image.fan.elevation.assign(sweep.size(), pings[ping].fan.elevation.front());
-  return image;
+  BeamRecord record = beam_record(run, o, pings_of_sweep(run, ping));
+  return sweep_image(record, run.cube.pings[ping].fan, 0, record.pings.size() - 1).image;
 }
 
 LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
@@ -109,6 +100,31 @@ LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& o, std::size_
   }
   raster.crop();
   return image;
+}
+
+namespace {
+
+/// The sweep of the ping.
+void draw_scan(const ViewJob& job) {
+  const bool in_world = job.options.frame == "world";
+  PictureOptions picture = job.picture;
+  if (job.options.picture.title.empty())
+    picture.title =
+        fmt::format("{}, sweep {}{}", job.run.cube.sonar, job.run.cube.pings[job.ping].scan.value_or(ScanPlace{}).sweep,
+                    in_world ? ", motion compensated" : "");
+  show_fan((in_world ? sweep_in_world : sweep_of_head)(job.run, job.options, job.ping), picture, job.path);
+}
+
+}  // namespace
+
+ViewSpec scan_view() {
+  return {.name = "scan",
+          .shows = "the sweep of a scanning head",
+          .options = {{"--frame",
+                       &ImageOptions::frame,
+                       "head, as an operator sees it, or world: the vehicle's motion compensated",
+                       {.words = {"head", "world"}}}},
+          .draw = draw_scan};
 }
 
 }  // namespace insonify::tool

@@ -1,11 +1,11 @@
-#include "tool/image/side_scan.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "tool/image/side_scan.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -30,25 +30,11 @@ PingHistory history_of(const ImageRun& run, const ImageOptions& o) {
 }  // namespace
 
 PingHistory beam_history(const ImageRun& run, const ImageOptions& o) {
-  const std::vector<Ping>& pings = run.cube.pings;
-  if (pings.size() < 2)
+  std::vector<std::size_t> all(run.cube.pings.size());
+  if (all.size() < 2)
     fail(ErrorKind::content, run.path, ": holds one ping, a waterfall needs several; join runs with insonify merge");
-  const ChosenBeam chosen = choose_beam(o, pings.front().fan);
-  PingHistory history;
-  history.gate = pings.front().gate;
-  history.level_db.resize(static_cast<Eigen::Index>(pings.size()), static_cast<Eigen::Index>(history.gate.bins()));
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    history.number.push_back(pings[p].number);
-    history.time.push_back(pings[p].time);
-    const LevelImage levels = levels_of(run, o, p);
-    const auto row = static_cast<Eigen::Index>(p);
-    if (chosen.choice == BeamChoice::one)
-      history.level_db.row(row) = levels.level_db.row(static_cast<Eigen::Index>(chosen.beam));
-    else
-      history.level_db.row(row) = levels.level_db.colwise().maxCoeff();
-    history.unit = levels.unit;
-  }
-  return history;
+  std::iota(all.begin(), all.end(), 0);
+  return history_of(beam_record(run, o, all));
 }
 
 std::vector<double> altitudes_of(const ImageRun& run, const ImageOptions& o) {
@@ -101,17 +87,38 @@ PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard) 
   return both;
 }
 
+namespace {
+
+/// One head, or port and starboard (--starboard), by slant or ground range.
 void draw_waterfall(const ViewJob& job) {
   const ImageOptions& o = job.options;
   PingHistory history = history_of(job.run, o);
-  std::string what = chosen_beam_text(job);
+  std::string what = beam_text(choose_beam(o, fan_of(job)), fan_of(job));
   if (!o.starboard.empty()) {
     history = side_by_side(history, history_of(read_image_run(o.starboard, o.layer), o));
     what = "port and starboard";
   }
   PictureOptions picture = job.picture;
-  if (o.title.empty()) picture.title = fmt::format("{}, {} pings, {}", job.run.cube.sonar, history.number.size(), what);
+  if (o.picture.title.empty())
+    picture.title = fmt::format("{}, {} pings, {}", job.run.cube.sonar, history.number.size(), what);
   show_waterfall(history, picture, job.path);
+}
+
+}  // namespace
+
+ViewSpec waterfall_view() {
+  return {
+      .name = "waterfall",
+      .shows = "range against pings",
+      .options = {{"--starboard", &ImageOptions::starboard, "the run of the starboard head, RUN being the port one"},
+                  {"--altitude", &ImageOptions::altitude, "[m] ground range on a flat bottom so far below the head"},
+                  {"--bottom",
+                   &ImageOptions::bottom,
+                   "[m] the same, with the bottom at this z and the head at its pose",
+                   {.excludes = "--altitude"}}},
+      .draw = draw_waterfall,
+      .beam_word = "max",
+      .beam_choice = BeamChoice::strongest};
 }
 
 }  // namespace insonify::tool

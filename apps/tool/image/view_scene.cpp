@@ -22,6 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Words of --colour and --camera.
+constexpr Named<SceneColour> colour_words[] = {
+    {"height", SceneColour::height}, {"material", SceneColour::material}, {"visibility", SceneColour::visibility},
+    {"level", SceneColour::level},   {"grazing", SceneColour::grazing},   {"incidence", SceneColour::incidence}};
+constexpr Named<ScenePreset> camera_words[] = {{"auto", ScenePreset::automatic},
+                                               {"behind", ScenePreset::behind},
+                                               {"top", ScenePreset::top},
+                                               {"side", ScenePreset::side},
+                                               {"iso", ScenePreset::iso}};
+
 /// A scene, how it is drawn, and its title.
 struct Drawing {
   SceneCloud scene;
@@ -34,17 +44,6 @@ SceneCloud load(const CommonOptions& common, const SceneOptions& options, Progre
   LoadedScene loaded = load_scene(options.path, load_options(common, options));
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   return std::move(loaded.scene);
-}
-
-/// The soundings of one ping, with the gain of the other views.
-Soundings of_ping(const Soundings& all, std::int64_t number, const std::optional<Tvg>& tvg) {
-  Soundings some;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (static_cast<std::int64_t>(all.ping[i]) != number) continue;
-    some.position.push_back(all.position[i]);
-    some.level_db.push_back(all.level_db[i] + (tvg ? static_cast<float>(gain_db(*tvg, all.range[i])) : 0));
-  }
-  return some;
 }
 
 /// Draws returns in the colour of their level over the grey scene, unless --colour says otherwise.
@@ -75,8 +74,8 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
     progress.note(returns.string() + " is missing, so no returns are drawn");
   } else if (!covered) {
     const auto tvg = o.raw ? std::nullopt : std::optional(Tvg{o.tvg, ping.absorption_db_per_m});
-    drawing.look.soundings = of_ping(load_soundings(returns.string()), ping.number, tvg);
-    drawing.look.level_unit = level_image(ping, tvg).unit;
+    drawing.look.soundings = soundings_of_ping(load_soundings(returns.string()), ping.number, tvg);
+    drawing.look.level_unit = level_unit(tvg);
   }
   drawing.title = picture_title(cube.sonar, ping);
   return drawing;
@@ -127,23 +126,46 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   return drawing;
 }
 
-}  // namespace
-
-void image_scene(const ImageOptions& o, const PictureOptions& asked) {
+/// Of a run, its returns over its scene; of a scene alone, its visibility from the sonar. Throws Error(argument) for
+/// options that exclude one another, and as read_run_cube and load_scene.
+void draw_scene(const ImageOptions& o) {
   Progress progress(o.common, 2);
   progress.step("reading " + o.run);
   const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
   Drawing drawing = run ? drawing_of_run(o, progress) : drawing_of_scene(o, progress);
   SceneLook& look = drawing.look;
-  look.camera.preset = *find_named(camera_words, o.camera);
+  look.camera = *find_named(camera_words, o.camera);
   look.normals = o.normals;
   if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, drawing.view, o.common.threads, look);
 
   progress.step("drawing " + o.output);
-  PictureOptions picture = asked;
-  picture.title = o.title.empty() ? drawing.title : o.title;
+  PictureOptions picture = o.picture;
+  if (picture.title.empty()) picture.title = drawing.title;
   show_scene(drawing.scene, look, picture, o.output);
   print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
+}
+
+}  // namespace
+
+ViewSpec scene_view() {
+  return {.name = "scene",
+          .shows = "the scene in 3-D with returns, or as the head sees it",
+          .options = {{"--scene", &ImageOptions::scene, "the run's scene, if it is not where run.toml says"},
+                      {"--sonar", &ImageOptions::sonar, "to inspect a scene: preset, .toml file, or run.toml of a run"},
+                      {"--pose", &ImageOptions::pose, "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg]"},
+                      {"--range", &ImageOptions::range,
+                       "to inspect a scene: MIN:MAX [m]; default: to the end of the scene"},
+                      {"--world", &ImageOptions::world, "z-up or ned", {.words = {"z-up", "ned"}}},
+                      {"--camera",
+                       &ImageOptions::camera,
+                       "auto, behind (the head), top, side or iso",
+                       {.words = words_of(camera_words)}},
+                      {"--normals", &ImageOptions::normals, "draw some 4000 normals as lines"},
+                      {"--colour",
+                       &ImageOptions::colour,
+                       "height, material, visibility, level, grazing or incidence; default: what suits",
+                       {.words = words_of(colour_words)}}},
+          .draw_alone = draw_scene};
 }
 
 }  // namespace insonify::tool

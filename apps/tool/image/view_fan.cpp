@@ -1,0 +1,13 @@
+#include "tool/image/image.hpp"
+
+namespace insonify::tool {
+
+ViewSpec fan_view() {
+  return {.name = "fan",
+          .shows = "beams and ranges to scale",
+          .options = {annotate_option, animate_option},
+          .draw = [](const ViewJob& job) { show_fan(levels_of(job), job.picture, job.path); },
+          .max_db = max_db_of_image};
+}
+
+}  // namespace insonify::tool

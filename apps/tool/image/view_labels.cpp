@@ -1,0 +1,51 @@
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "files/pending_file.hpp"
+#include "returns/picture_grid.hpp"
+#include "tool/dataset/label_pictures.hpp"
+#include "tool/image/image.hpp"
+#include "view/colour_maps_internal.hpp"
+#include "view/label_colours.hpp"
+
+namespace insonify::tool {
+namespace {
+
+/// Draws the classes of the pixels in true geometry, as view fan lies, and writes what the colours mean beside it.
+void draw_labels(const ViewJob& job) {
+  const Ping& whole = job.run.cube.pings[job.ping];
+  if (whole.labels.empty())
+    fail(ErrorKind::content, job.run.path, ": ping ", job.ping,
+         " has no labels: make the run with --keep contributors");
+  const Ping ping = row_of(whole, rows_of(whole) / 2);
+  const std::vector<std::string> classes = class_names(ping.labels);
+  const Grid<float> level =
+      level_image(ping, job.options.raw ? std::nullopt : std::optional(Tvg{job.options.tvg, whole.absorption_db_per_m}))
+          .level_db;
+  const ColourScale scale = colour_scale(level, job.picture, "image");
+  const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, least_label_share, classes), level,
+                                                    parse_min_level(job.options.min_level, scale.min_db));
+  const FanRaster raster = fan_raster(ping.fan, ping.gate, job.picture.width);
+  save_label_png(job.path, fan_picture(category, raster, std::uint8_t{0}));
+  nlohmann::ordered_json palette{{"least_share", least_label_share},
+                                 {"metres_per_pixel", raster.metres_per_pixel},
+                                 {"head_column", raster.head_column},
+                                 {"head_row", raster.head_row},
+                                 {"classes", palette_json(classes)}};
+  for (auto& row : palette["classes"]) row["samples"] = (category == row["value"].get<std::uint8_t>()).count();
+  write_file(std::filesystem::path(job.path).replace_extension(".json").string(), palette.dump(2) + "\n");
+}
+
+}  // namespace
+
+ViewSpec labels_view() {
+  return {.name = "labels",
+          .shows =
+              "what every pixel shows by class, in the colours of a .json beside it, of a run with --keep contributors",
+          .options = {{"--min-level", &ImageOptions::min_level, min_level_help}},
+          .draw = draw_labels};
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,13 @@
+#include "tool/image/image.hpp"
+
+namespace insonify::tool {
+
+ViewSpec rect_view() {
+  return {.name = "rect",
+          .shows = "beams against range",
+          .options = {annotate_option, animate_option},
+          .draw = [](const ViewJob& job) { show_rect(levels_of(job), job.picture, job.path); },
+          .max_db = max_db_of_image};
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,19 @@
+#include "tool/image/image.hpp"
+#include "tool/run/run_pings.hpp"
+
+namespace insonify::tool {
+namespace {
+
+void draw_soundings(const ViewJob& job) {
+  const Environment environment = find_run_pings(job.run.path, "").environment;
+  const Ping& ping = job.run.cube.pings[job.ping];
+  show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, ping, environment, 1)), job.picture, job.path);
+}
+
+}  // namespace
+
+ViewSpec soundings_view() {
+  return {.name = "soundings", .shows = "soundings of the bottom across the track", .draw = draw_soundings};
+}
+
+}  // namespace insonify::tool
