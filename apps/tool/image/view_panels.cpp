@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/head_place.hpp"
+#include "core/pose.hpp"
 #include "core/units.hpp"
 #include "sonar/beam_pattern.hpp"
 #include "tool/image/image.hpp"
