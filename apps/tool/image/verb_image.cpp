@@ -63,7 +63,7 @@ void add_options(OptionList list, ImageOptions& o) {
            {.excludes = "--raw", .shown_as = "FLOAT"});
   list.add("--window", &o.window_db, "[dB] from darkest to brightest");
   list.add("--max", &o.max_db, "[dB] brightest level; default: automatic");
-  list.add("--colormap", &o.colour_map, joined(colour_map_names()));
+  list.add("--colormap", &o.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
   list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, of fans as much of it as they fill");
   list.add("--title", &o.title, "default: sonar and ping");
   list.add("--dark", &o.dark, "dark background");
